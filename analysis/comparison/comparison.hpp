@@ -69,8 +69,12 @@ struct MeasureComparison {
   double adjusted_improvement_p{statistics::unknown};  ///< after control of the false discoveries
   ChangeVerdict change{ChangeVerdict::not_measured};
   GateVerdict verdict{GateVerdict::not_measured};  ///< what the gate makes of the change
-  std::optional<double> trials_to_decide;  ///< per design point; of an inconclusive measure, where known
-  std::string note;                        ///< reason or remark; may be empty
+  /// Of an inconclusive measure: the trials per design point that decide it with decision_probability.
+  std::optional<double> trials_to_decide;
+  double decided_margin{statistics::unknown};  ///< of an inconclusive measure: any larger one is decided now
+  double max_trials_margin{statistics::unknown};  ///< where no number of trials decides: the smallest margin
+                                                  ///< that max_trials_to_decide do
+  std::string note;                               ///< reason or remark; may be empty
 };
 
 /// An absolute requirement on one quantity at one design point of the current file.
@@ -85,7 +89,7 @@ struct RequirementResult {
   /// One-sided bounds: the one against the limit at the confidence, the other stricter (see README.md).
   statistics::ConfidenceInterval bounds{statistics::unknown, statistics::unknown};
   GateVerdict verdict{GateVerdict::inconclusive};
-  std::optional<double> trials_to_decide;  ///< per design point, where known
+  std::optional<double> trials_to_decide;  ///< per design point, as of a measure
 };
 
 /// One design point in the two files.
@@ -130,8 +134,14 @@ struct StudyComparison {
   std::int64_t tests{0};  ///< over which the false discoveries are controlled
   std::vector<PointComparison> points;
   GateVerdict verdict{GateVerdict::inconclusive};  ///< never not_measured
-  std::vector<std::string> notes;                  ///< what else the reader should know, a line each
+  std::optional<double>
+      trials_to_decide;  ///< per design point, that decide the whole, with decision_probability
+  double max_trials_to_decide{statistics::unknown};  ///< per design point, the most that were tried
+  std::vector<std::string> notes;                    ///< what else the reader should know, a line each
 };
+
+/// Probability with which the number of trials that would decide does decide.
+inline constexpr double decision_probability = 0.8;
 
 /// Compares a results file with a baseline: finds what the two have in common, matches their design points,
 /// tests every measure at every point, controls the false discoveries over all of them, and gives verdicts.

@@ -50,6 +50,8 @@ Json measure_json(const MeasureComparison& measure) {
           {"improvement_p", measure.improvement_p},
           {"adjusted_improvement_p", measure.adjusted_improvement_p},
           {"trials_to_decide", trials_json(measure.trials_to_decide)},
+          {"decided_margin", measure.decided_margin},
+          {"max_trials_margin", measure.max_trials_margin},
           {"note", measure.note}};
 }
 
@@ -117,7 +119,9 @@ std::string comparison_json(const StudyComparison& comparison) {
               {"equivalent", counts.equivalent},
               {"not_worse", counts.not_worse},
               {"undecided", counts.undecided}}},
-            {"trials_to_decide", trials_json(trials_to_decide(comparison))},
+            {"trials_to_decide", trials_json(comparison.trials_to_decide)},
+            {"decision_probability", decision_probability},
+            {"max_trials_to_decide", comparison.max_trials_to_decide},
             {"notes", comparison.notes},
             {"points", Json::array()}};
   for (const ManifestDifference& one : comparison.manifest_differences) {

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/comparison/comparison_report.hpp"
 #include "analysis/text/text.hpp"
@@ -70,23 +72,19 @@ VerdictCounts count_verdicts(const StudyComparison& comparison) {
   return counts;
 }
 
-std::optional<double> trials_to_decide(const StudyComparison& comparison) {
-  double most = 0.0;
-  bool known = true;
-  const auto take = [&](GateVerdict verdict, const std::optional<double>& trials) {
-    if (verdict != GateVerdict::inconclusive) return;
-    known = known && trials.has_value();
-    most = std::max(most, trials.value_or(0.0));
-  };
-  for (const PointComparison& point : comparison.points) {
-    for (const MeasureComparison& measure : point.measures) take(measure.verdict, measure.trials_to_decide);
-    for (const RequirementResult& one : point.requirements) take(one.verdict, one.trials_to_decide);
-  }
-  if (!known || most == 0.0) return std::nullopt;
-  return most;
-}
-
 namespace {
+
+/// Whether a change for the better fails at every measure, and there is one.
+bool every_change_fails(const StudyComparison& comparison) {
+  bool any = false;
+  for (const PointComparison& point : comparison.points) {
+    for (const MeasureComparison& measure : point.measures) {
+      if (!measure.changed_fails) return false;
+      any = true;
+    }
+  }
+  return any;
+}
 
 /// "3 of 40 judgements failed (1 worse, 2 better)"; empty where none did.
 std::string failures_text(const VerdictCounts& counts) {
@@ -97,6 +95,32 @@ std::string failures_text(const VerdictCounts& counts) {
                         counts.regressions, counts.changed);
   }
   return text;
+}
+
+/// What would decide the whole.
+std::string advice_text(const StudyComparison& comparison) {
+  if (comparison.trials_to_decide) {
+    return fmt::format("; {} trials per design point would decide, with a probability of {:.0f} %",
+                       trials_text(*comparison.trials_to_decide), 100.0 * decision_probability);
+  }
+  if (std::isnan(comparison.max_trials_to_decide)) return "";
+  std::vector<std::string> open;
+  for (const PointComparison& point : comparison.points) {
+    for (const MeasureComparison& measure : point.measures) {
+      if (std::isnan(measure.max_trials_margin)) continue;
+      open.push_back(fmt::format("{} at {} (margin {}; {} would be decided)", measure.measure,
+                                 text::printable(point.label),
+                                 value_text(measure.margin, measure.measure, measure.unit),
+                                 value_text(measure.max_trials_margin, measure.measure, measure.unit)));
+    }
+    for (const RequirementResult& one : point.requirements) {
+      if (one.verdict == GateVerdict::inconclusive && !one.trials_to_decide)
+        open.push_back(fmt::format("{} at {}", one.text, text::printable(point.label)));
+    }
+  }
+  return fmt::format("; {} trials per design point would not decide{}{}",
+                     trials_text(comparison.max_trials_to_decide), open.empty() ? " all of them" : ": ",
+                     fmt::join(open, ", "));
 }
 
 }  // namespace
@@ -115,18 +139,15 @@ std::string verdict_sentence(const StudyComparison& comparison) {
   if (comparison.verdict == GateVerdict::changed) return "changed: " + failures_text(counts);
   if (comparison.verdict == GateVerdict::passed) {
     if (comparison.equal_to_the_bit) return "passed: every dataset is equal to the bit";
-    return fmt::format(
-        "passed: all {} judgements at {} design points; nothing is worse by more than its margin{}", all,
-        comparison.points.size(),
-        counts.better > 0 ? fmt::format(", {} {} better", counts.better, counts.better == 1 ? "is" : "are")
-                          : "");
+    return fmt::format("passed: all {} judgements at {} design points; nothing {} by more than its margin{}",
+                       all, comparison.points.size(), every_change_fails(comparison) ? "changed" : "is worse",
+                       counts.better > 0
+                           ? fmt::format(", {} {} better", counts.better, counts.better == 1 ? "is" : "are")
+                           : "");
   }
   if (all == 0) return "inconclusive: nothing was measured";
-  const std::optional<double> needed = trials_to_decide(comparison);
-  return fmt::format(
-      "inconclusive: {} of {} judgements are open{}", counts.inconclusive, all,
-      needed ? fmt::format("; about {} trials per design point would decide", trials_text(*needed))
-             : std::string());
+  return fmt::format("inconclusive: {} of {} judgements are open{}", counts.inconclusive, all,
+                     advice_text(comparison));
 }
 
 std::string value_text(double value, std::string_view quantity, std::string_view unit) {

@@ -41,10 +41,6 @@ VerdictCounts count_verdicts(const StudyComparison& comparison);
 /// The verdict in a sentence.
 std::string verdict_sentence(const StudyComparison& comparison);
 
-/// Trials per design point that would decide all inconclusive verdicts; nothing if the number is unknown for
-/// one of them, or if there are none.
-std::optional<double> trials_to_decide(const StudyComparison& comparison);
-
 /// A value of a measure or requirement with its unit: proportions in per cent.
 std::string value_text(double value, std::string_view quantity, std::string_view unit);
 

@@ -22,6 +22,37 @@ std::vector<MeasureComparison> compare_measures(const GateRules& rules, const st
                                                 const PointTrials& baseline, const PointTrials& current,
                                                 bool paired);
 
+/// What is judged of the data of one measure at one point: a value for each independent unit, which is a
+/// trial, or a rig where trials share rigs.
+struct MeasureSample {
+  bool proportion{false};        ///< values of 0 and 1 (1: failed), compared by the tests of proportions
+  bool paired{false};            ///< unit i of both drew the same random numbers
+  double plausible{1.0};         ///< plausible difference of a single unit, the `unit` of cautious_bounds()
+  std::vector<double> baseline;  ///< [unit] larger is worse; NaN where the unit has no value
+  std::vector<double> current;   ///< [unit]
+};
+
+/// The samples behind the results of compare_measures() with the same arguments, in the same order.
+std::vector<MeasureSample> measure_samples(const GateRules& rules, const PointTrials& baseline,
+                                           const PointTrials& current, bool paired);
+
+/// The numbers of one measure that its verdict follows from.
+struct TestedMeasure {
+  double effect{0.0};
+  statistics::ConfidenceInterval bounds{};
+  double margin{0.0};
+  bool changed_fails{false};
+  double p{1.0};
+  double improvement_p{1.0};
+  double adjusted_p{1.0};
+  double adjusted_improvement_p{1.0};
+  ChangeVerdict change{ChangeVerdict::not_measured};
+};
+
+/// Adjusts the p-values of all measures of a comparison, and finds what is shown of each.
+/// @param rate of false discoveries
+void decide(std::span<TestedMeasure> tested, double rate);
+
 /// Gives every measure its adjusted p-values and its verdicts.
 ///
 /// A measure is worse where its adjusted p is at most the rate and its effect exceeds the margin, better
@@ -60,6 +91,32 @@ std::vector<double> benjamini_yekutieli(std::span<const double> p);
 /// of the jerks has the bounds of cautious_bounds().
 RequirementResult judge_requirement(const Requirement& requirement, const PointTrials& trials,
                                     double confidence, double failing_confidence);
+
+/// What a requirement judges of each independent unit, which is a trial, or a rig where trials share rigs.
+struct RequirementSample {
+  RequirementKind kind{RequirementKind::proportion};
+  bool at_least{true};
+  double limit{0.0};      ///< of the mean, or of the proportion of trials
+  bool clustered{false};  ///< the units are rigs
+  std::vector<double>
+      hits;  ///< [unit] trials that meet the requirement by themselves; or the value of a mean
+  std::vector<double> events;  ///< [unit] trials; 1 of a mean
+};
+RequirementSample requirement_sample(const Requirement& requirement, const PointTrials& trials);
+
+/// Sums over the units of a sample: their number, of their hits and events, and of the products of these.
+struct RequirementSums {
+  double units{0.0};
+  double hits{0.0};
+  double events{0.0};
+  double hits_squared{0.0};
+  double hits_by_events{0.0};
+  double events_squared{0.0};
+};
+
+/// The verdict of judge_requirement() on a sample with these sums.
+GateVerdict requirement_verdict(const RequirementSample& sample, const RequirementSums& sums,
+                                double confidence, double failing_confidence);
 
 /// The confidence with which each of `count` requirements must be contradicted, so that with this confidence
 /// none of those that are met fails (Bonferroni): 1 − (1 − confidence)/count.

@@ -58,6 +58,7 @@ comparison::StudyComparison sample() {
                     reported_measure("jerk_count", comparison::GateVerdict::not_measured),
                     reported_measure("stable_rate", comparison::GateVerdict::passed)};
   point.measures[1].trials_to_decide = 1234.0;
+  point.measures[1].decided_margin = 0.031;
   comparison::RequirementResult requirement;
   requirement.text = "success_rate ≥ 0.8";
   requirement.quantity = "success_rate";
@@ -71,9 +72,10 @@ comparison::StudyComparison sample() {
 
 TEST(ComparisonReport, TheTableHoldsAllThatWasJudged) {
   const std::string table = comparison::comparison_table(sample());
-  for (const char* part : {"success_rate", "90 %", "85 %", "[1 %, 9 %]", "< 1e-4", "regression",
-                           "1300 trials would decide", "not measured", "require success_rate",
-                           "controller.ki: 1e-5 → (absent)", "regression: 1 of 4 judgements failed"}) {
+  for (const char* part :
+       {"success_rate", "90 %", "85 %", "[1 %, 9 %]", "< 1e-4", "regression", "1300 trials would decide",
+        "these trials decide a margin above", "not measured", "require success_rate",
+        "controller.ki: 1e-5 → (absent)", "regression: 1 of 4 judgements failed"}) {
     EXPECT_NE(table.find(part), std::string::npos) << part << "\n" << table;
   }
 }
@@ -178,6 +180,24 @@ TEST(ComparisonReport, TheMarkdownEscapesItsCells) {
   EXPECT_NE(markdown.find("| a \\| \"b\" | success\\_rate | 90 % | 85 % |"), std::string::npos) << markdown;
   EXPECT_NE(markdown.find("**worse**"), std::string::npos);
   EXPECT_EQ(markdown.find("stable"), std::string::npos);
+}
+
+// What no number of trials decides is named, with the margin that would be decided.
+TEST(ComparisonReport, TheSentenceSaysWhatWouldDecide) {
+  comparison::StudyComparison comparison = sample();
+  comparison.verdict = comparison::GateVerdict::inconclusive;
+  comparison.points[0].measures.erase(comparison.points[0].measures.begin());
+  comparison.trials_to_decide = 5432.0;
+  comparison.max_trials_to_decide = 9000.0;
+  EXPECT_EQ(comparison::verdict_sentence(comparison),
+            "inconclusive: 1 of 3 judgements are open; 5500 trials per design point would decide, with a "
+            "probability of 80 %");
+  comparison.trials_to_decide.reset();
+  comparison.points[0].measures[0].trials_to_decide.reset();
+  comparison.points[0].measures[0].max_trials_margin = 0.031;
+  EXPECT_EQ(comparison::verdict_sentence(comparison),
+            "inconclusive: 1 of 3 judgements are open; 9000 trials per design point would not decide: "
+            "settling_time at a | \"b\" (margin 0.02 s; 0.031 s would be decided)");
 }
 
 TEST(ComparisonReport, NumbersOfTrialsAreRoundedUp) {

@@ -141,23 +141,6 @@ TEST_P(NullComparisons, AnImprovementIsReportedAndNoFailure) {
   EXPECT_EQ(compared[2].measures[0].verdict, comparison::GateVerdict::passed);
 }
 
-// The number of trials that would decide does decide, about as often as planned.
-TEST_P(NullComparisons, TheStatedNumberOfTrialsDecides) {
-  std::mt19937_64 random(61);
-  const auto few = compare_once(random, GetParam(), {}, unchanged);
-  const comparison::MeasureComparison& open = few[1].measures[0];
-  ASSERT_EQ(open.verdict, comparison::GateVerdict::inconclusive);
-  ASSERT_TRUE(open.trials_to_decide.has_value());
-  const auto needed = static_cast<std::int64_t>(*open.trials_to_decide);
-  EXPECT_GT(needed, pair_trials);
-  int decided = 0;
-  for (int i = 0; i < 30; ++i) {
-    decided += compare_once(random, GetParam(), {}, unchanged, needed)[1].measures[0].verdict ==
-               comparison::GateVerdict::passed;
-  }
-  EXPECT_GE(decided, 18) << needed;
-}
-
 INSTANTIATE_TEST_SUITE_P(Layers, NullComparisons, ::testing::Bool(),
                          [](const auto& layer) { return layer.param ? "Paired" : "TwoSamples"; });
 

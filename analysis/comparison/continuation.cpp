@@ -9,15 +9,8 @@
 namespace zerocount::comparison {
 namespace {
 
-constexpr std::int64_t max_blocks = 1500;
+constexpr std::int64_t max_blocks = 1000;
 constexpr std::uint32_t continuation_key = 0x636f6e74;
-
-/// A gamma number of whole shape: exact for 1, otherwise after Wilson and Hilferty (1931).
-double gamma_number(double shape, std::uint64_t bits) {
-  if (shape == 1.0) return -std::log(random::open_uniform(bits));
-  const double root = 1.0 - 1.0 / (9.0 * shape) + random::standard_normal(bits) / (3.0 * std::sqrt(shape));
-  return shape * std::max(0.0, root * root * root);
-}
 
 }  // namespace
 
@@ -58,8 +51,8 @@ std::vector<double> Continuation::population(std::uint32_t simulation) const {
   std::vector<double> weights(blocks_);
   double sum = 0.0;
   for (std::size_t block = 0; block < blocks_; ++block) {
-    weights[block] = gamma_number(
-        size_of(block), continuation_bits(simulation, stream_, block, ContinuationDraw::population));
+    const std::uint64_t bits = continuation_bits(simulation, stream_, block, ContinuationDraw::population);
+    weights[block] = -size_of(block) * std::log(random::open_uniform(bits));
     sum += weights[block];
   }
   for (double& weight : weights) weight /= sum;
@@ -70,9 +63,9 @@ std::vector<double> Continuation::further_units(const std::vector<double>& popul
                                                 std::uint32_t simulation) const {
   std::vector<double> numbers(blocks_);
   for (std::size_t block = 0; block < blocks_; ++block) {
-    numbers[block] =
-        poisson_number(more * population[block],
-                       continuation_bits(simulation, stream_, block, ContinuationDraw::further_units));
+    const double size = size_of(block);
+    const std::uint64_t bits = continuation_bits(simulation, stream_, block, ContinuationDraw::further_units);
+    numbers[block] = size * poisson_number(more * population[block] / size, bits);
   }
   return numbers;
 }

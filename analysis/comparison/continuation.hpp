@@ -28,8 +28,8 @@ double poisson_number(double mean, std::uint64_t bits);
 /// and further units from that population, so that the forecast includes what the sample leaves unknown (the
 /// Pólya posterior: Lo, Annals of Statistics 16 (1988), 1684).
 ///
-/// Of many units, blocks of neighbours are drawn together: a block of m units has a weight of the gamma
-/// distribution of shape m.
+/// Of many units, blocks of neighbours are drawn as wholes, which leaves the variance of sums as it is: the
+/// units of a block are independent of each other.
 class Continuation {
  public:
   /// @param units of the sample; @param stream of its random numbers
@@ -44,7 +44,7 @@ class Continuation {
   /// Proportions of the population that are like each block, for simulation number `simulation`.
   std::vector<double> population(std::uint32_t simulation) const;
 
-  /// Numbers of further units like each block: Poisson numbers, `more` in the mean.
+  /// Numbers of further units like each block: whole blocks, in Poisson numbers; `more` units in the mean.
   std::vector<double> further_units(const std::vector<double>& population, double more,
                                     std::uint32_t simulation) const;
 

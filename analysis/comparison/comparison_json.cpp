@@ -44,6 +44,7 @@ Json measure_json(const MeasureComparison& measure) {
           {"effect_bounds", interval_json(measure.bounds)},
           {"margin", measure.margin},
           {"changed_fails", measure.changed_fails},
+          {"detectable_change", measure.detectable_change},
           {"test", measure.test},
           {"p", measure.p},
           {"adjusted_p", measure.adjusted_p},

@@ -69,6 +69,7 @@ struct ComparisonRow {
   std::string worse_by;  ///< the effect
   std::string bounds;
   std::string margin;   ///< or the limit of a requirement
+  std::string detects;  ///< smallest detectable change
   std::string p;        ///< adjusted
   std::string verdict;  ///< of a measure, what is shown of it; of a requirement, what the gate makes of it
   GateVerdict gate{GateVerdict::not_measured};

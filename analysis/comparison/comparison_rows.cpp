@@ -64,6 +64,7 @@ ComparisonRow row_of(const PointComparison& point, const MeasureComparison& meas
   row.worse_by = text(measure.effect);
   row.bounds = interval_text(measure.bounds, measure.measure, measure.unit);
   row.margin = (measure.changed_fails ? "± " : "") + text(measure.margin);
+  row.detects = text(measure.detectable_change);
   const bool better = measure.change == ChangeVerdict::better;
   row.p = p_text(better ? measure.adjusted_improvement_p : measure.adjusted_p);
   row.verdict = word_of(measure.change);
@@ -88,6 +89,7 @@ ComparisonRow row_of(const PointComparison& point, const RequirementResult& requ
   row.margin = fmt::format("{} {}", requirement.at_least ? "≥" : "≤", text(requirement.limit));
   row.p = "–";
   row.verdict = word_of(requirement.verdict);
+  row.detects = "–";
   row.gate = requirement.verdict;
   row.note = remarks("", undecided_remark(point, requirement.quantity), requirement.trials_to_decide, "");
   row.noteworthy = requirement.verdict != GateVerdict::passed;

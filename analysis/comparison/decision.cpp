@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/comparison/measure_comparison.hpp"
+#include "analysis/statistics/normal.hpp"
 
 namespace zerocount::comparison {
 namespace {
@@ -18,6 +19,15 @@ std::vector<MeasureComparison*> tested_measures(std::span<PointComparison> point
     }
   }
   return tested;
+}
+
+constexpr int detectable_steps = 40;  ///< of a fixed-point iteration that halves its error or better
+
+/// 1 + 1/2 + … + 1/n.
+double harmonic_number(std::size_t n) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i <= n; ++i) sum += 1.0 / static_cast<double>(i);
+  return sum;
 }
 
 /// The p that a failure is judged by: against a change for the worse; where every change fails, two-sided.
@@ -84,6 +94,22 @@ GateVerdict worst_of(std::span<const GateVerdict> verdicts) {
   return verdicts.empty() ? GateVerdict::not_measured : *std::min_element(verdicts.begin(), verdicts.end());
 }
 
+double detectable_change(const MeasureComparison& measure, const GateRules& rules, std::size_t tests) {
+  const double error =
+      (measure.bounds.high - measure.bounds.low) / 2.0 / statistics::normal_quantile(rules.confidence);
+  const double rate = rules.false_discovery_rate / (measure.changed_fails ? 2.0 : 1.0);
+  const double strictest = rate / (static_cast<double>(tests) * harmonic_number(tests));
+  const double power = statistics::normal_quantile(decision_probability);
+  const double needed = statistics::normal_quantile(1.0 - strictest) + power;
+  const double per_change = measure.paired_proportion ? 1.0 / static_cast<double>(measure.current_n) : 0.0;
+  double change = 0.0;
+  for (int step = 0; step < detectable_steps; ++step) {
+    const double spread = std::sqrt(error * error + change * per_change);
+    change = std::max(measure.margin + power * spread, needed * spread);
+  }
+  return change;
+}
+
 void decide(std::span<TestedMeasure> tested, double rate) {
   adjust(tested);
   for (TestedMeasure& measure : tested) measure.change = change_of(measure, rate);
@@ -102,6 +128,7 @@ std::int64_t decide(std::span<PointComparison> points, const GateRules& rules) {
     measure.adjusted_p = tested[i].adjusted_p;
     measure.adjusted_improvement_p = tested[i].adjusted_improvement_p;
     measure.change = tested[i].change;
+    measure.detectable_change = detectable_change(measure, rules, tested.size());
     measure.verdict = gate_verdict(measure.change, measure.changed_fails);
     if (measure.verdict == GateVerdict::inconclusive) measure.note = reason_of(measure);
   }
@@ -110,8 +137,7 @@ std::int64_t decide(std::span<PointComparison> points, const GateRules& rules) {
 
 std::vector<double> benjamini_yekutieli(std::span<const double> p) {
   const std::size_t count = p.size();
-  double harmonic = 0.0;
-  for (std::size_t i = 1; i <= count; ++i) harmonic += 1.0 / static_cast<double>(i);
+  const double harmonic = harmonic_number(count);
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return p[a] < p[b]; });

@@ -118,6 +118,7 @@ void compare_proportion(MeasureComparison& result, const GateMeasure& measure,
   if (paired) {
     const PairedFailures failures = paired_failures(baseline, current);
     result.test = "McNemar, exact";
+    result.paired_proportion = true;
     result.effect = static_cast<double>(failures.only_current - failures.only_baseline) /
                     static_cast<double>(failures.pairs);
     result.bounds = tango(failures, confidence);

@@ -63,6 +63,17 @@ void decide(std::span<TestedMeasure> tested, double rate);
 /// @return the number of tests over which the false discoveries were controlled.
 std::int64_t decide(std::span<PointComparison> points, const GateRules& rules);
 
+/// The smallest true change for the worse that is found with decision_probability: with s its standard error,
+/// M the margin and α the strictest level of the adjustment over m tests, that of a change of one measure
+/// alone, the solution of
+///
+///   δ = max(M + z_0.8·s, (z_{1−α} + z_0.8)·s),   α = rate/(m·(1 + ½ + … + 1/m)),
+///
+/// α/2 where every change fails. s is that of the bounds; with n pairs of a proportion s² + δ/n, because the
+/// change makes pairs differ. A normal approximation, which leaves the rank tests out.
+/// @param tests m
+double detectable_change(const MeasureComparison& measure, const GateRules& rules, std::size_t tests);
+
 /// What the gate makes of a change.
 GateVerdict gate_verdict(ChangeVerdict change, bool changed_fails);
 

@@ -141,6 +141,32 @@ TEST_P(NullComparisons, AnImprovementIsReportedAndNoFailure) {
   EXPECT_EQ(compared[2].measures[0].verdict, comparison::GateVerdict::passed);
 }
 
+// The second point alone changes, and only in its rates.
+TEST_P(NullComparisons, AChangeOfTheDetectableSizeIsFoundAsOftenAsStated) {
+  std::mt19937_64 random(67);
+  constexpr std::int64_t count = 400;
+  constexpr int comparisons = 200;
+  double detectable = 0.0;
+  for (int i = 0; i < 20; ++i)
+    detectable +=
+        compare_once(random, GetParam(), {}, unchanged, count)[1].measures[0].detectable_change / 20.0;
+  EXPECT_GT(detectable, 0.02);
+  int found = 0;
+  for (int i = 0; i < comparisons; ++i) {
+    const auto compared = compare_once(
+        random, GetParam(), {},
+        [&](SyntheticPoint point) {
+          if (point.success == points[1].success) point.success -= detectable;
+          return point;
+        },
+        count);
+    found += failed(compared[1].measures[0]);
+  }
+  RecordProperty("found", found);
+  EXPECT_GE(found, comparisons * 0.7);
+  EXPECT_LE(found, comparisons * 0.95);
+}
+
 INSTANTIATE_TEST_SUITE_P(Layers, NullComparisons, ::testing::Bool(),
                          [](const auto& layer) { return layer.param ? "Paired" : "TwoSamples"; });
 

@@ -105,6 +105,9 @@ std::int64_t count_requirements(const GateRules& rules, const std::vector<Matche
   return count;
 }
 
+/// The most trials per point that a forecast tries are at least these.
+constexpr double min_tried_trials = 50'000.0;
+
 /// What a forecast needs of a point. Equal data leave no measure open.
 ForecastPoint forecast_point(const PointComparison& compared, const GateRules& rules,
                              const PointTrials& baseline, const PointTrials& current, bool equal) {
@@ -150,6 +153,9 @@ void forecast(StudyComparison& result, const std::vector<ForecastPoint>& points,
   options.false_discovery_rate = rules.false_discovery_rate;
   options.failing_confidence = failing;
   options.probability = decision_probability;
+  const auto trials =
+      static_cast<double>(std::max(points.front().baseline_trials, points.front().current_trials));
+  options.max_factor = std::max(options.max_factor, min_tried_trials / trials);
   const Forecast found = forecast_decision(points, options);
   result.max_trials_to_decide = found.max_trials;
   if (result.verdict == GateVerdict::inconclusive) result.trials_to_decide = found.trials;

@@ -147,8 +147,9 @@ class Simulator {
   double unseen_units(std::size_t file, std::size_t point, std::uint32_t kind, std::uint32_t simulation,
                       double trials) const {
     const auto stream = static_cast<std::uint32_t>(2 * kind + file);
+    const auto population = static_cast<std::uint32_t>(2 * kind + (one_sample_ ? 1 : file));
     const double weight =
-        unseen_weight(continuation_bits(simulation, stream, point, ContinuationDraw::unseen_kind));
+        unseen_weight(continuation_bits(simulation, population, point, ContinuationDraw::unseen_kind));
     const double mean = weight * more_units(file, trials) / static_cast<double>(continuations_[file].units());
     return poisson_number(mean, continuation_bits(simulation, stream, point, ContinuationDraw::unseen_units));
   }

@@ -48,7 +48,7 @@ struct Forecast {
 /// The number must suffice under two assumptions of what the sample leaves open:
 /// - the true effects are those that were seen, with their uncertainty;
 /// - likewise, but each effect is nil with the probability that the effects of all measures together give it
-///   (a two-group mixture: Efron, Journal of the American Statistical Association 96 (2001), 1151).
+///   (a two-group mixture: Efron et al., Journal of the American Statistical Association 96 (2001), 1151).
 /// The first by itself promises decisions by regressions that are not there; the second misses small
 /// changes. Its measured accuracy: README.md.
 ///

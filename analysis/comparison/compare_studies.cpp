@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <iterator>
 #include <system_error>
 #include <utility>
@@ -7,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "analysis/comparison/comparison.hpp"
+#include "analysis/comparison/forecast.hpp"
 #include "analysis/comparison/gate_rules.hpp"
 #include "analysis/comparison/manifest_differences.hpp"
 #include "analysis/comparison/matching.hpp"
@@ -102,6 +105,74 @@ std::int64_t count_requirements(const GateRules& rules, const std::vector<Matche
   return count;
 }
 
+/// The most trials per point that a forecast tries are at least these.
+constexpr double min_tried_trials = 50'000.0;
+
+/// What a forecast needs of a point. Equal data leave no measure open.
+ForecastPoint forecast_point(const PointComparison& compared, const GateRules& rules,
+                             const PointTrials& baseline, const PointTrials& current, bool equal) {
+  ForecastPoint point{compared.baseline_trials, compared.current_trials, {}, {}, {}};
+  const bool paired = compared.pairs > 0;
+  if (!equal) {
+    const std::vector<MeasureSample> samples =
+        paired ? measure_samples(rules, first_trials(baseline, compared.pairs),
+                                 first_trials(current, compared.pairs), true)
+               : measure_samples(rules, baseline, current, false);
+    for (std::size_t i = 0; i < compared.measures.size(); ++i) {
+      const MeasureComparison& measure = compared.measures[i];
+      if (std::isnan(measure.p)) continue;
+      point.measures.push_back(samples[i]);
+      point.found.push_back({measure.effect, measure.bounds, measure.margin, measure.changed_fails, measure.p,
+                             measure.improvement_p});
+    }
+  }
+  for (const Requirement& requirement : requirements_of(rules, compared.label))
+    point.requirements.push_back(requirement_sample(requirement, current));
+  return point;
+}
+
+void take_forecast(MeasureComparison& measure, const JudgementForecast& forecast) {
+  if (measure.verdict != GateVerdict::inconclusive) return;
+  measure.trials_to_decide = forecast.trials;
+  if (!forecast.trials) measure.max_trials_margin = forecast.margin;
+  measure.decided_margin =
+      measure.changed_fails ? std::max(measure.bounds.high, -measure.bounds.low) : measure.bounds.high;
+}
+
+/// Finds the trials that would decide what is open.
+void forecast(StudyComparison& result, const std::vector<ForecastPoint>& points, const GateRules& rules,
+              double failing) {
+  const auto open = [](const auto& one) { return one.verdict == GateVerdict::inconclusive; };
+  const bool any = std::any_of(result.points.begin(), result.points.end(), [&](const PointComparison& point) {
+    return std::any_of(point.measures.begin(), point.measures.end(), open) ||
+           std::any_of(point.requirements.begin(), point.requirements.end(), open);
+  });
+  if (!any) return;
+  ForecastOptions options;
+  options.confidence = rules.confidence;
+  options.false_discovery_rate = rules.false_discovery_rate;
+  options.failing_confidence = failing;
+  options.probability = decision_probability;
+  const auto trials =
+      static_cast<double>(std::max(points.front().baseline_trials, points.front().current_trials));
+  options.max_factor = std::max(options.max_factor, min_tried_trials / trials);
+  const Forecast found = forecast_decision(points, options);
+  result.max_trials_to_decide = found.max_trials;
+  if (result.verdict == GateVerdict::inconclusive) result.trials_to_decide = found.trials;
+  auto next = found.judgements.begin();
+  for (PointComparison& point : result.points) {
+    for (MeasureComparison& measure : point.measures) {
+      if (!result.equal_to_the_bit && !std::isnan(measure.p)) take_forecast(measure, *next++);
+    }
+  }
+  for (PointComparison& point : result.points) {
+    for (RequirementResult& requirement : point.requirements) {
+      if (open(requirement)) requirement.trials_to_decide = next->trials;
+      ++next;
+    }
+  }
+}
+
 /// An open-loop study has moves, but none that could be judged.
 bool judges_nothing(const reading::StudyFile& file) {
   const std::vector<double> outcomes = file.measure("outcome", file.rows());
@@ -110,11 +181,14 @@ bool judges_nothing(const reading::StudyFile& file) {
   });
 }
 
-void compare_points(StudyComparison& result, const GateRules& rules, const reading::StudyFile& baseline,
-                    const reading::StudyFile& current, const std::vector<MatchedPoint>& points,
-                    std::int64_t baseline_rigs, std::int64_t current_rigs) {
+std::vector<ForecastPoint> compare_points(StudyComparison& result, const GateRules& rules,
+                                          const reading::StudyFile& baseline,
+                                          const reading::StudyFile& current,
+                                          const std::vector<MatchedPoint>& points, std::int64_t baseline_rigs,
+                                          std::int64_t current_rigs) {
   const double failing = failing_confidence(rules.confidence, count_requirements(rules, points));
   const bool nothing = judges_nothing(current) || judges_nothing(baseline);
+  std::vector<ForecastPoint> samples;
   for (const MatchedPoint& point : points) {
     PointTrials before = read_point_trials(baseline, point.baseline);
     PointTrials after = read_point_trials(current, point.current);
@@ -126,10 +200,12 @@ void compare_points(StudyComparison& result, const GateRules& rules, const readi
     for (const Requirement& requirement : requirements_of(rules, point.label)) {
       compared.requirements.push_back(judge_requirement(requirement, after, rules.confidence, failing));
     }
+    samples.push_back(forecast_point(compared, rules, before, after, result.equal_to_the_bit));
   }
   result.tests = decide(result.points, rules);
   if (nothing)
     result.notes.push_back("the moves have torque levels and no targets: no measure of the gate applies");
+  return samples;
 }
 
 /// Equal data need no statistics: no measure can be worse.
@@ -137,9 +213,10 @@ void pass_equal_data(StudyComparison& result) {
   for (PointComparison& point : result.points) {
     for (MeasureComparison& measure : point.measures) {
       measure.test = "equal to the bit";
-      measure.trials_to_decide.reset();
       if (measure.verdict == GateVerdict::inconclusive) measure.note.clear();
-      if (measure.verdict != GateVerdict::not_measured) measure.verdict = GateVerdict::passed;
+      if (measure.verdict == GateVerdict::not_measured) continue;
+      measure.change = ChangeVerdict::equivalent;
+      measure.verdict = GateVerdict::passed;
     }
   }
 }
@@ -218,7 +295,8 @@ StudyComparison compare_studies(const reading::StudyFile& baseline, const readin
     result.changed_inputs = std::move(draws.changed_inputs);
   }
   note_unpaired_trials(result);
-  compare_points(result, rules, baseline, current, points, rigs_of(old_values), rigs_of(new_values));
+  const std::vector<ForecastPoint> samples =
+      compare_points(result, rules, baseline, current, points, rigs_of(old_values), rigs_of(new_values));
   note_undecided_moves(result);
   if (rigs_of(old_values) > 0 || rigs_of(new_values) > 0) {
     result.notes.push_back(
@@ -227,15 +305,21 @@ StudyComparison compare_studies(const reading::StudyFile& baseline, const readin
   }
   if (result.equal_to_the_bit) pass_equal_data(result);
   result.verdict = verdict_of(result);
+  forecast(result, samples, rules, failing_confidence(rules.confidence, count_requirements(rules, points)));
   return result;
 }
 
+GateRules rules_of(const CompareOptions& options, std::span<const std::string> labels) {
+  GateRules rules = options.margins ? read_gate_rules(*options.margins, labels) : GateRules{};
+  rules.changed_fails = rules.changed_fails || options.changed_fails;
+  return rules;
+}
+
 StudyComparison compare_files(const std::filesystem::path& baseline, const std::filesystem::path& current,
-                              const std::optional<std::filesystem::path>& margins) {
+                              const CompareOptions& options) {
   const reading::StudyFile before(baseline);
   const reading::StudyFile after(current);
-  const GateRules rules = margins ? read_gate_rules(*margins, after.point_labels()) : GateRules{};
-  StudyComparison result = compare_studies(before, after, rules);
+  StudyComparison result = compare_studies(before, after, rules_of(options, after.point_labels()));
   std::error_code error;
   if (std::filesystem::equivalent(baseline, current, error)) {
     result.notes.push_back("both names are of one file: this shows nothing of the program");

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,10 @@
 /// The result of comparing a results file with a baseline. README.md of this folder describes the method.
 namespace zerocount::comparison {
 
+/// Probability with which the number of trials that would decide does decide, and with which the smallest
+/// detectable change is found.
+inline constexpr double decision_probability = 0.8;
+
 /// How much the two files have in common, which decides how they can be compared.
 enum class ComparisonLayer {
   bits,        ///< one study by one build: every dataset must be equal to the bit
@@ -23,13 +28,30 @@ enum class ComparisonLayer {
   two_samples  ///< different draws: distributions are compared
 };
 
-/// Verdict on a measure, a point, a requirement, or the whole comparison; the worst first.
+/// What the gate makes of a measure, a point, a requirement, or the whole comparison; the worst first.
 enum class GateVerdict {
   regression,    ///< shown: worse by more than the margin, or the requirement is not met
-  inconclusive,  ///< neither a regression nor its absence is shown
-  passed,        ///< shown: no worse than the margin allows, or the requirement is met
+  changed,       ///< shown: better by more than the margin, where every change fails
+  inconclusive,  ///< neither a failure nor its absence is shown
+  passed,        ///< shown: no worse (or no change) than the margin allows, or the requirement is met
   not_measured   ///< too few trials have a value; does not affect the other verdicts
 };
+
+/// What is shown of the change of one measure, whatever the gate makes of it. With e the effect and M the
+/// margin:
+enum class ChangeVerdict {
+  worse,        ///< e > 0 is significant, and e > M
+  better,       ///< e < 0 is significant, and e < −M
+  equivalent,   ///< −M < e < M: both one-sided bounds are within the margin
+  not_worse,    ///< e < M only: better or equivalent, which of them is open
+  undecided,    ///< none of these
+  not_measured  ///< too few trials have a value
+};
+
+/// Whether a verdict fails the gate.
+constexpr bool fails(GateVerdict verdict) {
+  return verdict == GateVerdict::regression || verdict == GateVerdict::changed;
+}
 
 /// One measure at one design point in the two files. A positive effect is a change for the worse.
 struct MeasureComparison {
@@ -44,15 +66,22 @@ struct MeasureComparison {
   statistics::ConfidenceInterval bounds{statistics::unknown,
                                         statistics::unknown};  ///< of the effect, each one-sided
   double margin{statistics::unknown};                          ///< largest accepted effect
-  bool both_ways{false};          ///< a change for the better beyond the margin fails too
-  double p{statistics::unknown};  ///< of no difference, against a change for the worse (either, if both_ways)
-  double adjusted_p{statistics::unknown};              ///< after control of the false discoveries
-  double improvement_p{statistics::unknown};           ///< of no difference, against a change for the better
+  bool changed_fails{false};                  ///< a change for the better beyond the margin fails too
+  double p{statistics::unknown};              ///< of no difference, against a change for the worse
+  double adjusted_p{statistics::unknown};     ///< after control of the false discoveries
+  double improvement_p{statistics::unknown};  ///< of no difference, against a change for the better
   double adjusted_improvement_p{statistics::unknown};  ///< after control of the false discoveries
-  GateVerdict verdict{GateVerdict::not_measured};
-  bool improved{false};                    ///< better: significantly, and by more than the margin
-  std::optional<double> trials_to_decide;  ///< per design point; of an inconclusive measure, where known
-  std::string note;                        ///< reason or remark; may be empty
+  /// Smallest true change for the worse that these trials find with decision_probability; README.md.
+  double detectable_change{statistics::unknown};
+  bool paired_proportion{false};  ///< the trials of a proportion were compared one by one
+  ChangeVerdict change{ChangeVerdict::not_measured};
+  GateVerdict verdict{GateVerdict::not_measured};  ///< what the gate makes of the change
+  /// Of an inconclusive measure: the trials per design point that decide it with decision_probability.
+  std::optional<double> trials_to_decide;
+  double decided_margin{statistics::unknown};  ///< of an inconclusive measure: any larger one is decided now
+  double max_trials_margin{statistics::unknown};  ///< where no number of trials decides: the smallest margin
+                                                  ///< that max_trials_to_decide do
+  std::string note;                               ///< reason or remark; may be empty
 };
 
 /// An absolute requirement on one quantity at one design point of the current file.
@@ -67,7 +96,7 @@ struct RequirementResult {
   /// One-sided bounds: the one against the limit at the confidence, the other stricter (see README.md).
   statistics::ConfidenceInterval bounds{statistics::unknown, statistics::unknown};
   GateVerdict verdict{GateVerdict::inconclusive};
-  std::optional<double> trials_to_decide;  ///< per design point, where known
+  std::optional<double> trials_to_decide;  ///< per design point, as of a measure
 };
 
 /// One design point in the two files.
@@ -112,7 +141,10 @@ struct StudyComparison {
   std::int64_t tests{0};  ///< over which the false discoveries are controlled
   std::vector<PointComparison> points;
   GateVerdict verdict{GateVerdict::inconclusive};  ///< never not_measured
-  std::vector<std::string> notes;                  ///< what else the reader should know, a line each
+  std::optional<double>
+      trials_to_decide;  ///< per design point, that decide the whole, with decision_probability
+  double max_trials_to_decide{statistics::unknown};  ///< per design point, the most that were tried
+  std::vector<std::string> notes;                    ///< what else the reader should know, a line each
 };
 
 /// Compares a results file with a baseline: finds what the two have in common, matches their design points,
@@ -122,9 +154,19 @@ struct StudyComparison {
 StudyComparison compare_studies(const reading::StudyFile& baseline, const reading::StudyFile& current,
                                 const GateRules& rules = {});
 
-/// The same of two files, with the rules of the file `margins`, where one is given.
+/// How two files are compared.
+struct CompareOptions {
+  std::optional<std::filesystem::path> margins{};  ///< file of margins and requirements
+  bool changed_fails{false};                       ///< a change for the better fails too, at every measure
+};
+
+/// The rules of these options for a file with these labels of design points.
+/// @throws Failure as read_gate_rules
+GateRules rules_of(const CompareOptions& options, std::span<const std::string> labels);
+
+/// Compares two files.
 /// @throws Failure as compare_studies and read_gate_rules, and as StudyFile
 StudyComparison compare_files(const std::filesystem::path& baseline, const std::filesystem::path& current,
-                              const std::optional<std::filesystem::path>& margins = std::nullopt);
+                              const CompareOptions& options = {});
 
 }  // namespace zerocount::comparison

@@ -34,8 +34,8 @@ Json file_json(const ComparedFile& file) {
 Json measure_json(const MeasureComparison& measure) {
   return {{"measure", measure.measure},
           {"unit", measure.unit},
-          {"verdict", word_of(measure.verdict)},
-          {"improved", measure.improved},
+          {"verdict", word_of(measure.change)},
+          {"gate", word_of(measure.verdict)},
           {"baseline", measure.baseline},
           {"current", measure.current},
           {"baseline_n", measure.baseline_n},
@@ -43,13 +43,16 @@ Json measure_json(const MeasureComparison& measure) {
           {"effect", measure.effect},
           {"effect_bounds", interval_json(measure.bounds)},
           {"margin", measure.margin},
-          {"both_ways", measure.both_ways},
+          {"changed_fails", measure.changed_fails},
+          {"detectable_change", measure.detectable_change},
           {"test", measure.test},
           {"p", measure.p},
           {"adjusted_p", measure.adjusted_p},
           {"improvement_p", measure.improvement_p},
           {"adjusted_improvement_p", measure.adjusted_improvement_p},
           {"trials_to_decide", trials_json(measure.trials_to_decide)},
+          {"decided_margin", measure.decided_margin},
+          {"max_trials_margin", measure.max_trials_margin},
           {"note", measure.note}};
 }
 
@@ -109,10 +112,17 @@ std::string comparison_json(const StudyComparison& comparison) {
             {"counts",
              {{"passed", counts.passed},
               {"regression", counts.regressions},
+              {"changed", counts.changed},
               {"inconclusive", counts.inconclusive},
               {"not_measured", counts.not_measured},
-              {"improved", counts.improved}}},
-            {"trials_to_decide", trials_json(trials_to_decide(comparison))},
+              {"worse", counts.worse},
+              {"better", counts.better},
+              {"equivalent", counts.equivalent},
+              {"not_worse", counts.not_worse},
+              {"undecided", counts.undecided}}},
+            {"trials_to_decide", trials_json(comparison.trials_to_decide)},
+            {"decision_probability", decision_probability},
+            {"max_trials_to_decide", comparison.max_trials_to_decide},
             {"notes", comparison.notes},
             {"points", Json::array()}};
   for (const ManifestDifference& one : comparison.manifest_differences) {

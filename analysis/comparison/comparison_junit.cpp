@@ -15,19 +15,22 @@ std::string xml(std::string_view text) {
 }
 
 /// The contents of the case beside its name.
-std::string element_of(std::string_view verdict, const std::string& message) {
-  if (verdict == word_of(GateVerdict::regression)) {
-    return fmt::format("<failure type=\"regression\" message=\"{}\"/>", xml(message));
+std::string element_of(GateVerdict verdict, const std::string& message) {
+  switch (verdict) {
+    case GateVerdict::regression:
+    case GateVerdict::changed:
+      return fmt::format("<failure type=\"{}\" message=\"{}\"/>", word_of(verdict), xml(message));
+    case GateVerdict::inconclusive:
+      return fmt::format("<error type=\"inconclusive\" message=\"{}\"/>", xml(message));
+    case GateVerdict::passed:
+      return fmt::format("<system-out>{}</system-out>", xml(message));
+    case GateVerdict::not_measured:
+      break;
   }
-  if (verdict == word_of(GateVerdict::inconclusive)) {
-    return fmt::format("<error type=\"inconclusive\" message=\"{}\"/>", xml(message));
-  }
-  if (verdict == word_of(GateVerdict::not_measured))
-    return fmt::format("<skipped message=\"{}\"/>", xml(message));
-  return fmt::format("<system-out>{}</system-out>", xml(message));
+  return fmt::format("<skipped message=\"{}\"/>", xml(message));
 }
 
-std::string case_of(const std::string& suite, const std::string& name, std::string_view verdict,
+std::string case_of(const std::string& suite, const std::string& name, GateVerdict verdict,
                     const std::string& message) {
   return fmt::format("    <testcase classname=\"{}\" name=\"{}\">{}</testcase>\n", xml(suite), xml(name),
                      element_of(verdict, message));
@@ -35,8 +38,8 @@ std::string case_of(const std::string& suite, const std::string& name, std::stri
 
 std::string message_of(const ComparisonRow& row) {
   const std::string note = row.note.empty() ? "" : "; " + row.note;
-  return fmt::format("baseline {}, file {}, worse by {} {}, margin {}, p {}{}", row.baseline, row.current,
-                     row.worse_by, row.bounds, row.margin, row.p, note);
+  return fmt::format("{}: baseline {}, file {}, worse by {} {}, margin {}, p {}{}", row.verdict, row.baseline,
+                     row.current, row.worse_by, row.bounds, row.margin, row.p, note);
 }
 
 }  // namespace
@@ -46,9 +49,9 @@ std::string comparison_junit(const StudyComparison& comparison) {
   VerdictCounts counts = count_verdicts(comparison);
   std::string cases;
   for (const ComparisonRow& row : comparison_rows(comparison)) {
-    cases += case_of(suite, fmt::format("{}: {}", row.point, row.measure), row.verdict, message_of(row));
+    cases += case_of(suite, fmt::format("{}: {}", row.point, row.measure), row.gate, message_of(row));
   }
-  std::int64_t tests = counts.passed + counts.regressions + counts.inconclusive + counts.not_measured;
+  std::int64_t tests = counts.judged() + counts.not_measured;
   // A verdict that no single case gives: unequal data, or nothing measured.
   const bool unequal = comparison.layer == ComparisonLayer::bits && !comparison.equal_to_the_bit;
   const bool silent = comparison.verdict == GateVerdict::inconclusive && counts.inconclusive == 0;
@@ -59,10 +62,10 @@ std::string comparison_junit(const StudyComparison& comparison) {
     const GateVerdict verdict = unequal  ? GateVerdict::regression
                                 : silent ? GateVerdict::inconclusive
                                          : GateVerdict::passed;
-    cases += case_of(suite, "the data", word_of(verdict), verdict_sentence(comparison));
+    cases += case_of(suite, "the data", verdict, verdict_sentence(comparison));
   }
   const std::string numbers = fmt::format("tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\"", tests,
-                                          counts.regressions, counts.inconclusive, counts.not_measured);
+                                          counts.failed(), counts.inconclusive, counts.not_measured);
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"zerocount compare\" {0}>\n"
       "  <testsuite name=\"{1}\" {0}>\n{2}  </testsuite>\n</testsuites>\n",

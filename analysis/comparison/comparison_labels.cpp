@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/comparison/comparison_report.hpp"
 #include "analysis/text/text.hpp"
@@ -14,9 +16,29 @@ std::string_view word_of(GateVerdict verdict) {
       return "passed";
     case GateVerdict::regression:
       return "regression";
+    case GateVerdict::changed:
+      return "changed";
     case GateVerdict::inconclusive:
       return "inconclusive";
     case GateVerdict::not_measured:
+      break;
+  }
+  return "not measured";
+}
+
+std::string_view word_of(ChangeVerdict change) {
+  switch (change) {
+    case ChangeVerdict::worse:
+      return "worse";
+    case ChangeVerdict::better:
+      return "better";
+    case ChangeVerdict::equivalent:
+      return "equivalent";
+    case ChangeVerdict::not_worse:
+      return "not worse";
+    case ChangeVerdict::undecided:
+      return "undecided";
+    case ChangeVerdict::not_measured:
       break;
   }
   return "not measured";
@@ -32,60 +54,100 @@ VerdictCounts count_verdicts(const StudyComparison& comparison) {
   const auto count = [&](GateVerdict verdict) {
     counts.passed += verdict == GateVerdict::passed;
     counts.regressions += verdict == GateVerdict::regression;
+    counts.changed += verdict == GateVerdict::changed;
     counts.inconclusive += verdict == GateVerdict::inconclusive;
     counts.not_measured += verdict == GateVerdict::not_measured;
   };
   for (const PointComparison& point : comparison.points) {
     for (const MeasureComparison& measure : point.measures) {
       count(measure.verdict);
-      counts.improved += measure.improved;
+      counts.worse += measure.change == ChangeVerdict::worse;
+      counts.better += measure.change == ChangeVerdict::better;
+      counts.equivalent += measure.change == ChangeVerdict::equivalent;
+      counts.not_worse += measure.change == ChangeVerdict::not_worse;
+      counts.undecided += measure.change == ChangeVerdict::undecided;
     }
     for (const RequirementResult& requirement : point.requirements) count(requirement.verdict);
   }
   return counts;
 }
 
-std::optional<double> trials_to_decide(const StudyComparison& comparison) {
-  double most = 0.0;
-  bool known = true;
-  const auto take = [&](GateVerdict verdict, const std::optional<double>& trials) {
-    if (verdict != GateVerdict::inconclusive) return;
-    known = known && trials.has_value();
-    most = std::max(most, trials.value_or(0.0));
-  };
+namespace {
+
+/// Whether a change for the better fails at every measure, and there is one.
+bool every_change_fails(const StudyComparison& comparison) {
+  bool any = false;
   for (const PointComparison& point : comparison.points) {
-    for (const MeasureComparison& measure : point.measures) take(measure.verdict, measure.trials_to_decide);
-    for (const RequirementResult& one : point.requirements) take(one.verdict, one.trials_to_decide);
+    for (const MeasureComparison& measure : point.measures) {
+      if (!measure.changed_fails) return false;
+      any = true;
+    }
   }
-  if (!known || most == 0.0) return std::nullopt;
-  return most;
+  return any;
 }
+
+/// "3 of 40 judgements failed (1 worse, 2 better)"; empty where none did.
+std::string failures_text(const VerdictCounts& counts) {
+  if (counts.failed() == 0) return "";
+  std::string text = fmt::format("{} of {} judgements failed", counts.failed(), counts.judged());
+  if (counts.changed > 0) {
+    text += fmt::format(" ({} worse or below a requirement, {} better, where every change fails)",
+                        counts.regressions, counts.changed);
+  }
+  return text;
+}
+
+/// What would decide the whole.
+std::string advice_text(const StudyComparison& comparison) {
+  if (comparison.trials_to_decide) {
+    return fmt::format("; {} trials per design point would decide, with a probability of {:.0f} %",
+                       trials_text(*comparison.trials_to_decide), 100.0 * decision_probability);
+  }
+  if (std::isnan(comparison.max_trials_to_decide)) return "";
+  std::vector<std::string> open;
+  for (const PointComparison& point : comparison.points) {
+    for (const MeasureComparison& measure : point.measures) {
+      if (std::isnan(measure.max_trials_margin)) continue;
+      open.push_back(fmt::format("{} at {} (margin {}; {} would be decided)", measure.measure,
+                                 text::printable(point.label),
+                                 value_text(measure.margin, measure.measure, measure.unit),
+                                 value_text(measure.max_trials_margin, measure.measure, measure.unit)));
+    }
+    for (const RequirementResult& one : point.requirements) {
+      if (one.verdict == GateVerdict::inconclusive && !one.trials_to_decide)
+        open.push_back(fmt::format("{} at {}", one.text, text::printable(point.label)));
+    }
+  }
+  return fmt::format("; {} trials per design point would not decide{}{}",
+                     trials_text(comparison.max_trials_to_decide), open.empty() ? " all of them" : ": ",
+                     fmt::join(open, ", "));
+}
+
+}  // namespace
 
 std::string verdict_sentence(const StudyComparison& comparison) {
   const VerdictCounts counts = count_verdicts(comparison);
-  const std::int64_t all = counts.passed + counts.regressions + counts.inconclusive;
+  const std::int64_t all = counts.judged();
   const bool unequal = comparison.layer == ComparisonLayer::bits && !comparison.equal_to_the_bit;
   if (comparison.verdict == GateVerdict::regression) {
-    const std::string bits =
-        unequal ? fmt::format("the data must be equal to the bit and are not: {}{}",
-                              comparison.first_difference, counts.regressions > 0 ? "; " : "")
-                : "";
-    const std::string worse =
-        counts.regressions > 0 ? fmt::format("{} of {} judgements failed", counts.regressions, all) : "";
-    return "regression: " + bits + worse;
+    const std::string bits = unequal
+                                 ? fmt::format("the data must be equal to the bit and are not: {}{}",
+                                               comparison.first_difference, counts.failed() > 0 ? "; " : "")
+                                 : "";
+    return "regression: " + bits + failures_text(counts);
   }
+  if (comparison.verdict == GateVerdict::changed) return "changed: " + failures_text(counts);
   if (comparison.verdict == GateVerdict::passed) {
     if (comparison.equal_to_the_bit) return "passed: every dataset is equal to the bit";
-    return fmt::format(
-        "passed: all {} judgements at {} design points; nothing is worse by more than its margin", all,
-        comparison.points.size());
+    return fmt::format("passed: all {} judgements at {} design points; nothing {} by more than its margin{}",
+                       all, comparison.points.size(), every_change_fails(comparison) ? "changed" : "is worse",
+                       counts.better > 0
+                           ? fmt::format(", {} {} better", counts.better, counts.better == 1 ? "is" : "are")
+                           : "");
   }
   if (all == 0) return "inconclusive: nothing was measured";
-  const std::optional<double> needed = trials_to_decide(comparison);
-  return fmt::format(
-      "inconclusive: {} of {} judgements are open{}", counts.inconclusive, all,
-      needed ? fmt::format("; about {} trials per design point would decide", trials_text(*needed))
-             : std::string());
+  return fmt::format("inconclusive: {} of {} judgements are open{}", counts.inconclusive, all,
+                     advice_text(comparison));
 }
 
 std::string value_text(double value, std::string_view quantity, std::string_view unit) {

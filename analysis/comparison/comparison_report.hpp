@@ -10,29 +10,36 @@
 /// A comparison as text for people and for machines.
 namespace zerocount::comparison {
 
-/// "passed", "regression", "inconclusive" or "not measured".
+/// "passed", "regression", "changed", "inconclusive" or "not measured".
 std::string_view word_of(GateVerdict verdict);
+
+/// "worse", "better", "equivalent", "not worse", "undecided" or "not measured".
+std::string_view word_of(ChangeVerdict change);
 
 /// "bits", "paired" or "two_samples".
 std::string_view word_of(ComparisonLayer layer);
 
-/// Measures and requirements by their verdicts.
+/// Measures and requirements by their verdicts, and measures by what is shown of them.
 struct VerdictCounts {
   std::int64_t passed{0};
   std::int64_t regressions{0};
+  std::int64_t changed{0};
   std::int64_t inconclusive{0};
   std::int64_t not_measured{0};
-  std::int64_t improved{0};
+  std::int64_t worse{0};
+  std::int64_t better{0};
+  std::int64_t equivalent{0};
+  std::int64_t not_worse{0};
+  std::int64_t undecided{0};
+
+  std::int64_t judged() const { return passed + regressions + changed + inconclusive; }
+  std::int64_t failed() const { return regressions + changed; }
 };
 
 VerdictCounts count_verdicts(const StudyComparison& comparison);
 
 /// The verdict in a sentence.
 std::string verdict_sentence(const StudyComparison& comparison);
-
-/// Trials per design point that would decide all inconclusive verdicts; nothing if the number is unknown for
-/// one of them, or if there are none.
-std::optional<double> trials_to_decide(const StudyComparison& comparison);
 
 /// A value of a measure or requirement with its unit: proportions in per cent.
 std::string value_text(double value, std::string_view quantity, std::string_view unit);
@@ -46,8 +53,8 @@ std::string comparison_table(const StudyComparison& comparison);
 /// The whole comparison as one object; unknown numbers are null.
 std::string comparison_json(const StudyComparison& comparison);
 
-/// JUnit XML: a test suite with one case per point and measure or requirement. A regression is a failure, an
-/// inconclusive verdict an error, and a measure without values is skipped.
+/// JUnit XML: a test suite with one case per point and measure or requirement. What fails the gate is a
+/// failure, an inconclusive verdict an error, and a measure without values is skipped.
 std::string comparison_junit(const StudyComparison& comparison);
 
 /// A summary for a pull request or a job's page.
@@ -61,9 +68,11 @@ struct ComparisonRow {
   std::string current;
   std::string worse_by;  ///< the effect
   std::string bounds;
-  std::string margin;  ///< or the limit of a requirement
-  std::string p;       ///< adjusted
-  std::string verdict;
+  std::string margin;   ///< or the limit of a requirement
+  std::string detects;  ///< smallest detectable change
+  std::string p;        ///< adjusted
+  std::string verdict;  ///< of a measure, what is shown of it; of a requirement, what the gate makes of it
+  GateVerdict gate{GateVerdict::not_measured};
   std::string note;
   bool noteworthy{false};  ///< it did not simply pass
 };

@@ -23,14 +23,25 @@ std::string p_text(double p) {
   return p < 1e-4 ? "< 1e-4" : fmt::format("{:.2g}", p);
 }
 
-/// The notes that are not empty, what would decide, and whether it is better.
+/// The notes that are not empty, and what would decide.
 std::string remarks(std::string note, const std::string& undecided, const std::optional<double>& trials,
-                    bool improved) {
+                    const std::string& margins) {
   const auto add = [&](const std::string& remark) { note += (note.empty() ? "" : "; ") + remark; };
   if (!undecided.empty()) add(undecided);
-  if (improved) add("improved");
   if (trials) add(fmt::format("{} trials would decide", trials_text(*trials)));
+  if (!margins.empty()) add(margins);
   return note;
+}
+
+/// The margins that the trials decide where they leave that of the measure open; empty where they do not.
+std::string margins_remark(const MeasureComparison& measure, double max_trials) {
+  if (std::isnan(measure.decided_margin)) return {};
+  const auto text = [&](double value) { return value_text(value, measure.measure, measure.unit); };
+  std::string remark = fmt::format("these trials decide a margin above {}", text(measure.decided_margin));
+  if (!std::isnan(measure.max_trials_margin)) {
+    remark += fmt::format(", {} trials one of {}", trials_text(max_trials), text(measure.max_trials_margin));
+  }
+  return remark;
 }
 
 /// "undecided: 12 of 300 moves in the baseline, 4 of 300 in the file" beside a proportion of stable trials;
@@ -43,7 +54,7 @@ std::string undecided_remark(const PointComparison& point, std::string_view quan
                      before.moves, after.off_target, after.moves);
 }
 
-ComparisonRow row_of(const PointComparison& point, const MeasureComparison& measure) {
+ComparisonRow row_of(const PointComparison& point, const MeasureComparison& measure, double max_trials) {
   const auto text = [&](double value) { return value_text(value, measure.measure, measure.unit); };
   ComparisonRow row;
   row.point = text::printable(point.label);
@@ -52,12 +63,15 @@ ComparisonRow row_of(const PointComparison& point, const MeasureComparison& meas
   row.current = text(measure.current);
   row.worse_by = text(measure.effect);
   row.bounds = interval_text(measure.bounds, measure.measure, measure.unit);
-  row.margin = (measure.both_ways ? "± " : "") + text(measure.margin);
-  row.p = p_text(measure.adjusted_p);
-  row.verdict = word_of(measure.verdict);
+  row.margin = (measure.changed_fails ? "± " : "") + text(measure.margin);
+  row.detects = text(measure.detectable_change);
+  const bool better = measure.change == ChangeVerdict::better;
+  row.p = p_text(better ? measure.adjusted_improvement_p : measure.adjusted_p);
+  row.verdict = word_of(measure.change);
+  row.gate = measure.verdict;
   row.note = remarks(measure.note, undecided_remark(point, measure.measure), measure.trials_to_decide,
-                     measure.improved);
-  row.noteworthy = measure.verdict != GateVerdict::passed || measure.improved;
+                     margins_remark(measure, max_trials));
+  row.noteworthy = measure.verdict != GateVerdict::passed || better;
   return row;
 }
 
@@ -75,7 +89,9 @@ ComparisonRow row_of(const PointComparison& point, const RequirementResult& requ
   row.margin = fmt::format("{} {}", requirement.at_least ? "≥" : "≤", text(requirement.limit));
   row.p = "–";
   row.verdict = word_of(requirement.verdict);
-  row.note = remarks("", undecided_remark(point, requirement.quantity), requirement.trials_to_decide, false);
+  row.detects = "–";
+  row.gate = requirement.verdict;
+  row.note = remarks("", undecided_remark(point, requirement.quantity), requirement.trials_to_decide, "");
   row.noteworthy = requirement.verdict != GateVerdict::passed;
   return row;
 }
@@ -94,7 +110,8 @@ std::string file_text(const ComparedFile& file, std::size_t points) {
 std::vector<ComparisonRow> comparison_rows(const StudyComparison& comparison) {
   std::vector<ComparisonRow> rows;
   for (const PointComparison& point : comparison.points) {
-    for (const MeasureComparison& measure : point.measures) rows.push_back(row_of(point, measure));
+    for (const MeasureComparison& measure : point.measures)
+      rows.push_back(row_of(point, measure, comparison.max_trials_to_decide));
     for (const RequirementResult& requirement : point.requirements)
       rows.push_back(row_of(point, requirement));
   }

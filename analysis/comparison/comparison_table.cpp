@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -22,12 +23,14 @@ std::string cell(std::string_view text) {
   return escaped;
 }
 
-constexpr std::array<const char*, 10> heads{"point",  "measure", "baseline", "file",    "worse by",
-                                            "bounds", "margin",  "p",        "verdict", "note"};
+constexpr std::array<const char*, 11> heads{"point",  "measure", "baseline", "file",    "worse by", "bounds",
+                                            "margin", "detects", "p",        "verdict", "note"};
+
+constexpr std::size_t verdict_column = 9;  ///< in `heads`
 
 std::vector<std::string> cells_of(const ComparisonRow& row) {
-  return {row.point,  row.measure, row.baseline, row.current, row.worse_by,
-          row.bounds, row.margin,  row.p,        row.verdict, row.note};
+  return {row.point,  row.measure, row.baseline, row.current, row.worse_by, row.bounds,
+          row.margin, row.detects, row.p,        row.verdict, row.note};
 }
 
 std::string head_of(const StudyComparison& comparison) {
@@ -49,19 +52,20 @@ std::string comparison_table(const StudyComparison& comparison) {
   }
   std::vector<std::vector<std::string>> cells{{heads.begin(), heads.end()}};
   for (const ComparisonRow& row : rows) cells.push_back(cells_of(row));
-  const std::vector<bool> numeric{false, false, true, true, true, true, true, true, false, false};
+  const std::vector<bool> numeric{false, false, true, true, true, true, true, true, true, false, false};
   const std::string table = rows.empty() ? "" : text::aligned_table(cells, numeric);
   return fmt::format(
       "{}\n{}{}\nBounds: {:.6g} % each. p: of {} tests, adjusted for a false discovery rate of {:.6g} "
+      "%. Detects: the smallest change\nfor the worse that these trials find with a probability of {:.0f} "
       "%.\n{}\n",
       head_of(comparison), table, omitted, 100.0 * comparison.confidence, comparison.tests,
-      100.0 * comparison.false_discovery_rate, verdict_sentence(comparison));
+      100.0 * comparison.false_discovery_rate, 100.0 * decision_probability, verdict_sentence(comparison));
 }
 
 std::string comparison_markdown(const StudyComparison& comparison) {
-  const std::string_view mark = comparison.verdict == GateVerdict::passed       ? "✅"
-                                : comparison.verdict == GateVerdict::regression ? "❌"
-                                                                                : "❓";
+  const std::string_view mark = comparison.verdict == GateVerdict::passed         ? "✅"
+                                : comparison.verdict == GateVerdict::inconclusive ? "❓"
+                                                                                  : "❌";
   std::string text =
       fmt::format("## {} {}: {}\n\n", mark, cell(text::printable(comparison.current.header.name)),
                   cell(verdict_sentence(comparison)));
@@ -71,13 +75,14 @@ std::string comparison_markdown(const StudyComparison& comparison) {
   const std::size_t all = rows.size();
   std::erase_if(rows, [](const ComparisonRow& row) { return !row.noteworthy; });
   if (!rows.empty()) {
-    text += fmt::format("\n| {} |\n| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | --- | --- |\n",
-                        fmt::join(heads, " | "));
+    text +=
+        fmt::format("\n| {} |\n| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | --- | --- |\n",
+                    fmt::join(heads, " | "));
   }
   for (const ComparisonRow& row : rows) {
     std::vector<std::string> cells = cells_of(row);
-    for (std::string& text_of_cell : cells)
-      text_of_cell = text_of_cell == "regression" ? "**regression**" : cell(text_of_cell);
+    std::transform(cells.begin(), cells.end(), cells.begin(), cell);
+    if (fails(row.gate)) cells[verdict_column] = fmt::format("**{}**", cells[verdict_column]);
     text += fmt::format("| {} |\n", fmt::join(cells, " | "));
   }
   return text + fmt::format(

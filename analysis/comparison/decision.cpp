@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
-#include <optional>
+#include <string>
 #include <vector>
 
 #include "analysis/comparison/measure_comparison.hpp"
@@ -10,10 +10,6 @@
 
 namespace zerocount::comparison {
 namespace {
-
-/// Probability with which the number of trials that would decide does decide.
-constexpr double planned_power = 0.8;
-constexpr double max_trials = 1e9;
 
 std::vector<MeasureComparison*> tested_measures(std::span<PointComparison> points) {
   std::vector<MeasureComparison*> tested;
@@ -25,88 +21,123 @@ std::vector<MeasureComparison*> tested_measures(std::span<PointComparison> point
   return tested;
 }
 
-void adjust(const std::vector<MeasureComparison*>& tested, double MeasureComparison::*p,
-            double MeasureComparison::*adjusted) {
-  std::vector<double> values;
-  values.reserve(tested.size());
-  for (const MeasureComparison* measure : tested) values.push_back(measure->*p);
-  const std::vector<double> results = benjamini_yekutieli(values);
-  for (std::size_t i = 0; i < tested.size(); ++i) tested[i]->*adjusted = results[i];
+constexpr int detectable_steps = 40;  ///< of a fixed-point iteration that halves its error or better
+
+/// 1 + 1/2 + … + 1/n.
+double harmonic_number(std::size_t n) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i <= n; ++i) sum += 1.0 / static_cast<double>(i);
+  return sum;
 }
 
-GateVerdict verdict_of(const MeasureComparison& measure, double rate) {
-  const double effect = measure.both_ways ? std::abs(measure.effect) : measure.effect;
-  if (measure.adjusted_p <= rate && effect > measure.margin) return GateVerdict::regression;
-  const bool not_worse = measure.bounds.high < measure.margin;
-  const bool not_better = !measure.both_ways || measure.bounds.low > -measure.margin;
-  return not_worse && not_better ? GateVerdict::passed : GateVerdict::inconclusive;
+/// The p that a failure is judged by: against a change for the worse; where every change fails, two-sided.
+double failure_p(const TestedMeasure& measure) {
+  if (!measure.changed_fails) return measure.p;
+  return std::min(1.0, 2.0 * std::min(measure.p, measure.improvement_p));
 }
 
-/// How many times the trials that there are would decide, if the true effect is the one that was seen, or
-/// none where it cannot be told from none.
-///
-/// With s the standard error, e the effect and M the margin: equivalence is shown where e + z_c·s < M; a
-/// failure where e/s > z_t, z_t of the strictest test of the family, and e > M. Each with the planned power.
-double times_to_decide(const MeasureComparison& measure, const GateRules& rules, std::size_t tests) {
-  const double z_confidence = statistics::normal_quantile(rules.confidence);
-  const double z_power = statistics::normal_quantile(planned_power);
-  const bool better = measure.both_ways && measure.effect < 0.0;
-  const double reach = better ? measure.effect - measure.bounds.low : measure.bounds.high - measure.effect;
-  const double error = reach / z_confidence;
-  const double seen = better ? -measure.effect : measure.effect;
-  const double effect = std::abs(seen) < 1.96 * error ? 0.0 : seen;
-  const auto square = [](double x) { return x * x; };
-  if (effect < measure.margin) return square((z_confidence + z_power) * error / (measure.margin - effect));
-  double harmonic = 0.0;
-  for (std::size_t i = 1; i <= tests; ++i) harmonic += 1.0 / static_cast<double>(i);
-  const double strictest = rules.false_discovery_rate / (static_cast<double>(tests) * harmonic);
-  return std::max(square((statistics::normal_quantile(1.0 - strictest) + z_power) * error / effect),
-                  square(z_power * error / (effect - measure.margin)));
+/// Failures are one family, improvements that do not fail are another. A measure of which every change fails
+/// has one p in the first family, which counts for the direction of its effect.
+void adjust(std::span<TestedMeasure> tested) {
+  std::vector<double> failures;
+  std::vector<double> improvements;
+  for (const TestedMeasure& measure : tested) {
+    failures.push_back(failure_p(measure));
+    improvements.push_back(measure.improvement_p);
+  }
+  failures = benjamini_yekutieli(failures);
+  improvements = benjamini_yekutieli(improvements);
+  for (std::size_t i = 0; i < tested.size(); ++i) {
+    TestedMeasure& measure = tested[i];
+    const bool worse = !measure.changed_fails || measure.p <= measure.improvement_p;
+    measure.adjusted_p = worse ? failures[i] : 1.0;
+    measure.adjusted_improvement_p = !measure.changed_fails ? improvements[i] : worse ? 1.0 : failures[i];
+  }
 }
 
-std::optional<double> trials_to_decide(const MeasureComparison& measure, std::int64_t trials,
-                                       const GateRules& rules, std::size_t tests) {
-  const double needed = static_cast<double>(trials) * std::max(1.0, times_to_decide(measure, rules, tests));
-  if (!(needed < max_trials)) return std::nullopt;
-  return std::ceil(needed) + 1.0;
+ChangeVerdict change_of(const TestedMeasure& measure, double rate) {
+  if (measure.adjusted_p <= rate && measure.effect > measure.margin) return ChangeVerdict::worse;
+  if (measure.adjusted_improvement_p <= rate && -measure.effect > measure.margin)
+    return ChangeVerdict::better;
+  if (!(measure.bounds.high < measure.margin)) return ChangeVerdict::undecided;
+  return measure.bounds.low > -measure.margin ? ChangeVerdict::equivalent : ChangeVerdict::not_worse;
 }
 
-/// Why an inconclusive measure is so.
+/// Why a measure does not decide.
 std::string reason_of(const MeasureComparison& measure) {
-  if (!measure.trials_to_decide) return "the change lies at the margin: no number of trials decides";
-  if (measure.effect > measure.margin) return "beyond the margin, but not significantly worse";
-  return "not shown to be within the margin";
+  const bool beyond =
+      measure.effect > measure.margin || (measure.changed_fails && -measure.effect > measure.margin);
+  return beyond ? "beyond the margin, but not significantly" : "not shown to be within the margin";
 }
 
 }  // namespace
+
+GateVerdict gate_verdict(ChangeVerdict change, bool changed_fails) {
+  switch (change) {
+    case ChangeVerdict::worse:
+      return GateVerdict::regression;
+    case ChangeVerdict::better:
+      return changed_fails ? GateVerdict::changed : GateVerdict::passed;
+    case ChangeVerdict::equivalent:
+      return GateVerdict::passed;
+    case ChangeVerdict::not_worse:
+      return changed_fails ? GateVerdict::inconclusive : GateVerdict::passed;
+    case ChangeVerdict::undecided:
+      return GateVerdict::inconclusive;
+    case ChangeVerdict::not_measured:
+      break;
+  }
+  return GateVerdict::not_measured;
+}
 
 GateVerdict worst_of(std::span<const GateVerdict> verdicts) {
   return verdicts.empty() ? GateVerdict::not_measured : *std::min_element(verdicts.begin(), verdicts.end());
 }
 
+double detectable_change(const MeasureComparison& measure, const GateRules& rules, std::size_t tests) {
+  const double error =
+      (measure.bounds.high - measure.bounds.low) / 2.0 / statistics::normal_quantile(rules.confidence);
+  const double rate = rules.false_discovery_rate / (measure.changed_fails ? 2.0 : 1.0);
+  const double strictest = rate / (static_cast<double>(tests) * harmonic_number(tests));
+  const double power = statistics::normal_quantile(decision_probability);
+  const double needed = statistics::normal_quantile(1.0 - strictest) + power;
+  const double per_change = measure.paired_proportion ? 1.0 / static_cast<double>(measure.current_n) : 0.0;
+  double change = 0.0;
+  for (int step = 0; step < detectable_steps; ++step) {
+    const double spread = std::sqrt(error * error + change * per_change);
+    change = std::max(measure.margin + power * spread, needed * spread);
+  }
+  return change;
+}
+
+void decide(std::span<TestedMeasure> tested, double rate) {
+  adjust(tested);
+  for (TestedMeasure& measure : tested) measure.change = change_of(measure, rate);
+}
+
 std::int64_t decide(std::span<PointComparison> points, const GateRules& rules) {
-  const std::vector<MeasureComparison*> tested = tested_measures(points);
-  adjust(tested, &MeasureComparison::p, &MeasureComparison::adjusted_p);
-  adjust(tested, &MeasureComparison::improvement_p, &MeasureComparison::adjusted_improvement_p);
-  for (PointComparison& point : points) {
-    const std::int64_t trials = std::max(point.baseline_trials, point.current_trials);
-    for (MeasureComparison& measure : point.measures) {
-      if (std::isnan(measure.p)) continue;
-      measure.verdict = verdict_of(measure, rules.false_discovery_rate);
-      measure.improved =
-          measure.adjusted_improvement_p <= rules.false_discovery_rate && -measure.effect > measure.margin;
-      if (measure.verdict != GateVerdict::inconclusive) continue;
-      measure.trials_to_decide = trials_to_decide(measure, trials, rules, tested.size());
-      measure.note = reason_of(measure);
-    }
+  const std::vector<MeasureComparison*> measures = tested_measures(points);
+  std::vector<TestedMeasure> tested;
+  for (const MeasureComparison* measure : measures) {
+    tested.push_back({measure->effect, measure->bounds, measure->margin, measure->changed_fails, measure->p,
+                      measure->improvement_p});
+  }
+  decide(tested, rules.false_discovery_rate);
+  for (std::size_t i = 0; i < tested.size(); ++i) {
+    MeasureComparison& measure = *measures[i];
+    measure.adjusted_p = tested[i].adjusted_p;
+    measure.adjusted_improvement_p = tested[i].adjusted_improvement_p;
+    measure.change = tested[i].change;
+    measure.detectable_change = detectable_change(measure, rules, tested.size());
+    measure.verdict = gate_verdict(measure.change, measure.changed_fails);
+    if (measure.verdict == GateVerdict::inconclusive) measure.note = reason_of(measure);
   }
   return std::ssize(tested);
 }
 
 std::vector<double> benjamini_yekutieli(std::span<const double> p) {
   const std::size_t count = p.size();
-  double harmonic = 0.0;
-  for (std::size_t i = 1; i <= count; ++i) harmonic += 1.0 / static_cast<double>(i);
+  const double harmonic = harmonic_number(count);
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return p[a] < p[b]; });

@@ -13,11 +13,11 @@
 /// The judged measures, their margins, and the absolute requirements.
 namespace zerocount::comparison {
 
-/// How much worse a measure may be: the larger of `absolute` and `relative` times the baseline's value.
+/// How much a measure may change: the larger of `absolute` and `relative` times the baseline's value.
 struct GateMargin {
-  double absolute{0.0};   ///< in the measure's unit
-  double relative{0.0};   ///< proportion of the baseline's value
-  bool both_ways{false};  ///< a change for the better beyond the margin is a failure too
+  double absolute{0.0};       ///< in the measure's unit
+  double relative{0.0};       ///< proportion of the baseline's value
+  bool changed_fails{false};  ///< a change for the better beyond the margin is a failure too
 };
 
 /// One measure that a comparison judges.
@@ -68,6 +68,7 @@ struct Requirement {
 struct GateRules {
   double confidence{0.95};            ///< of every bound, one-sided
   double false_discovery_rate{0.05};  ///< over all measures at all points
+  bool changed_fails{false};          ///< of every measure, a change for the better fails too
   std::vector<std::string> measures;  ///< that are judged; empty: all
   std::map<std::string, GateMargin> margins;
   std::vector<Requirement> requirements;                                ///< at every point

@@ -21,8 +21,8 @@ namespace zerocount::comparison {
 namespace {
 
 const std::vector<std::string> top_keys{
-    "confidence", "false_discovery_rate", "measures", "margins", "require", "points"};
-const std::vector<std::string> margin_keys{"absolute", "relative", "both_ways"};
+    "confidence", "false_discovery_rate", "fail_on", "measures", "margins", "require", "points"};
+const std::vector<std::string> margin_keys{"absolute", "relative", "fail_on"};
 
 template <class List>
 std::vector<std::string> names_of(const List& all) {
@@ -30,6 +30,17 @@ std::vector<std::string> names_of(const List& all) {
   std::transform(all.begin(), all.end(), std::back_inserter(names),
                  [](const auto& one) { return std::string(one.name); });
   return names;
+}
+
+/// `worse` or `changed`: whether a change for the better fails too.
+bool read_changed_fails(const yaml::Field& field, yaml::Problems& problems) {
+  const std::optional<std::string> word = yaml::read_text(field, problems);
+  if (!word) return false;
+  if (*word != "worse" && *word != "changed") {
+    problems.add(field.node->place, field.path,
+                 fmt::format("{} is no kind of failure", yaml::in_quotes(*word)), "worse or changed");
+  }
+  return *word == "changed";
 }
 
 /// A number by itself is the absolute margin.
@@ -40,7 +51,7 @@ std::optional<GateMargin> read_margin(const yaml::Field& field, yaml::Problems& 
     if (absolute) margin.absolute = *absolute;
     return absolute ? std::optional(margin) : std::nullopt;
   }
-  if (!yaml::check_map(field, "a number, or a map with absolute, relative, both_ways", problems))
+  if (!yaml::check_map(field, "a number, or a map with absolute, relative, fail_on", problems))
     return std::nullopt;
   bool sized = false;
   for (const yaml::YamlEntry& entry : field.node->entries) {
@@ -51,8 +62,10 @@ std::optional<GateMargin> read_margin(const yaml::Field& field, yaml::Problems& 
     } else if (entry.key == "relative") {
       margin.relative = yaml::read_real(value, numerics::at_least(0.0), problems).value_or(0.0);
       sized = true;
-    } else if (entry.key == "both_ways") {
-      margin.both_ways = yaml::read_truth(value, problems).value_or(false);
+    } else if (entry.key == "fail_on") {
+      margin.changed_fails = read_changed_fails(value, problems);
+    } else if (entry.key == "both_ways") {  // what files called it before there was fail_on
+      margin.changed_fails = yaml::read_truth(value, problems).value_or(false);
     } else {
       parameters::add_unknown_key(field, entry, margin_keys, problems);
     }
@@ -186,6 +199,8 @@ GateRules read_rules(const yaml::Field& top, std::span<const std::string> labels
     } else if (entry.key == "false_discovery_rate") {
       rules.false_discovery_rate =
           yaml::read_real(field, numerics::closed(1e-6, 0.5), problems).value_or(rules.false_discovery_rate);
+    } else if (entry.key == "fail_on") {
+      rules.changed_fails = read_changed_fails(field, problems);
     } else if (entry.key == "measures") {
       read_measures(field, rules.measures, problems);
     } else if (entry.key == "margins") {

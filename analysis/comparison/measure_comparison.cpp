@@ -30,9 +30,10 @@ std::vector<double> negated(std::vector<double> values) {
   return values;
 }
 
-/// With rigs, the mean of each rig, because trials of one rig are not independent.
-ComparedValues over_rigs(const ComparedValues& values, std::int64_t baseline_rigs,
-                         std::int64_t current_rigs) {
+/// With rigs, the mean of each rig, because trials of one rig are not independent. Units without a value are
+/// left out.
+ComparedValues rig_values(const ComparedValues& values, std::int64_t baseline_rigs,
+                          std::int64_t current_rigs) {
   return {means_by_rig(values.baseline, baseline_rigs), means_by_rig(values.current, current_rigs),
           means_by_rig(values.differences, current_rigs)};
 }
@@ -62,7 +63,7 @@ ComparedValues paired_values(const PointTrials& baseline, const PointTrials& cur
     values.current.push_back(two / count);
     values.differences.push_back((two - one) / count);
   }
-  return over_rigs(values, baseline.rigs, current.rigs);
+  return values;
 }
 
 /// 1 for each trial that failed, 0 for the others. If less of the quality is worse, a failed trial lacks it;
@@ -88,7 +89,7 @@ ComparedValues compared_failures(const PointTrials& baseline, const PointTrials&
     for (std::size_t i = 0; i < values.baseline.size(); ++i)
       values.differences.push_back(values.current[i] - values.baseline[i]);
   }
-  return over_rigs(values, baseline.rigs, current.rigs);
+  return rig_values(values, baseline.rigs, current.rigs);
 }
 
 /// @param baseline 1 for each trial that failed. @param current likewise
@@ -117,6 +118,7 @@ void compare_proportion(MeasureComparison& result, const GateMeasure& measure,
   if (paired) {
     const PairedFailures failures = paired_failures(baseline, current);
     result.test = "McNemar, exact";
+    result.paired_proportion = true;
     result.effect = static_cast<double>(failures.only_current - failures.only_baseline) /
                     static_cast<double>(failures.pairs);
     result.bounds = tango(failures, confidence);
@@ -135,9 +137,9 @@ void compare_proportion(MeasureComparison& result, const GateMeasure& measure,
 
 /// Plausible difference of a single trial, the `unit` of cautious_bounds(): 1 for counts; for times the
 /// larger of both means, or 1 ms without one.
-double unit_of(const GateMeasure& measure, const MeasureComparison& result) {
+double unit_of(const GateMeasure& measure, double baseline, double current) {
   if (measure.measure->field.column.element != hdf5::Element::float64) return 1.0;
-  const double value = std::max(std::abs(result.baseline), std::abs(result.current));
+  const double value = std::max(std::abs(baseline), std::abs(current));
   return value > 0.0 ? value : 1e-3;
 }
 
@@ -168,7 +170,7 @@ void compare_mean(MeasureComparison& result, const GateMeasure& measure, const P
                   const PointTrials& current, bool paired, double confidence) {
   const bool over_rigs = baseline.rigs > 0 || current.rigs > 0;
   ComparedValues values =
-      paired ? paired_values(baseline, current, measure)
+      paired ? rig_values(paired_values(baseline, current, measure), baseline.rigs, current.rigs)
              : ComparedValues{trial_means(baseline, measure), trial_means(current, measure), {}};
   result.baseline_n = std::ssize(values.baseline);
   result.current_n = std::ssize(values.current);
@@ -183,7 +185,7 @@ void compare_mean(MeasureComparison& result, const GateMeasure& measure, const P
   if (measure.measure->gate->worse == layout::Worse::less) {
     values = {negated(values.baseline), negated(values.current), negated(values.differences)};
   }
-  test_means(result, values, unit_of(measure, result), paired, confidence);
+  test_means(result, values, unit_of(measure, result.baseline, result.current), paired, confidence);
 }
 
 /// Compares the failure rates of the rigs. One more rig might fail in all of its trials, so the unit is 1.
@@ -197,7 +199,47 @@ void compare_proportion_over_rigs(MeasureComparison& result, const GateMeasure& 
   test_means(result, failures, 1.0, paired, confidence);
 }
 
+/// Of measures that are worse where they are less, the negative, so that larger is worse.
+MeasureSample sample_of_mean(const GateMeasure& measure, const PointTrials& baseline,
+                             const PointTrials& current, bool paired) {
+  ComparedValues values =
+      paired ? paired_values(baseline, current, measure)
+             : ComparedValues{values_of_trials(baseline, measure), values_of_trials(current, measure), {}};
+  MeasureSample sample;
+  sample.paired = paired;
+  sample.baseline = means_of_units(values.baseline, baseline.rigs);
+  sample.current = means_of_units(values.current, current.rigs);
+  const auto mean = [](const std::vector<double>& all) { return mean_of(means_by_rig(all, 0)); };
+  sample.plausible = unit_of(measure, mean(sample.baseline), mean(sample.current));
+  if (measure.measure->gate->worse == layout::Worse::less) {
+    sample.baseline = negated(sample.baseline);
+    sample.current = negated(sample.current);
+  }
+  return sample;
+}
+
+MeasureSample sample_of_proportion(const GateMeasure& measure, const PointTrials& baseline,
+                                   const PointTrials& current, bool paired) {
+  MeasureSample sample;
+  sample.paired = paired;
+  sample.proportion = baseline.rigs == 0 && current.rigs == 0;
+  sample.baseline = means_of_units(failures_of(baseline, measure), baseline.rigs);
+  sample.current = means_of_units(failures_of(current, measure), current.rigs);
+  return sample;
+}
+
 }  // namespace
+
+std::vector<MeasureSample> measure_samples(const GateRules& rules, const PointTrials& baseline,
+                                           const PointTrials& current, bool paired) {
+  std::vector<MeasureSample> samples;
+  for (const GateMeasure& measure : gate_measures(*current.table)) {
+    if (!is_judged(rules, measure)) continue;
+    samples.push_back(measure.proportion() ? sample_of_proportion(measure, baseline, current, paired)
+                                           : sample_of_mean(measure, baseline, current, paired));
+  }
+  return samples;
+}
 
 std::vector<MeasureComparison> compare_measures(const GateRules& rules, const std::string& label,
                                                 const PointTrials& baseline, const PointTrials& current,
@@ -221,8 +263,7 @@ std::vector<MeasureComparison> compare_measures(const GateRules& rules, const st
     if (!std::isnan(result.baseline)) {
       result.margin = std::max(margin.absolute, margin.relative * std::abs(result.baseline));
     }
-    result.both_ways = margin.both_ways;
-    if (result.both_ways) result.p = std::min(1.0, 2.0 * std::min(result.p, result.improvement_p));
+    result.changed_fails = rules.changed_fails || margin.changed_fails;
     results.push_back(std::move(result));
   }
   return results;

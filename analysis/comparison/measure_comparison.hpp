@@ -22,16 +22,62 @@ std::vector<MeasureComparison> compare_measures(const GateRules& rules, const st
                                                 const PointTrials& baseline, const PointTrials& current,
                                                 bool paired);
 
-/// Gives every measure its adjusted p-values and its verdict.
+/// What is judged of the data of one measure at one point: a value for each independent unit, which is a
+/// trial, or a rig where trials share rigs.
+struct MeasureSample {
+  bool proportion{false};        ///< values of 0 and 1 (1: failed), compared by the tests of proportions
+  bool paired{false};            ///< unit i of both drew the same random numbers
+  double plausible{1.0};         ///< plausible difference of a single unit, the `unit` of cautious_bounds()
+  std::vector<double> baseline;  ///< [unit] larger is worse; NaN where the unit has no value
+  std::vector<double> current;   ///< [unit]
+};
+
+/// The samples behind the results of compare_measures() with the same arguments, in the same order.
+std::vector<MeasureSample> measure_samples(const GateRules& rules, const PointTrials& baseline,
+                                           const PointTrials& current, bool paired);
+
+/// The numbers of one measure that its verdict follows from.
+struct TestedMeasure {
+  double effect{0.0};
+  statistics::ConfidenceInterval bounds{};
+  double margin{0.0};
+  bool changed_fails{false};
+  double p{1.0};
+  double improvement_p{1.0};
+  double adjusted_p{1.0};
+  double adjusted_improvement_p{1.0};
+  ChangeVerdict change{ChangeVerdict::not_measured};
+};
+
+/// Adjusts the p-values of all measures of a comparison, and finds what is shown of each.
+/// @param rate of false discoveries
+void decide(std::span<TestedMeasure> tested, double rate);
+
+/// Gives every measure its adjusted p-values and its verdicts.
 ///
-/// A measure fails where its adjusted p is at most the rate and its effect exceeds the margin; it passes
-/// where the upper bound of its effect is below the margin (of both bounds, where it is judged both ways: two
-/// one-sided tests, Schuirmann, Journal of Pharmacokinetics and Biopharmaceutics 15 (1987), 657). Otherwise
-/// it is inconclusive.
+/// A measure is worse where its adjusted p is at most the rate and its effect exceeds the margin, better
+/// where the same holds for the opposite direction. It is equivalent where both bounds of its effect are
+/// within the margin (two one-sided tests: Schuirmann, Journal of Pharmacokinetics and Biopharmaceutics 15
+/// (1987), 657), and not worse where only the upper bound is below it. Worse fails the gate; the others pass,
+/// except undecided. Where every change fails, better fails too, and only equivalent passes.
 /// @return the number of tests over which the false discoveries were controlled.
 std::int64_t decide(std::span<PointComparison> points, const GateRules& rules);
 
-/// Of several verdicts: regression before inconclusive before passed; not_measured where all are.
+/// The smallest true change for the worse that is found with decision_probability: with s its standard error,
+/// M the margin and α the strictest level of the adjustment over m tests, that of a change of one measure
+/// alone, the solution of
+///
+///   δ = max(M + z_0.8·s, (z_{1−α} + z_0.8)·s),   α = rate/(m·(1 + ½ + … + 1/m)),
+///
+/// α/2 where every change fails. s is that of the bounds; with n pairs of a proportion s² + δ/n, because the
+/// change makes pairs differ. A normal approximation, which leaves the rank tests out.
+/// @param tests m
+double detectable_change(const MeasureComparison& measure, const GateRules& rules, std::size_t tests);
+
+/// What the gate makes of a change.
+GateVerdict gate_verdict(ChangeVerdict change, bool changed_fails);
+
+/// The worst of several verdicts, in the order of GateVerdict; not_measured where all are.
 GateVerdict worst_of(std::span<const GateVerdict> verdicts);
 
 /// Adjusted p-values that control the false discovery rate whatever the dependence between the tests: with
@@ -56,6 +102,32 @@ std::vector<double> benjamini_yekutieli(std::span<const double> p);
 /// of the jerks has the bounds of cautious_bounds().
 RequirementResult judge_requirement(const Requirement& requirement, const PointTrials& trials,
                                     double confidence, double failing_confidence);
+
+/// What a requirement judges of each independent unit, which is a trial, or a rig where trials share rigs.
+struct RequirementSample {
+  RequirementKind kind{RequirementKind::proportion};
+  bool at_least{true};
+  double limit{0.0};      ///< of the mean, or of the proportion of trials
+  bool clustered{false};  ///< the units are rigs
+  std::vector<double>
+      hits;  ///< [unit] trials that meet the requirement by themselves; or the value of a mean
+  std::vector<double> events;  ///< [unit] trials; 1 of a mean
+};
+RequirementSample requirement_sample(const Requirement& requirement, const PointTrials& trials);
+
+/// Sums over the units of a sample: their number, of their hits and events, and of the products of these.
+struct RequirementSums {
+  double units{0.0};
+  double hits{0.0};
+  double events{0.0};
+  double hits_squared{0.0};
+  double hits_by_events{0.0};
+  double events_squared{0.0};
+};
+
+/// The verdict of judge_requirement() on a sample with these sums.
+GateVerdict requirement_verdict(const RequirementSample& sample, const RequirementSums& sums,
+                                double confidence, double failing_confidence);
 
 /// The confidence with which each of `count` requirements must be contradicted, so that with this confidence
 /// none of those that are met fails (Bonferroni): 1 − (1 − confidence)/count.

@@ -45,7 +45,7 @@ PointTrials first_trials(const PointTrials& all, std::int64_t trials) {
   return some;
 }
 
-std::vector<double> trial_means(const PointTrials& trials, const GateMeasure& measure) {
+std::vector<double> values_of_trials(const PointTrials& trials, const GateMeasure& measure) {
   const std::vector<double>& values = trials.of(measure);
   const auto width = std::ssize(values) / trials.trials;
   std::vector<double> means;
@@ -59,10 +59,14 @@ std::vector<double> trial_means(const PointTrials& trials, const GateMeasure& me
     });
     means.push_back(count > 0 ? sum / count : statistics::unknown);
   }
-  return means_by_rig(means, trials.rigs);
+  return means;
 }
 
-std::vector<double> means_by_rig(std::span<const double> values, std::int64_t rigs) {
+std::vector<double> trial_means(const PointTrials& trials, const GateMeasure& measure) {
+  return means_by_rig(values_of_trials(trials, measure), trials.rigs);
+}
+
+std::vector<double> means_of_units(std::span<const double> values, std::int64_t rigs) {
   const auto clusters = rigs > 0 ? static_cast<std::size_t>(rigs) : values.size();
   std::vector<double> means;
   for (std::size_t cluster = 0; cluster < clusters; ++cluster) {
@@ -73,8 +77,14 @@ std::vector<double> means_by_rig(std::span<const double> values, std::int64_t ri
       sum += values[i];
       count += 1.0;
     }
-    if (count > 0.0) means.push_back(sum / count);
+    means.push_back(count > 0.0 ? sum / count : statistics::unknown);
   }
+  return means;
+}
+
+std::vector<double> means_by_rig(std::span<const double> values, std::int64_t rigs) {
+  std::vector<double> means = means_of_units(values, rigs);
+  std::erase_if(means, [](double mean) { return std::isnan(mean); });
   return means;
 }
 

@@ -47,6 +47,14 @@ PointTrials first_trials(const PointTrials& all, std::int64_t trials);
 /// the settling time of the trial (worst_of_moves()).
 std::vector<double> trial_means(const PointTrials& trials, const GateMeasure& measure);
 
+/// For each trial the mean over its moves with a value; NaN where none has.
+std::vector<double> values_of_trials(const PointTrials& trials, const GateMeasure& measure);
+
+/// Mean over the trials of each rig, ignoring NaN; NaN for a rig without a value. Without rigs the values
+/// themselves.
+/// @param values [trial]
+std::vector<double> means_of_units(std::span<const double> values, std::int64_t rigs);
+
 /// Mean over the trials of each rig, ignoring NaN; rigs without a value are left out. Without rigs the values
 /// themselves, without NaN.
 /// @param values [trial]

@@ -4,13 +4,12 @@
 
 #include "analysis/comparison/mean_tests.hpp"
 #include "analysis/comparison/measure_comparison.hpp"
+#include "analysis/comparison/quick_tests.hpp"
 #include "analysis/statistics/clustered_proportion.hpp"
 #include "analysis/statistics/quantile.hpp"
 
 namespace zerocount::comparison {
 namespace {
-
-constexpr std::int64_t max_planned = 1'000'000'000;
 
 /// k of n, and the limit it is held against.
 struct ProportionClaim {
@@ -20,16 +19,6 @@ struct ProportionClaim {
   bool at_least{true};
   std::optional<statistics::ClusterSums> by_rig{};  ///< where trials share rigs
 };
-
-/// As if there were `times` as many rigs like those that were seen.
-statistics::ClusterSums scaled(const statistics::ClusterSums& sums, double times) {
-  const auto whole = [&](std::int64_t number) {
-    return static_cast<std::int64_t>(std::llround(times * static_cast<double>(number)));
-  };
-  return {whole(sums.clusters),        whole(sums.hits),
-          whole(sums.events),          times * sums.hits_squared,
-          times * sums.hits_by_events, times * sums.events_squared};
-}
 
 /// @param quality 1 for each trial that has it, otherwise 0
 std::optional<statistics::ClusterSums> sums_by_rig(const std::vector<double>& quality, std::int64_t rigs) {
@@ -75,40 +64,11 @@ GateVerdict verdict_of(const statistics::ConfidenceInterval& bounds, double limi
   return contradicted ? GateVerdict::regression : GateVerdict::inconclusive;
 }
 
-/// The fewest trials that decide, if the proportion in them is the one that was seen.
-std::optional<double> trials_to_decide(const ProportionClaim& claim, double confidence, double failing) {
-  const double proportion = statistics::rate(claim.successes, claim.trials);
-  const auto decides = [&](std::int64_t trials) {
-    const auto successes = std::llround(proportion * static_cast<double>(trials));
-    ProportionClaim more{successes, trials, claim.limit, claim.at_least};
-    if (claim.by_rig) {
-      more.by_rig = scaled(*claim.by_rig, static_cast<double>(trials) / static_cast<double>(claim.trials));
-    }
-    return verdict_of(bounds_of(more, confidence, failing), claim.limit, claim.at_least) !=
-           GateVerdict::inconclusive;
-  };
-  std::int64_t few = claim.trials;
-  std::int64_t enough = few;
-  while (enough < max_planned && !decides(enough)) {
-    few = enough;
-    enough *= 2;
-  }
-  if (enough >= max_planned) return std::nullopt;
-  while (enough - few > 1) {
-    const std::int64_t middle = few + (enough - few) / 2;
-    (decides(middle) ? enough : few) = middle;
-  }
-  return static_cast<double>(enough);
-}
-
 void judge_proportion(RequirementResult& result, const ProportionClaim& claim, double confidence,
                       double failing) {
   result.n = claim.trials;
   result.bounds = bounds_of(claim, confidence, failing);
   result.verdict = verdict_of(result.bounds, claim.limit, claim.at_least);
-  if (result.verdict == GateVerdict::inconclusive) {
-    result.trials_to_decide = trials_to_decide(claim, confidence, failing);
-  }
 }
 
 void judge_quality(RequirementResult& result, const std::vector<double>& quality, std::int64_t rigs,
@@ -139,15 +99,57 @@ void judge_mean(RequirementResult& result, const std::vector<double>& values, do
   result.value = mean.value;
   result.bounds = {cautious_bounds(values, 1.0, failing).low, cautious_bounds(values, 1.0, confidence).high};
   result.verdict = verdict_of(result.bounds, result.limit, result.at_least);
-  if (result.verdict != GateVerdict::inconclusive || mean.value == result.limit) return;
-  const double reach =
-      mean.value < result.limit ? result.bounds.high - mean.value : mean.value - result.bounds.low;
-  const double times = reach / std::abs(result.limit - mean.value);
-  const double needed = std::ceil(static_cast<double>(result.n) * times * times) + 1.0;
-  if (needed < static_cast<double>(max_planned)) result.trials_to_decide = needed;
+}
+
+/// [trial] 1 for each trial that meets the requirement by itself, otherwise 0.
+std::vector<double> met_by_trial(const Requirement& requirement, const PointTrials& trials) {
+  const RequirableQuantity& quantity = *requirement.quantity;
+  if (quantity.kind == RequirementKind::proportion) return trials.of(quantity.measure);
+  std::vector<double> met = worst_of_moves(trials, quantity.measure);
+  for (double& value : met) value = value <= requirement.limit ? 1.0 : 0.0;
+  return met;
 }
 
 }  // namespace
+
+RequirementSample requirement_sample(const Requirement& requirement, const PointTrials& trials) {
+  const RequirableQuantity& quantity = *requirement.quantity;
+  RequirementSample sample{quantity.kind, requirement.at_least, requirement.limit, trials.rigs > 0, {}, {}};
+  if (quantity.kind == RequirementKind::mean) {
+    sample.hits = trial_means(trials, quantity.measure);
+    sample.events.assign(sample.hits.size(), 1.0);
+    return sample;
+  }
+  if (quantity.kind == RequirementKind::quantile) {
+    sample.at_least = true;
+    sample.limit = quantity.probability;
+  }
+  const std::vector<double> met = met_by_trial(requirement, trials);
+  const std::size_t units = trials.rigs > 0 ? static_cast<std::size_t>(trials.rigs) : met.size();
+  sample.hits.assign(units, 0.0);
+  sample.events.assign(units, 0.0);
+  for (std::size_t trial = 0; trial < met.size(); ++trial) {
+    sample.hits[trial % units] += met[trial];
+    sample.events[trial % units] += 1.0;
+  }
+  return sample;
+}
+
+GateVerdict requirement_verdict(const RequirementSample& sample, const RequirementSums& sums,
+                                double confidence, double failing_confidence) {
+  const double low = sample.at_least ? confidence : failing_confidence;
+  const double high = sample.at_least ? failing_confidence : confidence;
+  if (sample.kind == RequirementKind::mean) {
+    const ValueSums values{sums.units, sums.hits, sums.hits_squared};
+    return verdict_of(quick_mean_bounds(values, 1.0, low, high), sample.limit, sample.at_least);
+  }
+  ProportionClaim claim{std::llround(sums.hits), std::llround(sums.events), sample.limit, sample.at_least};
+  if (sample.clustered) {
+    claim.by_rig = {std::llround(sums.units), claim.successes,     claim.trials,
+                    sums.hits_squared,        sums.hits_by_events, sums.events_squared};
+  }
+  return verdict_of(one_sided(claim, low, high), sample.limit, sample.at_least);
+}
 
 RequirementResult judge_requirement(const Requirement& requirement, const PointTrials& trials,
                                     double confidence, double failing_confidence) {

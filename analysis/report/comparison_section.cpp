@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -29,7 +31,8 @@ std::vector<ComparedMeasure> worst_first(const comparison::StudyComparison& comp
     for (const comparison::MeasureComparison& measure : point.measures) all.push_back({&point, &measure});
   }
   std::stable_sort(all.begin(), all.end(), [](const ComparedMeasure& a, const ComparedMeasure& b) {
-    return a.measure->verdict < b.measure->verdict;
+    return std::pair(a.measure->verdict, a.measure->change) <
+           std::pair(b.measure->verdict, b.measure->change);
   });
   return all;
 }
@@ -45,8 +48,7 @@ std::string table_of(const std::vector<ComparedMeasure>& measures) {
     add_row(columns,
             {measures[i].point->label, one.measure, text(one.baseline), text(one.current), text(one.effect),
              fmt::format("{} … {}", text(one.bounds.low), text(one.bounds.high)), text(one.margin),
-             text::short_number(one.adjusted_p),
-             fmt::format("{}{}", comparison::word_of(one.verdict), one.improved ? ", improved" : "")});
+             text::short_number(one.adjusted_p), std::string(comparison::word_of(one.change))});
   }
   std::string html = html_table(columns);
   if (measures.size() > max_measures) {
@@ -88,6 +90,45 @@ std::string file_text(const comparison::ComparedFile& file) {
                      build.created, build.zerocount_version, build.git_commit, file.header.trials);
 }
 
+/// Changes of all measures, as multiples of their margins.
+Figure margins_figure(const comparison::StudyComparison& comparison,
+                      const std::vector<ComparedMeasure>& measures) {
+  FigureData data{"effects",
+                  {{"label", "point and measure", ""},
+                   {"effect", "change for the worse, in margins", "1"},
+                   {"low", "lower bound, in margins", "1"},
+                   {"high", "upper bound, in margins", "1"},
+                   {"verdict", "verdict", ""},
+                   {"size", "change for the worse", ""},
+                   {"margin", "margin", ""}}};
+  std::size_t drawable = 0;
+  for (const ComparedMeasure& one : measures) {
+    const comparison::MeasureComparison& measure = *one.measure;
+    if (!(measure.margin > 0.0) || std::isnan(measure.effect)) continue;
+    if (++drawable > max_bars) continue;
+    const auto text = [&](double value) {
+      return comparison::value_text(value, measure.measure, measure.unit);
+    };
+    data.rows.push_back(ordered_json::array(
+        {fmt::format("{}: {}", one.point->label, measure.measure), datum(measure.effect / measure.margin),
+         datum(measure.bounds.low / measure.margin), datum(measure.bounds.high / measure.margin),
+         std::string(comparison::word_of(measure.change)), text(measure.effect), text(measure.margin)}));
+  }
+  std::string caption = fmt::format(
+      "Change of every measure for the worse (dot) with its bounds, {:.4g} % each (bar), in units of its "
+      "margin. A bar between −1 and +1 shows that the measure is equivalent; one left of +1 that it is not "
+      "worse. What lies beyond ± 4 margins is drawn at the edge. ",
+      100.0 * comparison.confidence);
+  if (drawable > max_bars)
+    caption += fmt::format("Shown are {} of {} measures, the worst verdicts first. ", max_bars, drawable);
+  if (drawable < measures.size()) caption += "Measures without a margin or without values are not shown. ";
+  const std::size_t bars = data.rows.size();
+  Figure figure =
+      figure_of("margins", "margins", "All measures against their margins", caption, {std::move(data)});
+  set_rows(figure, bars, 20);
+  return figure;
+}
+
 /// Figure of the change of the success rate at each point.
 Figure success_change(const comparison::StudyComparison& comparison,
                       const std::vector<ComparedMeasure>& measures) {
@@ -103,7 +144,7 @@ Figure success_change(const comparison::StudyComparison& comparison,
       continue;
     data.rows.push_back(ordered_json::array(
         {one.point->label, datum(-100.0 * one.measure->effect), datum(-100.0 * one.measure->bounds.high),
-         datum(-100.0 * one.measure->bounds.low), std::string(comparison::word_of(one.measure->verdict)),
+         datum(-100.0 * one.measure->bounds.low), std::string(comparison::word_of(one.measure->change)),
          datum(-100.0 * one.measure->margin)}));
   }
   std::string caption = fmt::format(
@@ -136,8 +177,10 @@ PageSection comparison_section(const comparison::StudyComparison& comparison) {
   section.html += differences_table(comparison);
   if (!measures.empty()) {
     section.html += "<h3>Measures</h3>\n" + table_of(measures);
-    Figure figure = success_change(comparison, measures);
-    if (!figure.data.front().rows.empty()) section.figures.push_back(std::move(figure));
+    for (const auto make : {margins_figure, success_change}) {
+      Figure figure = make(comparison, measures);
+      if (!figure.data.front().rows.empty()) section.figures.push_back(std::move(figure));
+    }
   }
   section.html += requirements_table(comparison);
   return section;

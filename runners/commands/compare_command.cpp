@@ -21,14 +21,19 @@ constexpr const char* compare_help =
     "\n"
     "The same study run by the same build must give bitwise equal data. If trial i has the same\n"
     "random numbers in both files, trials are compared pairwise; otherwise distributions are\n"
-    "compared. A measure fails if it is significantly worse (false discovery rate controlled\n"
-    "over all measures and points) and by more than its margin. It passes if it is shown to be\n"
-    "worse by less than the margin. Otherwise it is inconclusive, and the number of trials that\n"
-    "would decide is printed. The manifests may differ, for example in a gain: points are\n"
-    "matched by label.\n"
+    "compared. The verdict on a measure:\n"
+    "  worse, better  significantly (false discovery rate controlled over all measures and\n"
+    "                 points), and by more than its margin\n"
+    "  equivalent     the bounds of the change are within the margin, both ways\n"
+    "  not worse      only the bound on the side of worse is\n"
+    "  undecided      otherwise; the number of trials that would decide is printed\n"
+    "Exit code 1 if a measure is worse, 3 if one is undecided, otherwise 0. With --changed-fails\n"
+    "a measure that is better gives exit code 1 too, and only equivalent measures pass.\n"
+    "The manifests may differ, for example in a gain: points are matched by label.\n"
     "\n"
     "Margins and absolute requirements are given in a YAML file; missing ones have defaults\n"
     "(analysis/comparison/README.md):\n"
+    "  fail_on: changed                 # as --changed-fails\n"
     "  margins: {success_rate: 0.01, settling_time: {relative: 0.05, absolute: 1.0e-3}}\n"
     "  require: success_rate ≥ 0.995\n"
     "  points: {b: {success_rate: 0.05}}\n"
@@ -37,7 +42,7 @@ constexpr const char* compare_help =
 
 ExitCode code_of(comparison::GateVerdict verdict) {
   if (verdict == comparison::GateVerdict::passed) return ExitCode::success;
-  return verdict == comparison::GateVerdict::regression ? ExitCode::regression : ExitCode::inconclusive;
+  return comparison::fails(verdict) ? ExitCode::regression : ExitCode::inconclusive;
 }
 
 /// An output format of the comparison, and the option that names a file for it.
@@ -85,9 +90,11 @@ std::vector<FormPlace> places_of(const command_line::Arguments& arguments,
 ExitCode compare(const command_line::Arguments& arguments) {
   const std::optional<std::string> margins = arguments.value("margins");
   const std::vector<FormPlace> places = places_of(arguments, margins);
+  comparison::CompareOptions options;
+  if (margins) options.margins = *margins;
+  options.changed_fails = arguments.has("changed-fails");
   const comparison::StudyComparison result =
-      comparison::compare_files(arguments.operands()[0], arguments.operands()[1],
-                                margins ? std::optional<std::filesystem::path>(*margins) : std::nullopt);
+      comparison::compare_files(arguments.operands()[0], arguments.operands()[1], options);
   for (const FormPlace& place : places) command_line::write_text(place.place, place.form.text(result));
   return code_of(result.verdict);
 }
@@ -98,6 +105,7 @@ Command compare_command() {
   return {{"compare",
            "BASELINE FILE",
            {{"margins", "FILE", "YAML file of margins and requirements"},
+            {"changed-fails", "", "a change for the better fails too, not only one for the worse"},
             {"format", "FORMAT", "of standard output: table (default), json, junit or markdown"},
             {"json", "FILE", "write the JSON there too"},
             {"junit", "FILE", "write JUnit XML there too"},

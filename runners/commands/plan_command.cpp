@@ -18,6 +18,7 @@
 #include "results/reading/study_file.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/commands.hpp"
+#include "runners/commands/equivalence_plan.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -34,13 +35,17 @@ constexpr const char* plan_help =
     "of its trials. With --halfwidth, --rig-sd is the standard deviation of the success probability\n"
     "between rigs: assumed, or measured in a pilot FILE with rigs (at the point where it is largest;\n"
     "that point also gives the rate).\n"
+    "--margin MEASURE=M, with a MANIFEST: the number of trials with which 'zerocount compare' shows,\n"
+    "with the probability --power, that two equal studies differ by less than M (a number, or\n"
+    "PERCENT% of the measure), at all points and for all --margin together; by a simulated pilot.\n"
     "\n"
     "Example: zerocount plan --success 0.999 --confidence 0.95\n"
     "         zerocount plan --success 0.99 --true-success 0.995 --power 0.9\n"
     "         zerocount plan --halfwidth 0.005\n"
     "         zerocount plan --halfwidth 0.02 --rig-sd 0.1 --true-success 0.9\n"
     "         zerocount plan --halfwidth 0.02 pilot.h5\n"
-    "         zerocount plan --success 0.97 --rigs-share 0.9\n";
+    "         zerocount plan --success 0.97 --rigs-share 0.9\n"
+    "         zerocount plan --margin success_rate=0.02 --margin settling_time=5% --power 0.9 gains.yaml\n";
 
 constexpr std::int64_t default_failures = 3;
 constexpr double worst_case_rate = 0.5;
@@ -265,7 +270,22 @@ std::string plan_text(const PlanRequest& request) {
   return text;
 }
 
+/// Refuses options of other questions beside --margin.
+void require_equivalence_options(const command_line::Arguments& arguments) {
+  for (const char* const option :
+       {"success", "failures", "true-success", "halfwidth", "rigs-share", "rig-sd"}) {
+    if (arguments.has(option))
+      arguments.refuse(fmt::format("option '--{}' does not go with '--margin'", option));
+  }
+  if (arguments.operands().empty()) arguments.refuse("option '--margin' needs a MANIFEST");
+}
+
 ExitCode print_plan(const command_line::Arguments& arguments) {
+  if (arguments.has("margin")) {
+    require_equivalence_options(arguments);
+    return print_equivalence_plan(arguments);
+  }
+  if (arguments.has("set")) arguments.refuse("option '--set' needs '--margin'");
   const std::string format = arguments.one_of("format", {"table", "json"});
   const PlanRequest request = request_of(arguments);
   fmt::print("{}", format == "json" ? plan_json(request).dump(2) + "\n" : plan_text(request));
@@ -277,7 +297,7 @@ ExitCode print_plan(const command_line::Arguments& arguments) {
 Command plan_command() {
   return {
       {"plan",
-       "[PILOT]",
+       "[PILOT|MANIFEST]",
        {{"success", "P", "minimum proportion of successful axes to be shown"},
         {"confidence", "LEVEL", "of the claim, or of the bounds (default 0.95)"},
         {"failures", "K", "list plans for 0 to K failures (default 3)"},
@@ -286,6 +306,8 @@ Command plan_command() {
         {"halfwidth", "H", "half-width of the two-sided bounds of a rate"},
         {"rigs-share", "P", "minimum proportion of rigs to be shown to succeed in --success of their trials"},
         {"rig-sd", "SD", "standard deviation of the success probability between rigs"},
+        {"margin", "MEASURE=M", "largest accepted difference of two equal studies; may be repeated", true},
+        {"set", "KEY=VALUE", "with --margin: override a manifest key; may be repeated", true},
         {"format", "FORMAT", "table (default) or json"}},
        0,
        1},

@@ -46,13 +46,16 @@ constexpr const char* plot_help =
 report::StudyReport report_of(const command_line::Arguments& arguments, const reading::StudyFile& file) {
   report::ReportOptions options;
   options.focus = command_line::point_option(arguments, file.point_labels());
-  const auto margins = arguments.value("margins");
   if (const auto baseline = arguments.value("baseline")) {
-    const comparison::GateRules rules =
-        margins ? comparison::read_gate_rules(*margins, file.point_labels()) : comparison::GateRules{};
-    options.comparison = comparison::compare_studies(reading::StudyFile(*baseline), file, rules);
-  } else if (margins) {
-    arguments.refuse("option '--margins' needs '--baseline'");
+    comparison::CompareOptions compare;
+    if (const auto margins = arguments.value("margins")) compare.margins = *margins;
+    compare.changed_fails = arguments.has("changed-fails");
+    options.comparison = comparison::compare_studies(reading::StudyFile(*baseline), file,
+                                                     comparison::rules_of(compare, file.point_labels()));
+  } else {
+    for (const char* const option : {"margins", "changed-fails"}) {
+      if (arguments.has(option)) arguments.refuse(fmt::format("option '--{}' needs '--baseline'", option));
+    }
   }
   options.check = [&file](const report::ReplayedTrial& replayed) {
     return differences_from_record(file, replayed.result);
@@ -135,6 +138,7 @@ Command report_command() {
            {{"output,o", "PAGE", "the page to write, such as report.html; - is standard output (required)"},
             {"baseline", "FILE", "compare with these results"},
             {"margins", "FILE", "the margins and requirements of that comparison"},
+            {"changed-fails", "", "in that comparison a change for the better fails too"},
             {"point", "P", "design point whose trials are shown, by label or number (default: the best)"},
             command_line::force_option()}},
           "write one HTML page on a results file",
@@ -149,6 +153,7 @@ Command plot_command() {
             {"output,o", "PICTURE", "the picture to write, *.svg or *.png; - is standard output, as SVG"},
             {"baseline", "FILE", "compare with these results"},
             {"margins", "FILE", "the margins and requirements of that comparison"},
+            {"changed-fails", "", "in that comparison a change for the better fails too"},
             {"point", "P", "design point whose trials are shown, by label or number (default: the best)"},
             command_line::force_option()}},
           "draw one figure of the report as SVG or PNG",

@@ -102,6 +102,21 @@ TEST_F(BoundsCommands, SummariesWithBootstrapAreTheSameEachTime) {
             run({"summary", "study.h5", "--format", "json"}).out);
 }
 
+TEST_F(BoundsCommands, PlanSimulatesAPilotForTheTrialsThatShowEquivalence) {
+  const Json weak = json({"plan", "--margin", "success_rate=0.05", "study.yaml"});
+  EXPECT_EQ(weak["power"], 0.8);
+  ASSERT_TRUE(weak["trials"].is_number());
+  const Json strong = json({"plan", "--margin", "success_rate=0.05", "--power", "0.95", "study.yaml"});
+  EXPECT_GT(strong["trials"], weak["trials"]);
+  const Json both =
+      json({"plan", "--margin", "success_rate=0.05", "--margin", "settling_time=5%", "study.yaml"});
+  EXPECT_GE(both["trials"], weak["trials"]);
+  for (const Json& one : both["measures"]) {
+    if (one["measure"] != "settling_time") continue;
+    EXPECT_NEAR(one["margin"], 0.05 * one["value"].get<double>(), 1e-12);
+  }
+}
+
 TEST_F(BoundsCommands, PlanSaysHowManyTrialsAClaimNeeds) {
   const Json plan = json({"plan", "--success", "0.999", "--confidence", "0.95", "--failures", "2"});
   ASSERT_EQ(plan["plans"].size(), 3U);
@@ -158,6 +173,12 @@ TEST_F(BoundsCommands, RefuseWhatTheyCannotUse) {
       {"plan", "--success", "0.9", "--failures", "-1"},
       {"plan", "--halfwidth", "0.7"},
       {"plan", "--halfwidth", "0.1", "--failures", "2"},
+      {"plan", "--margin", "success_rate=0.02"},
+      {"plan", "--margin", "success_rate=2", "study.yaml"},
+      {"plan", "--margin", "speed=2", "study.yaml"},
+      {"plan", "--margin", "settling_time=x%", "study.yaml"},
+      {"plan", "--margin", "settling_time=5%", "study.yaml", "--success", "0.9"},
+      {"plan", "--success", "0.9", "--set", "trials=3"},
       {"jerks"},
       {"jerks", "study.h5", "--point", "2"},
       {"jerks", "study.h5", "--point", "first"},

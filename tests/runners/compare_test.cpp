@@ -69,7 +69,18 @@ TEST_F(Compare, AHigherGainIsARegression) {
   EXPECT_EQ(json["points"][1]["verdict"], "regression");
   EXPECT_EQ(json["manifest_differences"][0]["key"], "sweep.cases.high.controller.ki");
   const auto back = compared("b", "a", 0);  // the other way round it is an improvement
-  EXPECT_GT(back["counts"]["improved"].get<int>(), 0);
+  EXPECT_GT(back["counts"]["better"].get<int>(), 0);
+}
+
+TEST_F(Compare, WhereEveryChangeFailsAnImprovementHasTheExitCodeOfARegression) {
+  study("a", gains("2.0e-4", 200));
+  study("b", gains("1.0e-4", 200));
+  EXPECT_EQ(run({"compare", "a.h5", "b.h5"}).code, 0);
+  const ProgramResult result = run({"compare", "a.h5", "b.h5", "--changed-fails"});
+  EXPECT_EQ(result.code, 1) << result.out;
+  EXPECT_NE(result.out.find("changed: "), std::string::npos) << result.out;
+  folder_.write("gate.yaml", "fail_on: changed\n");
+  EXPECT_EQ(run({"compare", "a.h5", "b.h5", "--margins", "gate.yaml"}).code, 1);
 }
 
 // Both manifests leave β out, and between the programs that ran them its default changed.

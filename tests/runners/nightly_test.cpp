@@ -66,6 +66,18 @@ TEST_F(Nightly, FindsTheRegression) {
   EXPECT_NE(read_bytes(last_night() / "summary.md").find("regression"), std::string::npos);
 }
 
+// With the margins of the repository: every change fails, whichever way it goes.
+TEST_F(Nightly, FindsWhatBecameBetterToo) {
+  std::string slower = small_manifest(200);
+  slower.replace(slower.find("3.85e-5"), 7, "1.50e-4");
+  folder_.write("small.yaml", slower);
+  folder_.write("studies.txt", "small small.yaml\n");
+  ASSERT_EQ(script("make-baselines", "--reason first"), 0) << said_;
+  folder_.write("small.yaml", small_manifest(200));
+  EXPECT_EQ(night(), 1) << said_;
+  EXPECT_NE(read_bytes(last_night() / "summary.md").find("**better**"), std::string::npos);
+}
+
 TEST_F(Nightly, NeverPassesWithoutABaselineOrAStudy) {
   EXPECT_EQ(night(), 4) << said_;
   EXPECT_NE(said_.find("there is no baseline"), std::string::npos);

@@ -12,11 +12,28 @@
 namespace zerocount::testing {
 namespace {
 
+comparison::ChangeVerdict change_behind(comparison::GateVerdict verdict) {
+  switch (verdict) {
+    case comparison::GateVerdict::regression:
+      return comparison::ChangeVerdict::worse;
+    case comparison::GateVerdict::changed:
+      return comparison::ChangeVerdict::better;
+    case comparison::GateVerdict::inconclusive:
+      return comparison::ChangeVerdict::undecided;
+    case comparison::GateVerdict::passed:
+      return comparison::ChangeVerdict::equivalent;
+    case comparison::GateVerdict::not_measured:
+      break;
+  }
+  return comparison::ChangeVerdict::not_measured;
+}
+
 comparison::MeasureComparison reported_measure(const std::string& name, comparison::GateVerdict verdict) {
   comparison::MeasureComparison one;
   one.measure = name;
   one.unit.assign(1, name == "settling_time" ? 's' : '1');
   one.verdict = verdict;
+  one.change = change_behind(verdict);
   if (verdict == comparison::GateVerdict::not_measured) return one;
   one.baseline = 0.9;
   one.current = 0.85;
@@ -41,6 +58,7 @@ comparison::StudyComparison sample() {
                     reported_measure("jerk_count", comparison::GateVerdict::not_measured),
                     reported_measure("stable_rate", comparison::GateVerdict::passed)};
   point.measures[1].trials_to_decide = 1234.0;
+  point.measures[1].decided_margin = 0.031;
   comparison::RequirementResult requirement;
   requirement.text = "success_rate ≥ 0.8";
   requirement.quantity = "success_rate";
@@ -54,9 +72,10 @@ comparison::StudyComparison sample() {
 
 TEST(ComparisonReport, TheTableHoldsAllThatWasJudged) {
   const std::string table = comparison::comparison_table(sample());
-  for (const char* part : {"success_rate", "90 %", "85 %", "[1 %, 9 %]", "< 1e-4", "regression",
-                           "1300 trials would decide", "not measured", "require success_rate",
-                           "controller.ki: 1e-5 → (absent)", "regression: 1 of 4 judgements failed"}) {
+  for (const char* part :
+       {"success_rate", "90 %", "85 %", "[1 %, 9 %]", "< 1e-4", "regression", "1300 trials would decide",
+        "these trials decide a margin above", "not measured", "require success_rate",
+        "controller.ki: 1e-5 → (absent)", "regression: 1 of 4 judgements failed"}) {
     EXPECT_NE(table.find(part), std::string::npos) << part << "\n" << table;
   }
 }
@@ -72,7 +91,7 @@ TEST(ComparisonReport, OfManyRowsOnlyTheNoteworthyAreShown) {
 TEST(ComparisonReport, EveryFormThatSpeaksOfStabilitySaysHowManyMovesAreUndecided) {
   comparison::StudyComparison comparison = sample();
   const std::string remark = "undecided: 12 of 300 moves in the baseline, 4 of 280 in the file";
-  EXPECT_EQ(comparison::comparison_table(comparison).find("undecided"), std::string::npos);
+  EXPECT_EQ(comparison::comparison_table(comparison).find("undecided: "), std::string::npos);
   comparison.points[0].baseline_undecided = {.moves = 300, .off_target = 12, .still_falling = 9};
   comparison.points[0].current_undecided = {.moves = 280, .off_target = 4, .still_falling = 0};
   comparison.points[0].measures[3].verdict = comparison::GateVerdict::inconclusive;  // the stable rate
@@ -98,11 +117,31 @@ TEST(ComparisonReport, EveryFormThatSpeaksOfStabilitySaysHowManyMovesAreUndecide
                                                                     {"about_to_arrive", 0}}));
 }
 
+// A change for the better that fails is a failure in every form, and is not called a regression.
+TEST(ComparisonReport, AFailedImprovementIsAFailureAndNoRegression) {
+  comparison::StudyComparison comparison = sample();
+  comparison.points[0].measures = {reported_measure("success_rate", comparison::GateVerdict::changed)};
+  comparison.verdict = comparison.points[0].verdict = comparison::GateVerdict::changed;
+  const auto json = nlohmann::json::parse(comparison::comparison_json(comparison));
+  EXPECT_EQ(json["verdict"], "changed");
+  EXPECT_EQ(json["points"][0]["measures"][0]["verdict"], "better");
+  EXPECT_EQ(json["points"][0]["measures"][0]["gate"], "changed");
+  EXPECT_EQ(json["counts"]["better"], 1);
+  EXPECT_NE(comparison::comparison_junit(comparison).find("failures=\"1\""), std::string::npos);
+  const std::string markdown = comparison::comparison_markdown(comparison);
+  EXPECT_NE(markdown.find("**better**"), std::string::npos) << markdown;
+  EXPECT_TRUE(markdown.starts_with("## ❌")) << markdown;
+  EXPECT_EQ(markdown.find("regression"), std::string::npos) << markdown;
+}
+
 TEST(ComparisonReport, TheJsonReadsBack) {
   const auto json = nlohmann::json::parse(comparison::comparison_json(sample()));
   EXPECT_EQ(json["verdict"], "regression");
   EXPECT_EQ(json["layer"], "paired");
   EXPECT_EQ(json["counts"]["inconclusive"], 1);
+  EXPECT_EQ(json["counts"]["worse"], 1);
+  EXPECT_EQ(json["points"][0]["measures"][0]["verdict"], "worse");
+  EXPECT_EQ(json["points"][0]["measures"][0]["gate"], "regression");
   EXPECT_EQ(json["points"][0]["measures"][0]["effect_bounds"][1], 0.09);
   EXPECT_EQ(json["points"][0]["measures"][1]["trials_to_decide"], 1234);
   EXPECT_TRUE(json["points"][0]["measures"][2]["p"].is_null());
@@ -139,8 +178,26 @@ TEST(ComparisonReport, JUnitIsNotGreenWhereNothingWasMeasured) {
 TEST(ComparisonReport, TheMarkdownEscapesItsCells) {
   const std::string markdown = comparison::comparison_markdown(sample());
   EXPECT_NE(markdown.find("| a \\| \"b\" | success\\_rate | 90 % | 85 % |"), std::string::npos) << markdown;
-  EXPECT_NE(markdown.find("**regression**"), std::string::npos);
+  EXPECT_NE(markdown.find("**worse**"), std::string::npos);
   EXPECT_EQ(markdown.find("stable"), std::string::npos);
+}
+
+// What no number of trials decides is named, with the margin that would be decided.
+TEST(ComparisonReport, TheSentenceSaysWhatWouldDecide) {
+  comparison::StudyComparison comparison = sample();
+  comparison.verdict = comparison::GateVerdict::inconclusive;
+  comparison.points[0].measures.erase(comparison.points[0].measures.begin());
+  comparison.trials_to_decide = 5432.0;
+  comparison.max_trials_to_decide = 9000.0;
+  EXPECT_EQ(comparison::verdict_sentence(comparison),
+            "inconclusive: 1 of 3 judgements are open; 5500 trials per design point would decide, with a "
+            "probability of 80 %");
+  comparison.trials_to_decide.reset();
+  comparison.points[0].measures[0].trials_to_decide.reset();
+  comparison.points[0].measures[0].max_trials_margin = 0.031;
+  EXPECT_EQ(comparison::verdict_sentence(comparison),
+            "inconclusive: 1 of 3 judgements are open; 9000 trials per design point would not decide: "
+            "settling_time at a | \"b\" (margin 0.02 s; 0.031 s would be decided)");
 }
 
 TEST(ComparisonReport, NumbersOfTrialsAreRoundedUp) {

@@ -41,14 +41,47 @@ TEST(Verdict, FailsWhereTheChangeIsSignificantAndBeyondTheMargin) {
   EXPECT_EQ(decided(measure(0.018, {0.01, 0.026}, 1e-6)).verdict, comparison::GateVerdict::inconclusive);
 }
 
-TEST(Verdict, BothWaysAnImprovementFailsToo) {
-  comparison::MeasureComparison better = measure(-0.05, {-0.07, -0.03}, 1e-6);
+// The effect, its bounds and p against a change for the worse, and what is shown by them with a margin of 2
+// %.
+TEST(Verdict, SaysInWhichDirectionAMeasureChanged) {
+  using comparison::ChangeVerdict;
+  EXPECT_EQ(decided(measure(0.05, {0.03, 0.07}, 1e-6)).change, ChangeVerdict::worse);
+  EXPECT_EQ(decided(measure(-0.05, {-0.07, -0.03}, 1.0 - 1e-6)).change, ChangeVerdict::better);
+  EXPECT_EQ(decided(measure(0.0, {-0.01, 0.01}, 0.5)).change, ChangeVerdict::equivalent);
+  EXPECT_EQ(decided(measure(0.015, {0.011, 0.019}, 1e-9)).change, ChangeVerdict::equivalent);
+  EXPECT_EQ(decided(measure(-0.015, {-0.03, 0.0}, 0.8)).change, ChangeVerdict::not_worse);
+  EXPECT_EQ(decided(measure(-0.03, {-0.08, 0.01}, 0.8)).change, ChangeVerdict::not_worse);
+  EXPECT_EQ(decided(measure(0.0, {-0.03, 0.03}, 0.5)).change, ChangeVerdict::undecided);
+  EXPECT_EQ(decided(measure(0.015, {-0.01, 0.04}, 0.2)).change, ChangeVerdict::undecided);
+}
+
+// With a margin of 2 %; where every change fails, only equivalence passes.
+TEST(Verdict, WhereEveryChangeFailsAnImprovementFailsToo) {
+  comparison::MeasureComparison better = measure(-0.05, {-0.07, -0.03}, 1.0 - 1e-6);
   EXPECT_EQ(decided(better).verdict, comparison::GateVerdict::passed);
-  better.both_ways = true;
-  EXPECT_EQ(decided(better).verdict, comparison::GateVerdict::regression);
-  comparison::MeasureComparison open = measure(-0.015, {-0.03, 0.0}, 0.2);
-  open.both_ways = true;
+  better.changed_fails = true;
+  EXPECT_EQ(decided(better).verdict, comparison::GateVerdict::changed);
+  EXPECT_EQ(decided(better).change, comparison::ChangeVerdict::better);
+  comparison::MeasureComparison worse = measure(0.05, {0.03, 0.07}, 1e-6);
+  worse.changed_fails = true;
+  EXPECT_EQ(decided(worse).verdict, comparison::GateVerdict::regression);
+  comparison::MeasureComparison open = measure(-0.015, {-0.03, 0.0}, 0.8);
+  EXPECT_EQ(decided(open).verdict, comparison::GateVerdict::passed);
+  open.changed_fails = true;
   EXPECT_EQ(decided(open).verdict, comparison::GateVerdict::inconclusive);
+  comparison::MeasureComparison same = measure(0.0, {-0.01, 0.01}, 0.5);
+  same.changed_fails = true;
+  EXPECT_EQ(decided(same).verdict, comparison::GateVerdict::passed);
+}
+
+// Both directions together have the stated rate: each has half of it.
+TEST(Verdict, WhereEveryChangeFailsTheTestIsTwoSided) {
+  comparison::MeasureComparison worse = measure(0.05, {0.03, 0.07}, 0.03);
+  EXPECT_EQ(decided(worse).change, comparison::ChangeVerdict::worse);
+  worse.changed_fails = true;
+  EXPECT_EQ(decided(worse).change, comparison::ChangeVerdict::undecided);
+  EXPECT_DOUBLE_EQ(decided(worse).adjusted_p, 0.06);
+  EXPECT_DOUBLE_EQ(decided(worse).adjusted_improvement_p, 1.0);
 }
 
 TEST(Verdict, OneSmallValueAmongManyTestsIsNoDiscovery) {
@@ -71,20 +104,10 @@ TEST(Verdict, WhatWasNotMeasuredCountsNeitherWay) {
   EXPECT_EQ(comparison::worst_of({}), comparison::GateVerdict::not_measured);
 }
 
-TEST(Verdict, AtTheMarginNoNumberOfTrialsDecides) {
-  const comparison::MeasureComparison one = decided(measure(0.02, {0.01, 0.03}, 1e-3));
-  EXPECT_EQ(one.verdict, comparison::GateVerdict::inconclusive);
-  EXPECT_FALSE(one.trials_to_decide.has_value());
-  EXPECT_NE(one.note, "");
-}
-
-// Bounds 0 ± 0.04 of 1000 trials: for ± 0.02 with power, s·(1.645 + 0.842) must fall to 0.02.
-TEST(Verdict, TheNumberOfTrialsFollowsFromTheStandardError) {
-  const comparison::MeasureComparison one = decided(measure(0.0, {-0.04, 0.04}, 0.5));
-  ASSERT_TRUE(one.trials_to_decide.has_value());
-  const double error = 0.04 / 1.6448536;
-  const double times = (1.6448536 + 0.8416212) * error / 0.02;
-  EXPECT_NEAR(*one.trials_to_decide, 1000.0 * times * times, 3.0);
+TEST(Verdict, AnOpenMeasureSaysWhy) {
+  EXPECT_EQ(decided(measure(0.02, {0.01, 0.03}, 1e-3)).note, "not shown to be within the margin");
+  EXPECT_EQ(decided(measure(0.03, {0.0, 0.06}, 0.1)).note, "beyond the margin, but not significantly");
+  EXPECT_EQ(decided(measure(0.0, {-0.01, 0.01}, 0.5)).note, "");
 }
 
 comparison::PointTrials agreeing(std::int64_t trials) {

@@ -70,7 +70,9 @@ TEST_P(NullComparisons, RaiseFalseAlarmsNoMoreOftenThanStated) {
   for (int i = 0; i < comparisons; ++i) {
     const auto compared = compare_once(random, GetParam(), rules, unchanged);
     alarms += any(compared, failed);
-    improvements += any(compared, [](const comparison::MeasureComparison& m) { return m.improved; });
+    improvements += any(compared, [](const comparison::MeasureComparison& m) {
+      return m.change == comparison::ChangeVerdict::better;
+    });
   }
   RecordProperty("alarms", alarms);
   EXPECT_LE(alarms, comparisons * 0.2);
@@ -135,25 +137,34 @@ TEST_P(NullComparisons, AnImprovementIsReportedAndNoFailure) {
       },
       1000);
   EXPECT_FALSE(any(compared, failed));
-  EXPECT_TRUE(compared[2].measures[0].improved);
+  EXPECT_EQ(compared[2].measures[0].change, comparison::ChangeVerdict::better);
   EXPECT_EQ(compared[2].measures[0].verdict, comparison::GateVerdict::passed);
 }
 
-// The number of trials that would decide does decide, about as often as planned.
-TEST_P(NullComparisons, TheStatedNumberOfTrialsDecides) {
-  std::mt19937_64 random(61);
-  const auto few = compare_once(random, GetParam(), {}, unchanged);
-  const comparison::MeasureComparison& open = few[1].measures[0];
-  ASSERT_EQ(open.verdict, comparison::GateVerdict::inconclusive);
-  ASSERT_TRUE(open.trials_to_decide.has_value());
-  const auto needed = static_cast<std::int64_t>(*open.trials_to_decide);
-  EXPECT_GT(needed, pair_trials);
-  int decided = 0;
-  for (int i = 0; i < 30; ++i) {
-    decided += compare_once(random, GetParam(), {}, unchanged, needed)[1].measures[0].verdict ==
-               comparison::GateVerdict::passed;
+// The second point alone changes, and only in its rates.
+TEST_P(NullComparisons, AChangeOfTheDetectableSizeIsFoundAsOftenAsStated) {
+  std::mt19937_64 random(67);
+  constexpr std::int64_t count = 400;
+  constexpr int comparisons = 200;
+  double detectable = 0.0;
+  for (int i = 0; i < 20; ++i)
+    detectable +=
+        compare_once(random, GetParam(), {}, unchanged, count)[1].measures[0].detectable_change / 20.0;
+  EXPECT_GT(detectable, 0.02);
+  int found = 0;
+  for (int i = 0; i < comparisons; ++i) {
+    const auto compared = compare_once(
+        random, GetParam(), {},
+        [&](SyntheticPoint point) {
+          if (point.success == points[1].success) point.success -= detectable;
+          return point;
+        },
+        count);
+    found += failed(compared[1].measures[0]);
   }
-  EXPECT_GE(decided, 18) << needed;
+  RecordProperty("found", found);
+  EXPECT_GE(found, comparisons * 0.7);
+  EXPECT_LE(found, comparisons * 0.95);
 }
 
 INSTANTIATE_TEST_SUITE_P(Layers, NullComparisons, ::testing::Bool(),

@@ -31,7 +31,7 @@ false_discovery_rate: 0.01
 measures: [success_rate, settling_time]
 margins:
   success_rate: 0.005
-  settling_time: {relative: 0.1, absolute: 2.0e-3, both_ways: true}
+  settling_time: {relative: 0.1, absolute: 2.0e-3, fail_on: changed}
 require: success_rate ≥ 0.9
 points:
   b-with-kp:
@@ -45,13 +45,25 @@ points:
   EXPECT_EQ(comparison::margin_of(rules, "a", success).absolute, 0.005);
   EXPECT_EQ(comparison::margin_of(rules, "b-with-kp", success).absolute, 0.05);
   EXPECT_EQ(comparison::margin_of(rules, "b-with-kp", settling).relative, 0.1);
-  EXPECT_TRUE(comparison::margin_of(rules, "a", settling).both_ways);
+  EXPECT_TRUE(comparison::margin_of(rules, "a", settling).changed_fails);
+  EXPECT_FALSE(rules.changed_fails);
   EXPECT_TRUE(comparison::is_judged(rules, settling));
   EXPECT_FALSE(comparison::is_judged(rules, *comparison::find_gate_measure("jerk_count")));
   ASSERT_EQ(comparison::requirements_of(rules, "a").size(), 1u);
   ASSERT_EQ(comparison::requirements_of(rules, "b-with-kp").size(), 3u);
   EXPECT_EQ(comparison::requirements_of(rules, "b-with-kp")[2].limit, 0.2);
   EXPECT_FALSE(comparison::requirements_of(rules, "b-with-kp")[2].at_least);
+}
+
+TEST(MarginsFile, SaysWhetherEveryChangeFails) {
+  EXPECT_TRUE(read("fail_on: changed\n").changed_fails);
+  EXPECT_FALSE(read("fail_on: worse\n").changed_fails);
+  EXPECT_EQ(fault("fail_on: better\n"),
+            "gate.yaml:1:10: fail_on: 'better' is no kind of failure; expected worse or changed");
+  // The name that files of earlier versions have for it.
+  const comparison::GateRules earlier = read("margins: {jerk_count: {absolute: 0.2, both_ways: true}}\n");
+  EXPECT_TRUE(
+      comparison::margin_of(earlier, "a", *comparison::find_gate_measure("jerk_count")).changed_fails);
 }
 
 TEST(MarginsFile, LeavesTheDefaultsToWhatItDoesNotName) {
@@ -65,7 +77,7 @@ TEST(MarginsFile, LeavesTheDefaultsToWhatItDoesNotName) {
 TEST(MarginsFile, TellsEveryMistakeWithItsPlace) {
   EXPECT_EQ(fault("margin: {}\n"),
             "gate.yaml:1:1: margin: unknown key, nearest known: margins; expected one of confidence, "
-            "false_discovery_rate, measures, margins, require, points");
+            "false_discovery_rate, fail_on, measures, margins, require, points");
   EXPECT_EQ(fault("margins: {sucess_rate: 0.1}\n"),
             "gate.yaml:1:11: margins.sucess_rate: unknown key, nearest known: success_rate; expected one of "
             "success_rate, arrival_rate, stable_rate, settling_time, jerk_count");

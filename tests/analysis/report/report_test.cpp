@@ -184,6 +184,25 @@ TEST_F(Report, ComparesWithABaseline) {
   EXPECT_EQ(find_figure(page, "success-change").data.front().rows.size(), 8U);
 }
 
+// Each in units of its own margin: the interval lies within ± 1 just where the measure is equivalent.
+TEST_F(Report, ShowsAllMeasuresAgainstTheirMargins) {
+  testing::run_study_file(*folder / "other.h5", testing::rich_manifest(30));
+  ReportOptions options;
+  options.comparison = comparison::compare_studies(reading::StudyFile(*folder / "other.h5"), file);
+  const ReportPage page = study_report(file, options).page;
+  const Figure& figure = find_figure(page, "margins");
+  std::size_t measured = 0;
+  for (const comparison::PointComparison& point : options.comparison->points) {
+    for (const comparison::MeasureComparison& measure : point.measures)
+      measured += measure.change != comparison::ChangeVerdict::not_measured;
+  }
+  ASSERT_EQ(figure.data.front().rows.size(), std::min<std::size_t>(measured, 60));
+  for (const nlohmann::ordered_json& row : figure.data.front().rows) {
+    const bool within = row[2] > -1.0 && row[3] < 1.0;
+    EXPECT_EQ(row[4] == "equivalent", within) << row;
+  }
+}
+
 TEST_F(Report, AFigureThatIsNotThereIsRefusedWithTheNamesOfThoseThatAre) {
   const ReportPage page = study_report(file).page;
   testing::expect_failure(ExitCode::bad_input,

@@ -1,0 +1,230 @@
+// The number of trials that would decide a comparison: does it decide as often as promised?
+#include "analysis/comparison/forecast.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include "tests/analysis/comparison/synthetic_trials.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+using comparison::ForecastPoint;
+using comparison::GateRules;
+using comparison::GateVerdict;
+
+/// The trials of two studies that can go on: the first n are the same, however many are asked for.
+struct StudyPair {
+  std::vector<SyntheticPoint> before;
+  std::vector<SyntheticPoint> after;
+  bool paired{false};
+  std::uint64_t seed{0};
+};
+
+struct PairTrials {
+  TrialChances before;
+  TrialChances after;
+};
+
+PairTrials trials_of(const StudyPair& pair, std::int64_t count) {
+  std::mt19937_64 random(pair.seed);
+  std::mt19937_64 other(pair.seed + 1'000'000);
+  const TrialChances before = draw_chances(random, count);
+  return {before, pair.paired ? redraw_some(other, before, 0.2) : draw_chances(other, count)};
+}
+
+/// A comparison, and what a forecast needs of it.
+struct Compared {
+  GateVerdict verdict{GateVerdict::inconclusive};
+  std::vector<ForecastPoint> points;
+};
+
+Compared compare(const StudyPair& pair, const PairTrials& trials, const GateRules& rules) {
+  Compared result;
+  std::vector<comparison::PointComparison> compared;
+  for (std::size_t i = 0; i < pair.before.size(); ++i) {
+    const comparison::PointTrials before = synthetic_trials(pair.before[i], trials.before);
+    const comparison::PointTrials after = synthetic_trials(pair.after[i], trials.after);
+    comparison::PointComparison& point = compared.emplace_back();
+    point.measures = comparison::compare_measures(rules, "", before, after, pair.paired);
+    const auto samples = comparison::measure_samples(rules, before, after, pair.paired);
+    ForecastPoint& forecast = result.points.emplace_back();
+    forecast.baseline_trials = forecast.current_trials = before.trials;
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      const comparison::MeasureComparison& one = point.measures[k];
+      if (std::isnan(one.p)) continue;
+      forecast.measures.push_back(samples[k]);
+      forecast.found.push_back(
+          {one.effect, one.bounds, one.margin, one.changed_fails, one.p, one.improvement_p});
+    }
+  }
+  comparison::decide(compared, rules);
+  std::vector<GateVerdict> verdicts;
+  for (const auto& point : compared) {
+    for (const auto& measure : point.measures) verdicts.push_back(measure.verdict);
+  }
+  result.verdict = comparison::worst_of(verdicts);
+  return result;
+}
+
+enum class Change { none, some, all };
+
+/// A pair of studies of 1 to 5 points at random, of which none, some or all have changed.
+StudyPair random_pair(std::mt19937_64& random, Change change, bool paired) {
+  std::uniform_real_distribution<double> uniform;
+  std::normal_distribution<double> normal;
+  StudyPair pair;
+  pair.paired = paired;
+  pair.seed = random();
+  const auto points = static_cast<int>(1.0 + 5.0 * uniform(random));
+  for (int i = 0; i < points; ++i) {
+    const SyntheticPoint before{uniform(random) < 0.2 ? 1.0 : 0.5 + 0.5 * uniform(random),
+                                0.01 + 0.04 * uniform(random), uniform(random)};
+    SyntheticPoint after = before;
+    if (change == Change::all || (change == Change::some && uniform(random) < 0.3)) {
+      after.success = std::min(1.0, std::max(0.05, after.success + 0.03 * normal(random)));
+      after.settling *= std::exp(0.1 * normal(random));
+      after.jerks *= std::exp(0.2 * normal(random));
+    }
+    pair.before.push_back(before);
+    pair.after.push_back(after);
+  }
+  return pair;
+}
+
+/// Of the pairs for which a number of trials was stated: how many were decided by that many trials.
+struct Kept {
+  int stated{0};
+  int open{0};     ///< undecided pairs
+  int decided{0};  ///< with the same trials, and further ones
+  int afresh{0};   ///< with other trials throughout
+};
+
+Kept try_pairs(Change change, bool paired, bool changed_fails, int wanted, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  GateRules rules;
+  rules.changed_fails = changed_fails;
+  Kept kept;
+  while (kept.stated < wanted) {
+    StudyPair pair = random_pair(random, change, paired);
+    const Compared few = compare(pair, trials_of(pair, 200), rules);
+    if (few.verdict != GateVerdict::inconclusive) continue;
+    ++kept.open;
+    const comparison::Forecast forecast = comparison::forecast_decision(few.points, {});
+    if (!forecast.trials) continue;
+    ++kept.stated;
+    const auto needed = static_cast<std::int64_t>(*forecast.trials);
+    kept.decided += compare(pair, trials_of(pair, needed), rules).verdict != GateVerdict::inconclusive;
+    pair.seed = random();
+    kept.afresh += compare(pair, trials_of(pair, needed), rules).verdict != GateVerdict::inconclusive;
+  }
+  return kept;
+}
+
+int pairs_wanted(int by_default) {
+  const char* const wanted = std::getenv("ZEROCOUNT_FORECAST_PAIRS");
+  return wanted == nullptr ? by_default : std::atoi(wanted);
+}
+
+TEST(Forecast, TheStatedNumberOfTrialsDecidesAsOftenAsPromised) {
+  const int wanted = pairs_wanted(2);
+  Kept all;
+  std::uint64_t seed = 1;
+  for (const Change change : {Change::none, Change::some, Change::all}) {
+    for (const bool paired : {false, true}) {
+      for (const bool changed_fails : {false, true}) {
+        const Kept kept = try_pairs(change, paired, changed_fails, wanted, seed++);
+        std::printf("change %d, paired %d, changed fails %d: %d of %d decided, afresh %d, %d open\n",
+                    static_cast<int>(change), paired, changed_fails, kept.decided, kept.stated, kept.afresh,
+                    kept.open);
+        std::fflush(stdout);
+        all.stated += kept.stated;
+        all.decided += kept.decided;
+        all.afresh += kept.afresh;
+      }
+    }
+  }
+  RecordProperty("stated", all.stated);
+  RecordProperty("decided", all.decided);
+  RecordProperty("afresh", all.afresh);
+  const double stated = all.stated;
+  EXPECT_GE(all.decided, 0.65 * stated);
+  EXPECT_LT(all.decided, stated);
+}
+
+/// An undecided pair of two points.
+Compared an_open_pair() {
+  const StudyPair pair{{{0.9, 0.03, 0.5}, {0.7, 0.02, 0.2}}, {{0.9, 0.03, 0.5}, {0.7, 0.02, 0.2}}, false, 11};
+  Compared compared = compare(pair, trials_of(pair, 300), {});
+  EXPECT_EQ(compared.verdict, GateVerdict::inconclusive);
+  return compared;
+}
+
+TEST(Forecast, DoesNotDependOnTheNumberOfThreads) {
+  const Compared open = an_open_pair();
+  const comparison::Forecast all = comparison::forecast_decision(open.points, {});
+  comparison::Forecast one;
+  oneapi::tbb::task_arena(1).execute([&] { one = comparison::forecast_decision(open.points, {}); });
+  ASSERT_TRUE(all.trials.has_value());
+  EXPECT_EQ(one.trials, all.trials);
+  for (std::size_t i = 0; i < all.judgements.size(); ++i) {
+    EXPECT_EQ(one.judgements[i].trials, all.judgements[i].trials);
+    EXPECT_EQ(one.judgements[i].margin, all.judgements[i].margin);
+  }
+}
+
+// All measures together need at least as many trials as any of them where nothing fails.
+TEST(Forecast, TheWholeNeedsMoreThanAnyOfItsParts) {
+  const Compared open = an_open_pair();
+  const comparison::Forecast forecast = comparison::forecast_equivalence(open.points, {.max_factor = 1000.0});
+  ASSERT_TRUE(forecast.trials.has_value());
+  for (const comparison::JudgementForecast& one : forecast.judgements) {
+    ASSERT_TRUE(one.trials.has_value());
+    EXPECT_LE(*one.trials, *forecast.trials);
+  }
+}
+
+// A rate p, both bounds within ± M with power 1 − β: n = 2p(1 − p)·(z_c + z_{1−β/2})²/M² of each study.
+TEST(Forecast, OfOneRateAgreesWithTheClosedForm) {
+  const StudyPair pair{{{0.8, 0.03, 0.5}}, {{0.8, 0.03, 0.5}}, false, 5};
+  GateRules rules;
+  rules.measures = {"success_rate"};
+  rules.margins["success_rate"] = {.absolute = 0.03};
+  rules.changed_fails = true;
+  const Compared pilot = compare(pair, trials_of(pair, 4000), rules);
+  const comparison::Forecast forecast = comparison::forecast_equivalence(
+      pilot.points, {.probability = 0.9, .simulations = 2000, .min_factor = 0.1});
+  const double z = 1.6448536 + 1.6448536;
+  ASSERT_TRUE(forecast.trials.has_value());
+  EXPECT_NEAR(*forecast.trials, 2.0 * 0.8 * 0.2 * z * z / (0.03 * 0.03), 0.07 * *forecast.trials);
+}
+
+TEST(Forecast, TellsWhichMarginCanBeDecidedWhereNoNumberOfTrialsDecides) {
+  const Compared open = an_open_pair();
+  const comparison::Forecast forecast = comparison::forecast_decision(open.points, {.max_factor = 1.5});
+  EXPECT_FALSE(forecast.trials.has_value());
+  EXPECT_EQ(forecast.max_trials, 450.0);
+  int open_measures = 0;
+  for (std::size_t i = 0; i < forecast.judgements.size(); ++i) {
+    if (forecast.judgements[i].trials) continue;
+    ++open_measures;
+    EXPECT_GT(forecast.judgements[i].margin, open.points[i / 5].found[i % 5].margin);
+  }
+  EXPECT_GT(open_measures, 0);
+}
+
+TEST(Forecast, EffectsThatAreSmallTogetherAreProbablyNil) {
+  const std::vector<double> small =
+      comparison::nil_probabilities({0.3, -0.5, 1.0, 0.1, -0.8, 0.2, 1.5, -0.1});
+  for (const double nil : small) EXPECT_GT(nil, 0.8);
+  const std::vector<double> mixed = comparison::nil_probabilities({0.3, 9.0, -7.0, 0.1, 5.0});
+  EXPECT_LT(mixed[1], 1e-6);
+  EXPECT_GT(mixed[3], 0.5);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

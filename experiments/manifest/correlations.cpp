@@ -175,10 +175,7 @@ void read_correlations(const yaml::Field& root, Reading& reading, study::Study& 
   if (!list) return;
   const std::string expected = fmt::format("a list of entries {}", entry_form);
   if (!yaml::check_list(*list, expected, reading.problems)) return;
-  if (list->node->items.empty()) {
-    reading.problems.add(*list, "the list is empty", expected);
-    return;
-  }
+  if (list->node->items.empty()) return;
   if (study.design == study::Design::saltelli) {
     reading.problems.add(*list, "Sobol' indices by the design saltelli are those of independent parameters",
                          "another design");

@@ -254,7 +254,6 @@ Json general_schemas() {
                          {"success_rate_halfwidth", "max_trials"})},
       {"correlation",
        {{"type", "array"},
-        {"minItems", 1},
         {"items",
          {{"type", "array"},
           {"prefixItems", {text, text, number_in({.low = -1.0, .high = 1.0})}},

@@ -25,6 +25,7 @@ void read_plugin(const yaml::Field& root, const PluginLoader& load, Reading& rea
   const LoadedPlugin loaded = load(*path);
   if (const auto* fault = std::get_if<plugin::PluginFault>(&loaded)) {
     reading.problems.add(*field, fault->what, fault->expected);
+    reading.plugin_failed = true;
   } else {
     reading.plan.plugin = std::get<std::shared_ptr<const plugin::ControllerPlugin>>(loaded);
   }

@@ -65,6 +65,8 @@ std::optional<study::SlotRange> find_swept(const yaml::Field& map, const yaml::Y
                                            SweepReading& state) {
   const study::StudyTable& table = state.table();
   if (auto slots = study::find_slots(entry.key, table)) return slots;
+  // The parameters of a plugin that could not be loaded, which is reported, are not known.
+  if (state.reading.plugin_failed && is_within(entry.key, "controller.parameters")) return std::nullopt;
   yaml::Problems& problems = state.reading.problems;
   const std::string path = yaml::entry_of(map, entry).path;
   const std::string pattern = parameters::without_indices(entry.key);

@@ -25,6 +25,7 @@ struct Reading {
   study::StudyPlan& plan;                  ///< gets the distributions
   std::int64_t version;                    ///< of the results files whose defaults apply
   bool has_rigs{false};                    ///< the study has the key `rigs`
+  bool plugin_failed{false};               ///< the user's controller could not be loaded
   std::vector<ProfileRequest> profiles{};  ///< [index of a value of kind profile]
   std::vector<std::string> warnings{};     ///< allowed but possibly unintended
 };

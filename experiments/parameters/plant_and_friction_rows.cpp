@@ -79,12 +79,13 @@ std::vector<Parameter> friction_rows() {
       list_of(max_gms_elements, "stiffness", "stiffnesses",
               real_row("friction.gms.stiffness", beyond_moves(80), "N m/rad",
                        "stiffness kappa of each element of the generalised Maxwell-slip model; without the "
-                       "two lists four elements of 110, 250, 250 and 250",
+                       "two lists, on a rotary axis, four of 110, 250, 250 and 250",
                        "required", numerics::above(0)),
               [](auto& p, std::size_t i) { return &p.friction.gms_elements[i].stiffness; }),
       list_of(max_gms_elements, "weight", "weights",
               real_row("friction.gms.weight", beyond_moves(80 + max_gms_elements), "1",
-                       "weight eta of each element: its part of the level, 1 in all; without the two lists "
+                       "weight eta of each element: its part of the level, 1 in all; without the two lists, "
+                       "on a rotary axis, "
                        "0.9875, 0.0009, 0.0032 and 0.0084",
                        "required", {.low = 0, .high = 1, .high_included = true}),
               [](auto& p, std::size_t i) { return &p.friction.gms_elements[i].weight; }),

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/friction/friction_model.hpp"
 #include "experiments/rules/value_rules.hpp"
 
 namespace zerocount::rules {
@@ -36,9 +37,20 @@ ValueRule weights_of_one_in_all(const std::vector<std::string_view>& weights) {
           }};
 }
 
-std::vector<ValueRule> rules_of_gms(const study::StudyTable& table) {
+// The default elements are stiffnesses of a rotary axis.
+ValueRule elements_of_linear_axis() {
+  return {{"friction.model"}, false, [](Limits l, Limits) -> Faults {
+            if (l[0].low != static_cast<double>(friction::FrictionModel::gms)) return {};
+            return {{"gms has no default elements on a linear axis",
+                     "the lists friction.gms.stiffness, N/m, and friction.gms.weight"}};
+          }};
+}
+
+std::vector<ValueRule> rules_of_gms(const study::StudyTable& table, const parameters::StudyUnits& units) {
   const std::vector<std::string_view> stiffnesses = values_of_list(table, "friction.gms.stiffness");
   const std::vector<std::string_view> weights = values_of_list(table, "friction.gms.weight");
+  if (units.axis == parameters::AxisKind::linear && stiffnesses.empty() && weights.empty())
+    return {elements_of_linear_axis()};
   std::vector<ValueRule> rules;
   if (!weights.empty()) rules.push_back(weights_of_one_in_all(weights));
   if (stiffnesses.size() != weights.size()) {
@@ -79,7 +91,7 @@ std::vector<ValueRule> plugin_rules(const study::StudyPlan& plan) {
 }
 
 std::vector<ValueRule> list_rules(const study::StudyPlan& plan) {
-  std::vector<ValueRule> rules = rules_of_gms(plan.table);
+  std::vector<ValueRule> rules = rules_of_gms(plan.table, plan.units);
   for (const parameters::Parameter& row : plan.table.rows) {
     if (is_frequency_of_filter(row)) rules.push_back(frequency_of_filter(row.name));
   }

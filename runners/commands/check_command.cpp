@@ -106,6 +106,17 @@ void print_plan(const study::Study& study) {
   print_what_differs(study);
 }
 
+void print_theory_heading(const study::Study& study) {
+  fmt::print("\nTheory, over the first {} trials of each point, each with the friction it starts on:\n",
+             std::min(study.trials, max_trials_examined));
+  if (study.trials > max_trials_examined_closely) {
+    fmt::print(
+        "(sampled loop, time constants and margins over the first {}, and the trials with the lowest and the "
+        "highest k1)\n",
+        max_trials_examined_closely);
+  }
+}
+
 ExitCode check(const command_line::Arguments& arguments) {
   const std::string& manifest = arguments.operands()[0];
   const study::Study study =
@@ -113,8 +124,7 @@ ExitCode check(const command_line::Arguments& arguments) {
   plugins::require_no_hidden_state(study);
   print_warnings(study);
   print_plan(study);
-  fmt::print("\nTheory, over the first {} trials of each point, each with the friction it starts on:\n",
-             std::min(study.trials, max_trials_examined));
+  print_theory_heading(study);
   const std::int64_t shown = arguments.has("all-points") ? study::point_count(study)
                                                          : std::min(study::point_count(study), points_shown);
   for (std::int64_t point = 0; point < shown; ++point) {

@@ -18,7 +18,6 @@
 namespace zerocount::commands {
 namespace {
 
-constexpr std::int64_t max_trials_examined_closely = 20;
 constexpr std::int64_t max_rigs_examined = 10'000;
 
 bool is_cascade(const trial::TrialParameters& p) {
@@ -228,6 +227,8 @@ PointTheory examine(const study::Study& study, std::int64_t point) {
   // look.
   add_sampled_bound(study, softest, k1.low, theory);
   add_sampled_bound(study, stiffest, k1.high, theory);
+  add_loops(theory.loops, softest);
+  add_loops(theory.loops, stiffest);
   examine_beyond(study, point, theory);
   return theory;
 }

@@ -19,6 +19,8 @@ namespace zerocount::commands {
 
 /// Trials of a point that are examined at most.
 inline constexpr std::int64_t max_trials_examined = 200;
+/// Of them those of which time constants, margins and the bounds of the sampled loop are found.
+inline constexpr std::int64_t max_trials_examined_closely = 20;
 
 /// Range of a quantity over the trials of a point.
 struct Range {

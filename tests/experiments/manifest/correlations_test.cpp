@@ -14,6 +14,15 @@ TEST(Correlations, AreThoseOfTheList) {
   EXPECT_EQ(study::correlations_text(study.correlations), "friction.k2 and friction.k1 (0.25)");
 }
 
+TEST(Correlations, CanBeSwitchedOff) {
+  const std::string drawn = "friction: {k1: {uniform: [90, 130]}, k2: {uniform: [600, 900]}}\n";
+  const study::Study off = study_of(
+      minimal_manifest(drawn + "correlation: [[friction.k2, friction.k1, 0.25]]\n"), {"correlation=[]"});
+  const study::Study without = study_of(minimal_manifest(drawn));
+  EXPECT_TRUE(off.correlations.empty());
+  EXPECT_EQ(study::study_trial(off, 0, 3).inputs, study::study_trial(without, 0, 3).inputs);
+}
+
 struct CorrelationRefusal {
   const char* lines;
   const char* message;
@@ -32,11 +41,6 @@ INSTANTIATE_TEST_SUITE_P(
             "correlation: 0.5",
             "m.yaml:6:14: correlation: the single value '0.5' stands here; expected a list of entries [first "
             "parameter, second parameter, coefficient]"},
-        CorrelationRefusal{
-            "correlation: []",
-            "m.yaml:6:14: correlation: the list is empty; expected a list of entries [first parameter, "
-            "second "
-            "parameter, coefficient]"},
         CorrelationRefusal{
             "friction: {k1: {uniform: [90, 130]}}\ncorrelation: [[friction.k1, 0.5]]",
             "m.yaml:7:15: correlation.0: the entry has 2 values; expected [first parameter, second "

@@ -68,6 +68,17 @@ TEST(LinearAxis, IsAskedForAllThatTheRotaryRigsDefaultsSayNothingOf) {
       << "an air bearing needs no friction";
 }
 
+TEST(LinearAxis, HasNoDefaultElementsOfGms) {
+  const std::string refusal = refusal_of(
+      minimal_manifest("axis: linear\nfriction: {model: gms, gms: {attraction: 100}, breakaway: 5}\n"
+                       "plant: {inertia: 1, sliding_damping: 1}\nencoder: {resolution: 1.0e-9}\n"
+                       "dac: {resolution: 1.0e-4}\ncontroller: {units: si, ki: 1, kp: 1}\n"));
+  EXPECT_NE(refusal.find("friction.model: gms has no default elements on a linear axis; expected the lists "
+                         "friction.gms.stiffness, N/m, and friction.gms.weight"),
+            std::string::npos)
+      << refusal;
+}
+
 struct Refused {
   std::string more;
   std::string message;  ///< a part of it

@@ -374,7 +374,8 @@ TEST(ManifestErrors, AMergeKeyIsAKeyLikeAnyOther) {
   EXPECT_EQ(failure_of(minimal_manifest("<<: {name: x}")),
             "m.yaml:6:1: <<: unknown key, nearest known: dac; expected one of zerocount, name, description, "
             "axis, travel, "
-            "seed, trials, rigs, design, independent_points, retain, stop, observed, sweep, plant, friction, "
+            "seed, trials, rigs, design, independent_points, retain, stop, correlation, observed, sweep, "
+            "plant, friction, "
             "encoder, "
             "dac, amplifier, controller, command, initial, verdict");
 }
@@ -429,7 +430,8 @@ TEST(ManifestErrors, AllErrorsAreToldInTheOrderOfTheFile) {
       "m.yaml:9:1: sead: unknown key, nearest known: seed; expected one of zerocount, name, description, "
       "axis, travel, "
       "seed, "
-      "trials, rigs, design, independent_points, retain, stop, observed, sweep, plant, friction, encoder, "
+      "trials, rigs, design, independent_points, retain, stop, correlation, observed, sweep, plant, "
+      "friction, encoder, "
       "dac, "
       "amplifier, controller, "
       "command, initial, verdict\n"

@@ -47,6 +47,15 @@ TEST(BadPlugins, AMissingFileIsRefused) {
   EXPECT_NE(result.err.find("controller.plugin: there is no file none.so"), std::string::npos) << result.err;
 }
 
+TEST(BadPlugins, AMissingFileIsNotBlamedOnTheParametersThatAreSwept) {
+  const TemporaryFolder folder;
+  folder.write("study.yaml",
+               plugin_manifest("none.so") + "sweep: {grid: {controller.parameters.ki: [1.0e-5, 2.0e-5]}}\n");
+  const ProgramResult result = zerocount_program({"check", "study.yaml"}, folder.path());
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err.find("unknown key"), std::string::npos) << result.err;
+}
+
 TEST(BadPlugins, AnotherFileIsNoLibrary) {
   const TemporaryFolder folder;
   folder.write("text.so", "no library");

@@ -118,6 +118,7 @@ void decide(std::span<TestedMeasure> tested, double rate) {
 std::int64_t decide(std::span<PointComparison> points, const GateRules& rules) {
   const std::vector<MeasureComparison*> measures = tested_measures(points);
   std::vector<TestedMeasure> tested;
+  tested.reserve(measures.size());
   for (const MeasureComparison* measure : measures) {
     tested.push_back({measure->effect, measure->bounds, measure->margin, measure->changed_fails, measure->p,
                       measure->improvement_p});

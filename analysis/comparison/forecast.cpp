@@ -146,8 +146,8 @@ class Simulator {
   /// of a point.
   double unseen_units(std::size_t file, std::size_t point, std::uint32_t kind, std::uint32_t simulation,
                       double trials) const {
-    const auto stream = static_cast<std::uint32_t>(2 * kind + file);
-    const auto population = static_cast<std::uint32_t>(2 * kind + (one_sample_ ? 1 : file));
+    const auto stream = 2 * kind + static_cast<std::uint32_t>(file);
+    const auto population = 2 * kind + static_cast<std::uint32_t>(one_sample_ ? 1 : file);
     const double weight =
         unseen_weight(continuation_bits(simulation, population, point, ContinuationDraw::unseen_kind));
     const double mean = weight * more_units(file, trials) / static_cast<double>(continuations_[file].units());
@@ -281,6 +281,7 @@ Chances chances_under(const std::vector<std::vector<SimulatedComparison>>& outco
     chances.each.push_back(proportion([&](const SimulatedComparison& one) { return one.each[k]; }));
   for (std::size_t k = 0; k < first.margins.size(); ++k) {
     std::vector<double> margins;
+    margins.reserve(outcomes.size());
     for (const auto& simulation : outcomes) margins.push_back(simulation[assumption].margins[k]);
     chances.margins.push_back(quantile_of(std::move(margins), probability));
   }

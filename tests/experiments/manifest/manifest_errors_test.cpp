@@ -51,7 +51,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"frictoin: {k1: 1}",
              "m.yaml:6:1: frictoin: unknown key, nearest known: friction; expected one of zerocount, name, "
              "description, axis, travel, seed, trials, rigs, design, independent_points, retain, stop, "
-             "observed, sweep, "
+             "correlation, observed, sweep, "
              "plant, "
              "friction, "
              "encoder, dac, amplifier, controller, command, initial, verdict"},

@@ -32,6 +32,7 @@ constexpr const char* check_help =
     "    slowest move needs, to compare with the hold\n"
     "  - gain and phase margins of the sampled loop, with all blocks of the controller, at k1, at\n"
     "    k1 + k2 and while the rotor slides\n"
+    "  - for coulomb, dahl and lugre the hunting of trial 0: amplitude and period\n"
     "  - the bandwidth while it slides: the highest frequency at which the open loop has gain 1\n"
     "\n"
     "Example: zerocount check experiments/manifests/paper-gains.yaml\n";

@@ -108,7 +108,7 @@ std::int64_t count_requirements(const GateRules& rules, const std::vector<Matche
 /// The most trials per point that a forecast tries are at least these.
 constexpr double min_tried_trials = 50'000.0;
 
-/// What a forecast needs of a point. Equal data leave no measure open.
+/// The samples of a point for a forecast. No measure of equal data is open.
 ForecastPoint forecast_point(const PointComparison& compared, const GateRules& rules,
                              const PointTrials& baseline, const PointTrials& current, bool equal) {
   ForecastPoint point{compared.baseline_trials, compared.current_trials, {}, {}, {}};
@@ -122,8 +122,7 @@ ForecastPoint forecast_point(const PointComparison& compared, const GateRules& r
       const MeasureComparison& measure = compared.measures[i];
       if (std::isnan(measure.p)) continue;
       point.measures.push_back(samples[i]);
-      point.found.push_back({measure.effect, measure.bounds, measure.margin, measure.changed_fails, measure.p,
-                             measure.improvement_p});
+      point.found.push_back(tested_measure(measure));
     }
   }
   for (const Requirement& requirement : requirements_of(rules, compared.label))

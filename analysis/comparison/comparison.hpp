@@ -28,7 +28,7 @@ enum class ComparisonLayer {
   two_samples  ///< different draws: distributions are compared
 };
 
-/// What the gate makes of a measure, a point, a requirement, or the whole comparison; the worst first.
+/// The gate's verdict on a measure, a requirement, a point or the whole comparison; the worst first.
 enum class GateVerdict {
   regression,    ///< shown: worse by more than the margin, or the requirement is not met
   changed,       ///< shown: better by more than the margin, where every change fails
@@ -37,8 +37,8 @@ enum class GateVerdict {
   not_measured   ///< too few trials have a value; does not affect the other verdicts
 };
 
-/// What is shown of the change of one measure, whatever the gate makes of it. With e the effect and M the
-/// margin:
+/// The change of one measure that the data show. The gate's verdict follows from it. With e the effect and M
+/// the margin:
 enum class ChangeVerdict {
   worse,        ///< e > 0 is significant, and e > M
   better,       ///< e < 0 is significant, and e < −M
@@ -48,7 +48,7 @@ enum class ChangeVerdict {
   not_measured  ///< too few trials have a value
 };
 
-/// Whether a verdict fails the gate.
+/// True for a verdict that fails the gate.
 constexpr bool fails(GateVerdict verdict) {
   return verdict == GateVerdict::regression || verdict == GateVerdict::changed;
 }
@@ -75,8 +75,8 @@ struct MeasureComparison {
   double detectable_change{statistics::unknown};
   bool paired_proportion{false};  ///< the trials of a proportion were compared one by one
   ChangeVerdict change{ChangeVerdict::not_measured};
-  GateVerdict verdict{GateVerdict::not_measured};  ///< what the gate makes of the change
-  /// Of an inconclusive measure: the trials per design point that decide it with decision_probability.
+  GateVerdict verdict{GateVerdict::not_measured};  ///< of the gate
+  /// Trials per design point that decide an inconclusive measure, with decision_probability.
   std::optional<double> trials_to_decide;
   double decided_margin{statistics::unknown};  ///< of an inconclusive measure: any larger one is decided now
   double max_trials_margin{statistics::unknown};  ///< where no number of trials decides: the smallest margin

@@ -74,7 +74,7 @@ VerdictCounts count_verdicts(const StudyComparison& comparison) {
 
 namespace {
 
-/// Whether a change for the better fails at every measure, and there is one.
+/// True if there are measures, and a change for the better fails at each.
 bool every_change_fails(const StudyComparison& comparison) {
   bool any = false;
   for (const PointComparison& point : comparison.points) {
@@ -97,7 +97,7 @@ std::string failures_text(const VerdictCounts& counts) {
   return text;
 }
 
-/// What would decide the whole.
+/// The advice on how many trials would decide the comparison.
 std::string advice_text(const StudyComparison& comparison) {
   if (comparison.trials_to_decide) {
     return fmt::format("; {} trials per design point would decide, with a probability of {:.0f} %",

@@ -19,7 +19,7 @@ std::string_view word_of(ChangeVerdict change);
 /// "bits", "paired" or "two_samples".
 std::string_view word_of(ComparisonLayer layer);
 
-/// Measures and requirements by their verdicts, and measures by what is shown of them.
+/// Measures and requirements by their verdicts, and measures by their change.
 struct VerdictCounts {
   std::int64_t passed{0};
   std::int64_t regressions{0};
@@ -71,7 +71,7 @@ struct ComparisonRow {
   std::string margin;   ///< or the limit of a requirement
   std::string detects;  ///< smallest detectable change
   std::string p;        ///< adjusted
-  std::string verdict;  ///< of a measure, what is shown of it; of a requirement, what the gate makes of it
+  std::string verdict;  ///< the change of a measure; the gate's verdict on a requirement
   GateVerdict gate{GateVerdict::not_measured};
   std::string note;
   bool noteworthy{false};  ///< it did not simply pass

@@ -28,8 +28,8 @@ double poisson_number(double mean, std::uint64_t bits);
 /// and further units from that population, so that the forecast includes what the sample leaves unknown (the
 /// Pólya posterior: Lo, Annals of Statistics 16 (1988), 1684).
 ///
-/// Of many units, blocks of neighbours are drawn as wholes, which leaves the variance of sums as it is: the
-/// units of a block are independent of each other.
+/// A sample of many units is drawn in blocks of neighbours. The units of a block are independent of each
+/// other, so the variance of sums does not change.
 class Continuation {
  public:
   /// @param units of the sample; @param stream of its random numbers

@@ -63,7 +63,7 @@ ChangeVerdict change_of(const TestedMeasure& measure, double rate) {
   return measure.bounds.low > -measure.margin ? ChangeVerdict::equivalent : ChangeVerdict::not_worse;
 }
 
-/// Why a measure does not decide.
+/// The reason why a measure does not decide.
 std::string reason_of(const MeasureComparison& measure) {
   const bool beyond =
       measure.effect > measure.margin || (measure.changed_fails && -measure.effect > measure.margin);
@@ -110,6 +110,11 @@ double detectable_change(const MeasureComparison& measure, const GateRules& rule
   return change;
 }
 
+TestedMeasure tested_measure(const MeasureComparison& measure) {
+  return {measure.effect,        measure.bounds, measure.margin,
+          measure.changed_fails, measure.p,      measure.improvement_p};
+}
+
 void decide(std::span<TestedMeasure> tested, double rate) {
   adjust(tested);
   for (TestedMeasure& measure : tested) measure.change = change_of(measure, rate);
@@ -120,8 +125,7 @@ std::int64_t decide(std::span<PointComparison> points, const GateRules& rules) {
   std::vector<TestedMeasure> tested;
   tested.reserve(measures.size());
   for (const MeasureComparison* measure : measures) {
-    tested.push_back({measure->effect, measure->bounds, measure->margin, measure->changed_fails, measure->p,
-                      measure->improvement_p});
+    tested.push_back(tested_measure(*measure));
   }
   decide(tested, rules.false_discovery_rate);
   for (std::size_t i = 0; i < tested.size(); ++i) {

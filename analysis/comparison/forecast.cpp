@@ -45,7 +45,7 @@ SampleSums sums_of_requirement(double hits, double events) {
   return {1.0, hits, events, hits * hits, hits * events, events * events};
 }
 
-/// What a simulated comparison found.
+/// The result of a simulated comparison.
 struct SimulatedComparison {
   bool decided{false};
   std::vector<bool> each;       ///< [judgement] decided
@@ -215,7 +215,7 @@ class Simulator {
     return verdicts;
   }
 
-  /// Of two equal studies the question is equivalence; a false alarm does not answer it.
+  /// Two equal studies are decided if they are found equivalent. A false alarm decides nothing.
   SimulatedComparison outcome_of(const std::vector<TestedMeasure>& tested,
                                  const std::vector<GateVerdict>& requirements, Truth truth) const {
     SimulatedComparison outcome;
@@ -266,7 +266,7 @@ double quantile_of(std::vector<double> values, double probability) {
   return *place;
 }
 
-/// Of the simulated comparisons under one assumption, [simulation][assumption].
+/// The proportions among simulated comparisons, [simulation][assumption], under one assumption.
 Chances chances_under(const std::vector<std::vector<SimulatedComparison>>& outcomes, std::size_t assumption,
                       double probability) {
   const auto proportion = [&](const auto& is) {
@@ -295,16 +295,16 @@ Chances chances_with(const Simulator& simulator, double trials, const std::vecto
   oneapi::tbb::parallel_for(std::size_t{0}, outcomes.size(), [&](std::size_t i) {
     outcomes[i] = simulator.simulate(trials, truths, static_cast<std::uint32_t>(i));
   });
-  Chances least = chances_under(outcomes, 0, options.probability);
+  Chances lowest = chances_under(outcomes, 0, options.probability);
   for (std::size_t i = 1; i < truths.size(); ++i) {
     const Chances other = chances_under(outcomes, i, options.probability);
-    least.whole = std::min(least.whole, other.whole);
-    for (std::size_t k = 0; k < least.each.size(); ++k)
-      least.each[k] = std::min(least.each[k], other.each[k]);
-    for (std::size_t k = 0; k < least.margins.size(); ++k)
-      least.margins[k] = std::max(least.margins[k], other.margins[k]);
+    lowest.whole = std::min(lowest.whole, other.whole);
+    for (std::size_t k = 0; k < lowest.each.size(); ++k)
+      lowest.each[k] = std::min(lowest.each[k], other.each[k]);
+    for (std::size_t k = 0; k < lowest.margins.size(); ++k)
+      lowest.margins[k] = std::max(lowest.margins[k], other.margins[k]);
   }
-  return least;
+  return lowest;
 }
 
 /// Where a chance that rises with the logarithm of the trials reaches the probability.

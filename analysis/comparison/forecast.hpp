@@ -9,7 +9,7 @@
 /// How many trials would decide a comparison, by simulation of the comparison with more trials.
 namespace zerocount::comparison {
 
-/// What is judged at one design point, and what was found of it.
+/// The samples of one design point, and the results of their comparison.
 struct ForecastPoint {
   std::int64_t baseline_trials{0};
   std::int64_t current_trials{0};

@@ -10,7 +10,7 @@
 namespace zerocount::comparison {
 namespace {
 
-/// What a sum is of. Pairs: differences d. Otherwise the values v of one file.
+/// The sums of a sample. Pairs have differences d, other samples the values v of one file.
 enum Sum : std::size_t {
   units = 0,        ///< with a value
   values = 1,       ///< Σd or Σv; of proportions failures, of pairs those of the current file alone
@@ -65,14 +65,14 @@ std::vector<double> sorted_values(const std::vector<double>& sample) {
 /// The value up to which `one` has the largest excess of values over `other`.
 double place_of_excess(const std::vector<double>& one, const std::vector<double>& other) {
   double place = one.empty() ? 0.0 : one.front();
-  double most = 0.0;
+  double largest = 0.0;
   for (std::size_t i = 0; i < one.size(); ++i) {
     if (i + 1 < one.size() && one[i + 1] == one[i]) continue;
     const auto up_to = std::upper_bound(other.begin(), other.end(), one[i]) - other.begin();
     const double excess = static_cast<double>(i + 1) / static_cast<double>(one.size()) -
                           static_cast<double>(up_to) / static_cast<double>(other.size());
-    if (excess <= most) continue;
-    most = excess;
+    if (excess <= largest) continue;
+    largest = excess;
     place = one[i];
   }
   return place;

@@ -22,7 +22,7 @@ std::vector<MeasureComparison> compare_measures(const GateRules& rules, const st
                                                 const PointTrials& baseline, const PointTrials& current,
                                                 bool paired);
 
-/// What is judged of the data of one measure at one point: a value for each independent unit, which is a
+/// The values of one measure at one point that are judged: a value for each independent unit, which is a
 /// trial, or a rig where trials share rigs.
 struct MeasureSample {
   bool proportion{false};        ///< values of 0 and 1 (1: failed), compared by the tests of proportions
@@ -49,7 +49,10 @@ struct TestedMeasure {
   ChangeVerdict change{ChangeVerdict::not_measured};
 };
 
-/// Adjusts the p-values of all measures of a comparison, and finds what is shown of each.
+/// The numbers of a measure before the adjustment.
+TestedMeasure tested_measure(const MeasureComparison& measure);
+
+/// Adjusts the p-values of all measures of a comparison, and finds the verdict on the change of each.
 /// @param rate of false discoveries
 void decide(std::span<TestedMeasure> tested, double rate);
 
@@ -74,7 +77,7 @@ std::int64_t decide(std::span<PointComparison> points, const GateRules& rules);
 /// @param tests m
 double detectable_change(const MeasureComparison& measure, const GateRules& rules, std::size_t tests);
 
-/// What the gate makes of a change.
+/// The verdict of the gate on a change.
 GateVerdict gate_verdict(ChangeVerdict change, bool changed_fails);
 
 /// The worst of several verdicts, in the order of GateVerdict; not_measured where all are.
@@ -103,7 +106,8 @@ std::vector<double> benjamini_yekutieli(std::span<const double> p);
 RequirementResult judge_requirement(const Requirement& requirement, const PointTrials& trials,
                                     double confidence, double failing_confidence);
 
-/// What a requirement judges of each independent unit, which is a trial, or a rig where trials share rigs.
+/// The numbers of each independent unit that a requirement judges, which is a trial, or a rig where trials
+/// share rigs.
 struct RequirementSample {
   RequirementKind kind{RequirementKind::proportion};
   bool at_least{true};

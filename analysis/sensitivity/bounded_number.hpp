@@ -14,7 +14,7 @@ struct BoundedNumber {
   double high{statistics::unknown};
 };
 
-/// Whether all numbers from −limit to limit are outside the bounds. Not where there are none.
+/// Whether all numbers from −limit to limit are outside the bounds; false for a number without bounds.
 inline bool excludes_up_to(double limit, const BoundedNumber& number) {
   return number.low > limit || number.high < -limit;
 }

@@ -60,7 +60,7 @@ void sort_in(Findings& findings, const FactorSensitivity& factor, bool from_salt
   }
 }
 
-/// What the indices of a saltelli design, total ones, show.
+/// Sentences on the total indices of a saltelli design.
 std::vector<std::string> total_sentences(const Findings& findings, const std::string& output) {
   std::vector<std::string> parts;
   if (findings.influential.empty()) {
@@ -84,7 +84,7 @@ std::vector<std::string> total_sentences(const Findings& findings, const std::st
   return parts;
 }
 
-/// What first-order indices and correlations show. They do not see interactions.
+/// Sentences on first-order indices and correlations, which do not see interactions.
 std::vector<std::string> first_order_sentences(const Findings& findings, const std::string& output) {
   std::vector<std::string> parts;
   if (!findings.influential.empty()) {

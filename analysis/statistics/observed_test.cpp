@@ -1,12 +1,12 @@
 #include "analysis/statistics/observed_test.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <map>
 #include <numeric>
 #include <vector>
 
+#include <boost/math/distributions/hypergeometric.hpp>
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
@@ -14,30 +14,22 @@
 namespace zerocount::statistics {
 namespace {
 
+constexpr std::int64_t most_trials = 1'000'000'000;  // two samples together fit the law's 32 bits
+
 void require_counts(const Successes& counts) {
-  if (counts.successes >= 0 && counts.successes <= counts.trials) return;
-  throw Failure(ExitCode::bad_data, fmt::format("{} successes in {} trials; expected 0 ≤ successes ≤ trials",
-                                                counts.successes, counts.trials));
+  if (counts.successes >= 0 && counts.successes <= counts.trials && counts.trials <= most_trials) return;
+  throw Failure(ExitCode::bad_data,
+                fmt::format("{} successes in {} trials; expected 0 ≤ successes ≤ trials ≤ {}",
+                            counts.successes, counts.trials, most_trials));
 }
 
-/// P(x), x = 0 … n, of the number of successes among n trials taken from N with K successes. By the ratio of
-/// neighbours, so that it is accurate for any size.
+/// P(x), x = 0 … n, of the number of successes among n trials taken from all of them.
 std::vector<double> hypergeometric(std::int64_t n, const Successes& all) {
-  const std::int64_t failures = all.trials - all.successes;
-  const std::int64_t first = std::max<std::int64_t>(0, n - failures);
-  const std::int64_t last = std::min(n, all.successes);
-  std::vector<double> logarithms{0.0};
-  for (std::int64_t x = first; x < last; ++x) {
-    const double up = static_cast<double>(all.successes - x) * static_cast<double>(n - x);
-    const double down = static_cast<double>(x + 1) * static_cast<double>(failures - n + x + 1);
-    logarithms.push_back(logarithms.back() + std::log(up / down));
-  }
-  const double highest = *std::max_element(logarithms.begin(), logarithms.end());
+  const boost::math::hypergeometric_distribution<double> law(
+      static_cast<unsigned>(all.successes), static_cast<unsigned>(n), static_cast<unsigned>(all.trials));
+  const auto [first, last] = boost::math::range(law);
   std::vector<double> probabilities(static_cast<std::size_t>(n) + 1, 0.0);
-  double total = 0.0;
-  for (std::size_t i = 0; i < logarithms.size(); ++i)
-    total += probabilities[static_cast<std::size_t>(first) + i] = std::exp(logarithms[i] - highest);
-  for (double& probability : probabilities) probability /= total;
+  for (unsigned x = first; x <= last; ++x) probabilities[x] = boost::math::pdf(law, x);
   return probabilities;
 }
 

@@ -13,8 +13,8 @@ struct Successes {
 };
 
 struct ObservedTest {
-  double p{1.0};        ///< probability of counts as unlikely as those observed, if both have the same cause
-  double least_p{1.0};  ///< lowest p that as many observed trials could have
+  double p{1.0};         ///< probability of counts as unlikely as those observed, if both have the same cause
+  double lowest_p{1.0};  ///< lowest p that as many observed trials could have
 };
 
 /// Fisher's exact test of k of n observed trials against K of N simulated ones, all independent. Given k + K

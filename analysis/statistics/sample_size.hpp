@@ -32,8 +32,8 @@ ClaimPlan plan_with_power(double success, double confidence, double true_success
 /// @throws Failure (bad_input) for a half-width outside (0, ½), or a rate or confidence outside (0, 1).
 std::int64_t trials_for_halfwidth(double halfwidth, double confidence, double rate);
 
-/// What it costs to decide the number of trials by their outcomes: the numbers of trials that give a success
-/// rate bounds of the same half-width and confidence.
+/// Numbers of trials that give a success rate bounds of the same half-width and confidence: decided
+/// beforehand, and decided by the outcomes.
 struct SequentialCost {
   double rate{0.0};            ///< proportion of trials that succeed
   std::int64_t fixed{0};       ///< decided beforehand: trials_for_halfwidth

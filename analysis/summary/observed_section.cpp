@@ -42,7 +42,7 @@ bool is_better(const measures::PointSummary& point, const study::ObservedCounts&
 const char* verdict_of(const Comparison& comparison, double confidence) {
   if (!comparison.test) return "untested";
   if (comparison.test->p <= 1.0 - confidence) return "differs";
-  return comparison.test->least_p <= 1.0 - confidence ? "consistent" : "too_few";
+  return comparison.test->lowest_p <= 1.0 - confidence ? "consistent" : "too_few";
 }
 
 std::string statement_of(const measures::PointSummary& point, const Comparison& comparison,
@@ -53,7 +53,7 @@ std::string statement_of(const measures::PointSummary& point, const Comparison& 
     return fmt::format("differs (p = {}): the real rig succeeded {} often than the simulation says", p,
                        is_better(point, comparison.counts) ? "more" : "less");
   }
-  if (comparison.test->least_p > 1.0 - confidence) {
+  if (comparison.test->lowest_p > 1.0 - confidence) {
     return fmt::format("consistent (p = {}), as any result would be: the trials{} are too few", p,
                        point.rigs.n > 0 ? " or the rigs" : "");
   }
@@ -96,7 +96,7 @@ nlohmann::ordered_json json_of(const measures::PointSummary& point, const std::o
   return {{"successes", each->counts.successes},
           {"of", each->counts.of},
           {"p_value", each->test ? each->test->p : statistics::unknown},
-          {"least_p_value", each->test ? each->test->least_p : statistics::unknown},
+          {"lowest_p_value", each->test ? each->test->lowest_p : statistics::unknown},
           {"verdict", verdict_of(*each, confidence)},
           {"statement", statement_of(point, *each, confidence)}};
 }

@@ -69,7 +69,7 @@ inline constexpr const char* observed_key = "observed_counts";
 /// of the point, by fisher_test, or with rigs by rig_rank_test. The observed trials are all of one rig.
 ///
 /// Its JSON is null for a point without counts, else {"successes", "of", "p_value" (null where it cannot be
-/// tested), "least_p_value", "verdict" (consistent, differs, too_few, untested), "statement"}; its columns
+/// tested), "lowest_p_value", "verdict" (consistent, differs, too_few, untested), "statement"}; its columns
 /// are observed_successes, observed_trials and observed_p_value; its text is a table.
 /// @param labels [point]
 /// @param confidence differences are significant at 1 − confidence

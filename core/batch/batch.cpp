@@ -15,9 +15,8 @@ namespace {
 
 constexpr int max_delay = 64;
 
-// The feature that the lanes lack; empty if they have all. Each switch lists all
-// enumerators and each structured binding all members, so that the compiler demands a decision for one that
-// is added later.
+// The feature that the lanes lack; empty if they have all. Each switch lists all enumerators and each
+// structured binding all members, so that the compiler demands a decision for one that is added later.
 
 std::string_view lacking(loop::ReferenceShape shape) {
   switch (shape) {

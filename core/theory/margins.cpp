@@ -114,10 +114,4 @@ StabilityMargins stability_margins(const FrozenLoop& loop) {
   return margins;
 }
 
-StabilityMargins margins_about(double stiffness, double damping, const motion::PlantParameters& plant,
-                               const loop::EncoderParameters& encoder,
-                               const loop::ControllerParameters& controller, const LinearDrive& drive) {
-  return stability_margins(frozen_loop(stiffness, damping, plant, encoder, controller, drive));
-}
-
 }  // namespace zerocount::theory

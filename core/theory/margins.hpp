@@ -36,9 +36,4 @@ std::vector<double> search_angles(const FrozenLoop& loop);
 /// The crossovers are searched between the search_angles, then bisected to 1e-12.
 StabilityMargins stability_margins(const FrozenLoop& loop);
 
-/// The margins of frozen_loop() with these arguments.
-StabilityMargins margins_about(double stiffness, double damping, const motion::PlantParameters& plant,
-                               const loop::EncoderParameters& encoder,
-                               const loop::ControllerParameters& controller, const LinearDrive& drive = {});
-
 }  // namespace zerocount::theory

@@ -28,15 +28,4 @@ GainCrossover gain_crossover(const FrozenLoop& loop) {
   return {low / (2.0 * std::numbers::pi * loop.sample_time), std::arg(-at) * 180.0 / std::numbers::pi};
 }
 
-GainCrossover sliding_crossover(const motion::PlantParameters& plant, const loop::EncoderParameters& encoder,
-                                const loop::ControllerParameters& controller, const LinearDrive& drive) {
-  return gain_crossover(frozen_loop(0.0, plant.sliding_damping, plant, encoder, controller, drive));
-}
-
-bool stable_while_sliding(const motion::PlantParameters& plant, const loop::EncoderParameters& encoder,
-                          const loop::ControllerParameters& controller, const LinearDrive& drive) {
-  return stability_of(frozen_loop(0.0, plant.sliding_damping, plant, encoder, controller, drive)) ==
-         LoopStability::stable;
-}
-
 }  // namespace zerocount::theory

@@ -21,12 +21,4 @@ struct GainCrossover {
 /// The gain crossover of a loop, from its exact frequency response L(z), z = exp(iωT), 0 < ω ≤ π/T.
 GainCrossover gain_crossover(const FrozenLoop& loop);
 
-/// The gain crossover of the sampled loop while it slides.
-GainCrossover sliding_crossover(const motion::PlantParameters& plant, const loop::EncoderParameters& encoder,
-                                const loop::ControllerParameters& controller, const LinearDrive& drive = {});
-
-/// Whether the sampled loop is stable while it slides: all its eigenvalues lie inside the unit circle.
-bool stable_while_sliding(const motion::PlantParameters& plant, const loop::EncoderParameters& encoder,
-                          const loop::ControllerParameters& controller, const LinearDrive& drive = {});
-
 }  // namespace zerocount::theory

@@ -50,7 +50,7 @@ void print_columns(const study::Study& study, std::string_view title,
   if (!names.empty()) fmt::print("  {}:{}\n", title, names);
 }
 
-/// What the rule costs against a number of trials fixed beforehand, at three success rates.
+/// Trials that the rule takes against a number fixed beforehand, at three success rates.
 void print_cost_of_stopping(const study::StoppingRule& rule) {
   fmt::print(
       "  its bounds hold at whatever number of trials it ends, which takes more than a fixed number:\n");

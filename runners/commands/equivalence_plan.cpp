@@ -24,6 +24,8 @@
 #include "runners/command_line/option_values.hpp"
 #include "runners/plugins/hidden_state.hpp"
 #include "runners/plugins/plugin_library.hpp"
+#include "runners/study_run/progress.hpp"
+#include "runners/study_run/study_runner.hpp"
 #include "runners/study_run/trial_runner.hpp"
 
 namespace zerocount::commands {
@@ -138,7 +140,7 @@ comparison::ForecastPoint planned_point(EquivalencePlan& plan, const std::string
     const comparison::MeasureComparison& one = found[k];
     if (std::isnan(one.p)) continue;
     point.measures.push_back(samples[k]);
-    point.found.push_back({one.effect, one.bounds, one.margin, true, one.p, one.improvement_p});
+    point.found.push_back(comparison::tested_measure(one));
     plan.measures.push_back({label, one});
   }
   return point;
@@ -151,9 +153,12 @@ EquivalencePlan plan_of(const command_line::Arguments& arguments) {
   const study::Study study = planned_study(arguments);
   plan.pilot = study.rigs > 0 ? study.trials : std::min(study.trials, pilot_trials);
   std::vector<comparison::ForecastPoint> points;
+  study_run::Progress progress(study::point_count(study) * plan.pilot, 0, study_run::samples_per_trial(study),
+                               false);
   for (std::int64_t i = 0; i < study::point_count(study); ++i) {
     points.push_back(planned_point(plan, study.point_labels[static_cast<std::size_t>(i)],
                                    run_point(study, i, plan.pilot)));
+    progress.update((i + 1) * plan.pilot);
   }
   if (plan.measures.empty()) {
     throw Failure(

@@ -70,7 +70,7 @@ struct ConfirmedBest {
   statistics::ConfidenceInterval bounds;  ///< Clopper–Pearson, of the new trials
 };
 
-/// What the option --confirm asks for; nothing without it.
+/// The run that the option --confirm asks for; nothing without it.
 std::optional<ConfirmedBest> confirmed_best(const command_line::Arguments& arguments,
                                             const summary::StudySummary& summary) {
   constexpr std::int64_t max_trials = 10'000'000;
@@ -81,20 +81,21 @@ std::optional<ConfirmedBest> confirmed_best(const command_line::Arguments& argum
   }
   if (summary.unfinished) arguments.refuse("option '--confirm' needs a run that has ended");
   const reading::StudyFile file(arguments.operands()[0]);
+  fmt::print(stderr, "running {} new trials of the best point\n", *trials);
   const study_run::Confirmation confirmation =
       study_run::confirm_point(file, summary::best_point(summary.points), *trials, plugin_option(arguments));
   return ConfirmedBest{confirmation, statistics::clopper_pearson(confirmation.successes, confirmation.trials,
                                                                  summary.confidence)};
 }
 
-/// What the trials of the file show of its best point. Those of a saltelli design are not independent.
+/// The claim of the best point by the trials of the file. Those of a saltelli design are not independent.
 std::string chosen_text(const summary::StudySummary& summary, std::int64_t best) {
   const std::size_t points = summary.points.size();
   const measures::PointSummary& point = summary.points[static_cast<std::size_t>(best)];
   const std::string label = text::printable(summary.labels[static_cast<std::size_t>(best)]);
   const std::string of = points == 1 ? label : fmt::format("best of {} points: {}", points, label);
   if (summary.features.dependent_trials) {
-    return fmt::format("{}: {} of {} dependent trials succeeded, which bound nothing\n", of,
+    return fmt::format("{}: {} of {} trials succeeded; dependent trials give no bounds\n", of,
                        point.outcomes.zero_count, point.trials);
   }
   const bool stopped = std::any_of(

@@ -1,4 +1,4 @@
-// What a control law of the user's own costs at a sample, beside the built-in law that it equals.
+// The cost of a user's control law at a sample, beside the built-in law that it equals.
 #include <cmath>
 #include <cstdint>
 #include <ctime>

@@ -8,7 +8,7 @@
 
 namespace zerocount::testing {
 
-/// What the benchmarks of one run proportion.
+/// The settings that all benchmarks of a run have in common.
 struct BenchmarkRun {
   std::vector<Workload> workloads;
   bool failed{false};  ///< an engine does not agree with the reference

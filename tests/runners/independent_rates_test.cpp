@@ -1,4 +1,4 @@
-// The rates of a study against a Monte Carlo that proportions nothing with it: other random numbers, other
+// The rates of a study against a Monte Carlo that has nothing in common with it: other random numbers, other
 // distributions code, another integrator, measures written again from their definitions.
 #include <algorithm>
 #include <cmath>

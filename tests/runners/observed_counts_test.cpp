@@ -76,7 +76,7 @@ TEST_F(ObservedCounts, AreOfOneOfTheRigs) {
   const nlohmann::json points = points_of("rigs: 4\n" + counts_of_both);
   const nlohmann::json& few = points[0]["observed_counts"];
   EXPECT_EQ(few["verdict"], "too_few") << few;  // 2/5 is the least p of four rigs
-  EXPECT_GE(few["least_p_value"].get<double>(), 0.4);
+  EXPECT_GE(few["lowest_p_value"].get<double>(), 0.4);
   const nlohmann::json short_trials = points_of("rigs: 40\n" + counts_of_both);
   EXPECT_EQ(short_trials[0]["observed_counts"]["verdict"], "untested");
   EXPECT_TRUE(short_trials[0]["observed_counts"]["p_value"].is_null());

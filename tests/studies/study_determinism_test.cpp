@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What both studies proportion: instruments with noise and losses, and a random history.
+/// The keys that both studies have: instruments with noise and losses, and a random history.
 const char* const instruments =
     "encoder:\n"
     "  fine_errors: {noise: {uniform: [0, 0.3]}, missed: 2.0e-3, eccentricity: 1.0e-4,\n"

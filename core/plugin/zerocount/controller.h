@@ -3,17 +3,18 @@
 
 /* A controller of one's own for zerocount, as a shared library.
  *
- * The library has one function, zerocount_controller_entry(), which returns the description of the controller:
- * its parameters, the size of its state, and the functions that run it. Write
+ * The library has one function, zerocount_controller_entry(), which returns the description of the
+ * controller: its parameters, the size of its state, and the functions that run it. Write
  *
  *   ZEROCOUNT_EXPORT const zerocount_controller* zerocount_controller_entry(void) { return &controller; }
  *
  * in C or C++ (in C++ the declaration below makes it extern "C").
  *
  * The rules:
- * - All that changes from sample to sample is in the state, which zerocount allocates, and which may be copied to
- *   another address between two samples. So no pointers into itself, no global or static variables that change.
- *   zerocount runs trials in parallel, and checks this by running some of them twice in another order.
+ * - All that changes from sample to sample is in the state, which zerocount allocates, and which may be
+ * copied to another address between two samples. So no pointers into itself, no global or static variables
+ * that change. zerocount runs trials in parallel, and checks this by running some of them twice in another
+ * order.
  * - `step` allocates no memory, does no input and output, and does not throw.
  * - The same inputs give the same bits. Compile without -ffast-math and with -ffp-contract=off.
  *
@@ -46,15 +47,15 @@ typedef struct zerocount_parameter {
 
 /* What is the same at all samples of a trial. */
 typedef struct zerocount_setup {
-  uint32_t size;               /* of this struct, bytes */
-  uint32_t parameter_count;    /* of the controller */
-  const double* parameters;    /* their values in this trial, in the order of the controller */
-  double sample_time;          /* T, s */
-  double resolution;           /* of the encoder, rad per count */
-  double torque_resolution;    /* of the converter, N m per code */
-  double lowest_torque;        /* that the converter can give, N m */
-  double highest_torque;       /* likewise */
-  double initial_integral;     /* initial.integral of the manifest, N m */
+  uint32_t size;            /* of this struct, bytes */
+  uint32_t parameter_count; /* of the controller */
+  const double* parameters; /* their values in this trial, in the order of the controller */
+  double sample_time;       /* T, s */
+  double resolution;        /* of the encoder, rad per count */
+  double torque_resolution; /* of the converter, N m per code */
+  double lowest_torque;     /* that the converter can give, N m */
+  double highest_torque;    /* likewise */
+  double initial_integral;  /* initial.integral of the manifest, N m */
 } zerocount_setup;
 
 /* A sampling instant. */
@@ -64,7 +65,7 @@ typedef struct zerocount_sample {
   double error;     /* reference, rounded to counts, less count */
   double count;     /* of the encoder that closes the loop, counts of the fine one */
   double reference; /* before it is rounded, counts */
-  double torque;    /* decided at the sample before, rounded to whole DAC steps and within the range, N m; 0 at the first */
+  double torque; /* decided at the sample before, in whole DAC steps within the range, N m; 0 at the first */
 } zerocount_sample;
 
 /* The controller. */
@@ -77,9 +78,9 @@ typedef struct zerocount_controller {
   uint32_t parameter_count;
   uint32_t state_size; /* bytes; the state is aligned to 64 bytes */
 
-  /* Prepares the state, whose bytes are 0, for the first sample of a trial. Returns 0. If the parameters make no
-   * sense together, writes why into `message`, of `message_size` bytes, and returns any other number: the run
-   * ends with this message. */
+  /* Prepares the state, whose bytes are 0, for the first sample of a trial. Returns 0. If the parameters make
+   * no sense together, writes why into `message`, of `message_size` bytes, and returns any other number: the
+   * run ends with this message. */
   int (*start)(void* state, const zerocount_setup* setup, char* message, size_t message_size);
 
   /* The wanted torque (N m) at this sample; the converter rounds and limits it. NaN: the controller cannot go

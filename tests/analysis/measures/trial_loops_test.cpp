@@ -7,8 +7,12 @@
 #include <gtest/gtest.h>
 
 #include "core/loop/controller.hpp"
+#include "core/loop/encoder.hpp"
+#include "core/plant/plant.hpp"
 #include "core/theory/margins.hpp"
 #include "core/theory/sampled_stability.hpp"
+#include "core/trial/rig.hpp"
+#include "tests/core/theory/frozen_loops.hpp"
 
 namespace zerocount::measures {
 namespace {
@@ -96,17 +100,30 @@ TEST(TrialLoops, AreThoseOfTheLaw) {
   EXPECT_EQ(stiffnesses_of(FrictionModel::none), (std::vector<double>{0.0}));
 }
 
-/// The law's own linear motion about rest decays with the damping of its first loop.
-TEST(TrialLoops, HaveTheDampingOfTheLaw) {
-  trial::TrialParameters p = rich_trial();
-  p.friction.model = friction::FrictionModel::lugre;
-  p.friction.uniform.sigma0 = 900.0;
-  p.friction.uniform.sigma1 = 0.05;
-  const double damping = 0.05 + p.plant.sliding_damping;
-  const auto expected =
-      theory::margins_about(900.0, damping, p.plant, p.encoder,
-                            loop::controller_in_phase(p.controller, loop::ControlPhase::fine), {1.07, 700.0});
-  EXPECT_EQ(theory::stability_margins(trial_loops(p).front().loop).gain.value, expected.gain.value);
+/// A torque so small that no law yields moves the rotor as the first of the law's loops says: the plant of
+/// the simulation against the held plant of the theory.
+TEST(TrialLoops, BeginWithTheMotionOfTheLawUnderASmallTorque) {
+  using friction::FrictionModel;
+  for (const FrictionModel model : {FrictionModel::presliding, FrictionModel::spring, FrictionModel::dahl,
+                                    FrictionModel::lugre, FrictionModel::gms, FrictionModel::none}) {
+    trial::TrialParameters p;
+    p.friction.model = model;
+    p.friction.uniform.alpha = 1e-9;  // no creep
+    p.friction.uniform.sigma1 = 0.05;
+    const std::vector<TrialLoop> loops = trial_loops(p);
+    // About its virgin state the spring has k1 + k2.
+    const theory::FrozenLoop& loop = loops[loops.front().name == "at k1" ? 1 : 0].loop;
+    constexpr double torque = 1e-6;  // N m
+    plant::Plant plant(p.plant, p.friction, trial::plant_start(p),
+                       trial::motion_tolerance(loop::fine_resolution(p.encoder)));
+    Eigen::VectorXd state = Eigen::VectorXd::Zero(loop.plant.A.rows());
+    for (int k = 0; k < 40; ++k) {
+      plant.advance(motion::constant_torque(torque), loop.sample_time);
+      state = loop.plant.A * state + loop.plant.b * torque;
+      const double counts = plant.read().theta / loop::fine_resolution(p.encoder);
+      ASSERT_NEAR(counts, state(0), 1e-3 * std::abs(state(0))) << static_cast<int>(model) << " sample " << k;
+    }
+  }
 }
 
 TEST(TrialLoops, ThereAreNoneOfAPluginOrAnOpenLoop) {

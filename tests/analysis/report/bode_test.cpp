@@ -16,6 +16,7 @@
 #include "core/theory/linear_loop.hpp"
 #include "core/theory/margins.hpp"
 #include "tests/analysis/report/run_studies.hpp"
+#include "tests/core/theory/frozen_loops.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace zerocount::report {
@@ -23,7 +24,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// What a loop is made of.
+/// The parameters of a loop.
 struct LoopParts {
   double stiffness{0.0};
   double damping{0.0};

@@ -96,10 +96,10 @@ TEST(ObservedTest, FindsARigThatIsNone) {
 }
 
 TEST(ObservedTest, KnowsWhatItCannotFind) {
-  EXPECT_GT(fisher_test({2, 2}, {50, 100}).least_p, 0.05);
-  EXPECT_LT(fisher_test({2, 2}, {98, 100}).least_p, 0.05);
+  EXPECT_GT(fisher_test({2, 2}, {50, 100}).lowest_p, 0.05);
+  EXPECT_LT(fisher_test({2, 2}, {98, 100}).lowest_p, 0.05);
   const std::vector<std::int64_t> few(20, 10);
-  EXPECT_DOUBLE_EQ(rig_rank_test({0, 20}, few, 20).least_p, 2.0 / 21.0);
+  EXPECT_DOUBLE_EQ(rig_rank_test({0, 20}, few, 20).lowest_p, 2.0 / 21.0);
   EXPECT_THROW(rig_rank_test({1, 21}, few, 20), Failure);
   EXPECT_THROW(fisher_test({3, 2}, {1, 2}), Failure);
 }

@@ -8,6 +8,7 @@
 #include "core/theory/margins.hpp"
 #include "tests/core/loop/controller_json.hpp"
 #include "tests/core/loop/random_blocks.hpp"
+#include "tests/core/theory/frozen_loops.hpp"
 
 namespace zerocount {
 namespace {

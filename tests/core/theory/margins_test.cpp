@@ -12,6 +12,7 @@
 #include "core/loop/encoder.hpp"
 #include "core/theory/linear_loop.hpp"
 #include "tests/core/loop/random_blocks.hpp"
+#include "tests/core/theory/frozen_loops.hpp"
 
 namespace zerocount::theory {
 namespace {

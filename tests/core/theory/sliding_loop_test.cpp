@@ -11,6 +11,7 @@
 
 #include "core/loop/controller.hpp"
 #include "core/theory/gains.hpp"
+#include "tests/core/theory/frozen_loops.hpp"
 
 namespace zerocount::theory {
 namespace {

@@ -1,4 +1,4 @@
-// What trials of one rig proportion, and what a study's rigs do not.
+// The values that trials of one rig have in common, and that differ between the rigs of a study.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

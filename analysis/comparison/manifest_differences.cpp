@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
+#include "core/hash/sha256.hpp"
 #include "experiments/manifest/manifest_keys.hpp"
 #include "experiments/manifest/overrides.hpp"
 #include "experiments/parameters/earlier_defaults.hpp"
@@ -70,6 +71,7 @@ ManifestValues manifest_values(const layout::FileHeader& header, const std::stri
   }
   ManifestValues values;
   if (root) collect(*root, "", values);
+  if (header.samples) values["samples, SHA-256 of the table"] = hash::sha256_hex(*header.samples);
   return values;
 }
 

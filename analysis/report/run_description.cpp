@@ -99,6 +99,8 @@ std::vector<HtmlFact> facts_of(const ReportedStudy& reported) {
     facts.push_back({"Controller", fmt::format("plugin {} {}, SHA-256 {}", header.plugin->name,
                                                header.plugin->version, header.plugin->sha256)});
   }
+  if (reported.study.samples)
+    facts.push_back({"Sampled together", study::samples_text(*reported.study.samples)});
   if (!reported.study.correlations.empty())
     facts.push_back({"Correlated", study::correlations_text(reported.study.correlations)});
   if (!header.overrides.empty())

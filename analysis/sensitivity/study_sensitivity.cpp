@@ -51,7 +51,7 @@ PointInputs point_inputs(const reading::StudyFile& file, const study::Study& stu
   PointInputs inputs{.design = study.design,
                      .factors = study.factors,
                      .inputs = {},
-                     .correlated = !study.correlations.empty(),
+                     .correlated = study::has_dependent_parameters(study),
                      .rigs = study.rigs};
   const layout::RowRange rows{point * file.header().trials, file.header().trials};
   for (std::size_t column = 0; column < file.input_columns().size(); ++column) {

@@ -83,6 +83,12 @@ std::optional<std::uint32_t> read_drawn(const yaml::Field& field, Reading& readi
         known.empty() ? "parameters with distributions" : fmt::format("one of {}", fmt::join(known, ", ")));
     return std::nullopt;
   }
+  const std::vector<std::uint32_t>& sampled = reading.plan.sampled_slots;
+  if (std::find(sampled.begin(), sampled.end(), slots->first) != sampled.end()) {
+    reading.problems.add(field, fmt::format("{} cannot be correlated: samples give it", *name),
+                         "a distribution of its own");
+    return std::nullopt;
+  }
   for (const study::Value* value : study::values_of(reading.plan, slots->first)) {
     const std::string fault = fault_of(*value);
     if (fault.empty()) continue;

@@ -1,6 +1,7 @@
 #include "experiments/manifest/load_study.hpp"
 
 #include <deque>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "core/hash/sha256.hpp"
 #include "experiments/manifest/manifest.hpp"
 #include "experiments/manifest/overrides.hpp"
+#include "experiments/manifest/samples.hpp"
 #include "experiments/parameters/earlier_defaults.hpp"
 #include "experiments/yaml/text_file.hpp"
 
@@ -21,15 +23,16 @@ namespace {
                             yaml::max_manifest_size));
 }
 
-// Text and overrides as one text; neither can contain the separator.
+// All that determines the trials as one text, without a separator in its parts.
 std::string joined(const std::string& text, const std::vector<std::string>& overrides,
-                   const plugin::ControllerPlugin* plugin) {
+                   const study::Study& study) {
   std::string all = text;
   for (const std::string& override_text : overrides) {
     all += '\0';
     all += override_text;
   }
-  if (plugin != nullptr) all += '\0' + plugin->description.sha256;
+  if (study.plugin) all += '\0' + study.plugin->description.sha256;
+  if (study.samples) all += '\0' + hash::sha256_hex(study.samples->text);
   return all;
 }
 
@@ -46,25 +49,25 @@ void require_effect(const study::Study& study, std::string_view source) {
 }  // namespace
 
 study::Study load_study(const std::filesystem::path& manifest, const std::vector<std::string>& overrides,
-                        const PluginLoader& load) {
+                        const Companions& companions) {
   const std::string source = yaml::name_of_text(manifest);
   std::string text = yaml::read_text(manifest, yaml::max_manifest_size, "a manifest");
   if (text.starts_with("\x89HDF")) {
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: a file in the HDF5 format, such as results; expected a manifest", source));
   }
-  study::Study study = parse_study(std::move(text), source, overrides, load);
+  study::Study study = parse_study(std::move(text), source, overrides, companions);
   require_effect(study, source);
   return study;
 }
 
 study::Study parse_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
-                         const PluginLoader& load) {
-  return parse_study(std::move(text), source, overrides, parameters::newest_version, load);
+                         const Companions& companions) {
+  return parse_study(std::move(text), source, overrides, parameters::newest_version, companions);
 }
 
 study::Study parse_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
-                         std::int64_t version, const PluginLoader& load) {
+                         std::int64_t version, const Companions& companions) {
   if (text.size() > yaml::max_manifest_size) refuse_size(source);
   yaml::Problems problems;
   yaml::YamlPointer root = yaml::parse_yaml(text, source, false, problems);
@@ -76,11 +79,14 @@ study::Study parse_study(std::string text, std::string_view source, const std::v
 
   std::deque<std::string> override_sources;
   root = apply_overrides(root, overrides, override_sources, problems);
-  study::Study study = read_manifest(*root, version, load, problems);
+  std::optional<SamplesTable> samples;
+  insert_samples(root, companions.samples, samples, problems);
+  study::Study study =
+      read_manifest(*root, version, companions.plugin, samples ? &*samples : nullptr, problems);
   problems.raise_if_any();
 
   study.manifest_sha256 = hash::sha256_hex(text);
-  study.study_sha256 = hash::sha256_hex(joined(text, overrides, study.plugin.get()));
+  study.study_sha256 = hash::sha256_hex(joined(text, overrides, study));
   study.manifest_text = std::move(text);
   study.overrides = overrides;
   return study;

@@ -227,7 +227,7 @@ void read_observed(Manifest& m) {
 }  // namespace
 
 study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, const PluginLoader& load,
-                           yaml::Problems& problems) {
+                           const SamplesTable* samples, yaml::Problems& problems) {
   auto plan = std::make_shared<study::StudyPlan>();
   Manifest m{.root = {&root, ""}, .reading = {problems, *plan, version}};
   if (root.kind != yaml::YamlNode::Kind::map) {
@@ -244,6 +244,7 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, con
   read_plugin(m.root, load, m.reading);
   read_sections(m.root, m.reading, m.places);
   read_axes(m);
+  if (samples != nullptr) join_samples(*samples, m.axes, m.reading, m.study);
   read_correlations(m.root, m.reading, m.study);
   read_retained(m);
   if (const auto field = yaml::find_field(m.root, "stop"))

@@ -34,7 +34,7 @@ std::vector<std::string_view> value_paths() {
 }  // namespace
 
 std::span<const GeneralKey> general_keys() {
-  static constexpr std::array<GeneralKey, 22> keys{{
+  static constexpr std::array<GeneralKey, 23> keys{{
       {"zerocount", "version of the manifest's format: 1", true},
       {"name", "name of the study", true},
       {"description", "what the study is for", false},
@@ -63,6 +63,11 @@ std::span<const GeneralKey> general_keys() {
       {"correlation",
        "correlations of drawn parameters: [[friction.k1, friction.k2, 0.6]], coefficients of the normal "
        "scores of their values (Gaussian copula); each keeps its distribution",
+       false},
+      {"samples",
+       "joint draws of several parameters, such as those of zerocount identify --posterior: a CSV table, its "
+       "path from the folder of the manifest, or {file: FILE, per: rig}; the header has their dotted paths, "
+       "and every rig or trial takes a row of it",
        false},
       {"observed", "what was observed on the real rig, by case or point label: texts or counts", false},
       {"sweep", "design points: grid (product of lists), cases (named), or both (product)", false},

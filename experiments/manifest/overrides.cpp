@@ -4,6 +4,7 @@
 #include <charconv>
 #include <initializer_list>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -139,11 +140,25 @@ std::string_view sweep_that_gives(const yaml::YamlNode& root, std::string_view k
   return all ? "sweep.cases" : "";
 }
 
-bool is_well_formed(std::string_view key) {
-  return !key.empty() && key.front() != '.' && key.back() != '.' && key.find("..") == std::string_view::npos;
+}  // namespace
+
+bool is_dotted_path(std::string_view text) {
+  return !text.empty() && text.front() != '.' && text.back() != '.' &&
+         text.find("..") == std::string_view::npos;
 }
 
-}  // namespace
+yaml::YamlPointer with_value(const yaml::YamlPointer& root, std::string_view path, yaml::YamlPointer value,
+                             const yaml::Place& place, yaml::Problems& problems) {
+  return replaced(root, {path, std::move(value), place}, path, problems);
+}
+
+bool has_value_at(const yaml::YamlNode& root, std::string_view path) {
+  if (root.kind != yaml::YamlNode::Kind::map) return false;
+  const std::size_t dot = path.find('.');
+  const yaml::YamlEntry* const entry = yaml::find_entry(root, path.substr(0, dot));
+  if (!entry || !entry->value) return false;
+  return dot == std::string_view::npos || has_value_at(*entry->value, path.substr(dot + 1));
+}
 
 yaml::YamlPointer apply_overrides(yaml::YamlPointer root, const std::vector<std::string>& overrides,
                                   std::deque<std::string>& sources, yaml::Problems& problems) {
@@ -151,7 +166,7 @@ yaml::YamlPointer apply_overrides(yaml::YamlPointer root, const std::vector<std:
     const std::string& source = sources.emplace_back("--set " + text.substr(0, 200));
     const std::size_t equals = text.find('=');
     const std::string key = text.substr(0, equals);
-    if (equals == std::string::npos || !is_well_formed(key) || text.size() > yaml::max_manifest_size) {
+    if (equals == std::string::npos || !is_dotted_path(key) || text.size() > yaml::max_manifest_size) {
       problems.add({source}, "manifest", "this is no override", "--set key=value with the key's dotted path");
       continue;
     }
@@ -167,8 +182,7 @@ yaml::YamlPointer apply_overrides(yaml::YamlPointer root, const std::vector<std:
       value = null;
     }
     if (!value) continue;
-    if (const yaml::YamlPointer changed = replaced(root, {key, value, {source}}, key, problems))
-      root = changed;
+    if (const yaml::YamlPointer changed = with_value(root, key, value, {source}, problems)) root = changed;
   }
   return root;
 }

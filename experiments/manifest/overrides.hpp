@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiments/yaml/yaml_tree.hpp"
@@ -14,6 +15,17 @@ namespace zerocount::manifest {
 /// overrides appear in messages, and must outlive the result.
 yaml::YamlPointer apply_overrides(yaml::YamlPointer root, const std::vector<std::string>& overrides,
                                   std::deque<std::string>& sources, yaml::Problems& problems);
+
+/// Whether the text can be a dotted path: keys without empty ones among them.
+bool is_dotted_path(std::string_view text);
+
+/// A copy of the tree in which `path` has this value; missing maps are created. Null, after a report at
+/// `place`, if the path leads through a value.
+yaml::YamlPointer with_value(const yaml::YamlPointer& root, std::string_view path, yaml::YamlPointer value,
+                             const yaml::Place& place, yaml::Problems& problems);
+
+/// Whether the tree has a value at `path`, a path of keys without dots.
+bool has_value_at(const yaml::YamlNode& root, std::string_view path);
 
 /// Reports overrides in `root` without effect, because a grid or every case of the sweep gives the key at all
 /// points.

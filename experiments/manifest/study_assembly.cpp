@@ -59,6 +59,19 @@ void derive_randomness(const study::Study& study, study::StudyPlan& plan) {
   plan.sobol_places = study::sobol_place_key(study.seed);
 }
 
+// The slots of joint draws share one random number, that of the row. The slash keeps its name apart from
+// parameter names.
+void share_randomness_of_samples(const study::Study& study, study::StudyPlan& plan) {
+  if (plan.sampled_slots.empty()) return;
+  study::SlotRandomness rows{.key = designs::random_key(study.seed, "samples/rows")};
+  if (study.design == study::Design::sobol) {
+    const std::size_t dimension = parameters::sobol_dimension_of_samples;
+    rows.directions = designs::sobol_directions({&dimension, 1}).front();
+  }
+  rows.contacts = designs::random_key(study.seed, "samples/rows/contacts");
+  for (const std::uint32_t slot : plan.sampled_slots) plan.randomness[slot] = rows;
+}
+
 void number_factors(study::StudyPlan& plan, study::Study& study) {
   if (study.design != study::Design::saltelli) return;
   plan.factors = study::find_factors(plan);
@@ -233,6 +246,7 @@ void assemble_study(const std::vector<ProfileRequest>& requests, const std::vect
   const std::vector<bool> swept = swept_slots(plan);
   list_input_columns(swept, plan, study);
   derive_randomness(study, plan);
+  share_randomness_of_samples(study, plan);
   number_factors(plan, study);
   set_common_parameters(study, plan);
   list_profiles(requests, swept, plan, study);

@@ -80,6 +80,9 @@ constexpr std::size_t sobol_dimension_of_mean(std::size_t of_parameter) {
   return of_parameter < first_sobol_dimension_of_moves ? 3600 + of_parameter : 256 + of_parameter;
 }
 
+/// Sobol dimension of the row of joint draws (`samples`).
+constexpr std::size_t sobol_dimension_of_samples = 3666;
+
 /// Row of the parameter with this dotted path, or of which it is the short name.
 std::optional<std::size_t> find_parameter(std::string_view name);
 

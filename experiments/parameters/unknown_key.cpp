@@ -57,7 +57,7 @@ void add_unknown_key(const yaml::Field& map, const yaml::YamlEntry& entry, std::
   const std::string_view nearest = nearest_key(entry.key, known);
   const std::string what =
       nearest.empty() ? "unknown key" : fmt::format("unknown key, nearest known: {}", nearest);
-  constexpr std::size_t max_listed = 24;
+  constexpr std::size_t max_listed = 32;
   const std::string expected =
       known.size() <= max_listed
           ? fmt::format("one of {}", fmt::join(known, ", "))

@@ -1,10 +1,13 @@
 #include "experiments/study/copula.hpp"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include <Eigen/Cholesky>
 #include <boost/math/distributions/normal.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace zerocount::study {
 
@@ -36,6 +39,13 @@ std::string correlations_text(const std::vector<Correlation>& correlations) {
     text += fmt::format("{}{} and {} ({})", text.empty() ? "" : ", ", first, second, coefficient);
   }
   return text;
+}
+
+std::string samples_text(const JointSamples& samples) {
+  constexpr std::array<std::string_view, 4> names{"the study", "each rig", "each trial", "each contact"};
+  return fmt::format("{}: a row of {} ({} draw{}) for {}", fmt::join(samples.parameters, ", "), samples.file,
+                     samples.rows, samples.rows == 1 ? "" : "s",
+                     names[static_cast<std::size_t>(samples.per)]);
 }
 
 }  // namespace zerocount::study

@@ -73,6 +73,15 @@ struct Correlation {
   double coefficient{0.0};  ///< −1 < ρ < 1
 };
 
+/// Joint draws of several parameters (`samples`). A row is drawn as a whole, with equal probability.
+struct JointSamples {
+  std::string file;                     ///< as the manifest names it
+  std::string text;                     ///< of the table
+  std::vector<std::string> parameters;  ///< [column] dotted path
+  std::int64_t rows{0};
+  Per per{Per::trial};  ///< how often a row is drawn
+};
+
 /// One move of a sequence (`command.sequence`).
 struct SequenceMove {
   std::int64_t target{-1};  ///< index in the list; −1: beyond the first or last target
@@ -137,6 +146,7 @@ struct Study {
   std::optional<StoppingRule> stop;  ///< set for sequential stopping
   Design design{Design::monte_carlo};
   std::vector<Correlation> correlations;  ///< of drawn parameters; all others are independent
+  std::optional<JointSamples> samples;    ///< joint draws of several parameters
   std::vector<std::string> factors;       ///< factors of the design saltelli, in its order; otherwise empty
   bool independent_points{false};
   Engine engine{Engine::batch};  ///< chosen for the run; not part of the manifest
@@ -146,7 +156,8 @@ struct Study {
   std::vector<std::string> overrides;  ///< "key=value", as given with --set, in order
   /// The user's controller, which runs the trials if it is loaded; null: there is none.
   std::shared_ptr<const plugin::ControllerPlugin> plugin;
-  std::string study_sha256;  ///< of manifest_text, overrides and plugin: equal hashes mean the same trials
+  /// Of manifest_text, overrides, plugin and samples: equal hashes mean the same trials.
+  std::string study_sha256;
 
   std::vector<std::string> point_labels;  ///< [point]
   std::vector<SweepAxis> axes;
@@ -173,6 +184,14 @@ struct StudyTrial {
   std::vector<double> inputs;  ///< [input column], in that column's unit; for profiles and values drawn per
                                ///< contact the value at the start
 };
+
+/// Whether some of the drawn parameters depend on each other: `correlation` or `samples`.
+inline bool has_dependent_parameters(const Study& study) {
+  return !study.correlations.empty() || (study.samples && study.samples->parameters.size() > 1);
+}
+
+/// E.g. "friction.k1, friction.k2: a row of posterior.csv (1000 draws) for each rig".
+std::string samples_text(const JointSamples& samples);
 
 /// E.g. "friction.k1 and friction.k2 (0.6), friction.k1 and friction.beta (-0.5)".
 std::string correlations_text(const std::vector<Correlation>& correlations);

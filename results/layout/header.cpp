@@ -46,6 +46,21 @@ void write_manifest(hdf5::File& file, const std::string& text) {
   dataset.set_text("long_name", "exact text of the manifest");
 }
 
+void write_samples(hdf5::File& file, const std::string& text) {
+  hdf5::Dataset dataset = file.create_dataset("samples", {hdf5::Element::text, {}, {}, false});
+  dataset.write_texts(std::vector<std::string>{storable(file, text)});
+  dataset.set_text("units", "1");
+  dataset.set_text("long_name",
+                   "exact text of the table of joint draws that the manifest's key samples names");
+}
+
+std::optional<std::string> read_samples(const hdf5::File& file) {
+  if (!file.contains("samples")) return std::nullopt;
+  const std::vector<std::string> texts = file.open_dataset("samples").read_texts();
+  if (texts.size() != 1) file.fail("the table of joint draws is not a single text");
+  return texts.front();
+}
+
 void write_plugin(hdf5::File& file, const plugin::PluginDescription& plugin) {
   hdf5::Dataset dataset = file.create_dataset("controller_plugin", {hdf5::Element::text, {}, {}, false});
   dataset.write_texts(std::vector<std::string>{storable(file, plugin_as_json(plugin))});
@@ -138,7 +153,8 @@ FileHeader make_header(const study::Study& study, FileKind kind, RowRange rows, 
           study.overrides,
           study.manifest_sha256,
           study.study_sha256,
-          study.plugin ? std::optional(study.plugin->description) : std::nullopt};
+          study.plugin ? std::optional(study.plugin->description) : std::nullopt,
+          study.samples ? std::optional(study.samples->text) : std::nullopt};
 }
 
 void write_header(hdf5::File& file, const FileHeader& header) {
@@ -162,6 +178,7 @@ void write_header(hdf5::File& file, const FileHeader& header) {
   write_manifest(file, header.manifest);
   write_overrides(file, header.overrides);
   if (header.plugin) write_plugin(file, *header.plugin);
+  if (header.samples) write_samples(file, *header.samples);
 }
 
 void mark_finished(hdf5::File& file) {
@@ -189,6 +206,7 @@ FileHeader read_header(const hdf5::File& file) {
   header.manifest = manifest.front();
   header.overrides = file.open_dataset("overrides").read_texts();
   header.plugin = read_plugin(file);
+  header.samples = read_samples(file);
   check_numbers(file, header);
   if (hash::sha256_hex(header.manifest) != header.manifest_sha256)
     file.fail("the checksum of the manifest is wrong");
@@ -200,8 +218,9 @@ study::Study recorded_study(const FileHeader& header, const std::filesystem::pat
   if (plugin) require_same_plugin(path, header, plugin.get());
   if (!plugin && header.plugin)
     plugin = std::make_shared<const plugin::ControllerPlugin>(plugin::ControllerPlugin{*header.plugin});
-  study::Study study = manifest::parse_study(header.manifest, path.string() + ":/manifest", header.overrides,
-                                             header.version, manifest::known_plugin(std::move(plugin)));
+  study::Study study =
+      manifest::parse_study(header.manifest, path.string() + ":/manifest", header.overrides, header.version,
+                            manifest::known_companions(std::move(plugin), header.samples));
   study.engine = header.engine;
   return study;
 }

@@ -53,6 +53,7 @@ struct FileHeader {
   std::string manifest_sha256;
   std::string study_sha256;
   std::optional<plugin::PluginDescription> plugin;  ///< the user's controller, if there is one
+  std::optional<std::string> samples;  ///< exact text of the table of joint draws, if there is one
 };
 
 /// A file that is sound as far as it was read, but is not for this use: another format or a newer version of

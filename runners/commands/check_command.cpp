@@ -6,12 +6,11 @@
 
 #include "analysis/statistics/sample_size.hpp"
 #include "analysis/text/percent.hpp"
-#include "experiments/manifest/load_study.hpp"
 #include "experiments/study/study.hpp"
 #include "runners/commands/commands.hpp"
 #include "runners/commands/point_theory.hpp"
+#include "runners/commands/study_argument.hpp"
 #include "runners/plugins/hidden_state.hpp"
-#include "runners/plugins/plugin_library.hpp"
 #include "runners/study_run/cost.hpp"
 #include "runners/study_run/engine_use.hpp"
 #include "runners/study_run/progress.hpp"
@@ -71,6 +70,7 @@ void print_what_differs(const study::Study& study) {
   print_columns(study, "of these, drawn anew at each contact", {study::Per::contact});
   print_columns(study, "differing between rigs", {study::Per::rig});
   print_columns(study, "the same in all trials of a point", {study::Per::study});
+  if (study.samples) fmt::print("  sampled together: {}\n", study::samples_text(*study.samples));
   if (!study.correlations.empty())
     fmt::print("  correlated: {}\n", study::correlations_text(study.correlations));
 }
@@ -120,8 +120,7 @@ void print_theory_heading(const study::Study& study) {
 
 ExitCode check(const command_line::Arguments& arguments) {
   const std::string& manifest = arguments.operands()[0];
-  const study::Study study =
-      manifest::load_study(manifest, arguments.values("set"), plugins::plugins_of(manifest));
+  const study::Study study = load_study(manifest, arguments);
   plugins::require_no_hidden_state(study);
   print_warnings(study);
   print_plan(study);

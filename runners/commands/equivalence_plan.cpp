@@ -20,10 +20,9 @@
 #include "analysis/comparison/measure_comparison.hpp"
 #include "analysis/comparison/point_trials.hpp"
 #include "analysis/text/text.hpp"
-#include "experiments/manifest/load_study.hpp"
 #include "runners/command_line/option_values.hpp"
+#include "runners/commands/study_argument.hpp"
 #include "runners/plugins/hidden_state.hpp"
-#include "runners/plugins/plugin_library.hpp"
 #include "runners/study_run/progress.hpp"
 #include "runners/study_run/study_runner.hpp"
 #include "runners/study_run/trial_runner.hpp"
@@ -85,7 +84,7 @@ comparison::GateRules rules_of(const command_line::Arguments& arguments) {
 
 study::Study planned_study(const command_line::Arguments& arguments) {
   const std::string& manifest = arguments.operands()[0];
-  study::Study study = manifest::load_study(manifest, arguments.values("set"), plugins::plugins_of(manifest));
+  study::Study study = load_study(manifest, arguments);
   plugins::require_no_hidden_state(study);
   const auto refuse = [&](const char* what) {
     throw Failure(ExitCode::bad_input, fmt::format("{}: {}", manifest, what));

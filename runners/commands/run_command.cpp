@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
 
-#include "experiments/manifest/load_study.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/study_file.hpp"
@@ -16,8 +15,8 @@
 #include "results/storage/output_lock.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
+#include "runners/commands/study_argument.hpp"
 #include "runners/plugins/hidden_state.hpp"
-#include "runners/plugins/plugin_library.hpp"
 #include "runners/study_run/earlier_shards.hpp"
 #include "runners/study_run/engine_use.hpp"
 #include "runners/study_run/existing_output.hpp"
@@ -91,7 +90,7 @@ RunRequest run_request(const command_line::Arguments& arguments) {
   RunRequest request;
   request.output = command_line::output_place(arguments);
   const std::string& manifest = arguments.operands()[0];
-  request.study = manifest::load_study(manifest, arguments.values("set"), plugins::plugins_of(manifest));
+  request.study = load_study(manifest, arguments);
   request.study.engine = engine_of(arguments, request.study);
   const std::optional<std::string> part = arguments.value("shard");
   request.wanted = part ? part_of(arguments, *part, request.study) : layout::all_rows(request.study);

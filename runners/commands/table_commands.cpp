@@ -1,10 +1,9 @@
 #include <fmt/format.h>
 
 #include "experiments/manifest/json_schema.hpp"
-#include "experiments/manifest/load_study.hpp"
 #include "experiments/manifest/parameter_listing.hpp"
 #include "runners/commands/commands.hpp"
-#include "runners/plugins/plugin_library.hpp"
+#include "runners/commands/study_argument.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -13,8 +12,7 @@ ExitCode print_parameters_of_study(const command_line::Arguments& arguments, con
                                    bool text) {
   if (arguments.has("axis") || arguments.has("units"))
     arguments.refuse("the units are those of the manifest; --axis and --units cannot be given with it");
-  const study::Study study =
-      manifest::load_study(manifest, arguments.values("set"), plugins::plugins_of(manifest));
+  const study::Study study = load_study(manifest, arguments);
   fmt::print("{}", text ? manifest::parameters_as_text(study) : manifest::parameters_as_markdown(study));
   return ExitCode::success;
 }

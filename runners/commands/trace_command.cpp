@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "core/trial/trial.hpp"
-#include "experiments/manifest/load_study.hpp"
 #include "experiments/study/study.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/layout/header.hpp"
@@ -18,8 +17,8 @@
 #include "runners/commands/commands.hpp"
 #include "runners/commands/plugin_option.hpp"
 #include "runners/commands/replay.hpp"
+#include "runners/commands/study_argument.hpp"
 #include "runners/commands/trace_writer.hpp"
-#include "runners/plugins/plugin_library.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -100,9 +99,8 @@ ExitCode trace(const command_line::Arguments& arguments) {
   if (!file && arguments.has("plugin"))
     arguments.refuse("option '--plugin' goes with a results file; a manifest names its plugin");
 
-  const study::Study study =
-      file ? layout::recorded_study(file->header(), input, plugin_option(arguments))
-           : manifest::load_study(input, arguments.values("set"), plugins::plugins_of(input));
+  const study::Study study = file ? layout::recorded_study(file->header(), input, plugin_option(arguments))
+                                  : load_study(input, arguments);
   if (study.plugin && study.plugin->functions == nullptr) {
     arguments.refuse(
         fmt::format("the controller of {} is the plugin {}, which is not loaded from a results file; give "

@@ -11,7 +11,6 @@
 
 #include "core/hash/sha256.hpp"
 #include "core/plugin/arithmetic_mode.hpp"
-#include "experiments/yaml/text_file.hpp"
 
 namespace zerocount::plugins {
 namespace {
@@ -82,8 +81,7 @@ manifest::LoadedPlugin load_plugin(const fs::path& library) {
       std::move(std::get<plugin::ControllerPlugin>(checked)));
 }
 
-manifest::PluginLoader plugins_of(const fs::path& manifest) {
-  const fs::path folder = yaml::is_standard_stream(manifest) ? fs::path() : manifest.parent_path();
+manifest::PluginLoader plugins_from(const fs::path& folder) {
   return [folder](const std::string& path) { return load_plugin(folder / path); };
 }
 

@@ -99,8 +99,9 @@ std::vector<layout::RowRange> missing(const study::Study& study, const std::vect
 study::Study decided_study(const study::Study& study, std::int64_t trials) {
   std::vector<std::string> overrides = study.overrides;
   overrides.push_back(fmt::format("{}{}", decided_key, trials));
-  study::Study decided =
-      manifest::parse_study(study.manifest_text, study.name, overrides, manifest::known_plugin(study.plugin));
+  const auto samples = study.samples ? std::optional(study.samples->text) : std::nullopt;
+  study::Study decided = manifest::parse_study(study.manifest_text, study.name, overrides,
+                                               manifest::known_companions(study.plugin, samples));
   decided.engine = study.engine;
   return decided;
 }

@@ -51,7 +51,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"frictoin: {k1: 1}",
              "m.yaml:6:1: frictoin: unknown key, nearest known: friction; expected one of zerocount, name, "
              "description, axis, travel, seed, trials, rigs, design, independent_points, retain, stop, "
-             "correlation, observed, sweep, "
+             "correlation, samples, observed, sweep, "
              "plant, "
              "friction, "
              "encoder, dac, amplifier, controller, command, initial, verdict"},
@@ -371,13 +371,14 @@ TEST(ManifestErrors, EveryRequiredKeyIsMissed) {
 }
 
 TEST(ManifestErrors, AMergeKeyIsAKeyLikeAnyOther) {
-  EXPECT_EQ(failure_of(minimal_manifest("<<: {name: x}")),
-            "m.yaml:6:1: <<: unknown key, nearest known: dac; expected one of zerocount, name, description, "
-            "axis, travel, "
-            "seed, trials, rigs, design, independent_points, retain, stop, correlation, observed, sweep, "
-            "plant, friction, "
-            "encoder, "
-            "dac, amplifier, controller, command, initial, verdict");
+  EXPECT_EQ(
+      failure_of(minimal_manifest("<<: {name: x}")),
+      "m.yaml:6:1: <<: unknown key, nearest known: dac; expected one of zerocount, name, description, "
+      "axis, travel, "
+      "seed, trials, rigs, design, independent_points, retain, stop, correlation, samples, observed, sweep, "
+      "plant, friction, "
+      "encoder, "
+      "dac, amplifier, controller, command, initial, verdict");
 }
 
 TEST(ManifestErrors, ANewerManifestSaysSo) {
@@ -430,7 +431,7 @@ TEST(ManifestErrors, AllErrorsAreToldInTheOrderOfTheFile) {
       "m.yaml:9:1: sead: unknown key, nearest known: seed; expected one of zerocount, name, description, "
       "axis, travel, "
       "seed, "
-      "trials, rigs, design, independent_points, retain, stop, correlation, observed, sweep, plant, "
+      "trials, rigs, design, independent_points, retain, stop, correlation, samples, observed, sweep, plant, "
       "friction, encoder, "
       "dac, "
       "amplifier, controller, "

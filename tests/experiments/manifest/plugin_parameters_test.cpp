@@ -24,12 +24,12 @@ PluginLoader two_parameters() {
 }
 
 study::Study study_with_plugin(const std::string& more, const std::vector<std::string>& overrides = {}) {
-  return parse_study(minimal_manifest(more), "m.yaml", overrides, two_parameters());
+  return parse_study(minimal_manifest(more), "m.yaml", overrides, {.plugin = two_parameters()});
 }
 
 std::string refusal_with_plugin(const std::string& more, const PluginLoader& load = two_parameters()) {
   try {
-    parse_study(minimal_manifest(more), "m.yaml", {}, load);
+    parse_study(minimal_manifest(more), "m.yaml", {}, {.plugin = load});
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.code(), ExitCode::bad_input);
     return failure.what();
@@ -82,8 +82,8 @@ TEST(PluginParameters, AreDrawnForRigsAndInEveryDesign) {
 TEST(PluginParameters, AnotherLibraryMakesAnotherStudy) {
   const auto sha_of = [](const char* sha256) {
     return parse_study(minimal_manifest("controller: {plugin: own.so}\n"), "m.yaml", {},
-                       known_plugin(std::make_shared<const plugin::ControllerPlugin>(
-                           plugin::ControllerPlugin{{"own", "1", sha256, {}}})))
+                       {.plugin = known_plugin(std::make_shared<const plugin::ControllerPlugin>(
+                            plugin::ControllerPlugin{{"own", "1", sha256, {}}}))})
         .study_sha256;
   };
   EXPECT_EQ(sha_of("01"), sha_of("01"));
@@ -127,7 +127,7 @@ TEST(PluginParameters, ErrorsNameThePlace) {
 TEST(PluginParameters, APluginClosesTheLoop) {
   try {
     parse_study(manifest_commanding("{torque: {levels: [0.1]}}", "controller: {plugin: own.so}\n"), "m.yaml",
-                {}, two_parameters());
+                {}, {.plugin = two_parameters()});
     FAIL();
   } catch (const Failure& failure) {
     EXPECT_EQ(

@@ -1,0 +1,20 @@
+#include "experiments/manifest/companions.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/failure/failure.hpp"
+
+namespace zerocount::manifest {
+
+Companions known_companions(std::shared_ptr<const plugin::ControllerPlugin> plugin,
+                            std::optional<std::string> samples) {
+  return {.plugin = known_plugin(std::move(plugin)),
+          .samples = [samples = std::move(samples)](const std::string& path) {
+            if (samples) return *samples;
+            throw Failure(ExitCode::bad_data, fmt::format("{}: this table of samples is not recorded", path));
+          }};
+}
+
+}  // namespace zerocount::manifest

@@ -138,19 +138,73 @@ void take_forecast(MeasureComparison& measure, const JudgementForecast& forecast
       measure.changed_fails ? std::max(measure.bounds.high, -measure.bounds.low) : measure.bounds.high;
 }
 
-/// Finds the trials that would decide what is open.
-void forecast(StudyComparison& result, const std::vector<ForecastPoint>& points, const GateRules& rules,
-              double failing) {
+/// An open-loop study has moves, but none that could be judged.
+bool judges_nothing(const reading::StudyFile& file) {
+  const std::vector<double> outcomes = file.measure("outcome", file.rows());
+  return std::all_of(outcomes.begin(), outcomes.end(), [](double outcome) {
+    return outcome == static_cast<double>(trial::Outcome::open_loop);
+  });
+}
+
+/// The design points to compare, and where their trials are.
+struct ComparedData {
+  const reading::StudyFile& baseline;
+  const reading::StudyFile& current;
+  std::vector<MatchedPoint> points;
+  std::int64_t baseline_rigs{0};
+  std::int64_t current_rigs{0};
+};
+
+struct TrialsOfBoth {
+  PointTrials baseline;
+  PointTrials current;
+};
+
+TrialsOfBoth read_trials(const ComparedData& data, const MatchedPoint& point) {
+  TrialsOfBoth trials{read_point_trials(data.baseline, point.baseline),
+                      read_point_trials(data.current, point.current)};
+  trials.baseline.rigs = data.baseline_rigs;
+  trials.current.rigs = data.current_rigs;
+  return trials;
+}
+
+void judge_points(StudyComparison& result, const GateRules& rules, const ComparedData& data) {
+  const double failing = failing_confidence(rules.confidence, count_requirements(rules, data.points));
+  const bool nothing = judges_nothing(data.current) || judges_nothing(data.baseline);
+  for (const MatchedPoint& point : data.points) {
+    const TrialsOfBoth trials = read_trials(data, point);
+    result.points.push_back(compare_point(result, rules, point, trials.baseline, trials.current));
+    PointComparison& compared = result.points.back();
+    if (nothing) compared.measures.clear();
+    for (const Requirement& requirement : requirements_of(rules, point.label)) {
+      compared.requirements.push_back(
+          judge_requirement(requirement, trials.current, rules.confidence, failing));
+    }
+  }
+  result.tests = decide(result.points, rules);
+  if (nothing)
+    result.notes.push_back("the moves have torque levels and no targets: no measure of the gate applies");
+}
+
+/// Finds the trials that would decide what is open. Reads the trials again: most comparisons leave nothing
+/// open, and need no memory for the samples of all points.
+void forecast(StudyComparison& result, const GateRules& rules, const ComparedData& data) {
   const auto open = [](const auto& one) { return one.verdict == GateVerdict::inconclusive; };
   const bool any = std::any_of(result.points.begin(), result.points.end(), [&](const PointComparison& point) {
     return std::any_of(point.measures.begin(), point.measures.end(), open) ||
            std::any_of(point.requirements.begin(), point.requirements.end(), open);
   });
   if (!any) return;
+  std::vector<ForecastPoint> points;
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    const TrialsOfBoth trials = read_trials(data, data.points[i]);
+    points.push_back(
+        forecast_point(result.points[i], rules, trials.baseline, trials.current, result.equal_to_the_bit));
+  }
   ForecastOptions options;
   options.confidence = rules.confidence;
   options.false_discovery_rate = rules.false_discovery_rate;
-  options.failing_confidence = failing;
+  options.failing_confidence = failing_confidence(rules.confidence, count_requirements(rules, data.points));
   options.probability = decision_probability;
   const auto trials =
       static_cast<double>(std::max(points.front().baseline_trials, points.front().current_trials));
@@ -170,41 +224,6 @@ void forecast(StudyComparison& result, const std::vector<ForecastPoint>& points,
       ++next;
     }
   }
-}
-
-/// An open-loop study has moves, but none that could be judged.
-bool judges_nothing(const reading::StudyFile& file) {
-  const std::vector<double> outcomes = file.measure("outcome", file.rows());
-  return std::all_of(outcomes.begin(), outcomes.end(), [](double outcome) {
-    return outcome == static_cast<double>(trial::Outcome::open_loop);
-  });
-}
-
-std::vector<ForecastPoint> compare_points(StudyComparison& result, const GateRules& rules,
-                                          const reading::StudyFile& baseline,
-                                          const reading::StudyFile& current,
-                                          const std::vector<MatchedPoint>& points, std::int64_t baseline_rigs,
-                                          std::int64_t current_rigs) {
-  const double failing = failing_confidence(rules.confidence, count_requirements(rules, points));
-  const bool nothing = judges_nothing(current) || judges_nothing(baseline);
-  std::vector<ForecastPoint> samples;
-  for (const MatchedPoint& point : points) {
-    PointTrials before = read_point_trials(baseline, point.baseline);
-    PointTrials after = read_point_trials(current, point.current);
-    before.rigs = baseline_rigs;
-    after.rigs = current_rigs;
-    result.points.push_back(compare_point(result, rules, point, before, after));
-    PointComparison& compared = result.points.back();
-    if (nothing) compared.measures.clear();
-    for (const Requirement& requirement : requirements_of(rules, point.label)) {
-      compared.requirements.push_back(judge_requirement(requirement, after, rules.confidence, failing));
-    }
-    samples.push_back(forecast_point(compared, rules, before, after, result.equal_to_the_bit));
-  }
-  result.tests = decide(result.points, rules);
-  if (nothing)
-    result.notes.push_back("the moves have torque levels and no targets: no measure of the gate applies");
-  return samples;
 }
 
 /// Equal data need no statistics: no measure can be worse.
@@ -268,43 +287,93 @@ void note_unpaired_trials(StudyComparison& result) {
       before > after ? result.baseline.path : result.current.path));
 }
 
-}  // namespace
-
-StudyComparison compare_studies(const reading::StudyFile& baseline, const reading::StudyFile& current,
-                                const GateRules& rules) {
-  const std::vector<MatchedPoint> points = match_points(baseline, current);
-  ManifestValues old_values = manifest_values(baseline.header(), baseline.path().string());
-  ManifestValues new_values = manifest_values(current.header(), current.path().string());
-  write_changed_defaults(old_values, baseline.header().version, new_values, current.header().version);
-  require_same_kind(baseline, current, old_values, new_values);
-
-  StudyComparison result;
-  result.baseline = {baseline.path().string(), baseline.header()};
-  result.current = {current.path().string(), current.header()};
-  result.confidence = rules.confidence;
-  result.false_discovery_rate = rules.false_discovery_rate;
-  result.manifest_differences = manifest_differences(old_values, new_values);
-  find_layer(result, baseline, current);
-  if (result.layer != ComparisonLayer::bits) {
-    require_independent_trials(baseline, old_values);
-    require_independent_trials(current, new_values);
-    DrawComparison draws = compare_draws(baseline, current, old_values, new_values, points);
-    result.layer = draws.same ? ComparisonLayer::paired : ComparisonLayer::two_samples;
-    result.layer_reason += "; " + draws.reason;
-    result.changed_inputs = std::move(draws.changed_inputs);
-  }
-  note_unpaired_trials(result);
-  const std::vector<ForecastPoint> samples =
-      compare_points(result, rules, baseline, current, points, rigs_of(old_values), rigs_of(new_values));
+/// The judgements, and what follows from them.
+void judge(StudyComparison& result, const GateRules& rules, const ComparedData& data) {
+  judge_points(result, rules, data);
   note_undecided_moves(result);
-  if (rigs_of(old_values) > 0 || rigs_of(new_values) > 0) {
+  if (data.baseline_rigs > 0 || data.current_rigs > 0) {
     result.notes.push_back(
         "the trials of a rig are not independent: tests and bounds are over rigs, and what decides is more "
         "trials on more rigs, in the same proportion");
   }
   if (result.equal_to_the_bit) pass_equal_data(result);
   result.verdict = verdict_of(result);
-  forecast(result, samples, rules, failing_confidence(rules.confidence, count_requirements(rules, points)));
+  forecast(result, rules, data);
+}
+
+StudyComparison begin(const reading::StudyFile& baseline, const reading::StudyFile& current,
+                      const GateRules& rules) {
+  StudyComparison result;
+  result.baseline = {baseline.path().string(), baseline.header()};
+  result.current = {current.path().string(), current.header()};
+  result.confidence = rules.confidence;
+  result.false_discovery_rate = rules.false_discovery_rate;
+  return result;
+}
+
+/// Finds whether the trials are paired.
+void pair_trials(StudyComparison& result, const DrawComparison& draws) {
+  result.layer = draws.same ? ComparisonLayer::paired : ComparisonLayer::two_samples;
+  result.layer_reason += (result.layer_reason.empty() ? "" : "; ") + draws.reason;
+  result.changed_inputs = draws.changed_inputs;
+}
+
+/// The draws of two points of one file.
+DrawComparison compare_draws_within(const reading::StudyFile& file, const ManifestValues& values,
+                                    const MatchedPoint& point) {
+  if (value_or(values, "independent_points", "false") == "true")
+    return {false, "the points have random numbers of their own", {}};
+  return compare_draws(file, file, values, values, {point});
+}
+
+/// The swept keys in which the two points differ.
+std::vector<ManifestDifference> axis_differences(const reading::StudyFile& file, const MatchedPoint& point) {
+  std::vector<ManifestDifference> differences;
+  const std::vector<study::SweepAxis> axes = file.axes();
+  for (const study::SweepAxis& axis : axes) {
+    ManifestDifference difference{axis.name, axis_value(axes, axis.name, point.baseline),
+                                  axis_value(axes, axis.name, point.current)};
+    if (difference.baseline != difference.current) differences.push_back(std::move(difference));
+  }
+  return differences;
+}
+
+}  // namespace
+
+StudyComparison compare_studies(const reading::StudyFile& baseline, const reading::StudyFile& current,
+                                const GateRules& rules) {
+  ComparedData data{baseline, current, match_points(baseline, current)};
+  ManifestValues old_values = manifest_values(baseline.header(), baseline.path().string());
+  ManifestValues new_values = manifest_values(current.header(), current.path().string());
+  write_changed_defaults(old_values, baseline.header().version, new_values, current.header().version);
+  require_same_kind(baseline, current, old_values, new_values);
+  data.baseline_rigs = rigs_of(old_values);
+  data.current_rigs = rigs_of(new_values);
+
+  StudyComparison result = begin(baseline, current, rules);
+  result.manifest_differences = manifest_differences(old_values, new_values);
+  find_layer(result, baseline, current);
+  if (result.layer != ComparisonLayer::bits) {
+    require_independent_trials(baseline, old_values);
+    require_independent_trials(current, new_values);
+    pair_trials(result, compare_draws(baseline, current, old_values, new_values, data.points));
+  }
+  note_unpaired_trials(result);
+  judge(result, rules, data);
+  return result;
+}
+
+StudyComparison compare_points(const reading::StudyFile& file, std::int64_t baseline, std::int64_t current,
+                               const GateRules& rules) {
+  const std::vector<std::string> labels = file.point_labels();
+  const MatchedPoint point{labels[static_cast<std::size_t>(current)], baseline, current};
+  const ManifestValues values = manifest_values(file.header(), file.path().string());
+  require_independent_trials(file, values);
+  StudyComparison result = begin(file, file, rules);
+  result.baseline_label = labels[static_cast<std::size_t>(baseline)];
+  result.manifest_differences = axis_differences(file, point);
+  pair_trials(result, compare_draws_within(file, values, point));
+  judge(result, rules, {file, file, {point}, rigs_of(values), rigs_of(values)});
   return result;
 }
 

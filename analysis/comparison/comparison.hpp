@@ -130,6 +130,7 @@ struct ComparedFile {
 struct StudyComparison {
   ComparedFile baseline;
   ComparedFile current;
+  std::string baseline_label;  ///< of the baseline's point where two points of one file are compared
   ComparisonLayer layer{ComparisonLayer::two_samples};
   std::string layer_reason;  ///< why this layer, one line
   bool equal_to_the_bit{false};
@@ -147,12 +148,22 @@ struct StudyComparison {
   std::vector<std::string> notes;                    ///< what else the reader should know, a line each
 };
 
+/// Whether the comparison is of two design points of one file.
+inline bool compares_points(const StudyComparison& comparison) {
+  return !comparison.baseline_label.empty();
+}
+
 /// Compares a results file with a baseline: finds what the two have in common, matches their design points,
 /// tests every measure at every point, controls the false discoveries over all of them, and gives verdicts.
 /// @throws Failure (bad_data) where points cannot be matched, one file has targets and the other torque
 /// levels, or a file is damaged.
 StudyComparison compare_studies(const reading::StudyFile& baseline, const reading::StudyFile& current,
                                 const GateRules& rules = {});
+
+/// Compares two design points of one file: is the point `current` as good as the point `baseline`?
+/// @throws Failure (bad_data) as compare_studies
+StudyComparison compare_points(const reading::StudyFile& file, std::int64_t baseline, std::int64_t current,
+                               const GateRules& rules = {});
 
 /// How two files are compared.
 struct CompareOptions {

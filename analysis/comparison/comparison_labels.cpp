@@ -123,11 +123,33 @@ std::string advice_text(const StudyComparison& comparison) {
                      fmt::join(open, ", "));
 }
 
+/// "better: success_rate, settling_time; worse: none; ..." of the point that is compared with another.
+std::string answer_text(const StudyComparison& comparison) {
+  const PointComparison& point = comparison.points.front();
+  const auto measures_that_are = [&](ChangeVerdict change) {
+    std::vector<std::string> names;
+    for (const MeasureComparison& measure : point.measures) {
+      if (measure.change == change) names.push_back(measure.measure);
+    }
+    return names.empty() ? "" : fmt::format("; {}: {}", word_of(change), fmt::join(names, ", "));
+  };
+  std::string text =
+      fmt::format("{} against {}", text::printable(point.label), text::printable(comparison.baseline_label));
+  for (const ChangeVerdict change : {ChangeVerdict::better, ChangeVerdict::worse, ChangeVerdict::equivalent,
+                                     ChangeVerdict::not_worse, ChangeVerdict::undecided})
+    text += measures_that_are(change);
+  return text;
+}
+
 }  // namespace
 
 std::string verdict_sentence(const StudyComparison& comparison) {
   const VerdictCounts counts = count_verdicts(comparison);
   const std::int64_t all = counts.judged();
+  if (compares_points(comparison) && all > 0) {
+    return answer_text(comparison) +
+           (comparison.verdict == GateVerdict::inconclusive ? advice_text(comparison) : "");
+  }
   const bool unequal = comparison.layer == ComparisonLayer::bits && !comparison.equal_to_the_bit;
   if (comparison.verdict == GateVerdict::regression) {
     const std::string bits = unequal

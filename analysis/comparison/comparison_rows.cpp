@@ -96,7 +96,7 @@ ComparisonRow row_of(const PointComparison& point, const RequirementResult& requ
   return row;
 }
 
-std::string file_text(const ComparedFile& file, std::size_t points) {
+std::string file_text(const ComparedFile& file, std::int64_t points) {
   const layout::FileHeader& header = file.header;
   const layout::Provenance& build = header.provenance;
   return text::printable(
@@ -120,8 +120,15 @@ std::vector<ComparisonRow> comparison_rows(const StudyComparison& comparison) {
 
 std::vector<std::pair<std::string, std::string>> comparison_facts(const StudyComparison& comparison) {
   std::vector<std::pair<std::string, std::string>> facts;
-  facts.emplace_back("baseline", file_text(comparison.baseline, comparison.points.size()));
-  facts.emplace_back("file", file_text(comparison.current, comparison.points.size()));
+  const bool within = compares_points(comparison);
+  if (within) {
+    facts.emplace_back("file", file_text(comparison.current, comparison.current.header.points));
+    facts.emplace_back("baseline point", text::printable(comparison.baseline_label));
+    facts.emplace_back("point", text::printable(comparison.points.front().label));
+  } else {
+    facts.emplace_back("baseline", file_text(comparison.baseline, comparison.baseline.header.points));
+    facts.emplace_back("file", file_text(comparison.current, comparison.current.header.points));
+  }
   facts.emplace_back("compared", fmt::format("{}: {}", word_of(comparison.layer), comparison.layer_reason));
   if (!comparison.first_difference.empty())
     facts.emplace_back("first difference", comparison.first_difference);
@@ -129,8 +136,9 @@ std::vector<std::pair<std::string, std::string>> comparison_facts(const StudyCom
     const auto shown = [](const std::string& value) {
       return value.empty() ? std::string("(absent)") : text::printable(value);
     };
-    facts.emplace_back("manifest", fmt::format("{}: {} → {}", text::printable(difference.key),
-                                               shown(difference.baseline), shown(difference.current)));
+    facts.emplace_back(within ? "sweep" : "manifest",
+                       fmt::format("{}: {} → {}", text::printable(difference.key), shown(difference.baseline),
+                                   shown(difference.current)));
   }
   if (!comparison.changed_inputs.empty()) {
     facts.emplace_back("changed inputs", fmt::format("{}", fmt::join(comparison.changed_inputs, ", ")));

@@ -52,15 +52,6 @@ std::string exact_text(double value) {
   return std::isnan(value) ? "drawn" : fmt::format("{}", value);
 }
 
-std::string value_at(const std::vector<study::SweepAxis>& axes, const std::string& name, std::int64_t point) {
-  const auto at = static_cast<std::size_t>(point);
-  for (const study::SweepAxis& axis : axes) {
-    if (axis.name != name) continue;
-    return axis.kind == study::SweepAxis::Kind::text ? axis.texts.at(at) : exact_text(axis.numbers.at(at));
-  }
-  return "missing";
-}
-
 void require_equal_axes(const reading::StudyFile& baseline, const reading::StudyFile& current,
                         const std::vector<MatchedPoint>& points) {
   const std::vector<study::SweepAxis> before = baseline.axes();
@@ -71,8 +62,8 @@ void require_equal_axes(const reading::StudyFile& baseline, const reading::Study
   for (const study::SweepAxis& axis : after) names.insert(axis.name);
   for (const MatchedPoint& point : points) {
     for (const std::string& name : names) {
-      const std::string one = value_at(before, name, point.baseline);
-      const std::string two = value_at(after, name, point.current);
+      const std::string one = axis_value(before, name, point.baseline);
+      const std::string two = axis_value(after, name, point.current);
       if (one == two) continue;
       throw Failure(
           ExitCode::bad_data,
@@ -121,6 +112,16 @@ InputRelation relation_over_points(const reading::StudyFile& baseline, const rea
 }
 
 }  // namespace
+
+std::string axis_value(const std::vector<study::SweepAxis>& axes, const std::string& name,
+                       std::int64_t point) {
+  const auto at = static_cast<std::size_t>(point);
+  for (const study::SweepAxis& axis : axes) {
+    if (axis.name != name) continue;
+    return axis.kind == study::SweepAxis::Kind::text ? axis.texts.at(at) : exact_text(axis.numbers.at(at));
+  }
+  return "missing";
+}
 
 std::vector<MatchedPoint> match_points(const reading::StudyFile& baseline,
                                        const reading::StudyFile& current) {

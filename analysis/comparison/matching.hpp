@@ -21,6 +21,10 @@ struct MatchedPoint {
 /// @throws Failure (bad_data) that lists the points without a partner.
 std::vector<MatchedPoint> match_points(const reading::StudyFile& baseline, const reading::StudyFile& current);
 
+/// The value of a swept key at a design point, as text; "missing" if it is not swept.
+std::string axis_value(const std::vector<study::SweepAxis>& axes, const std::string& name,
+                       std::int64_t point);
+
 /// Whether trial i of both files drew the same random numbers.
 struct DrawComparison {
   bool same{false};

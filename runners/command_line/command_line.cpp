@@ -1,6 +1,7 @@
 #include "runners/command_line/command_line.hpp"
 
 #include <algorithm>
+#include <cstddef>
 
 #include <boost/program_options.hpp>
 #include <fmt/format.h>
@@ -26,6 +27,12 @@ bool is_flag(const CommandSpec& spec, const std::string& given) {
   });
 }
 
+/// The option with this long name.
+std::vector<OptionSpec>::const_iterator find_spec(const CommandSpec& spec, std::string_view name) {
+  return std::find_if(spec.options.begin(), spec.options.end(),
+                      [&](const OptionSpec& option) { return long_name(option) == name; });
+}
+
 po::options_description describe(const CommandSpec& spec) {
   po::options_description description;
   for (const OptionSpec& option : spec.options) {
@@ -33,6 +40,7 @@ po::options_description describe(const CommandSpec& spec) {
       description.add_options()(option.name.c_str(), option.help.c_str());
     } else {
       auto* value = po::value<std::vector<std::string>>()->value_name(option.value)->composing();
+      if (option.count > 1) value->multitoken();
       description.add_options()(option.name.c_str(), value, option.help.c_str());
     }
   }
@@ -60,9 +68,7 @@ Arguments::Arguments(const CommandSpec& spec, const std::vector<std::string>& wo
         operands_.push_back(given.value.at(0));
         continue;
       }
-      for (auto& [name, values] : values_) {
-        if (name == given.string_key) values.push_back(given.value.empty() ? "" : given.value[0]);
-      }
+      take_values(*find_spec(spec, given.string_key), given.value);
     }
   } catch (const po::unknown_option& error) {
     refuse(fmt::format("unknown option '{}'", error.get_option_name()));
@@ -73,7 +79,7 @@ Arguments::Arguments(const CommandSpec& spec, const std::vector<std::string>& wo
     refuse("the words of the command cannot be understood");
   }
   for (const OptionSpec& option : spec.options) {
-    if (!option.repeatable && values(long_name(option)).size() > 1) {
+    if (!option.repeatable && values(long_name(option)).size() > option.count) {
       refuse(fmt::format("option '--{}' is given more than once", long_name(option)));
     }
   }
@@ -82,6 +88,22 @@ Arguments::Arguments(const CommandSpec& spec, const std::vector<std::string>& wo
   if (operands_.size() > spec.max_operands) {
     refuse(fmt::format("'{}' is one word too many", operands_[spec.max_operands]));
   }
+}
+
+void Arguments::take_values(const OptionSpec& option, const std::vector<std::string>& words) {
+  const std::string name = long_name(option);
+  auto& values = std::find_if(values_.begin(), values_.end(), [&](const auto& entry) {
+                   return entry.first == name;
+                 })->second;
+  if (option.value.empty()) {
+    values.emplace_back();
+    return;
+  }
+  if (words.size() < option.count) refuse(fmt::format("option '--{}' needs {} values", name, option.count));
+  const auto end = words.begin() + static_cast<std::ptrdiff_t>(option.count);
+  values.insert(values.end(), words.begin(), end);
+  operands_.insert(operands_.end(), end,
+                   words.end());  // an option of several values takes all words that follow
 }
 
 const std::vector<std::string>& Arguments::values(std::string_view option) const {

@@ -25,6 +25,7 @@ struct OptionSpec {
   std::string value;  ///< name of its value in the help; empty for a flag
   std::string help;
   bool repeatable{false};
+  std::size_t count{1};  ///< of its values, words that follow the option
 };
 
 /// Operands and options of a command.
@@ -58,6 +59,8 @@ class Arguments {
   [[noreturn]] void refuse(const std::string& problem) const;
 
  private:
+  void take_values(const OptionSpec& option, const std::vector<std::string>& words);
+
   std::string command_;
   std::vector<std::string> operands_;
   std::vector<std::pair<std::string, std::vector<std::string>>> values_;

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "runners/command_line/command_line.hpp"
@@ -20,6 +21,11 @@ std::optional<double> probability_option(const Arguments& arguments, std::string
 /// @param labels of all points, in their order
 /// @throws Failure (bad_input) for anything else.
 std::vector<std::int64_t> point_options(const Arguments& arguments, std::span<const std::string> labels);
+
+/// The two design points of `option`, given likewise.
+std::optional<std::pair<std::int64_t, std::int64_t>> point_pair_option(const Arguments& arguments,
+                                                                       std::string_view option,
+                                                                       std::span<const std::string> labels);
 
 /// As point_options, for an option that cannot be repeated.
 std::optional<std::int64_t> point_option(const Arguments& arguments, std::span<const std::string> labels);

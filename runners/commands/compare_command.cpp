@@ -6,9 +6,14 @@
 #include <string_view>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/comparison/comparison_report.hpp"
+#include "analysis/text/text.hpp"
 #include "experiments/yaml/text_file.hpp"
+#include "results/reading/study_file.hpp"
+#include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
 
@@ -38,7 +43,11 @@ constexpr const char* compare_help =
     "  require: success_rate ≥ 0.995\n"
     "  points: {b: {success_rate: 0.05}}\n"
     "\n"
-    "Example: zerocount compare baseline.h5 new.h5 --margins gate.yaml --junit gate.xml\n";
+    "With --points two design points of one file are compared: is the second as good as the first, or\n"
+    "better?\n"
+    "\n"
+    "Example: zerocount compare baseline.h5 new.h5 --margins gate.yaml --junit gate.xml\n"
+    "         zerocount compare gains.h5 --points low high\n";
 
 ExitCode code_of(comparison::GateVerdict verdict) {
   if (verdict == comparison::GateVerdict::passed) return ExitCode::success;
@@ -66,7 +75,7 @@ struct FormPlace {
 std::vector<FormPlace> places_of(const command_line::Arguments& arguments,
                                  const std::optional<std::string>& margins) {
   const std::string format = arguments.one_of("format", {"table", "json", "junit", "markdown"});
-  std::vector<std::filesystem::path> inputs{arguments.operands()[0], arguments.operands()[1]};
+  std::vector<std::filesystem::path> inputs{arguments.operands().begin(), arguments.operands().end()};
   if (margins) inputs.emplace_back(*margins);
   std::vector<std::filesystem::path> outputs;
   if (arguments.has("format")) outputs.emplace_back("-");
@@ -87,14 +96,35 @@ std::vector<FormPlace> places_of(const command_line::Arguments& arguments,
   return places;
 }
 
+/// The two design points of the only operand.
+comparison::StudyComparison compare_points(const command_line::Arguments& arguments,
+                                           const comparison::CompareOptions& options) {
+  if (arguments.operands().size() > 1) arguments.refuse("option '--points' is for the points of one FILE");
+  const reading::StudyFile file(arguments.operands()[0]);
+  const std::vector<std::string> labels = file.point_labels();
+  const auto points = command_line::point_pair_option(arguments, "points", labels).value();
+  if (points.first == points.second) {
+    arguments.refuse(fmt::format("option '--points': both are the point {}; expected two different ones",
+                                 text::printable(labels[static_cast<std::size_t>(points.first)])));
+  }
+  return comparison::compare_points(file, points.first, points.second, comparison::rules_of(options, labels));
+}
+
+comparison::StudyComparison compared(const command_line::Arguments& arguments,
+                                     const comparison::CompareOptions& options) {
+  if (arguments.has("points")) return compare_points(arguments, options);
+  if (arguments.operands().size() < 2)
+    arguments.refuse("BASELINE FILE expected, or one FILE with the option '--points'");
+  return comparison::compare_files(arguments.operands()[0], arguments.operands()[1], options);
+}
+
 ExitCode compare(const command_line::Arguments& arguments) {
   const std::optional<std::string> margins = arguments.value("margins");
   const std::vector<FormPlace> places = places_of(arguments, margins);
   comparison::CompareOptions options;
   if (margins) options.margins = *margins;
   options.changed_fails = arguments.has("changed-fails");
-  const comparison::StudyComparison result =
-      comparison::compare_files(arguments.operands()[0], arguments.operands()[1], options);
+  const comparison::StudyComparison result = compared(arguments, options);
   for (const FormPlace& place : places) command_line::write_text(place.place, place.form.text(result));
   return code_of(result.verdict);
 }
@@ -104,14 +134,15 @@ ExitCode compare(const command_line::Arguments& arguments) {
 Command compare_command() {
   return {{"compare",
            "BASELINE FILE",
-           {{"margins", "FILE", "YAML file of margins and requirements"},
+           {{"points", "A B", "compare two design points of one FILE, by label or number", false, 2},
+            {"margins", "FILE", "YAML file of margins and requirements"},
             {"changed-fails", "", "a change for the better fails too, not only one for the worse"},
             {"format", "FORMAT", "of standard output: table (default), json, junit or markdown"},
             {"json", "FILE", "write the JSON there too"},
             {"junit", "FILE", "write JUnit XML there too"},
             {"markdown", "FILE", "write the Markdown summary there too"},
             command_line::force_option()},
-           2,
+           1,
            2},
           "compare a results file with a baseline: the regression gate",
           compare_help,

@@ -185,5 +185,53 @@ TEST_F(Compare, ABaselineNeedsAReason) {
   EXPECT_NE(folder_.read("base.h5.log.yaml").find("the first"), std::string::npos);
 }
 
+/// The two cases of gains() as a study of its own.
+std::string gain_alone(const std::string& gain, int trials) {
+  const std::string both = gains(gain, trials);
+  return both.substr(0, both.find("sweep:")) + "controller: {ki: " + gain + "}\n";
+}
+
+TEST_F(Compare, TwoPointsOfAFileAreComparedAsTheSamePointsOfTwoFiles) {
+  study("both", gains("1.0e-4", 200));
+  study("low", gain_alone("3.0e-5", 200));
+  study("high", gain_alone("1.0e-4", 200));
+  const ProgramResult within = run({"compare", "both.h5", "--points", "low", "high", "--format", "json"});
+  const ProgramResult between = run({"compare", "low.h5", "high.h5", "--format", "json"});
+  const auto points = nlohmann::json::parse(within.out);
+  const auto files = nlohmann::json::parse(between.out);
+  EXPECT_EQ(within.code, between.code);
+  EXPECT_EQ(points["layer"], "paired");
+  EXPECT_EQ(points["baseline_label"], "low");
+  EXPECT_EQ(points["points"][0]["label"], "high");
+  EXPECT_EQ(points["points"][0]["measures"], files["points"][0]["measures"]);
+}
+
+TEST_F(Compare, PointsWithNumbersOfTheirOwnAreTwoSamples) {
+  study("both", gains("1.0e-4", 200) + "independent_points: true\n");
+  const ProgramResult result = run({"compare", "both.h5", "--points", "0", "1", "--format", "json"});
+  EXPECT_EQ(nlohmann::json::parse(result.out)["layer"], "two_samples");
+}
+
+TEST_F(Compare, TheAnswerNamesWhatIsBetterAndWhatIsWorse) {
+  study("both", gains("1.0e-4", 200));
+  const std::string forward = run({"compare", "both.h5", "--points", "low", "high"}).out;
+  const std::string backward = run({"compare", "both.h5", "--points", "high", "low"}).out;
+  EXPECT_NE(forward.find("high against low; "), std::string::npos) << forward;
+  EXPECT_NE(backward.find("low against high; "), std::string::npos) << backward;
+}
+
+TEST_F(Compare, RefusesPointsThatAreNotTwoOfOneFile) {
+  study("both", gains("1.0e-4", 30));
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"both.h5", "--points", "low"},
+                                                {"both.h5", "--points", "low", "low"},
+                                                {"both.h5", "--points", "low", "none"},
+                                                {"both.h5", "both.h5", "--points", "low", "high"},
+                                                {"both.h5"}}) {
+    std::vector<std::string> all{"compare"};
+    all.insert(all.end(), words.begin(), words.end());
+    EXPECT_EQ(run(all).code, 2) << words.back();
+  }
+}
+
 }  // namespace
 }  // namespace zerocount::testing

@@ -172,6 +172,39 @@ std::string verdict_sentence(const StudyComparison& comparison) {
                      advice_text(comparison));
 }
 
+std::string detectable_sentence(const StudyComparison& comparison) {
+  struct Range {
+    const MeasureComparison* lowest;
+    const MeasureComparison* highest;
+  };
+  std::vector<Range> ranges;
+  for (const PointComparison& point : comparison.points) {
+    for (const MeasureComparison& measure : point.measures) {
+      if (std::isnan(measure.detectable_change)) continue;
+      const auto range = std::find_if(ranges.begin(), ranges.end(), [&](const Range& known) {
+        return known.lowest->measure == measure.measure;
+      });
+      if (range == ranges.end()) {
+        ranges.push_back({&measure, &measure});
+        continue;
+      }
+      if (measure.detectable_change < range->lowest->detectable_change) range->lowest = &measure;
+      if (measure.detectable_change > range->highest->detectable_change) range->highest = &measure;
+    }
+  }
+  if (ranges.empty()) return "";
+  std::vector<std::string> texts;
+  for (const auto& [lowest, highest] : ranges) {
+    const auto text = [](const MeasureComparison& one) {
+      return value_text(one.detectable_change, one.measure, one.unit);
+    };
+    texts.push_back(lowest == highest
+                        ? fmt::format("{} {}", lowest->measure, text(*lowest))
+                        : fmt::format("{} {} to {}", lowest->measure, text(*lowest), text(*highest)));
+  }
+  return fmt::format("Detectable changes: {}", fmt::join(texts, ", "));
+}
+
 std::string value_text(double value, std::string_view quantity, std::string_view unit) {
   if (std::isnan(value)) return "–";
   if (quantity.ends_with("_rate")) return fmt::format("{:.4g} %", 100.0 * value);

@@ -41,6 +41,10 @@ VerdictCounts count_verdicts(const StudyComparison& comparison);
 /// The verdict in a sentence.
 std::string verdict_sentence(const StudyComparison& comparison);
 
+/// The smallest changes for the worse that the trials find with decision_probability, of each measure over the
+/// points: "Detectable changes: success_rate 3.4 % to 6.7 %, ...". Empty where nothing was measured.
+std::string detectable_sentence(const StudyComparison& comparison);
+
 /// A value of a measure or requirement with its unit: proportions in per cent.
 std::string value_text(double value, std::string_view quantity, std::string_view unit);
 

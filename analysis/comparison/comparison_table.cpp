@@ -54,12 +54,14 @@ std::string comparison_table(const StudyComparison& comparison) {
   for (const ComparisonRow& row : rows) cells.push_back(cells_of(row));
   const std::vector<bool> numeric{false, false, true, true, true, true, true, true, true, false, false};
   const std::string table = rows.empty() ? "" : text::aligned_table(cells, numeric);
+  const std::string detectable = detectable_sentence(comparison);
   return fmt::format(
       "{}\n{}{}\nBounds: {:.6g} % each. p: of {} tests, adjusted for a false discovery rate of {:.6g} "
       "%. Detects: the smallest change\nfor the worse that these trials find with a probability of {:.0f} "
-      "%.\n{}\n",
+      "%.\n{}{}{}\n",
       head_of(comparison), table, omitted, 100.0 * comparison.confidence, comparison.tests,
-      100.0 * comparison.false_discovery_rate, 100.0 * decision_probability, verdict_sentence(comparison));
+      100.0 * comparison.false_discovery_rate, 100.0 * decision_probability, detectable,
+      detectable.empty() ? "" : "\n", verdict_sentence(comparison));
 }
 
 std::string comparison_markdown(const StudyComparison& comparison) {
@@ -87,9 +89,9 @@ std::string comparison_markdown(const StudyComparison& comparison) {
   }
   return text + fmt::format(
                     "\n{} of {} judgements passed and are not listed. Bounds: {:.6g} % each; false discovery "
-                    "rate {:.6g} %.\n",
+                    "rate {:.6g} %. {}\n",
                     all - rows.size(), all, 100.0 * comparison.confidence,
-                    100.0 * comparison.false_discovery_rate);
+                    100.0 * comparison.false_discovery_rate, detectable_sentence(comparison));
 }
 
 }  // namespace zerocount::comparison

@@ -211,6 +211,10 @@ std::string value_text(double value, std::string_view quantity, std::string_view
   return unit == "1" ? text::short_number(value) : fmt::format("{} {}", text::short_number(value), unit);
 }
 
+double shown_p(const MeasureComparison& measure) {
+  return measure.change == ChangeVerdict::better ? measure.adjusted_improvement_p : measure.adjusted_p;
+}
+
 std::string trials_text(double trials) {
   if (trials < 100.0) return fmt::format("{:.0f}", trials);
   const double step = std::pow(10.0, std::floor(std::log10(trials)) - 1.0);

@@ -41,12 +41,16 @@ VerdictCounts count_verdicts(const StudyComparison& comparison);
 /// The verdict in a sentence.
 std::string verdict_sentence(const StudyComparison& comparison);
 
-/// The smallest changes for the worse that the trials find with decision_probability, of each measure over the
-/// points: "Detectable changes: success_rate 3.4 % to 6.7 %, ...". Empty where nothing was measured.
+/// The smallest changes for the worse that the trials find with decision_probability, of each measure over
+/// the points: "Detectable changes: success_rate 3.4 % to 6.7 %, ...". Empty where nothing was measured.
 std::string detectable_sentence(const StudyComparison& comparison);
 
 /// A value of a measure or requirement with its unit: proportions in per cent.
 std::string value_text(double value, std::string_view quantity, std::string_view unit);
+
+/// The adjusted p against the change that is shown: for the better if the measure is better, otherwise for
+/// the worse.
+double shown_p(const MeasureComparison& measure);
 
 /// A number of trials to two digits, rounded up.
 std::string trials_text(double trials);

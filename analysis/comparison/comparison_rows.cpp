@@ -65,13 +65,12 @@ ComparisonRow row_of(const PointComparison& point, const MeasureComparison& meas
   row.bounds = interval_text(measure.bounds, measure.measure, measure.unit);
   row.margin = (measure.changed_fails ? "± " : "") + text(measure.margin);
   row.detects = text(measure.detectable_change);
-  const bool better = measure.change == ChangeVerdict::better;
-  row.p = p_text(better ? measure.adjusted_improvement_p : measure.adjusted_p);
+  row.p = p_text(shown_p(measure));
   row.verdict = word_of(measure.change);
   row.gate = measure.verdict;
   row.note = remarks(measure.note, undecided_remark(point, measure.measure), measure.trials_to_decide,
                      margins_remark(measure, max_trials));
-  row.noteworthy = measure.verdict != GateVerdict::passed || better;
+  row.noteworthy = measure.verdict != GateVerdict::passed || measure.change == ChangeVerdict::better;
   return row;
 }
 

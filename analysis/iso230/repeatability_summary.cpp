@@ -81,7 +81,8 @@ measures::SummarySection repeatability_section(const RepeatabilitySummary& summa
   measures::SummarySection section{.key = "repeatability",
                                    .json = {},
                                    .columns = section_columns(summary),
-                                   .text = repeatability_tables(summary, labels)};
+                                   .text = repeatability_tables(summary, labels),
+                                   .open = true};
   for (const PointRepeatability& point : summary.points)
     section.json.push_back(point_json(point, summary.axis));
   return section;

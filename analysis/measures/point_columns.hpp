@@ -54,6 +54,7 @@ struct SummarySection {
   std::vector<nlohmann::ordered_json> json;  ///< [point]
   std::vector<layout::PointColumn> columns;  ///< of the CSV: a value per point
   std::string text;                          ///< below the table, whole lines
+  bool open{false};                          ///< the report shows the text at once: it is a result
 };
 
 /// One number of PointSummary as it is reported.

@@ -39,16 +39,16 @@ std::vector<ComparedMeasure> worst_first(const comparison::StudyComparison& comp
 
 std::string table_of(const std::vector<ComparedMeasure>& measures) {
   std::vector<HtmlColumn> columns{
-      {"point", "", true, {}},   {"measure", "", true, {}},     {"baseline", "", false, {}},
-      {"now", "", false, {}},    {"worse by", "", false, {}},   {"bounds", "", false, {}},
-      {"margin", "", false, {}}, {"adjusted p", "", false, {}}, {"verdict", "", true, {}}};
+      {"point", "", true, {}},     {"measure", "", true, {}}, {"verdict", "", true, {}},
+      {"baseline", "", false, {}}, {"now", "", false, {}},    {"worse by", "", false, {}},
+      {"bounds", "", false, {}},   {"margin", "", false, {}}, {"adjusted p", "", false, {}}};
   for (std::size_t i = 0; i < std::min(measures.size(), max_measures); ++i) {
     const comparison::MeasureComparison& one = *measures[i].measure;
     const auto text = [&](double value) { return comparison::value_text(value, one.measure, one.unit); };
-    add_row(columns,
-            {measures[i].point->label, one.measure, text(one.baseline), text(one.current), text(one.effect),
-             fmt::format("{} … {}", text(one.bounds.low), text(one.bounds.high)), text(one.margin),
-             text::short_number(one.adjusted_p), std::string(comparison::word_of(one.change))});
+    add_row(columns, {measures[i].point->label, one.measure, std::string(comparison::word_of(one.change)),
+                      text(one.baseline), text(one.current), text(one.effect),
+                      fmt::format("{} … {}", text(one.bounds.low), text(one.bounds.high)), text(one.margin),
+                      text::short_number(comparison::shown_p(one))});
   }
   std::string html = html_table(columns);
   if (measures.size() > max_measures) {

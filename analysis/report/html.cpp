@@ -63,9 +63,9 @@ std::string html_facts(const std::vector<HtmlFact>& facts) {
   return text + "</tbody></table></div>\n";
 }
 
-std::string html_folded(const std::string& head, const std::string& text) {
-  return fmt::format("<details><summary>{}</summary><pre>{}</pre></details>\n", html_text(head),
-                     html_text(text));
+std::string html_preformatted(const std::string& head, const std::string& text, bool open) {
+  return fmt::format("<details{}><summary>{}</summary><pre>{}</pre></details>\n", open ? " open" : "",
+                     html_text(head), html_text(text));
 }
 
 std::string html_text(std::string_view text) {

@@ -30,8 +30,8 @@ struct HtmlFact {
 };
 std::string html_facts(const std::vector<HtmlFact>& facts);
 
-/// Preformatted text, hidden until the line `head` is opened.
-std::string html_folded(const std::string& head, const std::string& text);
+/// Preformatted text below the line `head`, which hides and shows it. @param open shown at first
+std::string html_preformatted(const std::string& head, const std::string& text, bool open = false);
 
 /// For the text of an element or a quoted attribute: escapes & < > " '; replaces control characters other
 /// than tab and line feed, and bytes that are not UTF-8, by U+FFFD.

@@ -5,6 +5,7 @@
 
 #include "analysis/jerks/jerk_statistics.hpp"
 #include "analysis/report/report_figures.hpp"
+#include "analysis/text/text.hpp"
 #include "core/numerics/sign.hpp"
 
 namespace zerocount::report {
@@ -78,7 +79,29 @@ std::int64_t add_jerks(FigureData& data, const reading::StudyFile& file, const J
   return left_out;
 }
 
-Figure raster(const ReportedStudy& reported, std::int64_t point) {
+/// What the directions of the jerks say of their cause.
+std::string direction_sentence(const statistics::ClusteredProportion& agreement) {
+  const std::string proportion = text::percentage(agreement.hits, agreement.events);
+  if (agreement.hits == agreement.events)
+    return fmt::format(
+        "All {} jerks of the point go in the direction of the holding torque, as creep makes them.",
+        agreement.events);
+  return fmt::format(
+      "{} of the {} jerks of the point go in the direction of the holding torque, as creep makes "
+      "them; the others have another cause, such as a coarse DAC or noise.",
+      proportion, agreement.events);
+}
+
+/// Whether the jerks of a move become rarer.
+std::string trend_sentence(const jerks::TrendSummary& slowing) {
+  if (slowing.moves == 0) return "";
+  constexpr double level = 0.05;
+  const std::string test = fmt::format("p {}", text::short_number(slowing.p_slowing));
+  if (slowing.p_slowing <= level) return fmt::format(" They become rarer within a move ({}).", test);
+  return fmt::format(" That they become rarer within a move is not shown ({}).", test);
+}
+
+Figure raster(const ReportedStudy& reported, std::int64_t point, const jerks::JerkStatistics& jerks) {
   const ShownMoves moves = shown_moves(reported, point);
   FigureData data{"jerks",
                   {{"row", "", "1"},
@@ -93,10 +116,8 @@ Figure raster(const ReportedStudy& reported, std::int64_t point) {
   for (const JerkingMove& move : moves.shown) left_out += add_jerks(data, reported.file, move, number++);
   std::string caption = fmt::format(
       "Each row is a move of point {}, from its arrival on; each mark is the onset of a jerk, coloured by "
-      "its direction. Jerks caused by creep alone have the same direction, and their rate decreases with "
-      "time. Marks of both colours, or an increasing density, show another cause as well, such as a coarse "
-      "DAC. ",
-      label_of(reported, point));
+      "its direction. {}{} ",
+      label_of(reported, point), direction_sentence(jerks.agreement), trend_sentence(jerks.slowing));
   if (std::ssize(moves.shown) < moves.all) {
     caption += fmt::format("Shown are {} of the {} moves with jerks, evenly spaced. ", moves.shown.size(),
                            moves.all);
@@ -111,8 +132,8 @@ Figure raster(const ReportedStudy& reported, std::int64_t point) {
   return figure;
 }
 
-std::optional<Figure> rate(const ReportedStudy& reported, std::int64_t point) {
-  const jerks::JerkStatistics jerks = jerks::jerk_statistics(reported.file, reported.study, point);
+std::optional<Figure> rate(const ReportedStudy& reported, std::int64_t point,
+                           const jerks::JerkStatistics& jerks) {
   if (jerks.rates.size() < 2) return std::nullopt;
   using Rate = const jerks::JerkRate&;
   FigureData data = data_of<jerks::JerkRate>(
@@ -149,8 +170,9 @@ std::vector<Figure> jerk_figures(const ReportedStudy& reported) {
   const std::vector<measures::PointSummary>& points = reported.summary.points;
   const std::int64_t point = point_with_most_jerks(points);
   if (point_of(reported, point).of(&trial::MoveOutcome::jerk_count).total == 0) return {};
-  std::vector<Figure> figures{raster(reported, point)};
-  if (std::optional<Figure> rates = rate(reported, point)) figures.push_back(std::move(*rates));
+  const jerks::JerkStatistics jerks = jerks::jerk_statistics(reported.file, reported.study, point);
+  std::vector<Figure> figures{raster(reported, point, jerks)};
+  if (std::optional<Figure> rates = rate(reported, point, jerks)) figures.push_back(std::move(*rates));
   return figures;
 }
 

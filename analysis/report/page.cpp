@@ -62,7 +62,7 @@ std::string section_html(const PageSection& section) {
   std::string text = fmt::format("<section id=\"{}\"><h2>{}</h2>\n{}\n", html_text(section.name),
                                  html_text(section.title), section.html);
   for (const Figure& figure : section.figures) text += figure_html(figure);
-  return text + "</section>\n";
+  return text + section.html_after + "</section>\n";
 }
 
 std::string contents_html(const ReportPage& page) {

@@ -13,6 +13,7 @@ struct PageSection {
   std::string title;  ///< plain text
   std::string html;   ///< before the figures
   std::vector<Figure> figures;
+  std::string html_after{};  ///< after the figures
 };
 
 /// The contents of a report, before conversion to HTML.

@@ -103,15 +103,18 @@ FigureData level_ends(const ReplayedTrial& trial, const char* field, const char*
   return data;
 }
 
-Figure hysteresis(const ReplayedTrial& trial) {
+Figure hysteresis(const ReplayedTrial& trial, bool creeping) {
   const SampleColumn angle{{"angle", "rotor angle", "µrad"}, [](Sample s) { return datum(1e6 * s.theta); }};
   return figure_of("hysteresis", "paper-fig4", "Torque over angle (Fig. 4 of the paper)",
                    fmt::format("Torque over rotor angle of trial {}, loaded and unloaded. Each number marks "
-                               "the end of a torque level, in their order. The spring has hysteresis with "
-                               "return-point memory: loops between the same torques have the same width, and "
-                               "a closed loop has no further influence, so levels of equal torque end at the "
-                               "same point.",
-                               trial.result.row),
+                               "the end of a torque level, in their order. {}",
+                               trial.result.row,
+                               creeping ? "Creep moves the rotor on while the torque is held, so a loop does "
+                                          "not close where the contact has crept in it."
+                                        : "The spring has hysteresis with return-point memory: loops between "
+                                          "the same torques have the same width, and a closed loop has no "
+                                          "further influence, so levels of equal torque end at the same "
+                                          "point."),
                    {data_of("samples", trial.samples, {time_column, angle, motor_torque_column}),
                     level_ends(trial, "angle", "rotor angle", &trial::MoveOutcome::final_position)});
 }
@@ -142,7 +145,9 @@ std::vector<PaperFigure> paper_figures(const ReportedStudy& reported) {
   if (reported.study.open_loop) {
     SampleTrial trial = first_trial(0);
     trial.buckets = 2000;
-    return {{creeps(reported) ? "paper-fig6" : "paper-fig4", {trial}}};
+    std::vector<PaperFigure> figures{{"paper-fig4", {trial}}};
+    if (creeps(reported)) figures.push_back({"paper-fig6", {trial}});
+    return figures;
   }
   if (shows_targets(reported)) {
     PaperFigure figure{"paper-fig7"};
@@ -154,10 +159,12 @@ std::vector<PaperFigure> paper_figures(const ReportedStudy& reported) {
   return {};
 }
 
-Figure paper_figure(const PaperFigure& wanted, const std::vector<ReplayedTrial>& replayed) {
+Figure paper_figure(const ReportedStudy& reported, const PaperFigure& wanted,
+                    const std::vector<ReplayedTrial>& replayed) {
   if (wanted.name == "paper-fig7") return step_responses(replayed);
   if (wanted.name == "paper-fig8") return jerks_in_time(replayed.front());
-  return wanted.name == "paper-fig4" ? hysteresis(replayed.front()) : plastic_extension(replayed.front());
+  return wanted.name == "paper-fig4" ? hysteresis(replayed.front(), creeps(reported))
+                                     : plastic_extension(replayed.front());
 }
 
 }  // namespace zerocount::report

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -38,7 +40,8 @@ struct PointCell {
   bool needs_rigs{false};
 };
 
-constexpr PointCell point_cells[] = {
+/// The table of outcomes.
+constexpr PointCell outcome_cells[] = {
     {"trials", "", [](Point point, Theory) { return std::to_string(point.trials); }},
     {"zero-count", "95 % bounds",
      [](Point point, Theory) { return text::percentage(point.outcomes.zero_count, point.trials); },
@@ -67,6 +70,10 @@ constexpr PointCell point_cells[] = {
      [](Point point, Theory) {
        return text::percentage(point.of(&trial::MoveOutcome::stable).trials, point.trials);
      }},
+};
+
+/// The table of times, jerks and criteria: with those of outcomes it would be wider than the page.
+constexpr PointCell motion_cells[] = {
     {"settling, median", "s",
      [](Point point, Theory) {
        return summary::settling_text(point, point.of(&trial::MoveOutcome::settling_time).median.value);
@@ -93,45 +100,62 @@ constexpr PointCell point_cells[] = {
      }},
 };
 
-std::string loop_table(const ReportedStudy& reported, std::size_t rows) {
-  const summary::StudySummary& summary = reported.summary;
+HtmlColumn label_column(const summary::StudySummary& summary, std::size_t rows) {
   HtmlColumn label{"point", "", true, {}};
+  for (std::size_t i = 0; i < rows; ++i) label.cells.push_back(summary.labels[i]);
+  return label;
+}
+
+HtmlColumn observed_column(const summary::StudySummary& summary, std::size_t rows) {
   HtmlColumn observed{"observed on the rig", "", true, {}};
-  for (std::size_t i = 0; i < rows; ++i) {
-    label.cells.push_back(summary.labels[i]);
+  for (std::size_t i = 0; i < rows; ++i)
     observed.cells.push_back(summary::observed_at(summary, static_cast<std::int64_t>(i)));
-  }
   for (const measures::SummarySection& section : summary.sections) {
     if (section.key != summary::observed_key) continue;
     for (std::size_t i = 0; i < rows; ++i)
       observed.below.push_back(section.json[i].is_null() ? ""
                                                          : section.json[i]["statement"].get<std::string>());
   }
-  const bool dependent = summary.features.dependent_trials;
-  std::vector<HtmlColumn> columns{label};
-  for (const PointCell& cell : point_cells) {
-    if (dependent && cell.needs_independence) continue;
-    if (cell.needs_rigs && !summary.features.rigs) continue;
-    HtmlColumn column{cell.head, cell.unit, false, {}};
-    if (dependent && cell.below != nullptr)
-      column.unit += (column.unit.empty() ? "" : "; ") + std::string("bounds too narrow");
-    for (std::size_t i = 0; i < rows; ++i) {
-      const measures::TheoryPrediction prediction =
-          summary.predictions.empty() ? measures::TheoryPrediction{} : summary.predictions[i];
-      column.cells.push_back(cell.text(summary.points[i], prediction));
-      if (cell.below != nullptr)
-        column.below.push_back(cell.below(summary.points[i], reported.success_bounds[i]));
-    }
-    columns.push_back(std::move(column));
+  return observed;
+}
+
+HtmlColumn column_of(const PointCell& cell, const ReportedStudy& reported, std::size_t rows) {
+  const summary::StudySummary& summary = reported.summary;
+  HtmlColumn column{cell.head, cell.unit, false, {}};
+  if (summary.features.dependent_trials && cell.below != nullptr)
+    column.unit += (column.unit.empty() ? "" : "; ") + std::string("bounds too narrow");
+  for (std::size_t i = 0; i < rows; ++i) {
+    const measures::TheoryPrediction prediction =
+        summary.predictions.empty() ? measures::TheoryPrediction{} : summary.predictions[i];
+    column.cells.push_back(cell.text(summary.points[i], prediction));
+    if (cell.below != nullptr)
+      column.below.push_back(cell.below(summary.points[i], reported.success_bounds[i]));
   }
-  if (!summary.observed.empty()) columns.push_back(observed);
-  return html_table(columns) +
+  return column;
+}
+
+std::vector<HtmlColumn> columns_of(std::span<const PointCell> cells, const ReportedStudy& reported,
+                                   std::size_t rows) {
+  const study::StudyFeatures& features = reported.summary.features;
+  std::vector<HtmlColumn> columns{label_column(reported.summary, rows)};
+  for (const PointCell& cell : cells) {
+    const bool valid = !(features.dependent_trials && cell.needs_independence);
+    if (valid && (features.rigs || !cell.needs_rigs)) columns.push_back(column_of(cell, reported, rows));
+  }
+  return columns;
+}
+
+std::string loop_tables(const ReportedStudy& reported, std::size_t rows) {
+  const summary::StudySummary& summary = reported.summary;
+  const bool dependent = summary.features.dependent_trials;
+  std::vector<HtmlColumn> motion = columns_of(motion_cells, reported, rows);
+  if (!summary.observed.empty()) motion.push_back(observed_column(summary, rows));
+  return html_table(columns_of(outcome_cells, reported, rows)) +
          fmt::format(
              "<p class=\"note\">zero-count: proportion of trials all of whose moves ended at zero error, "
              "with {}.{} One count, undecided, oscillating, lost: trials by their worst move. Undecided: a "
-             "move ended off target (stalled or still moving); it is neither stable nor shown unstable. "
-             "Quantiles of settling times are those of all moves, with order-statistic bounds; moves that "
-             "never arrived count as later than all others. {}{}</p>\n",
+             "move ended off target (stalled or still moving); it is neither stable nor shown unstable. {}"
+             "{}</p>\n",
              reported.bounds_name,
              dependent ? "" : " Failures at most: one-sided upper bound of the failure probability.",
              summary.features.rigs
@@ -139,7 +163,11 @@ std::string loop_table(const ReportedStudy& reported, std::size_t rows) {
                    "observed success rate of the rigs with the lowest rates. "
                  : "",
              dependent ? html_text(fmt::format("{} {}", dependence_sentence, too_narrow_sentence))
-                       : html_text(summary::design_line(summary)));
+                       : html_text(summary::design_line(summary))) +
+         html_table(motion) +
+         "<p class=\"note\">Quantiles of settling times are those of all moves, with order-statistic bounds; "
+         "moves that never arrived count as later than all others. (6), (7): trials in which the paper's "
+         "criteria hold and are exceeded.</p>\n";
 }
 
 /// "Repeatability" for "repeatability".
@@ -151,25 +179,14 @@ std::string title_of(std::string key) {
 }
 
 std::string level_table_html(const summary::StudySummary& summary, std::size_t rows) {
-  std::vector<HtmlColumn> columns{{"point", "", true, {}}, {"level", "", false, {}}};
-  const parameters::AxisKind axis = summary.features.axis;
-  const std::vector<measures::LevelField> fields = measures::level_fields(summary.table());
-  for (const measures::LevelField& field : fields)
-    columns.push_back({parameters::text_on(axis, field.long_name),
-                       field.unit == "1" ? "" : parameters::unit_on(axis, field.unit),
-                       false,
-                       {}});
-  std::size_t written = 0;
-  for (std::size_t point = 0; point < summary.points.size(); ++point) {
-    for (std::size_t level = 0; level < summary.points[point].levels.size() && written < rows;
-         ++level, ++written) {
-      std::vector<std::string> cells{summary.labels[point], fmt::format("{}", level + 1)};
-      for (const measures::LevelField& field : fields)
-        cells.push_back(text::short_number(field.value(summary.points[point].levels[level])));
-      add_row(columns, std::move(cells));
-    }
+  std::vector<HtmlColumn> columns;
+  for (text::TextColumn& column : summary::level_columns(summary)) {
+    column.cells.resize(std::min(column.cells.size(), rows));
+    columns.push_back({column.head, "", !column.numeric, std::move(column.cells)});
   }
-  return html_table(columns);
+  return html_table(columns) +
+         fmt::format("<p class=\"note lines\">{}</p>\n",
+                     html_text(parameters::text_on(summary.features.axis, summary::level_legend())));
 }
 
 }  // namespace
@@ -179,7 +196,7 @@ std::string points_html(const ReportedStudy& reported) {
   std::size_t all = summary.points.size();
   if (reported.study.open_loop) all *= static_cast<std::size_t>(reported.file.moves());
   const std::size_t rows = std::min(all, max_points);
-  std::string html = reported.study.open_loop ? level_table_html(summary, rows) : loop_table(reported, rows);
+  std::string html = reported.study.open_loop ? level_table_html(summary, rows) : loop_tables(reported, rows);
   if (rows < all) {
     html += fmt::format(
         "<p class=\"note\">The first {} of {} rows; all are printed by <code>zerocount summary</code>.</p>\n",
@@ -187,7 +204,7 @@ std::string points_html(const ReportedStudy& reported) {
   }
   for (const measures::SummarySection& section : summary.sections) {
     if (section.text.empty()) continue;
-    html += html_folded(title_of(section.key), section.text);
+    html += html_preformatted(title_of(section.key), section.text, section.open);
   }
   return html;
 }

@@ -36,7 +36,7 @@ std::vector<Figure> figures_of_paper(const ReportedStudy& reported, Replays& rep
   for (const PaperFigure& wanted : paper_figures(reported)) {
     std::vector<ReplayedTrial> trials;
     for (const SampleTrial& trial : wanted.trials) trials.push_back(replays.run(trial));
-    figures.push_back(paper_figure(wanted, trials));
+    figures.push_back(paper_figure(reported, wanted, trials));
   }
   return figures;
 }
@@ -60,11 +60,13 @@ void add(ReportPage& page, PageSection section) {
 }
 
 PageSection success_section(const ReportedStudy& reported) {
-  PageSection section{
-      "points", reported.study.open_loop ? "Torque levels" : "Success", points_html(reported), {}};
+  PageSection section{"points", reported.study.open_loop ? "Torque levels" : "Success", "", {}};
+  std::vector<Figure> maps = stability_maps(reported);
+  // A study with a map has many points: the map shows them better than a long table.
+  (maps.empty() ? section.html : section.html_after) = points_html(reported);
   if (std::optional<Figure> success = success_figure(reported))
     section.figures.push_back(std::move(*success));
-  for (Figure& map : stability_maps(reported)) section.figures.push_back(std::move(map));
+  for (Figure& map : maps) section.figures.push_back(std::move(map));
   return section;
 }
 

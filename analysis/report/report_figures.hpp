@@ -54,6 +54,7 @@ struct PaperFigure {
 /// The figures of the paper that the study can reproduce: Fig. 4 and 6 for torque levels, Fig. 7 for moves to
 /// different targets, Fig. 8 for one long move with jerks.
 std::vector<PaperFigure> paper_figures(const ReportedStudy& reported);
-Figure paper_figure(const PaperFigure& wanted, const std::vector<ReplayedTrial>& replayed);
+Figure paper_figure(const ReportedStudy& reported, const PaperFigure& wanted,
+                    const std::vector<ReplayedTrial>& replayed);
 
 }  // namespace zerocount::report

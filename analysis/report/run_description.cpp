@@ -124,7 +124,7 @@ std::string run_html(const ReportedStudy& reported) {
   }
   html += html_facts(facts_of(reported));
   html += inputs_table(reported.file);
-  return html + html_folded("The manifest", reported.file.header().manifest);
+  return html + html_preformatted("The manifest", reported.file.header().manifest);
 }
 
 }  // namespace zerocount::report

@@ -127,7 +127,7 @@ void add_rigs(std::vector<std::string>& lines, const ReportedStudy& reported, st
   lines.push_back(line);
 }
 
-void add_spread(std::vector<std::string>& lines, const ReportedStudy& reported) {
+void add_spread(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
   const std::vector<measures::PointSummary>& points = reported.summary.points;
   if (points.size() == 1) return;
   const auto flawless = std::count_if(points.begin(), points.end(), [](const measures::PointSummary& p) {
@@ -140,6 +140,10 @@ void add_spread(std::vector<std::string>& lines, const ReportedStudy& reported) 
   const std::string proportion = flawless == 0 ? fmt::format("None of the {} points is", points.size())
                                                : fmt::format("{} of the {} points {}", flawless,
                                                              points.size(), flawless == 1 ? "is" : "are");
+  if (worst->success_rate().value == points[static_cast<std::size_t>(best)].success_rate().value) {
+    lines.push_back(fmt::format("{} without a failure; no other succeeded less often.", proportion));
+    return;
+  }
   lines.push_back(fmt::format("{} without a failure. The worst, {}, succeeded in {}{}.", proportion,
                               label_of(reported, worst - points.begin()),
                               of_all(worst->outcomes.zero_count, worst->trials),
@@ -254,7 +258,7 @@ std::string verdict_html(const ReportedStudy& reported) {
   add_undecided(lines, reported, best);
   add_rigs(lines, reported, best);
   add_times(lines, reported, best);
-  add_spread(lines, reported);
+  add_spread(lines, reported, best);
   add_theory(lines, reported);
   return as_html(headline(reported, best), lines);
 }

@@ -373,7 +373,7 @@ INSTANTIATE_TEST_SUITE_P(
                    "exact}, hold: 0.01}\n",
                    "paper-fig4"},
         PaperStudy{"creep", "command: {torque: {levels: [0.1, 0, 0.1], through: exact}, hold: 0.1}\n",
-                   "paper-fig6"},
+                   "paper-fig4paper-fig6"},
         PaperStudy{"targets",
                    "command: {targets: [1], hold: 0.15}\nsweep: {grid: {command.targets.0: [1, 2, 3, 4]}}\n",
                    "paper-fig7"},

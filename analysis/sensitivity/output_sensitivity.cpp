@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include "analysis/sensitivity/given_data_index.hpp"
 #include "analysis/sensitivity/logistic_fit.hpp"
@@ -109,13 +110,18 @@ void add_design_indices(const PointInputs& point, const std::vector<double>& val
 void add_correlations(const Varying& varying, const std::vector<double>& y, bool first_orders,
                       double confidence, OutputSensitivity& result) {
   const std::vector<BoundedNumber> partial = partial_rank_correlations(varying.values, y, confidence);
-  for (std::size_t j = 0; j < varying.names.size(); ++j) {
+  std::vector<FactorSensitivity> found(varying.names.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t j) {
     const auto column = varying.values.col(static_cast<Eigen::Index>(j));
     const std::span<const double> x(column.data(), y.size());
+    found[j].rank_correlation = rank_correlation(x, y, confidence);
+    if (first_orders) found[j].first_order = given_data_first_order(x, y, confidence);
+  });
+  for (std::size_t j = 0; j < found.size(); ++j) {
     FactorSensitivity& factor = row_of(result, varying.names[j]);
-    factor.rank_correlation = rank_correlation(x, y, confidence);
+    factor.rank_correlation = found[j].rank_correlation;
     factor.partial_rank_correlation = partial[j];
-    if (first_orders) factor.first_order = given_data_first_order(x, y, confidence);
+    if (first_orders) factor.first_order = found[j].first_order;
   }
 }
 

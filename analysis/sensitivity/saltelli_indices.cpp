@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include <Eigen/Core>
+#include <oneapi/tbb/parallel_for.h>
 
 #include "analysis/sensitivity/pair_difference.hpp"
 
@@ -216,17 +217,19 @@ std::vector<SobolIndices> saltelli_indices(const SaltelliSample& sample, double 
     indices[j].total.value = values.total;
   }
 
-  std::vector<std::vector<double>> first_orders(factors);
-  std::vector<std::vector<double>> totals(factors);
   const std::int64_t replicates = bootstrap_replicates(confidence);
-  for (std::int64_t replicate = 0; replicate < replicates; ++replicate) {
+  const std::vector<double> unset(static_cast<std::size_t>(replicates));
+  std::vector<std::vector<double>> first_orders(factors, unset);
+  std::vector<std::vector<double>> totals(factors, unset);
+  oneapi::tbb::parallel_for(std::int64_t{0}, replicates, [&](std::int64_t replicate) {
     const Eigen::VectorXd drawn = sums * draw_groups(sums.cols(), replicate, randomness);
+    const auto r = static_cast<std::size_t>(replicate);
     for (std::size_t j = 0; j < factors; ++j) {
       const IndexValues values = index_values(drawn, static_cast<Eigen::Index>(j), controls[j]);
-      first_orders[j].push_back(values.first_order);
-      totals[j].push_back(values.total);
+      first_orders[j][r] = values.first_order;
+      totals[j][r] = values.total;
     }
-  }
+  });
   for (std::size_t j = 0; j < factors; ++j) {
     set_bounds(std::move(first_orders[j]), confidence, indices[j].first_order);
     set_bounds(std::move(totals[j]), confidence, indices[j].total);

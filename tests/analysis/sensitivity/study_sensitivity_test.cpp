@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <oneapi/tbb/global_control.h>
 
 #include "analysis/sensitivity/sensitivity.hpp"
 #include "core/failure/failure.hpp"
@@ -307,6 +308,17 @@ TEST(StudySensitivity, QuestionsThatMakeNoSenseAreRefused) {
     } catch (const Failure& failure) {
       EXPECT_EQ(failure.code(), ExitCode::bad_input) << failure.what();
     }
+  }
+}
+
+TEST(StudySensitivity, DoesNotDependOnTheNumberOfThreads) {
+  for (const char* design : {"", "design: monte_carlo\n"}) {
+    std::string text = manifest();
+    if (*design != '\0') text.replace(text.find("design: saltelli\n"), 17, design);
+    const MadeUpStudy study(text, both_in_upper_half);
+    const std::string many = sensitivity_json(study.ask());
+    const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+    EXPECT_EQ(sensitivity_json(study.ask()), many);
   }
 }
 

@@ -7,6 +7,9 @@
 #include <system_error>
 #include <vector>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include "core/failure/failure.hpp"
 #include "runners/commands/commands.hpp"
 
@@ -42,10 +45,21 @@ ExitCode run(const std::vector<std::string>& words) {
   }
 }
 
+/// Takes the places of closed standard streams, so that no file opened later gets one of them, and with it
+/// what is written to the stream. Reading and writing them fails as before.
+void occupy_closed_streams() {
+  int descriptor = 0;
+  do {
+    descriptor = open("/dev/null", O_RDONLY | O_CLOEXEC);
+  } while (descriptor >= 0 && descriptor <= STDERR_FILENO);
+  if (descriptor > STDERR_FILENO) close(descriptor);
+}
+
 }  // namespace
 
 int main(int count, char** words) {
   // A write beyond the file size limit must fail and be reported; the signal would kill the process silently.
   std::signal(SIGXFSZ, SIG_IGN);
+  occupy_closed_streams();
   return static_cast<int>(run({words + 1, words + count}));
 }

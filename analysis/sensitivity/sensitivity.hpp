@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -108,6 +109,8 @@ struct SensitivityQuestion {
   std::vector<std::int64_t> points{};  ///< empty: all
   std::vector<std::string> outputs{};  ///< of sensitivity_outputs(); empty: success and settling_time
   double confidence{statistics::summary_confidence};  ///< in (0, 0.999]
+  /// Called after each output of each point; may be empty.
+  std::function<void(std::int64_t done, std::int64_t all)> progress{};
 };
 
 /// Answers from a complete results file. Deterministic: the resampling is seeded by the study's seed.

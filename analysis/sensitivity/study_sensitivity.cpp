@@ -75,7 +75,10 @@ StudySensitivity study_sensitivity(const reading::StudyFile& file, const Sensiti
                                .from_saltelli = study.design == study::Design::saltelli,
                                .confidence = question.confidence,
                                .points = {}};
-  for (const std::int64_t point : points_asked(file, question)) {
+  const std::vector<std::int64_t> points = points_asked(file, question);
+  const std::int64_t all = std::ssize(points) * std::ssize(outputs);
+  std::int64_t done = 0;
+  for (const std::int64_t point : points) {
     PointSensitivity at_point{point, labels.at(static_cast<std::size_t>(point)), {}};
     const PointInputs inputs = point_inputs(file, study, point);
     for (const SensitivityOutput& output : outputs) {
@@ -84,6 +87,7 @@ StudySensitivity study_sensitivity(const reading::StudyFile& file, const Sensiti
       result.unit = parameters::unit_on(study.units.axis, result.unit);
       result.meaning = parameters::text_on(study.units.axis, result.meaning);
       at_point.outputs.push_back(std::move(result));
+      if (question.progress) question.progress(++done, all);
     }
     sensitivity.points.push_back(std::move(at_point));
   }

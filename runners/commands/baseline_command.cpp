@@ -8,6 +8,7 @@
 #include "results/storage/output_lock.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
+#include "runners/status/status.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -36,14 +37,14 @@ ExitCode baseline(const command_line::Arguments& arguments) {
   const storage::OutputLock lock(output);
   const comparison::BaselineUpdate update = comparison::update_baseline(file, output, reason);
   if (!update.changed) {
-    fmt::print(stderr, "{}: is this file already, nothing to do\n", output.string());
+    status::tell("{}: is this file already, nothing to do\n", output.string());
     return ExitCode::success;
   }
   for (const std::string& warning : update.warnings)
-    fmt::print(stderr, "zerocount baseline: warning: {}\n", warning);
+    status::tell("zerocount baseline: warning: {}\n", warning);
   if (!update.comparison.empty()) fmt::print("compared with the baseline before: {}\n", update.comparison);
-  fmt::print(stderr, "wrote {} and recorded it in {}\n", output.string(),
-             comparison::baseline_log(output).string());
+  status::tell("wrote {} and recorded it in {}\n", output.string(),
+               comparison::baseline_log(output).string());
   return ExitCode::success;
 }
 

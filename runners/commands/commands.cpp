@@ -7,6 +7,7 @@
 
 #include "results/layout/header.hpp"
 #include "runners/command_line/output_place.hpp"
+#include "runners/status/status.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -61,7 +62,7 @@ Command find_command(const std::string& name) {
 }  // namespace
 
 void print_warnings(const study::Study& study) {
-  for (const std::string& warning : study.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  for (const std::string& warning : study.warnings) status::tell("warning: {}\n", warning);
 }
 
 std::vector<Command> commands() {

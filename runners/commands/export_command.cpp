@@ -6,6 +6,7 @@
 #include "results/reading/study_file.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
+#include "runners/status/status.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -29,7 +30,7 @@ ExitCode export_file(const command_line::Arguments& arguments) {
   reading::export_csv(
       file, directory, iso230::repeatability_exports(file),
       arguments.has("force") ? reading::ExistingFiles::replace : reading::ExistingFiles::refuse);
-  fmt::print(stderr, "wrote the tables to {}\n", directory);
+  status::tell("wrote the tables to {}\n", directory);
   return ExitCode::success;
 }
 

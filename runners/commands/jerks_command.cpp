@@ -8,6 +8,7 @@
 #include "results/reading/study_file.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/commands.hpp"
+#include "runners/status/status.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -34,7 +35,7 @@ ExitCode print_jerks(const command_line::Arguments& arguments) {
   const jerks::JerkReport report = jerks::jerk_report(file, study, points, confidence, creep_trials);
   fmt::print("{}", format == "json" ? jerks::jerk_json_text(report) : jerks::jerk_text(report));
   if (jerks::any_arrival(report)) return ExitCode::success;
-  fmt::print(stderr, "no move arrived, so there are no jerks\n");
+  status::tell("no move arrived, so there are no jerks\n");
   return ExitCode::inconclusive;
 }
 

@@ -9,6 +9,7 @@
 #include "results/storage/output_lock.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
+#include "runners/status/status.hpp"
 #include "runners/study_run/study_runner.hpp"
 
 namespace zerocount::commands {
@@ -45,7 +46,7 @@ ExitCode merge(const command_line::Arguments& arguments) {
   const std::vector<shards::ShardInfo> parts = shards::merge_inputs(inputs, study);
   require_everything(parts, study);
   study_run::assemble(parts, study, output, layout::all_rows(study));
-  fmt::print(stderr, "wrote {}\n", output.string());
+  status::tell("wrote {}\n", output.string());
   return ExitCode::success;
 }
 

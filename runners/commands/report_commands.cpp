@@ -19,6 +19,7 @@
 #include "runners/commands/child_process.hpp"
 #include "runners/commands/commands.hpp"
 #include "runners/commands/replay.hpp"
+#include "runners/status/status.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -61,7 +62,7 @@ report::StudyReport report_of(const command_line::Arguments& arguments, const re
     return differences_from_record(file, replayed.result);
   };
   report::StudyReport report = report::study_report(file, options);
-  for (const std::string& warning : report.warnings) fmt::print(stderr, "zerocount: warning: {}\n", warning);
+  for (const std::string& warning : report.warnings) status::tell("zerocount: warning: {}\n", warning);
   return report;
 }
 

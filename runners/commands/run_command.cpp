@@ -17,6 +17,7 @@
 #include "runners/commands/commands.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/plugins/hidden_state.hpp"
+#include "runners/status/status.hpp"
 #include "runners/study_run/earlier_shards.hpp"
 #include "runners/study_run/engine_use.hpp"
 #include "runners/study_run/existing_output.hpp"
@@ -118,8 +119,8 @@ study_run::EarlierShards prepare_shards(const RunRequest& request, const fs::pat
   if (existing != study_run::ExistingUse::extend) return earlier;
   const reading::StudyFile file(request.output);
   if (!request.quiet) {
-    fmt::print(stderr, "{}: its {} trials at each point are kept, and {} are added\n",
-               request.output.string(), file.header().trials, request.study.trials - file.header().trials);
+    status::tell("{}: its {} trials at each point are kept, and {} are added\n", request.output.string(),
+                 file.header().trials, request.study.trials - file.header().trials);
   }
   const std::vector<layout::RowRange> ranges = shards::missing_ranges(earlier.usable, request.wanted);
   for (shards::ShardInfo& shard : study_run::copy_trials(file, request.study, directory, ranges)) {
@@ -159,7 +160,7 @@ void run_rows(const RunRequest& request, study_run::ExistingUse existing, const 
   study_run::assemble(shards, request.study, request.output, wanted, finished.predictions);
   for (const shards::ShardInfo& shard : finished.shards) earlier.all.push_back(shard.path);
   study_run::remove_shards(directory, earlier.all);
-  if (!request.quiet) fmt::print(stderr, "wrote {}\n", request.output.string());
+  if (!request.quiet) status::tell("wrote {}\n", request.output.string());
 }
 
 ExitCode run(const command_line::Arguments& arguments) {
@@ -169,11 +170,11 @@ ExitCode run(const command_line::Arguments& arguments) {
       static_cast<std::size_t>(study_run::threads_to_use(request.threads)));
   print_warnings(request.study);
   if (request.study.plugin && !request.quiet) {
-    fmt::print(stderr, "the controller is the plugin {} {}\n", request.study.plugin->description.name,
-               request.study.plugin->description.version);
+    status::tell("the controller is the plugin {} {}\n", request.study.plugin->description.name,
+                 request.study.plugin->description.version);
   }
   const std::string engine = study_run::engine_text(study_run::points_on_reference(request.study));
-  if (!engine.empty() && !request.quiet) fmt::print(stderr, "{}\n", engine);
+  if (!engine.empty() && !request.quiet) status::tell("{}\n", engine);
   plugins::require_no_hidden_state(request.study);
   const study_run::InterruptionWatch interruption;
   const storage::OutputLock lock(request.output);
@@ -186,7 +187,7 @@ ExitCode run(const command_line::Arguments& arguments) {
     study_run::remove_shards(
         directory,
         study_run::choose_shards(shards::list_shards(directory, request.study).shards, request.wanted).all);
-    if (!request.quiet) fmt::print(stderr, "{}: complete already, nothing to run\n", request.output.string());
+    if (!request.quiet) status::tell("{}: complete already, nothing to run\n", request.output.string());
     return ExitCode::success;
   }
   if (!request.study.stop) {

@@ -6,6 +6,7 @@
 #include "results/reading/study_file.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/commands.hpp"
+#include "runners/status/status.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -42,6 +43,10 @@ ExitCode print_sensitivity(const command_line::Arguments& arguments) {
   question.outputs = arguments.values("output");
   question.confidence =
       command_line::probability_option(arguments, "confidence").value_or(question.confidence);
+  status::StatusLine line;
+  question.progress = [&](std::int64_t done, std::int64_t all) {
+    line.show([&] { return fmt::format("sensitivity: {} of {} outputs", done, all); });
+  };
   const sensitivity::StudySensitivity sensitivity = sensitivity::study_sensitivity(file, question);
   if (format == "table") fmt::print("{}", sensitivity::sensitivity_table(sensitivity));
   if (format == "json") fmt::print("{}", sensitivity::sensitivity_json(sensitivity));

@@ -17,6 +17,7 @@
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/commands.hpp"
 #include "runners/commands/plugin_option.hpp"
+#include "runners/status/status.hpp"
 #include "runners/study_run/confirmation.hpp"
 
 namespace zerocount::commands {
@@ -57,9 +58,8 @@ summary::StudySummary summary_of(const fs::path& path, double confidence, bool w
   }
   summary::StudySummary summary = summary::summarise(reading::StudyFile(path), confidence, with_means);
   if (is_there(shards)) {
-    fmt::print(stderr,
-               "note: an unfinished run ({1}) will replace {0}; this is the summary of the present file\n",
-               path.string(), shards.string());
+    status::tell("note: an unfinished run ({1}) will replace {0}; this is the summary of the present file\n",
+                 path.string(), shards.string());
   }
   return summary;
 }
@@ -81,7 +81,7 @@ std::optional<ConfirmedBest> confirmed_best(const command_line::Arguments& argum
   }
   if (summary.unfinished) arguments.refuse("option '--confirm' needs a run that has ended");
   const reading::StudyFile file(arguments.operands()[0]);
-  fmt::print(stderr, "running {} new trials of the best point\n", *trials);
+  status::tell("running {} new trials of the best point\n", *trials);
   const study_run::Confirmation confirmation =
       study_run::confirm_point(file, summary::best_point(summary.points), *trials, plugin_option(arguments));
   return ConfirmedBest{confirmation, statistics::clopper_pearson(confirmation.successes, confirmation.trials,
@@ -146,8 +146,7 @@ ExitCode summarise_file(const command_line::Arguments& arguments) {
     if (best) json["confirmation"] = confirmation_json(*best);
     fmt::print("{}", text::json_text(json));
   }
-  if (format == "csv" && summary.unfinished)
-    fmt::print(stderr, "{}\n", summary::unfinished_sentence(summary));
+  if (format == "csv" && summary.unfinished) status::tell("{}\n", summary::unfinished_sentence(summary));
   if (format == "csv") fmt::print("{}", summary::summary_csv(summary));
   return ExitCode::success;
 }

@@ -19,6 +19,7 @@
 #include "runners/commands/replay.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/commands/trace_writer.hpp"
+#include "runners/status/status.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -118,7 +119,7 @@ ExitCode trace(const command_line::Arguments& arguments) {
       write_trace_to(output.value_or("-"), {study, point, index, trial}, json);
   const auto failed = [](const trial::MoveOutcome& move) { return move.controller_failed; };
   if (std::any_of(replayed.outcome.moves.begin(), replayed.outcome.moves.end(), failed))
-    fmt::print(stderr, "the controller gave no finite torque at the last sample: the trial ends there\n");
+    status::tell("the controller gave no finite torque at the last sample: the trial ends there\n");
   if (!file) return ExitCode::success;
 
   const std::vector<std::string> different = differences_from_record(*file, replayed);

@@ -8,6 +8,7 @@
 
 #include "core/failure/failure.hpp"
 #include "results/reading/study_file.hpp"
+#include "runners/status/status.hpp"
 #include "runners/study_run/study_differences.hpp"
 
 namespace zerocount::study_run {
@@ -77,8 +78,8 @@ EarlierShards earlier_shards(const fs::path& directory, const study::Study& stud
     aside += set_aside;
     std::error_code error;
     fs::rename(bad.path, aside, error);
-    fmt::print(stderr, "warning: {}; its trials are run again{}\n", bad.problem,
-               error ? "" : fmt::format(", and the file is kept as {}", aside.filename().string()));
+    status::tell("warning: {}; its trials are run again{}\n", bad.problem,
+                 error ? "" : fmt::format(", and the file is kept as {}", aside.filename().string()));
   }
   shards::remove_unfinished(survey);
   return choose_shards(survey.shards, wanted);

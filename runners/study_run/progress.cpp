@@ -1,16 +1,11 @@
 #include "runners/study_run/progress.hpp"
 
 #include <cmath>
-#include <cstdio>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 namespace zerocount::study_run {
 namespace {
-
-constexpr std::chrono::milliseconds terminal_interval{200};
-constexpr std::chrono::milliseconds log_interval{5000};
 
 double seconds(std::chrono::steady_clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
@@ -19,26 +14,20 @@ double seconds(std::chrono::steady_clock::duration duration) {
 }  // namespace
 
 Progress::Progress(std::int64_t total, std::int64_t kept, double samples, bool quiet)
-    : total_(total),
-      kept_(kept),
-      samples_(samples),
-      quiet_(quiet),
-      terminal_(isatty(STDERR_FILENO) == 1),
-      start_(Clock::now()),
-      last_(start_) {}
+    : total_(total), kept_(kept), samples_(samples), line_(quiet), start_(Clock::now()) {}
 
-std::string Progress::line(std::int64_t done, double elapsed) const {
+std::string Progress::text(std::int64_t done, double elapsed) const {
   const double proportion =
       total_ > 0 ? 100.0 * static_cast<double>(done) / static_cast<double>(total_) : 100.0;
-  std::string text =
+  std::string words =
       fmt::format("{} of {}{} trials ({:.1f} %)", done, projected_ ? "about " : "", total_, proportion);
-  if (kept_ > 0) text += fmt::format(", {} of them from before", kept_);
+  if (kept_ > 0) words += fmt::format(", {} of them from before", kept_);
   const double rate = elapsed > 0.0 ? static_cast<double>(done - kept_) / elapsed : 0.0;
   if (rate > 0.0) {
-    text += fmt::format(", {:.4g} trials/s, {:.3g} M samples/s", rate, 1e-6 * rate * samples_);
-    if (done < total_) text += ", " + duration_text(static_cast<double>(total_ - done) / rate) + " to go";
+    words += fmt::format(", {:.4g} trials/s, {:.3g} M samples/s", rate, 1e-6 * rate * samples_);
+    if (done < total_) words += ", " + duration_text(static_cast<double>(total_ - done) / rate) + " to go";
   }
-  return text;
+  return words;
 }
 
 void Progress::project(std::int64_t total) {
@@ -47,20 +36,12 @@ void Progress::project(std::int64_t total) {
 }
 
 void Progress::update(std::int64_t done) {
-  if (quiet_) return;
-  const Clock::time_point now = Clock::now();
-  if (now - last_ < (terminal_ ? terminal_interval : log_interval)) return;
-  last_ = now;
-  const std::string text = line(done, seconds(now - start_));
-  fmt::print(stderr, "{}{}{}", terminal_ ? "\r\x1b[K" : "", text, terminal_ ? "" : "\n");
-  std::fflush(stderr);
+  line_.show([&] { return text(done, seconds(Clock::now() - start_)); });
 }
 
 void Progress::finish(std::int64_t done) {
-  if (quiet_) return;
   const double elapsed = seconds(Clock::now() - start_);
-  fmt::print(stderr, "{}{}, in {}\n", terminal_ ? "\r\x1b[K" : "", line(done, elapsed),
-             duration_text(elapsed));
+  line_.finish(fmt::format("{}, in {}", text(done, elapsed), duration_text(elapsed)));
 }
 
 std::string duration_text(double seconds) {

@@ -4,10 +4,11 @@
 #include <cstdint>
 #include <string>
 
+#include "runners/status/status.hpp"
+
 namespace zerocount::study_run {
 
-/// Prints the progress of a run to stderr: one updated line on a terminal, otherwise a new line every few
-/// seconds, and a final line.
+/// Prints the progress of a run to stderr, and a final line.
 class Progress {
  public:
   /// @param total trials to run @param kept trials of earlier runs @param samples per trial, for the rate
@@ -21,16 +22,14 @@ class Progress {
 
  private:
   using Clock = std::chrono::steady_clock;
-  std::string line(std::int64_t done, double elapsed) const;
+  std::string text(std::int64_t done, double elapsed) const;
 
   std::int64_t total_;
   bool projected_{false};
   std::int64_t kept_;
   double samples_;
-  bool quiet_;
-  bool terminal_;
+  status::StatusLine line_;
   Clock::time_point start_;
-  Clock::time_point last_;
 };
 
 /// A duration as text: "850 ms", "12 s", "3 min 20 s", "5 h 02 min".

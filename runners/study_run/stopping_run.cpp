@@ -9,6 +9,7 @@
 #include "experiments/manifest/load_study.hpp"
 #include "results/reading/study_file.hpp"
 #include "results/storage/durable_file.hpp"
+#include "runners/status/status.hpp"
 #include "runners/study_run/progress.hpp"
 #include "runners/study_run/study_runner.hpp"
 
@@ -167,7 +168,7 @@ ExitCode run_until_sure(const study::Study& study, const fs::path& output,
     const char* const why = sure(study, successes, trials)
                                 ? "all success rates are known as well as requested"
                                 : "max_trials; some success rates are known less well than requested";
-    fmt::print(stderr, "wrote {}: {} trials at each point ({})\n", output.string(), trials, why);
+    status::tell("wrote {}: {} trials at each point ({})\n", output.string(), trials, why);
   }
   return ExitCode::success;
 }

@@ -218,5 +218,16 @@ TEST_F(CommandLine, AFullStandardOutputExitsWithFive) {
   EXPECT_NE(folder_.read("err").find("standard output"), std::string::npos);
 }
 
+TEST_F(CommandLine, AStandardErrorThatCannotBeWrittenStopsNothing) {
+  folder_.write("study.yaml", small_manifest(20));
+  for (const std::string to : {"2> /dev/full", "2>&-"}) {
+    const std::string command = "cd " + folder_.path().string() +
+                                " && rm -f a.h5 && " ZEROCOUNT_PROGRAM " run study.yaml -o a.h5 " + to;
+    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0) << to;
+    const ProgramResult summary = run({"summary", "a.h5"});
+    EXPECT_EQ(summary.code, 0) << to << ": " << summary.err;
+  }
+}
+
 }  // namespace
 }  // namespace zerocount::testing

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+/// What the program says on standard error while it works. A standard error that cannot be written stops
+/// nothing.
+namespace zerocount::status {
+
+/// Writes `text` as it is.
+void write(std::string_view text);
+
+/// Writes a formatted text.
+template <class... Arguments>
+void tell(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+  write(fmt::format(format, std::forward<Arguments>(arguments)...));
+}
+
+/// How far a long command is: on a terminal one line that is updated in place, otherwise a new line every few
+/// seconds. Commands that end sooner show nothing.
+class StatusLine {
+ public:
+  explicit StatusLine(bool quiet = false);
+  /// Removes the line from a terminal.
+  ~StatusLine();
+  StatusLine(const StatusLine&) = delete;
+  StatusLine& operator=(const StatusLine&) = delete;
+
+  /// Shows the text, without a line break, if the last one has stood long enough.
+  void show(const std::function<std::string()>& text);
+  /// Shows the final text, whenever the last one was shown.
+  void finish(std::string_view text);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool quiet_;
+  bool terminal_;
+  bool shown_{false};  ///< the cursor is behind a text on the terminal
+  Clock::time_point last_;
+};
+
+}  // namespace zerocount::status

@@ -112,6 +112,13 @@ std::string legend_of(const StudySummary& summary, bool (*belongs)(const layout:
   return legend;
 }
 
+/// Whether the criteria (6) and (7) apply to any trial.
+bool has_predictions(const StudySummary& summary) {
+  return std::any_of(
+      summary.predictions.begin(), summary.predictions.end(),
+      [](const measures::TheoryPrediction& one) { return measures::predicted_trials(one) > 0; });
+}
+
 void add_predictions(std::vector<text::TextColumn>& columns, const StudySummary& summary) {
   text::TextColumn holds{"(6) holds", true, {}}, exceeded{"(7) exceeded", true, {}};
   for (const measures::TheoryPrediction& prediction : summary.predictions) {
@@ -134,7 +141,7 @@ std::vector<text::TextColumn> loop_columns(const StudySummary& summary) {
   std::vector<text::TextColumn> columns = sweep_columns(summary);
   add_outcomes(columns, summary);
   add_measures(columns, summary);
-  if (!summary.predictions.empty()) add_predictions(columns, summary);
+  if (has_predictions(summary)) add_predictions(columns, summary);
   if (const std::vector<std::string> observed = observations(summary); !observed.empty()) {
     text::TextColumn column{"observed", false, {}};
     for (const std::string& text : observed) column.cells.push_back(text::printable(text));
@@ -191,7 +198,7 @@ std::string loop_legend(const StudySummary& summary) {
   legend += design_line(summary) + "\n";
   legend += legend_of(
       summary, [](const layout::Measure& m) { return m.summary.use != nullptr && !layout::is_quality(m); });
-  if (!summary.predictions.empty()) {
+  if (has_predictions(summary)) {
     legend +=
         "(6), (7): proportion of trials in which the paper's criterion (6) holds, which promises stability "
         "before "

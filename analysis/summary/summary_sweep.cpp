@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "analysis/summary/summary_parts.hpp"
+#include "experiments/parameters/parameter_table.hpp"
 
 namespace zerocount::summary {
 namespace {
@@ -53,6 +54,13 @@ std::string short_name(const study::SweepAxis& axis, const std::vector<const stu
   return axis.name;
 }
 
+std::string number_cell(const study::SweepAxis& axis, double value) {
+  if (std::isnan(value)) return "random";
+  const auto row = parameters::find_parameter(axis.name);
+  if (row && parameters::parameter_table()[*row].none == value) return "none";
+  return fmt::format("{:.6g}", value);
+}
+
 text::TextColumn swept_column(const study::SweepAxis& axis,
                               const std::vector<const study::SweepAxis*>& swept) {
   const bool numeric = axis.kind == study::SweepAxis::Kind::number;
@@ -63,7 +71,7 @@ text::TextColumn swept_column(const study::SweepAxis& axis,
     return column;
   }
   for (const double value : axis.numbers) {
-    column.cells.push_back(std::isnan(value) ? "random" : fmt::format("{:.6g}", value));
+    column.cells.push_back(number_cell(axis, value));
   }
   return column;
 }

@@ -437,5 +437,19 @@ TEST(PointColumns, AreTheFieldsOfTheReportByPoint) {
   EXPECT_EQ(predictions[1].values, (std::vector<double>{0.0, 2.0 / 7.0}));
 }
 
+TEST(SummaryTable, CallsALimitThatIsOffNone) {
+  StudySummary summary = two_cases();
+  summary.axes.back() = {"controller.deadband.enter",    "count",     "",
+                         study::SweepAxis::Kind::number, {-1.0, 2.0}, {}};
+  EXPECT_NE(lines_of(summary_table(summary))[4].find(" none "), std::string::npos) << summary_table(summary);
+}
+
+TEST(SummaryTable, ShowsTheCriteriaOnlyWhereTheyApply) {
+  StudySummary summary = two_cases();
+  EXPECT_NE(summary_table(summary).find("(6) holds"), std::string::npos);
+  summary.predictions = {{.trials = 40, .outside = 40}, {.trials = 7, .outside = 7}};
+  EXPECT_EQ(summary_table(summary).find("(6) holds"), std::string::npos) << summary_table(summary);
+}
+
 }  // namespace
 }  // namespace zerocount::summary

@@ -1,3 +1,5 @@
+#include "analysis/identification/checked_record.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -5,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "analysis/identification/raw_series.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::identification {
@@ -17,14 +18,14 @@ constexpr double angle_unit = 1e-6;
 /// The torque over each sample interval. If the motor torque was sampled behind an amplifier of known
 /// bandwidth, its samples u and u′ at both ends of an interval are two points of one exponential, which gives
 /// the commanded torque.
-std::vector<motion::TorqueCourse> courses_of(const RawSeries& series, double sample_time) {
+std::vector<motion::TorqueCourse> courses_of(const RawSeries& series, const TestRecord& record) {
   std::vector<motion::TorqueCourse> courses;
   const double rate = 2.0 * std::numbers::pi * series.bandwidth;
-  const double left = std::exp(-rate * sample_time);
-  const double gone = -std::expm1(-rate * sample_time);
   double lagging = 0.0;  // motor torque, lagging behind a commanded one
   for (std::size_t k = 0; k < series.torque.size(); ++k) {
     const double torque = k < series.delay ? 0.0 : series.torque[k - series.delay];
+    const double left = std::exp(-rate * interval_after(record, k));
+    const double gone = -std::expm1(-rate * interval_after(record, k));
     if (rate == 0.0) {
       courses.push_back(motion::constant_torque(torque));
     } else if (series.torque_kind == TorqueKind::commanded) {
@@ -90,11 +91,20 @@ void set_readings(const RawSeries& series, TestRecord& record) {
 }  // namespace
 
 TestRecord checked_record(const RawSeries& series, bool any_magnitude) {
+  if (series.linear) {
+    throw Failure(
+        ExitCode::bad_input,
+        fmt::format("{}: is of a linear axis; expected a rotary one, or the lever that makes torque and "
+                    "angle from force and position: --column 'torque=F[N]*0.01' --column "
+                    "'angle=x[m]/0.01'",
+                    series.name));
+  }
   TestRecord record;
   record.name = series.name;
   record.start = series.start;
   record.sample_time = checked_sample_time(series);
-  record.torque = courses_of(series, record.sample_time);
+  record.intervals = uneven_intervals(series);
+  record.torque = courses_of(series, record);
   set_readings(series, record);
   check_sticking(series);
   check_change(series, record);

@@ -54,14 +54,15 @@ class RecordRun {
     note(k);
     for (std::size_t held = 0; k + 1 < samples;) {
       if (!same_torque(k)) held = 0;
-      const std::size_t end = held > settled_after_ ? hold_end(k) : k;
+      const bool strides = record_.intervals.empty() && held > settled_after_;
+      const std::size_t end = strides ? hold_end(k) : k;
       const std::size_t stride = std::min(creep_stride_, end - k);
       if (stride >= 2) {
         stride_over(k, stride);
         k += stride;
         held += stride;
       } else {
-        plant_.advance(record_.torque[k], record_.sample_time);
+        plant_.advance(record_.torque[k], interval_after(record_, k));
         note(++k);
         ++held;
       }

@@ -20,7 +20,8 @@ struct RecordMotion {
 using PathSlope = Eigen::Matrix<double, 1, coordinate_count>;
 
 /// The rotor angle at every sample, simulated with core's Plant to 0.01 of the record's unit. When only creep
-/// moves the rotor in a long hold, the steps are longer and the samples are interpolated by cubics.
+/// moves the rotor in a long hold of an evenly sampled record, the steps are longer and the samples are
+/// interpolated by cubics.
 Eigen::VectorXd angle_path(const TestRecord& record, const ContactParameters& contact);
 
 /// The path and, by forward differences, its derivatives with respect to the free coordinates; the other

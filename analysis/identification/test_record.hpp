@@ -45,7 +45,8 @@ struct RecordParts {
 /// One checked material test: the motor torque and the encoder reading at each sample.
 struct TestRecord {
   std::string name;                          ///< name in messages
-  double sample_time{5e-4};                  ///< T, s
+  double sample_time{5e-4};                  ///< T, s; of uneven samples the mean
+  std::vector<double> intervals{};           ///< [sample] until the next one, s; empty: T each
   std::vector<motion::TorqueCourse> torque;  ///< [sample] from t_k to t_{k+1}
   std::vector<double> reading;               ///< [sample] angle at t_k, in `unit`
   double unit{1.0};                          ///< of the readings, rad; for counts one count
@@ -58,6 +59,11 @@ struct TestRecord {
 
 inline std::size_t sample_count(const TestRecord& record) {
   return record.reading.size();
+}
+
+/// Time from a sample to the next one, s.
+inline double interval_after(const TestRecord& record, std::size_t sample) {
+  return record.intervals.empty() ? record.sample_time : record.intervals[sample];
 }
 
 inline Eigen::Map<const Eigen::VectorXd> readings_of(const TestRecord& record) {

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <optional>
 #include <string>
@@ -10,12 +9,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/identification/checked_record.hpp"
 #include "analysis/identification/identification.hpp"
-#include "analysis/identification/raw_series.hpp"
+#include "analysis/records/raw_series.hpp"
 #include "results/reading/study_file.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
+#include "runners/commands/record_options.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -31,6 +32,11 @@ constexpr const char* identify_help =
     "\n"
     "A table (CSV) has the columns t (s), torque or drive_torque (N m), and theta (rad) or\n"
     "count, for which --counts-per-revolution is needed; 'zerocount trace' writes such tables.\n"
+    "--column names other columns and their units: QUANTITY=COLUMN, or QUANTITY=COLUMN[UNIT]\n"
+    "with factors *NUMBER and /NUMBER that make the quantity from the unit, 0.87 N m/A say.\n"
+    "Quantities are time, torque, drive_torque, angle and repetition. COLUMN is a name in the\n"
+    "header, #NUMBER, or the path of a dataset in an HDF5 or MAT v7.3 file. A new repetition of\n"
+    "the tests begins where the column of the repetition changes, or the time starts again.\n"
     "A results file has the traces of the trials that its manifest retains; the encoder's\n"
     "counts are used. At its first sample the contact must be unloaded and virgin, or have the\n"
     "state given by --preload and --hardening.\n"
@@ -40,7 +46,9 @@ constexpr const char* identify_help =
     "such tables with exit code 2; the exit code is 3 if nothing can be identified.\n"
     "\n"
     "Examples: zerocount identify ramps.csv steps.csv holds.csv --counts-per-revolution 1620000\n"
-    "          zerocount identify tests.h5 --point 0 --point 1 --format yaml -o friction.yaml\n";
+    "          zerocount identify tests.h5 --point 0 --point 1 --format yaml -o friction.yaml\n"
+    "          zerocount identify log.txt --column time=t[ms] --column 'torque=I[A]*0.87' \\\n"
+    "            --column 'angle=pos[mm]/10'\n";
 
 double number_from(const command_line::Arguments& arguments, const std::string& option, std::string_view text,
                    double low) {
@@ -76,9 +84,9 @@ std::optional<double> bandwidth_option(const command_line::Arguments& arguments)
   return bandwidth;
 }
 
-identification::SeriesChoice series_choice(const command_line::Arguments& arguments) {
+records::SeriesChoice series_choice(const command_line::Arguments& arguments) {
   constexpr double any = -std::numeric_limits<double>::infinity();
-  identification::SeriesChoice choice;
+  records::SeriesChoice choice;
   choice.torque = column_option(arguments, "torque", {"torque", "drive_torque"});
   choice.angle = column_option(arguments, "angle", {"count", "theta"});
   choice.counts_per_revolution = number_option(arguments, "counts-per-revolution", 1.0);
@@ -87,6 +95,7 @@ identification::SeriesChoice series_choice(const command_line::Arguments& argume
   choice.dac_bits = arguments.whole_number("dac-bits", 2, 32);
   choice.preload = number_option(arguments, "preload", any);
   choice.hardening = number_option(arguments, "hardening", 0.0);
+  set_columns(arguments, choice);
   return choice;
 }
 
@@ -122,14 +131,6 @@ identification::IdentificationOptions identification_options(const command_line:
   return options;
 }
 
-/// Whether `path` is a results file, by its signature or by its name (the signature may be damaged).
-bool holds_results(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string signature(8, '\0');
-  file.read(signature.data(), static_cast<std::streamsize>(signature.size()));
-  return signature == "\x89HDF\r\n\x1a\n" || std::filesystem::path(path).extension() == ".h5";
-}
-
 std::vector<std::int64_t> points_of(const command_line::Arguments& arguments, const std::string& path) {
   std::vector<std::int64_t> points;
   if (arguments.has("point"))
@@ -139,28 +140,32 @@ std::vector<std::int64_t> points_of(const command_line::Arguments& arguments, co
 }
 
 std::vector<identification::TestRecord> read_records(const command_line::Arguments& arguments) {
-  const identification::SeriesChoice choice = series_choice(arguments);
+  const records::SeriesChoice choice = series_choice(arguments);
+  const auto holds_results = [&](const std::string& path) {
+    return record_file(path, choice) == RecordFile::results;
+  };
   const bool any_magnitude = arguments.has("any-magnitude");
   const std::vector<std::string>& paths = arguments.operands();
   if ((arguments.has("point") || arguments.has("trial")) &&
       std::none_of(paths.begin(), paths.end(), holds_results)) {
     arguments.refuse("options '--point' and '--trial' go with a results file");
   }
-  std::vector<identification::TestRecord> records;
+  std::vector<identification::TestRecord> found;
   for (const std::string& path : paths) {
     if (!holds_results(path)) {
-      records.push_back(
-          identification::checked_record(identification::read_csv_series(path, choice), any_magnitude));
+      for (const records::RawSeries& series : read_series(path, choice)) {
+        found.push_back(identification::checked_record(series, any_magnitude));
+      }
       continue;
     }
     constexpr std::int64_t most = std::int64_t{1} << 53;
     const std::int64_t index = arguments.whole_number("trial", 0, most).value_or(0);
     for (const std::int64_t point : points_of(arguments, path)) {
-      records.push_back(identification::checked_record(
-          identification::read_study_series(path, point, index, choice), any_magnitude));
+      found.push_back(identification::checked_record(records::read_study_series(path, point, index, choice),
+                                                     any_magnitude));
     }
   }
-  return records;
+  return found;
 }
 
 ExitCode identify_records(const command_line::Arguments& arguments) {
@@ -193,7 +198,10 @@ ExitCode identify_records(const command_line::Arguments& arguments) {
 Command identify_command() {
   return {{"identify",
            "DATA.csv|FILE...",
-           {{"counts-per-revolution", "N", "resolution of the encoder of the column count"},
+           {{"counts-per-revolution", "N", "resolution of the encoder of an angle in counts"},
+            column_options()[0],
+            column_options()[1],
+            column_options()[2],
             {"angle", "COLUMN", "count or theta, if both exist (default count, if N is given)"},
             {"torque", "COLUMN", "torque or drive_torque, if both exist (default the latter)"},
             {"amplifier-bandwidth", "HZ", "of the amplifier (default 0: ideal amplifier)"},

@@ -1,7 +1,11 @@
 // `zerocount identify` from the command line: from a study's file and from its trace to a manifest that can
 // be checked.
 #include <algorithm>
+#include <map>
+#include <numbers>
+#include <sstream>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -167,7 +171,6 @@ TEST_F(Identify, BadDataAreRefusedWithTheReason) {
 
 TEST_F(Identify, BadUsageIsRefused) {
   folder_.write("data.csv", "t,torque,count\n0,0,0\n");
-  folder_.write("tabs.csv", "t\ttorque\ttheta\n0\t0\t0\n");
   folder_.write("times.csv", "t,time,torque,theta\n0,0,0,0\n");
   folder_.write("motor.csv", "t,drive_torque,theta\n0,0,0\n");
   folder_.write("wrong.csv", "time [ms],torque,theta\n0,0,0\n");
@@ -175,10 +178,9 @@ TEST_F(Identify, BadUsageIsRefused) {
            {},
            {"nothing.csv"},
            {"data.csv"},
-           {"wrong.csv"},
+           {"wrong.csv", "--column", "time=t"},
            {"data.csv", "--counts-per-revolution", "many"},
            {"data.csv", "--counts-per-revolution", "1000", "--angle", "theta"},
-           {"tabs.csv"},
            {"times.csv"},
            {"data.csv", "--fix", "friction.k3=1"},
            {"data.csv", "--fix", "friction.n=0.5"},
@@ -194,6 +196,69 @@ TEST_F(Identify, BadUsageIsRefused) {
     const ProgramResult result = run(all);
     EXPECT_EQ(result.code, 2) << ::testing::PrintToString(words) << result.err;
   }
+}
+
+/// The trace of a point as a foreign log: other names, units, separators and decimal marks.
+std::string foreign_log(const std::string& trace) {
+  std::istringstream lines(trace);
+  std::string line;
+  std::getline(lines, line);
+  std::vector<std::string> names;
+  for (std::istringstream cells(line); std::getline(cells, line, ',');) names.push_back(line);
+  std::string log = "% logged by hand\nZeit;Strom;Weg\nms;A;mm\n";
+  while (std::getline(lines, line)) {
+    std::map<std::string, double> row;
+    std::istringstream cells(line);
+    std::string cell;
+    for (const std::string& name : names) {
+      std::getline(cells, cell, ',');
+      if (name == "t" || name == "torque" || name == "count") row[name] = std::stod(cell);
+    }
+    log += fmt::format("{:.9f};{:.12g};{:.12g}\n", row["t"] * 1e3, row["torque"] / 0.87,
+                       row["count"] * 2.0 * std::numbers::pi / 1620000.0 * 10.0);
+  }
+  std::replace(log.begin(), log.end(), '.', ',');
+  return log;
+}
+
+TEST_F(Identify, AForeignLogNeedsItsColumnsNamed) {
+  run_study();
+  trace("slow.csv", "0");
+  folder_.write("log.txt", foreign_log(folder_.read("slow.csv")));
+  const std::vector<std::string> named{
+      "--column", "time=Zeit",        "--column", "torque=Strom[A]*0.87",
+      "--column", "angle=Weg[mm]/10", "--format", "json"};
+  std::vector<std::string> words{"identify", "log.txt"};
+  words.insert(words.end(), named.begin(), named.end());
+  const ProgramResult of_log = run(words);
+  ASSERT_EQ(of_log.code, 0) << of_log.err;
+  const ProgramResult of_trace =
+      run({"identify", "slow.csv", "--counts-per-revolution", "1620000", "--format", "json"});
+  for (const std::string name : {"k1", "beta"}) {
+    const auto log = parameter(nlohmann::json::parse(of_log.out), name);
+    const auto csv = parameter(nlohmann::json::parse(of_trace.out), name);
+    EXPECT_NEAR(log["value"].get<double>() / csv["value"].get<double>(), 1.0, 1e-4) << name;
+  }
+  const ProgramResult unnamed = run({"identify", "log.txt"});
+  EXPECT_EQ(unnamed.code, 2);
+  EXPECT_EQ(unnamed.err.find("log.txt: has no column for the torque"), 0u) << unnamed.err;
+}
+
+TEST_F(Identify, ColumnsAreRefusedWithTheReason) {
+  const auto refusal = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "identify");
+    const ProgramResult result = run(words);
+    EXPECT_EQ(result.code, 2) << ::testing::PrintToString(words) << result.err;
+    return result.err;
+  };
+  folder_.write("log.txt", "a b c\n1 2 3\n");
+  folder_.write("old.mat", std::string("MATLAB 5.0 MAT-file, Platform: GLNXA64\n"));
+  EXPECT_NE(refusal({"log.txt", "--column", "speed=a"}).find("QUANTITY one of time"), std::string::npos);
+  EXPECT_NE(refusal({"log.txt", "--column", "time=a", "--column", "time=b"}).find("given twice"),
+            std::string::npos);
+  EXPECT_NE(refusal({"log.txt", "--sample-time", "0"}).find("no positive number"), std::string::npos);
+  EXPECT_NE(refusal({"log.txt", "--separator", "dot"}).find("comma, semicolon, tab"), std::string::npos);
+  EXPECT_NE(refusal({"old.mat"}).find("version 7.3"), std::string::npos);
 }
 
 TEST_F(Identify, TrialsWithoutRecordsAreNamed) {

@@ -1,4 +1,6 @@
 // What a record must be, and the reason that is given where it is not.
+#include "analysis/identification/checked_record.hpp"
+
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -6,7 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/identification/raw_series.hpp"
 #include "core/failure/failure.hpp"
 #include "core/plant/plant.hpp"
 #include "tests/analysis/identification/material_tests.hpp"
@@ -85,15 +86,30 @@ TEST(CheckedRecord, TimeMustRise) {
                       "good.csv:102", "does not come after"));
 }
 
-TEST(CheckedRecord, SamplesMustBeEquallySpacedButForJitter) {
-  const auto jitter = [](double proportion) {
-    return [proportion](identification::RawSeries& s) {
-      for (std::size_t k = 1; k + 1 < s.time.size(); k += 2) s.time[k] += proportion * 5e-4;
-    };
+TEST(CheckedRecord, UnevenSamplesKeepTheirInstants) {
+  const auto jittered = [](double proportion) {
+    identification::RawSeries series = good_series();
+    for (std::size_t k = 1; k + 1 < series.time.size(); k += 2) series.time[k] += proportion * 5e-4;
+    return series;
   };
-  EXPECT_EQ(record_refusal(jitter(0.1)), "not refused");
-  EXPECT_EQ(record_refusal(jitter(0.45)), "not refused");  // half of it off the grid between
-  EXPECT_TRUE(refused(record_refusal(jitter(0.6)), "good.csv:2", "not equally spaced"));
+  // Half of the jitter is off the grid between; a quarter of an interval is taken for that of the clock.
+  EXPECT_TRUE(identification::checked_record(jittered(0.1), false).intervals.empty());
+  EXPECT_TRUE(identification::checked_record(jittered(0.45), false).intervals.empty());
+  const identification::TestRecord uneven = identification::checked_record(jittered(0.6), false);
+  ASSERT_EQ(uneven.intervals.size(), uneven.reading.size());
+  EXPECT_NEAR(uneven.intervals[2], 1.6 * 5e-4, 1e-12);
+  EXPECT_NEAR(uneven.intervals[3], 0.4 * 5e-4, 1e-12);
+  EXPECT_NEAR(uneven.sample_time, 5e-4, 1e-9);
+}
+
+TEST(CheckedRecord, GapsAndCoincidentSamplesAreRefused) {
+  EXPECT_TRUE(refused(record_refusal([](identification::RawSeries& s) { s.time[700] += 0.95 * 5e-4; }),
+                      "good.csv:702", "Are samples missing?"));
+  EXPECT_TRUE(refused(record_refusal([](identification::RawSeries& s) {
+                        s.time[700] += 0.74 * 5e-4;
+                        s.time[701] -= 0.2 * 5e-4;
+                      }),
+                      "good.csv:703", "expected 0.1 at least"));
 
   // A sample that is missing anywhere inside.
   for (const std::size_t missing : {10, 500, 1500}) {

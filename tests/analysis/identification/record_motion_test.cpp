@@ -37,6 +37,30 @@ TEST(RecordMotion, IsThePlantsWhateverTheHolds) {
   }
 }
 
+// Uneven instants, all of them on a grid ten times as fine.
+TEST(RecordMotion, OfUnevenSamplesIsThatAtTheirInstants) {
+  std::mt19937_64 random(24);
+  const identification::ContactParameters contact = random_contact(random);
+  const identification::TestRecord even = simulated_test(contact, one_test().front(), {}, random);
+  identification::TestRecord uneven = even;
+  identification::TestRecord fine = even;
+  fine.sample_time = 0.1 * even.sample_time;
+  fine.torque.clear();
+  std::vector<Eigen::Index> instants;
+  for (const motion::TorqueCourse& torque : even.torque) {
+    const int steps = std::uniform_int_distribution<int>(2, 17)(random);
+    instants.push_back(static_cast<Eigen::Index>(fine.torque.size()));
+    uneven.intervals.push_back(steps * fine.sample_time);
+    fine.torque.insert(fine.torque.end(), static_cast<std::size_t>(steps), torque);
+  }
+  fine.reading.assign(fine.torque.size(), 0.0);
+  const Eigen::VectorXd path = identification::angle_path(uneven, contact);
+  const Eigen::VectorXd judge = sample_by_sample(fine, contact);
+  for (std::size_t k = 0; k < instants.size(); ++k) {
+    ASSERT_NEAR(path[static_cast<Eigen::Index>(k)], judge[instants[k]], 1e-4) << k;
+  }
+}
+
 TEST(RecordMotion, BeginsWithTheContactAsItIsSaidToBe) {
   std::mt19937_64 random(22);
   const identification::ContactParameters contact = random_contact(random);

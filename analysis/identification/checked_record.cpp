@@ -15,30 +15,6 @@ namespace {
 /// Unit (rad) of angles that are not counts.
 constexpr double angle_unit = 1e-6;
 
-/// The torque over each sample interval. If the motor torque was sampled behind an amplifier of known
-/// bandwidth, its samples u and u′ at both ends of an interval are two points of one exponential, which gives
-/// the commanded torque.
-std::vector<motion::TorqueCourse> courses_of(const RawSeries& series, const TestRecord& record) {
-  std::vector<motion::TorqueCourse> courses;
-  const double rate = 2.0 * std::numbers::pi * series.bandwidth;
-  double lagging = 0.0;  // motor torque, lagging behind a commanded one
-  for (std::size_t k = 0; k < series.torque.size(); ++k) {
-    const double torque = k < series.delay ? 0.0 : series.torque[k - series.delay];
-    const double left = std::exp(-rate * interval_after(record, k));
-    const double gone = -std::expm1(-rate * interval_after(record, k));
-    if (rate == 0.0) {
-      courses.push_back(motion::constant_torque(torque));
-    } else if (series.torque_kind == TorqueKind::commanded) {
-      courses.push_back({lagging, torque, rate});
-      lagging = torque + (lagging - torque) * left;
-    } else {
-      const double next = k + 1 < series.torque.size() ? series.torque[k + 1] : torque;
-      courses.push_back({torque, (next - torque * left) / gone, rate});
-    }
-  }
-  return courses;
-}
-
 /// The resolution of angles that are encoder counts converted to rad: all differences are multiples of one
 /// step, and most are 0. Nothing for other angles.
 std::optional<double> step_of(const std::vector<double>& angles) {
@@ -89,6 +65,27 @@ void set_readings(const RawSeries& series, TestRecord& record) {
 }
 
 }  // namespace
+
+std::vector<motion::TorqueCourse> courses_of(const RawSeries& series, const TestRecord& record) {
+  std::vector<motion::TorqueCourse> courses;
+  const double rate = 2.0 * std::numbers::pi * series.bandwidth;
+  double lagging = 0.0;  // motor torque, lagging behind a commanded one
+  for (std::size_t k = 0; k < series.torque.size(); ++k) {
+    const double torque = k < series.delay ? 0.0 : series.torque[k - series.delay];
+    const double left = std::exp(-rate * interval_after(record, k));
+    const double gone = -std::expm1(-rate * interval_after(record, k));
+    if (rate == 0.0) {
+      courses.push_back(motion::constant_torque(torque));
+    } else if (series.torque_kind == TorqueKind::commanded) {
+      courses.push_back({lagging, torque, rate});
+      lagging = torque + (lagging - torque) * left;
+    } else {
+      const double next = k + 1 < series.torque.size() ? series.torque[k + 1] : torque;
+      courses.push_back({torque, (next - torque * left) / gone, rate});
+    }
+  }
+  return courses;
+}
 
 TestRecord checked_record(const RawSeries& series, bool any_magnitude) {
   if (series.linear) {

@@ -16,6 +16,12 @@ using records::TorqueKind;
 /// @throws Failure (bad_data) with the reason if one of the checks below fails.
 TestRecord checked_record(const RawSeries& series, bool any_magnitude);
 
+/// The torque over each sample interval. If the motor torque was sampled behind an amplifier of known
+/// bandwidth, its samples u and u′ at both ends of an interval are two points of one exponential, which gives
+/// the commanded torque.
+/// @param record its sampling intervals
+std::vector<motion::TorqueCourse> courses_of(const RawSeries& series, const TestRecord& record);
+
 // Requirements on a series. Each check throws Failure (bad_data) with the place and the reason.
 
 /// Requires at least 100 samples with increasing times, without gaps: no interval is longer than 1.75 times

@@ -192,6 +192,7 @@ std::vector<RawSeries> split(const RawSeries& series, std::vector<std::size_t> s
     part.torque = part_of(series.torque, first, end);
     part.angle = part_of(series.angle, first, end);
     part.code = part_of(series.code, first, end);
+    part.excluded = part_of(series.excluded, first, end);
     part.sliding = part_of(series.sliding, first, end);
     parts.push_back(std::move(part));
   }
@@ -203,6 +204,17 @@ std::vector<RawSeries> split(const RawSeries& series, std::vector<std::size_t> s
 std::string place_of(const RawSeries& series, std::size_t sample) {
   if (series.lines.empty()) return fmt::format("{}, sample {}", series.name, sample);
   return fmt::format("{}:{}", series.file.empty() ? series.name : series.file, series.lines[sample]);
+}
+
+bool exclude(RawSeries& series, const ExcludedTime& interval) {
+  series.excluded.resize(series.time.size(), false);
+  bool any = false;
+  for (std::size_t k = 0; k < series.time.size(); ++k) {
+    if (series.time[k] < interval.from || series.time[k] > interval.to) continue;
+    series.excluded[k] = true;
+    any = true;
+  }
+  return any;
 }
 
 std::string contradiction_in(const SeriesChoice& choice) {

@@ -35,12 +35,22 @@ struct RawSeries {
   std::vector<double> code;           ///< DAC codes; empty if unknown
   int dac_bits{0};                    ///< 0 if unknown
   std::vector<bool> sliding;          ///< whether the hook slid; empty if unknown
+  std::vector<bool> excluded;         ///< [sample] masked readings; empty: none
   motion::PlantStart start;           ///< initial state of the contact
   bool units_known{false};            ///< certainly SI units, because this program wrote the file
 };
 
 /// "NAME:LINE", or "NAME, sample K".
 std::string place_of(const RawSeries& series, std::size_t sample);
+
+/// An interval of time whose readings are not used, s. Their torque acts all the same.
+struct ExcludedTime {
+  double from{0.0};
+  double to{0.0};
+};
+
+/// Masks the samples in the interval, limits included. @return whether there are any.
+bool exclude(RawSeries& series, const ExcludedTime& interval);
 
 /// The user's choices for the interpretation of a file.
 struct SeriesChoice {

@@ -12,6 +12,7 @@
 #include "analysis/identification/checked_record.hpp"
 #include "analysis/identification/identification.hpp"
 #include "analysis/records/raw_series.hpp"
+#include "analysis/sliding_identification/sliding_identification.hpp"
 #include "results/reading/study_file.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
@@ -27,8 +28,7 @@ constexpr const char* identify_help =
     "and the inertia from the ringing after a step of the torque, alpha, lambda and n from\n"
     "creep at constant torque; all are fitted together, with 95 % confidence intervals. A record\n"
     "may have only some of these tests: parameters that it does not determine are listed with\n"
-    "the reason. Several records must be tests of the same contact. Linear axes are not\n"
-    "supported yet.\n"
+    "the reason. Several records must be tests of the same contact, of a rotary axis.\n"
     "\n"
     "A table (CSV) has the columns t (s), torque or drive_torque (N m), and theta (rad) or\n"
     "count, for which --counts-per-revolution is needed; 'zerocount trace' writes such tables.\n"
@@ -40,6 +40,10 @@ constexpr const char* identify_help =
     "A results file has the traces of the trials that its manifest retains; the encoder's\n"
     "counts are used. At its first sample the contact must be unloaded and virgin, or have the\n"
     "state given by --preload and --hardening.\n"
+    "\n"
+    "--sliding takes motion records instead, in which the axis slides to and fro, under open or\n"
+    "closed loop, and finds the inertia, the viscous damping, the Coulomb level and, if it shows,\n"
+    "the Stribeck curve; also of a linear axis, with '--column force=…' and '--column position=…'.\n"
     "\n"
     "The output ends with the result as a fragment of a manifest; --format yaml prints only\n"
     "that. Unsuitable records are refused with the reason and exit code 4, files that are not\n"
@@ -139,31 +143,59 @@ std::vector<std::int64_t> points_of(const command_line::Arguments& arguments, co
   return points;
 }
 
-std::vector<identification::TestRecord> read_records(const command_line::Arguments& arguments) {
+std::vector<records::RawSeries> read_all_series(const command_line::Arguments& arguments) {
   const records::SeriesChoice choice = series_choice(arguments);
   const auto holds_results = [&](const std::string& path) {
     return record_file(path, choice) == RecordFile::results;
   };
-  const bool any_magnitude = arguments.has("any-magnitude");
   const std::vector<std::string>& paths = arguments.operands();
   if ((arguments.has("point") || arguments.has("trial")) &&
       std::none_of(paths.begin(), paths.end(), holds_results)) {
     arguments.refuse("options '--point' and '--trial' go with a results file");
   }
-  std::vector<identification::TestRecord> found;
+  std::vector<records::RawSeries> found;
   for (const std::string& path : paths) {
     if (!holds_results(path)) {
-      for (const records::RawSeries& series : read_series(path, choice)) {
-        found.push_back(identification::checked_record(series, any_magnitude));
-      }
+      for (records::RawSeries& series : read_series(path, choice)) found.push_back(std::move(series));
       continue;
     }
     constexpr std::int64_t most = std::int64_t{1} << 53;
     const std::int64_t index = arguments.whole_number("trial", 0, most).value_or(0);
     for (const std::int64_t point : points_of(arguments, path)) {
-      found.push_back(identification::checked_record(records::read_study_series(path, point, index, choice),
-                                                     any_magnitude));
+      found.push_back(records::read_study_series(path, point, index, choice));
     }
+  }
+  exclude_times(arguments, found);
+  return found;
+}
+
+/// The options that a sliding axis has no use for.
+void refuse_material_options(const command_line::Arguments& arguments) {
+  for (const char* option : {"fix", "preload", "hardening", "dac-bits", "any-magnitude"}) {
+    if (arguments.has(option)) {
+      arguments.refuse(fmt::format("options '--{}' and '--sliding' exclude each other", option));
+    }
+  }
+}
+
+std::string identify_sliding_axis(const command_line::Arguments& arguments, const std::string& format) {
+  std::vector<sliding_identification::SlidingRecord> found;
+  for (const records::RawSeries& series : read_all_series(arguments)) {
+    found.push_back(sliding_identification::sliding_record(series));
+    if (found.back().linear != found.front().linear) {
+      arguments.refuse("the records are of a linear and of a rotary axis; expected one axis");
+    }
+  }
+  const auto result = sliding_identification::identify_sliding(std::move(found));
+  return format == "json"   ? sliding_identification::sliding_json(result)
+         : format == "yaml" ? sliding_identification::sliding_fragment(result)
+                            : sliding_identification::sliding_text(result);
+}
+
+std::vector<identification::TestRecord> read_records(const command_line::Arguments& arguments) {
+  std::vector<identification::TestRecord> found;
+  for (const records::RawSeries& series : read_all_series(arguments)) {
+    found.push_back(identification::checked_record(series, arguments.has("any-magnitude")));
   }
   return found;
 }
@@ -174,6 +206,11 @@ ExitCode identify_records(const command_line::Arguments& arguments) {
   const std::optional<std::filesystem::path> output = command_line::text_place(arguments, "output");
   command_line::require_places(arguments, {arguments.operands().begin(), arguments.operands().end()},
                                output ? std::vector{*output} : std::vector<std::filesystem::path>{});
+  if (arguments.has("sliding")) {
+    refuse_material_options(arguments);
+    command_line::write_text(output.value_or("-"), identify_sliding_axis(arguments, format));
+    return ExitCode::success;
+  }
   const identification::Identification found = identification::identify(read_records(arguments), options);
   const std::string report = format == "json"   ? identification::identification_json(found)
                              : format == "yaml" ? identification::manifest_fragment(found)
@@ -202,6 +239,8 @@ Command identify_command() {
             column_options()[0],
             column_options()[1],
             column_options()[2],
+            column_options()[3],
+            {"sliding", "", "identify inertia and sliding friction from motion records"},
             {"angle", "COLUMN", "count or theta, if both exist (default count, if N is given)"},
             {"torque", "COLUMN", "torque or drive_torque, if both exist (default the latter)"},
             {"amplifier-bandwidth", "HZ", "of the amplifier (default 0: ideal amplifier)"},

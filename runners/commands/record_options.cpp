@@ -33,7 +33,8 @@ std::vector<command_line::OptionSpec> column_options() {
            "repeated",
            true},
           {"separator", "NAME", "of the cells: comma, semicolon, tab or blanks (default: detected)"},
-          {"sample-time", "T", "of a record without a column for the time, s"}};
+          {"sample-time", "T", "of a record without a column for the time, s"},
+          {"exclude", "FROM:TO", "times whose readings are not used, s; may be repeated", true}};
 }
 
 void set_columns(const command_line::Arguments& arguments, records::SeriesChoice& choice) {
@@ -54,6 +55,32 @@ void set_columns(const command_line::Arguments& arguments, records::SeriesChoice
     }
   }
   if (const std::string reason = records::contradiction_in(choice); !reason.empty()) arguments.refuse(reason);
+}
+
+std::vector<records::ExcludedTime> excluded_times(const command_line::Arguments& arguments) {
+  std::vector<records::ExcludedTime> times;
+  for (const std::string& text : arguments.values("exclude")) {
+    const std::size_t colon = text.find(':');
+    const auto from = command_line::parse_number<double>(std::string_view(text).substr(0, colon));
+    const auto to = colon == std::string::npos
+                        ? std::nullopt
+                        : command_line::parse_number<double>(std::string_view(text).substr(colon + 1));
+    if (!from || !to || !std::isfinite(*from) || !std::isfinite(*to) || *from > *to) {
+      arguments.refuse(fmt::format("option '--exclude': '{}' is no FROM:TO, such as 1.2:3.4 (s)", text));
+    }
+    times.push_back({*from, *to});
+  }
+  return times;
+}
+
+void exclude_times(const command_line::Arguments& arguments, std::vector<records::RawSeries>& series) {
+  for (const records::ExcludedTime& times : excluded_times(arguments)) {
+    bool any = false;
+    for (records::RawSeries& one : series) any = exclude(one, times) || any;
+    if (any) continue;
+    arguments.refuse(fmt::format("option '--exclude': no record has a sample between {:g} and {:g} s",
+                                 times.from, times.to));
+  }
 }
 
 RecordFile record_file(const std::string& path, const records::SeriesChoice& choice) {

@@ -8,7 +8,8 @@
 
 namespace zerocount::commands {
 
-/// The options that say what the columns of a record are: `--column`, `--separator`, `--sample-time`.
+/// The options that say what the columns of a record are, `--column`, `--separator`, `--sample-time`, and
+/// which times are masked, `--exclude`.
 std::vector<command_line::OptionSpec> column_options();
 
 /// Sets the choices of these options. Refuses those that contradict each other, or the other choices.
@@ -21,6 +22,12 @@ enum class RecordFile { table, datasets, results };
 /// are chosen, and is a results file otherwise.
 /// @throws Failure (bad_input) for a MAT file before version 7.3.
 RecordFile record_file(const std::string& path, const records::SeriesChoice& choice);
+
+/// The intervals of `--exclude`. Refuses what is no "FROM:TO".
+std::vector<records::ExcludedTime> excluded_times(const command_line::Arguments& arguments);
+
+/// Masks the intervals of `--exclude` in all series. Refuses an interval without a sample of any of them.
+void exclude_times(const command_line::Arguments& arguments, std::vector<records::RawSeries>& series);
 
 /// The series of a table or of a file of datasets.
 std::vector<records::RawSeries> read_series(const std::string& path, const records::SeriesChoice& choice);

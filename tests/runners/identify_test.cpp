@@ -225,9 +225,8 @@ TEST_F(Identify, AForeignLogNeedsItsColumnsNamed) {
   run_study();
   trace("slow.csv", "0");
   folder_.write("log.txt", foreign_log(folder_.read("slow.csv")));
-  const std::vector<std::string> named{
-      "--column", "time=Zeit",        "--column", "torque=Strom[A]*0.87",
-      "--column", "angle=Weg[mm]/10", "--format", "json"};
+  const std::vector<std::string> named{"--column", "time=Zeit",        "--column", "torque=Strom[A]*0.87",
+                                       "--column", "angle=Weg[mm]/10", "--format", "json"};
   std::vector<std::string> words{"identify", "log.txt"};
   words.insert(words.end(), named.begin(), named.end());
   const ProgramResult of_log = run(words);
@@ -242,6 +241,50 @@ TEST_F(Identify, AForeignLogNeedsItsColumnsNamed) {
   const ProgramResult unnamed = run({"identify", "log.txt"});
   EXPECT_EQ(unnamed.code, 2);
   EXPECT_EQ(unnamed.err.find("log.txt: has no column for the torque"), 0u) << unnamed.err;
+}
+
+// Piecewise parabolas: 0.6 N m drive 0.02 kg m² against 0.4 N m, to and fro.
+TEST_F(Identify, ASlidingAxisIsIdentifiedFromItsMotion) {
+  std::string log = "time [ms];I [A];angle [mrad]\n";
+  double angle = 0.0;
+  double velocity = 0.0;
+  for (int k = 0; k < 3000; ++k) {
+    const int phase = (k / 500) % 2 == 0 ? 1 : -1;
+    log += fmt::format("{};{};{:.9f}\n", k, 0.6 * phase / 0.87, 1e3 * angle);
+    const double slides = velocity != 0.0 ? velocity : phase;
+    const double acceleration = (0.6 * phase - 0.4 * (slides > 0.0 ? 1 : -1)) / 0.02;
+    angle += 1e-3 * velocity + 0.5e-6 * acceleration;
+    velocity += 1e-3 * acceleration;
+    if (std::abs(velocity) < 1e-9) velocity = 0.0;
+  }
+  folder_.write("motion.csv", log);
+  const std::vector<std::string> words{
+      "identify", "--sliding",  "motion.csv", "--column", "time=time", "--column", "drive_torque=I[A]*0.87",
+      "--column", "angle=angle"};
+  std::vector<std::string> as_json = words;
+  as_json.insert(as_json.end(), {"--format", "json"});
+  const ProgramResult result = run(as_json);
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_NEAR(parameter(json, "inertia")["value"].get<double>(), 0.02, 1e-6);
+  EXPECT_NEAR(parameter(json, "coulomb_level")["value"].get<double>(), 0.4, 1e-4);
+  EXPECT_EQ(parameter(json, "stribeck_velocity")["status"], "not_identifiable");
+
+  std::vector<std::string> fragment = words;
+  fragment.insert(fragment.end(), {"--format", "yaml", "-o", "found.yaml", "--exclude", "0.2:0.3"});
+  ASSERT_EQ(run(fragment).code, 0);
+  folder_.write("study.yaml",
+                "zerocount: 1\nname: sliding\nseed: 1\ntrials: 4\ncommand: {targets: [3], hold: 0.1}\n" +
+                    folder_.read("found.yaml"));
+  const ProgramResult check = run({"check", "study.yaml"});
+  EXPECT_EQ(check.code, 0) << check.err << folder_.read("found.yaml");
+
+  for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{
+           {"--fix", "friction.n=2"}, {"--preload", "0.1"}, {"--exclude", "5"}, {"--exclude", "7:8"}}) {
+    std::vector<std::string> refused = words;
+    refused.insert(refused.end(), more.begin(), more.end());
+    EXPECT_EQ(run(refused).code, 2) << ::testing::PrintToString(more);
+  }
 }
 
 TEST_F(Identify, ColumnsAreRefusedWithTheReason) {

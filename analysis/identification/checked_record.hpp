@@ -11,7 +11,8 @@ using records::place_of;
 using records::RawSeries;
 using records::TorqueKind;
 
-/// Checks the series and converts it to a record for the fit.
+/// Checks the series and converts it to a record for the fit. Where the series says that the hook slides, the
+/// record ends before that, and its note says so.
 /// @param any_magnitude whether to accept values that suggest other units
 /// @throws Failure (bad_data) with the reason if one of the checks below fails.
 TestRecord checked_record(const RawSeries& series, bool any_magnitude);
@@ -48,14 +49,13 @@ void check_magnitudes(const RawSeries& series, const TestRecord& record);
 /// Requires a torque that is not always 0, and an angle that changes.
 void check_change(const RawSeries& series, const TestRecord& record);
 
-/// Requires a travel of at least 5 counts, in the direction of the torque.
+/// Requires a travel of at least 5 counts, in the direction of the torque. Friction takes energy: where the
+/// torque takes it from the motion, one of both has the wrong sign; where it gives energy and the angle does
+/// not rise with the torque all the same, the axis slides.
 void check_motion(const RawSeries& series, const TestRecord& record);
 
 /// Refuses a single reading whose distance from its neighbours is more than ten times that of all others.
 void check_glitches(const RawSeries& series, const TestRecord& record);
-
-/// Refuses a series in which the hook slides, if the series has that information.
-void check_sticking(const RawSeries& series);
 
 /// Refuses a clipped torque: a DAC code that stays at the end of its range for 3 samples, or a torque that
 /// stays at its extreme after a slow rise while the angle continues and returns.

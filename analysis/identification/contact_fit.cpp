@@ -30,8 +30,10 @@ Observations all_readings(std::span<const TestRecord> records) {
   Observations observations;
   for (const TestRecord& record : records) {
     std::vector<AngleObservation>& of_record = observations.emplace_back();
-    for (std::size_t k = 0; k < record.reading.size(); ++k)
+    for (std::size_t k = 0; k < record.reading.size(); ++k) {
+      if (is_excluded(record, k)) continue;
       of_record.push_back({k, k, record.reading[k] + middle_of_reading(record), first_variance});
+    }
   }
   return observations;
 }
@@ -53,9 +55,12 @@ FitSetting setting_for(std::span<const TestRecord> records, const std::vector<Kn
 void update_misfit(std::span<const TestRecord> records, ContactFit& fit) {
   fit.misfit.clear();
   for (std::size_t r = 0; r < records.size(); ++r) {
-    const Eigen::VectorXd left =
+    Eigen::VectorXd left =
         readings_of(records[r]).array() + middle_of_reading(records[r]) - fit.model.motions[r].path.array();
-    fit.misfit.push_back(std::sqrt(left.squaredNorm() / static_cast<double>(left.size())));
+    for (std::size_t k = 0; k < records[r].excluded.size(); ++k) {
+      if (records[r].excluded[k]) left[static_cast<Eigen::Index>(k)] = 0.0;
+    }
+    fit.misfit.push_back(std::sqrt(left.squaredNorm() / static_cast<double>(used_samples(records[r]))));
   }
 }
 

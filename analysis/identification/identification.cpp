@@ -74,6 +74,8 @@ RecordSummary summary_of(const TestRecord& record, const ContactFit& fit, std::s
   summary.ring_downs = record.parts.ring_downs();
   summary.misfit = fit.misfit[number];
   summary.noise = fit.noise[number];
+  summary.excluded = summary.samples - used_samples(record);
+  summary.note = record.note;
   return summary;
 }
 

@@ -38,8 +38,10 @@ struct RecordSummary {
   std::size_t reversals{0};
   std::size_t holds{0};
   std::size_t ring_downs{0};
-  double misfit{0.0};  ///< root mean square of the residuals, in the readings' unit
-  double noise{0.0};   ///< of the readings, standard deviation in their unit
+  double misfit{0.0};       ///< root mean square of the residuals, in the readings' unit
+  double noise{0.0};        ///< of the readings, standard deviation in their unit
+  std::size_t excluded{0};  ///< masked samples
+  std::string note{};       ///< what was cut out of it; empty: nothing
 };
 
 struct Identification {

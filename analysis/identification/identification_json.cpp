@@ -48,7 +48,9 @@ Json record_json(const RecordSummary& record) {
           {"holds", record.holds},
           {"ring_downs", record.ring_downs},
           {"misfit", record.misfit},
-          {"noise", record.noise}};
+          {"noise", record.noise},
+          {"excluded", record.excluded},
+          {"note", text::printable(record.note)}};
 }
 
 Json checks_json(const ResidualChecks& checks) {

@@ -24,15 +24,23 @@ std::vector<std::string> row_of(const ParameterEstimate& parameter) {
       "estimated"};
 }
 
+std::string left_out_text(const RecordSummary& record) {
+  std::string text;
+  if (!record.note.empty()) text += fmt::format("    {}\n", record.note);
+  if (record.excluded > 0) text += fmt::format("    {} samples masked by --exclude\n", record.excluded);
+  return text;
+}
+
 std::string record_line(const RecordSummary& record) {
   const std::string noise =
       record.noise > 0.0 ? fmt::format(", noise {:.3g}", record.noise) : std::string(", no noise");
   return fmt::format(
-      "  {}: {} samples, {:.4g} s; {} branches, {} reversals, {} holds, {} ring-downs\n"
-      "    read in {} of {:.6g} rad{}; the model leaves {:.3g} (root mean square)\n",
-      text::printable(record.name), record.samples, record.duration, record.branches, record.reversals,
-      record.holds, record.ring_downs, record.counted ? "counts" : "units", record.unit, noise,
-      record.misfit);
+             "  {}: {} samples, {:.4g} s; {} branches, {} reversals, {} holds, {} ring-downs\n"
+             "    read in {} of {:.6g} rad{}; the model leaves {:.3g} (root mean square)\n",
+             text::printable(record.name), record.samples, record.duration, record.branches, record.reversals,
+             record.holds, record.ring_downs, record.counted ? "counts" : "units", record.unit, noise,
+             record.misfit) +
+         left_out_text(record);
 }
 
 std::string checks_text(const ResidualChecks& checks) {

@@ -217,9 +217,19 @@ void check_motion(const RawSeries& series, const TestRecord& record) {
     agreement += (record.torque[k - 1].now - record.torque[k - lag].now) *
                  (record.reading[k] - record.reading[k - lag]);
   }
-  if (agreement < 0.0) {
+  if (agreement >= 0.0) return;
+  double energy = 0.0;
+  for (std::size_t k = 1; k < sample_count(record); ++k) {
+    energy += record.torque[k - 1].now * (record.reading[k] - record.reading[k - 1]);
+  }
+  if (energy < 0.0) {
     refuse(series.name, "the angle falls where the torque rises: one of them has the wrong sign");
   }
+  refuse(
+      series.name,
+      "the angle does not follow the torque as it does on a spring, although the torque drives the motion: "
+      "the "
+      "axis slides. Material tests stay within the pre-sliding range; --sliding identifies a sliding axis");
 }
 
 void check_glitches(const RawSeries& series, const TestRecord& record) {
@@ -242,17 +252,6 @@ void check_glitches(const RawSeries& series, const TestRecord& record) {
          fmt::format("this one angle is {:.3g} rad off those before and after it: a fault of the reading. "
                      "Put in what they say, or cut the record",
                      *highest * record.unit));
-}
-
-void check_sticking(const RawSeries& series) {
-  const auto slides = std::find(series.sliding.begin(), series.sliding.end(), true);
-  if (slides == series.sliding.end()) return;
-  const auto sample = static_cast<std::size_t>(slides - series.sliding.begin());
-  refuse(place_of(series, sample),
-         fmt::format(
-             "the rotor breaks away and slides at {:.6g} s; what is identified holds before that only: test "
-             "with less torque, or cut the record",
-             series.time[sample]));
 }
 
 void check_clipping(const RawSeries& series, const TestRecord& record) {

@@ -89,6 +89,7 @@ std::size_t largest_misfit_growth(const TestRecord& record, const Eigen::VectorX
   double largest = 0.0;
   for (Eigen::Index k = lag; k < path.size(); ++k) {
     const auto at = static_cast<std::size_t>(k);
+    if (is_excluded(record, at) || is_excluded(record, at - lag)) continue;
     const double change = record.reading[at] - path[k] - record.reading[at - lag] + path[k - lag];
     if (std::abs(change) <= largest) continue;
     largest = std::abs(change);

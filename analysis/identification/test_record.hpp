@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -52,9 +53,11 @@ struct TestRecord {
   double unit{1.0};                          ///< of the readings, rad; for counts one count
   /// Whether the readings are whole counts: the angle is somewhere in [reading, reading + 1).
   bool counted{false};
-  bool units_believed{false};  ///< skips the checks of magnitudes
-  motion::PlantStart start;    ///< state of the contact at the first sample
-  RecordParts parts;           ///< parts_of() the record, which identify() sets
+  std::vector<bool> excluded{};  ///< [sample] masked readings; empty: none
+  std::string note{};            ///< what was cut out of it; empty: nothing
+  bool units_believed{false};    ///< skips the checks of magnitudes
+  motion::PlantStart start;      ///< state of the contact at the first sample
+  RecordParts parts;             ///< parts_of() the record, which identify() sets
 };
 
 inline std::size_t sample_count(const TestRecord& record) {
@@ -64,6 +67,17 @@ inline std::size_t sample_count(const TestRecord& record) {
 /// Time from a sample to the next one, s.
 inline double interval_after(const TestRecord& record, std::size_t sample) {
   return record.intervals.empty() ? record.sample_time : record.intervals[sample];
+}
+
+/// Whether the readings of a sample are masked.
+inline bool is_excluded(const TestRecord& record, std::size_t sample) {
+  return !record.excluded.empty() && record.excluded[sample];
+}
+
+/// Number of samples that are not masked.
+inline std::size_t used_samples(const TestRecord& record) {
+  const auto masked = std::count(record.excluded.begin(), record.excluded.end(), true);
+  return sample_count(record) - static_cast<std::size_t>(masked);
 }
 
 inline Eigen::Map<const Eigen::VectorXd> readings_of(const TestRecord& record) {

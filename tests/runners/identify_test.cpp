@@ -313,7 +313,8 @@ TEST_F(Identify, TrialsWithoutRecordsAreNamed) {
   EXPECT_EQ(run({"identify", "tests.h5", "--point", "2"}).code, 2);
 }
 
-TEST_F(Identify, BreakawayIsNamed) {
+// What is before the breakaway is identified, and the cut is named.
+TEST_F(Identify, ARecordIsCutAtItsBreakaway) {
   folder_.write("slide.yaml", R"(
 zerocount: 1
 name: slide
@@ -324,9 +325,11 @@ command: {torque: {levels: [0.1, -0.1, 0.12, 0.0], rate: 0.4}, hold: 0.1}
 retain: {trials: [0]}
 )");
   ASSERT_EQ(run({"run", "slide.yaml", "-o", "slide.h5"}).code, 0);
-  const ProgramResult result = run({"identify", "slide.h5"});
-  EXPECT_EQ(result.code, 4);
-  EXPECT_NE(result.err.find("breaks away"), std::string::npos) << result.err;
+  const ProgramResult result = run({"identify", "slide.h5", "--format", "json"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_NE(json["records"][0]["note"].get<std::string>().find("breaks away"), std::string::npos);
+  EXPECT_NEAR(parameter(json, "k1")["value"].get<double>(), 110.0, 1.0);
 }
 
 }  // namespace

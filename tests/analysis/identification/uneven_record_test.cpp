@@ -49,5 +49,22 @@ TEST(UnevenRecords, GiveTheTruth) {
   }
 }
 
+// A burst of wrong readings, with which the record would be refused. The torque acts all the same.
+TEST(MaskedRecords, GiveTheTruth) {
+  std::mt19937_64 random(78);
+  identification::ContactParameters truth;
+  records::RawSeries series = uneven_series(truth, one_test().front(), random);
+  for (std::size_t k = 3000; k < 3100; ++k) series.angle[k] += 200.0;
+  EXPECT_TRUE(records::exclude(series, {series.time[2999], series.time[3100]}));
+  const identification::Identification found =
+      identification::identify({identification::checked_record(series, false)});
+  EXPECT_TRUE(found.checks.passed);
+  EXPECT_EQ(found.records.front().excluded, 102u);
+  for (const identification::ParameterEstimate& parameter : found.parameters) {
+    const double value = true_value(truth, parameter.name);
+    EXPECT_LT(std::abs(parameter.value - value), 4.0 * parameter.standard_error) << parameter.name;
+  }
+}
+
 }  // namespace
 }  // namespace zerocount::testing

@@ -190,7 +190,8 @@ void check_magnitudes(const RawSeries& series, const TestRecord& record) {
   check_plausible(
       series,
       {"the travel", "rad", 4e-6, 0.05,
-       "is the angle in mrad or degrees, are the counts per revolution right, did the rotor slide?"},
+       "is the angle in mrad or degrees, are the counts per revolution right, did the rotor slide "
+       "(then --sliding)?"},
       turned);
   check_plausible(series,
                   {"the torque's range over the travel", "N m/rad", 1.0, 2e4,

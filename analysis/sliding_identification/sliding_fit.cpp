@@ -234,6 +234,8 @@ SlidingFit fit_sliding(std::span<const SlidingRecord> records, const SlidingPoin
   fit.squares = solve(windows, fit.point, free);
   Covariance information = Covariance::Zero();
   std::vector<ClusterScore> by_window;
+  by_window.reserve(windows.size());
+  fit.starts.reserve(windows.size());
   std::map<std::pair<const SlidingRecord*, std::size_t>, ClusterScore> strokes;
   double unexplained = 0.0;
   for (const FittedWindow& window : windows) {
@@ -248,6 +250,7 @@ SlidingFit fit_sliding(std::span<const SlidingRecord> records, const SlidingPoin
     fit.starts.push_back(window.start);
   }
   std::vector<ClusterScore> by_stroke;
+  by_stroke.reserve(strokes.size());
   for (const auto& [stroke, score] : strokes) by_stroke.push_back(score);
   fit.windows = windows.size();
   fit.strokes = by_stroke.size();

@@ -22,9 +22,10 @@ std::vector<motion::TorqueCourse> courses_of(const RawSeries& series, double sam
   const double rate = 2.0 * std::numbers::pi * series.bandwidth;
   const double left = std::exp(-rate * sample_time);
   const double gone = -std::expm1(-rate * sample_time);
-  double lagging = 0.0;  // motor torque, lagging behind a commanded one
+  const auto delay = static_cast<std::size_t>(series.delay);  // its fraction is the record's
+  double lagging = 0.0;                                       // motor torque, lagging behind a commanded one
   for (std::size_t k = 0; k < series.torque.size(); ++k) {
-    const double torque = k < series.delay ? 0.0 : series.torque[k - series.delay];
+    const double torque = k < delay ? 0.0 : series.torque[k - delay];
     if (rate == 0.0) {
       courses.push_back(motion::constant_torque(torque));
     } else if (series.torque_kind == TorqueKind::commanded) {
@@ -95,6 +96,7 @@ TestRecord checked_record(const RawSeries& series, bool any_magnitude) {
   record.start = series.start;
   record.sample_time = checked_sample_time(series);
   record.torque = courses_of(series, record.sample_time);
+  record.delay_fraction = series.delay - std::floor(series.delay);
   set_readings(series, record);
   check_sticking(series);
   check_change(series, record);

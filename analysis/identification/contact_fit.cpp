@@ -36,6 +36,12 @@ Observations all_readings(std::span<const TestRecord> records) {
   return observations;
 }
 
+/// The coordinate of a parameter with a value in its own unit; λ at σ0 = 1 N m.
+double coordinate_of(Coordinate coordinate, double value) {
+  if (coordinate == creep_exponent || coordinate == time_offset) return value;
+  return coordinate == log_limit ? -std::log(value) : std::log(value);
+}
+
 FitSetting setting_for(std::span<const TestRecord> records, const std::vector<KnownParameter>& known) {
   FitSetting setting;
   setting.free.fill(true);
@@ -43,9 +49,7 @@ FitSetting setting_for(std::span<const TestRecord> records, const std::vector<Kn
   setting.prior = starting_point(records, setting.creep_torque);
   for (const auto& [coordinate, value] : known) {
     setting.free[coordinate] = false;
-    const double logarithm = std::log(value);
-    setting.prior[coordinate] =
-        coordinate == creep_exponent ? value : (coordinate == log_limit ? -logarithm : logarithm);
+    setting.prior[coordinate] = coordinate_of(coordinate, value);
   }
   return setting;
 }
@@ -91,7 +95,7 @@ bool is_explained(const TestRecord& record, const Eigen::VectorXd& path) {
 
 bool are_explained(std::span<const TestRecord> records, const FitPoint& point, const FitSetting& setting) {
   for (std::size_t r = 0; r < records.size(); ++r) {
-    Eigen::VectorXd path = angle_path(records[r], contact_at(point.contact, setting.creep_torque));
+    Eigen::VectorXd path = angle_path(records[r], point.contact, setting.creep_torque);
     path.array() += point.offset[static_cast<Eigen::Index>(r)];
     if (!is_explained(records[r], path)) return false;
   }
@@ -207,6 +211,13 @@ ContactFit fit_contact(std::span<const TestRecord> records, const std::vector<Kn
   refuse_glitches(records, fit.model.point, fit.setting);
   refuse_unexplained(records, fit, 1.0);
   return fit;
+}
+
+void keep_time_offset(std::span<const TestRecord> records, ContactFit& fit) {
+  FitPoint point = fit.model.point;
+  point.contact[time_offset] = fit.setting.prior[time_offset] = 0.0;
+  fit.setting.free[time_offset] = false;
+  refine(records, point, max_rounds, fit);
 }
 
 bool improve_softening(std::span<const TestRecord> records, ContactFit& fit) {

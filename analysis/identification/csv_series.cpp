@@ -42,11 +42,9 @@ std::string place_of(const RawSeries& series, std::size_t sample) {
   return fmt::format("{}:{}", series.name, series.lines[sample]);
 }
 
-std::size_t delay_of(const RawSeries& series, const SeriesChoice& choice, int otherwise) {
-  if (series.torque_kind == TorqueKind::commanded) {
-    return static_cast<std::size_t>(choice.delay.value_or(otherwise));
-  }
-  if (choice.delay.value_or(0) == 0) return 0;
+double delay_of(const RawSeries& series, const SeriesChoice& choice, double otherwise) {
+  if (series.torque_kind == TorqueKind::commanded) return choice.delay.value_or(otherwise);
+  if (choice.delay.value_or(0.0) == 0.0) return 0.0;
   throw Failure(ExitCode::bad_input,
                 fmt::format("{}: drive_torque is the motor's torque, behind any delay; --delay goes with "
                             "--torque torque",
@@ -77,7 +75,7 @@ RawSeries read_csv_series(const std::filesystem::path& path, const SeriesChoice&
   series.torque = read_numbers(table, torque, {"N m", "Nm", "N·m"});
   series.torque_kind = torque == "drive_torque" ? TorqueKind::motor : TorqueKind::commanded;
   series.bandwidth = choice.bandwidth.value_or(0.0);
-  series.delay = delay_of(series, choice, 0);
+  series.delay = delay_of(series, choice, 0.0);
   const bool counts = angle == "count";
   series.angle = read_numbers(
       table, angle, counts ? std::vector<std::string>{"count", "1"} : std::vector<std::string>{"rad"});

@@ -19,9 +19,11 @@ constexpr std::size_t min_reversals = 2;
 /// Maximum half-widths of the interval of an identifiable quantity (of a logarithm; of n).
 constexpr double max_log_halfwidth = 0.7;  // a factor of 2 to each side
 constexpr double widest_exponent = 1.0;
+constexpr double widest_time_offset = 1.0;  // samples
 
-/// Half-width above which the interval is computed by profile likelihood.
+/// Half-widths above which the interval is computed by profile likelihood.
 constexpr double max_linear_halfwidth = 0.05;
+constexpr double max_linear_time_offset = 0.25;
 
 bool is_known(const IdentificationOptions& options, Coordinate coordinate) {
   return std::any_of(options.known.begin(), options.known.end(),
@@ -81,19 +83,31 @@ double half_width(const QuantityEstimate& estimate) {
   return 0.5 * (estimate.high - estimate.low);
 }
 
+bool is_time_offset(const FittedQuantity& quantity) {
+  return quantity.coordinates.front() == time_offset;
+}
+
 bool is_open(const FittedQuantity& quantity, const QuantityEstimate& estimate) {
-  return !(half_width(estimate) <= (quantity.logarithmic ? max_log_halfwidth : widest_exponent));
+  const double widest = quantity.logarithmic       ? max_log_halfwidth
+                        : is_time_offset(quantity) ? widest_time_offset
+                                                   : widest_exponent;
+  return !(half_width(estimate) <= widest);
+}
+
+bool is_linear(const FittedQuantity& quantity, const QuantityEstimate& estimate) {
+  return half_width(estimate) <= (is_time_offset(quantity) ? max_linear_time_offset : max_linear_halfwidth);
 }
 
 ParameterEstimate parameter_of(const FittedQuantity& quantity, EstimateStatus status,
                                const QuantityEstimate& estimate) {
-  return {estimate, std::string(quantity.name), std::string(quantity.key), std::string(quantity.unit),
-          status};
+  const std::string_view key = is_time_offset(quantity) ? std::string_view() : quantity.key;
+  return {estimate, std::string(quantity.name), std::string(key), std::string(quantity.unit), status};
 }
 
 /// Converts an estimate to the parameter's own scale.
 ParameterEstimate reported(const FittedQuantity& quantity, const QuantityEstimate& estimate) {
   ParameterEstimate parameter = parameter_of(quantity, EstimateStatus::estimated, estimate);
+  if (is_time_offset(quantity)) return parameter;
   if (!quantity.logarithmic) {
     constexpr double least_exponent = 1.0;
     parameter.value = std::max(parameter.value, least_exponent);
@@ -130,13 +144,22 @@ struct Estimation {
                              : is_known(options, coordinate)) {
       return given(quantity, options);
     }
+    if (!fit.setting.free[coordinate]) return kept(quantity);
     QuantityEstimate found = interval_by_replicates(quantity, replicates, widening);
     if (is_open(quantity, found)) return open(quantity);
-    if (half_width(found) > max_linear_halfwidth && !quantity.key.empty()) {
+    if (!is_linear(quantity, found) && !quantity.key.empty()) {
       found = interval_by_profile(records, fit, quantity, found);
       if (is_open(quantity, found)) return open(quantity);
     }
     return reported(quantity, found);
+  }
+
+  /// Of the time offset, the only coordinate that a fit keeps by itself.
+  ParameterEstimate kept(const FittedQuantity& quantity) const {
+    ParameterEstimate parameter =
+        parameter_of(quantity, EstimateStatus::kept, {quantity.value, 0.0, quantity.value, quantity.value});
+    parameter.reason = missing_information(records, fit, time_offset);
+    return parameter;
   }
 
   ParameterEstimate open(const FittedQuantity& quantity) const {
@@ -178,6 +201,12 @@ std::vector<Identification::Correlation> strong_correlations(const std::vector<F
   return correlations;
 }
 
+/// Whether the interval of the time offset is too wide to tell anything about it.
+bool shows_no_time_offset(const ContactFit& fit, const ReadingReplicates& replicates) {
+  const FittedQuantity offset = fitted_quantities(fit.model.point, fit.setting.creep_torque).back();
+  return is_open(offset, interval_by_replicates(offset, replicates, 1.0));
+}
+
 }  // namespace
 
 Identification identify(std::vector<TestRecord> records, const IdentificationOptions& options) {
@@ -193,6 +222,10 @@ Identification identify(std::vector<TestRecord> records, const IdentificationOpt
                                     replicates.residuals);
   };
   check();
+  if (fit.setting.free[time_offset] && shows_no_time_offset(fit, replicates)) {
+    keep_time_offset(records, fit);
+    check();
+  }
   if (!result.checks.passed && improve_softening(records, fit)) check();
   refuse_gross_misfit(records, fit, result.checks);
   for (std::size_t r = 0; r < records.size(); ++r) {
@@ -206,6 +239,7 @@ Identification identify(std::vector<TestRecord> records, const IdentificationOpt
   const auto value = [&](std::size_t quantity) { return result.parameters[quantity].value; };
   constexpr std::size_t of_k1 = 0, of_inertia = 5;  // among the fitted quantities
   refuse_implausible_frequency(records, value(of_k1), value(of_inertia));
+  result.sample_time = records.front().sample_time;
   result.correlations = strong_correlations(quantities, result.parameters, replicates);
   return result;
 }

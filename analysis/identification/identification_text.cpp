@@ -14,13 +14,16 @@ std::vector<std::string> row_of(const ParameterEstimate& parameter) {
   }
   const std::string value = with_digits(parameter.value, parameter);
   if (parameter.status == EstimateStatus::known) return {name, value, parameter.unit, "–", "–", "given"};
+  if (parameter.status == EstimateStatus::kept) return {name, value, parameter.unit, "–", "–", "kept"};
   const double half_width = 0.5 * (parameter.high - parameter.low);
+  const bool relative = parameter.name != "time_offset";
   return {
       name,
       value,
       parameter.unit,
       fmt::format("{} to {}", with_digits(parameter.low, parameter), with_digits(parameter.high, parameter)),
-      fmt::format("{:.2g} %", 100.0 * half_width / parameter.value),
+      relative ? fmt::format("{:.2g} %", 100.0 * half_width / parameter.value)
+               : fmt::format("{:.2g}", half_width),
       "estimated"};
 }
 
@@ -33,6 +36,28 @@ std::string record_line(const RecordSummary& record) {
       text::printable(record.name), record.samples, record.duration, record.branches, record.reversals,
       record.holds, record.ring_downs, record.counted ? "counts" : "units", record.unit, noise,
       record.misfit);
+}
+
+std::string time_offset_text(const Identification& identification) {
+  if (identification.parameters.empty() || identification.parameters.back().name != "time_offset") return "";
+  const ParameterEstimate& offset = identification.parameters.back();
+  const auto in_us = [&](double samples) { return 1e6 * identification.sample_time * samples; };
+  switch (offset.status) {
+    case EstimateStatus::estimated:
+      return fmt::format(
+          "The torque acts {:.4g} us (95 %: {:.4g} to {:.4g} us) later than recorded, which the other\n"
+          "intervals take into account.\n",
+          in_us(offset.value), in_us(offset.low), in_us(offset.high));
+    case EstimateStatus::kept:
+      return fmt::format(
+          "The time offset is kept at {:g} samples, because {}.\n"
+          "The other intervals hold if that is right.\n",
+          offset.value, offset.reason);
+    case EstimateStatus::known:
+    case EstimateStatus::not_identifiable:
+      break;
+  }
+  return "";
 }
 
 std::string checks_text(const ResidualChecks& checks) {
@@ -61,6 +86,7 @@ std::string identification_text(const Identification& identification) {
     if (parameter.status != EstimateStatus::not_identifiable) continue;
     text += fmt::format("{} is not identifiable from this, because {}.\n", parameter.name, parameter.reason);
   }
+  text += time_offset_text(identification);
   text += "Records:\n";
   for (const RecordSummary& record : identification.records) text += record_line(record);
   text += checks_text(identification.checks);

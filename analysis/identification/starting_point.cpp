@@ -32,7 +32,7 @@ RingDown largest_ring_down(std::span<const TestRecord> records) {
 
 /// Sum of squares of the residuals about their mean, in units of the readings.
 double misfit(const TestRecord& record, const ContactPoint& point, double creep_torque) {
-  const Eigen::VectorXd path = angle_path(record, contact_at(point, creep_torque));
+  const Eigen::VectorXd path = angle_path(record, point, creep_torque);
   const Eigen::VectorXd residual = readings_of(record) - path;
   const double sum = (residual.array() - residual.mean()).square().sum();
   return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();

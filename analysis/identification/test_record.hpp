@@ -47,8 +47,10 @@ struct TestRecord {
   std::string name;                          ///< name in messages
   double sample_time{5e-4};                  ///< T, s
   std::vector<motion::TorqueCourse> torque;  ///< [sample] from t_k to t_{k+1}
-  std::vector<double> reading;               ///< [sample] angle at t_k, in `unit`
-  double unit{1.0};                          ///< of the readings, rad; for counts one count
+  /// Samples by which the torque acts later than at its sample, from 0 to below 1: the fraction of a delay.
+  double delay_fraction{0.0};
+  std::vector<double> reading;  ///< [sample] angle at t_k, in `unit`
+  double unit{1.0};             ///< of the readings, rad; for counts one count
   /// Whether the readings are whole counts: the angle is somewhere in [reading, reading + 1).
   bool counted{false};
   bool units_believed{false};  ///< skips the checks of magnitudes

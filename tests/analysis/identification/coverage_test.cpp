@@ -35,7 +35,7 @@ void expect_coverage(const CoverageStudy& study) {
   const int rigs = study.sets;
   EXPECT_EQ(study.refused, 0);
   EXPECT_LE(study.lacking, 3);
-  ASSERT_EQ(study.parameters.size(), 9u);
+  ASSERT_EQ(study.parameters.size(), 10u);
   for (const IntervalCoverage& coverage : study.parameters) {
     EXPECT_GE(coverage.estimated, rigs - 1) << coverage.name;
     EXPECT_GE(coverage.held + rigs - coverage.estimated, least_held(rigs)) << coverage.name;

@@ -46,11 +46,12 @@ FitSetting setting_for(std::span<const TestRecord> records, const std::vector<Kn
   FitSetting setting;
   setting.free.fill(true);
   setting.creep_torque = creep_torque_for(records, known);
-  setting.prior = starting_point(records, setting.creep_torque);
+  ContactPoint values = ContactPoint::Zero();
   for (const auto& [coordinate, value] : known) {
     setting.free[coordinate] = false;
-    setting.prior[coordinate] = coordinate_of(coordinate, value);
+    values[coordinate] = coordinate_of(coordinate, value);
   }
+  setting.prior = starting_point(records, setting.creep_torque, values, setting.free);
   return setting;
 }
 
@@ -102,6 +103,65 @@ bool are_explained(std::span<const TestRecord> records, const FitPoint& point, c
   return true;
 }
 
+bool can_be_followed(const RecordMotion& motion) {
+  return motion.path.allFinite() && motion.sensitivity.allFinite();
+}
+
+bool can_be_followed(const FittedModel& model) {
+  return std::all_of(model.motions.begin(), model.motions.end(),
+                     [](const RecordMotion& motion) { return can_be_followed(motion); });
+}
+
+/// The setting with only those coordinates free that the observations determine. The others keep their
+/// values: far from a minimum, or where the law is not exact, they would run away to what a wrong spring
+/// leaves. Residuals that are larger and longer correlated than the
+/// errors of the observations count as errors.
+FitSetting with_told_coordinates(const FittedModel& model, const Observations& observations,
+                                 const FitSetting& setting) {
+  // Standard deviations from which a coordinate counts as not determined.
+  constexpr double untold_logarithm = 0.7;
+  constexpr double untold_exponent = 1.0;
+  constexpr double untold_offset = 0.5;
+  const Eigen::VectorXd variance = textbook_covariance(model, observations, setting).diagonal();
+  const ResidualStatistics residuals = residual_statistics(residuals_of(model, observations, {}));
+  const double error =
+      std::max(1.0, std::sqrt(residuals.squares /
+                              static_cast<double>(std::max<std::size_t>(residuals.observations, 1)) *
+                              residuals.correlation_length));
+  FitSetting told = setting;
+  for (const Coordinate coordinate :
+       {log_damping, log_inertia, log_alpha, log_limit, creep_exponent, time_offset}) {
+    const double untold = coordinate == creep_exponent ? untold_exponent
+                          : coordinate == time_offset  ? untold_offset
+                                                       : untold_logarithm;
+    if (error * std::sqrt(variance[coordinate]) > untold) told.free[coordinate] = false;
+  }
+  return told;
+}
+
+/// Whether the records have slow branches and no ring-downs.
+bool are_slow_alone(std::span<const TestRecord> records) {
+  return has_slow_branches(records) &&
+         std::none_of(records.begin(), records.end(),
+                      [](const TestRecord& record) { return record.parts.ring_downs() > 0; });
+}
+
+/// The fit from the starting point. If the slow parts are the whole test, that is already their best fit, and
+/// only what the readings determine beside it is left free.
+FitResult first_fit(std::span<const TestRecord> records, const Observations& observations, FitPoint start,
+                    const FitSetting& setting) {
+  if (!are_slow_alone(records)) return fit_jointly(records, observations, start, setting);
+  FittedModel model = model_at(records, start, setting);
+  if (!can_be_followed(model)) return fit_jointly(records, observations, start, setting);
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    Eigen::VectorXd& path = model.motions[r].path;
+    const double off = (readings_of(records[r]) - path).mean() + middle_of_reading(records[r]);
+    path.array() += off;
+    start.offset[static_cast<Eigen::Index>(r)] += off;
+  }
+  return fit_jointly(records, observations, start, with_told_coordinates(model, observations, setting));
+}
+
 /// The rough fit, to all readings with equal weights: from the starting point, or from others if that
 /// explains too little.
 FitPoint fit_roughly(std::span<const TestRecord> records, const FitSetting& setting) {
@@ -112,9 +172,10 @@ FitPoint fit_roughly(std::span<const TestRecord> records, const FitSetting& sett
   }
   FitSetting rough = setting;
   rough.tolerance = 1e-3;
-  FitResult best = fit_jointly(records, observations, start, rough);
+  FitResult best = first_fit(records, observations, start, rough);
   refuse_glitches(records, best.point, setting);
-  if (are_explained(records, best.point, setting)) return best.point;
+  // Slow parts alone have been searched for the best β.
+  if (are_slow_alone(records) || are_explained(records, best.point, setting)) return best.point;
 
   // A few steps from each of the other starting points; then the best of them are continued.
   std::vector<FitResult> tried;
@@ -144,8 +205,7 @@ FittedModel followed_model(std::span<const TestRecord> records, const FitPoint& 
                            const FitSetting& setting) {
   FittedModel model = model_at(records, point, setting);
   for (std::size_t r = 0; r < records.size(); ++r) {
-    const RecordMotion& motion = model.motions[r];
-    if (motion.path.allFinite() && motion.sensitivity.allFinite()) continue;
+    if (can_be_followed(model.motions[r])) continue;
     throw Failure(
         ExitCode::bad_data,
         fmt::format("{}: the rotor that comes nearest to this record cannot be simulated: it is too "
@@ -157,10 +217,9 @@ FittedModel followed_model(std::span<const TestRecord> records, const FitPoint& 
 }
 
 /// The largest component of the remaining Gauss–Newton step, in textbook standard deviations.
-double remaining_step(const ContactFit& fit) {
-  const Eigen::MatrixXd covariance = textbook_covariance(fit.model, fit.observations, fit.setting);
-  const Eigen::VectorXd step =
-      covariance * normal_equations(fit.model, fit.observations, fit.setting).gradient;
+double remaining_step(const ContactFit& fit, const FitSetting& setting) {
+  const Eigen::MatrixXd covariance = textbook_covariance(fit.model, fit.observations, setting);
+  const Eigen::VectorXd step = covariance * normal_equations(fit.model, fit.observations, setting).gradient;
   return (step.array().abs() / covariance.diagonal().array().sqrt()).maxCoeff();
 }
 
@@ -170,8 +229,9 @@ void refine(std::span<const TestRecord> records, const FitPoint& from, int round
   update_misfit(records, fit);
   for (int round = 0; round < rounds; ++round) {
     observe_again(records, fit);
-    if (remaining_step(fit) < small_change) break;
-    const FitPoint point = fit_jointly(records, fit.observations, fit.model.point, fit.setting).point;
+    const FitSetting told = with_told_coordinates(fit.model, fit.observations, fit.setting);
+    if (remaining_step(fit, told) < small_change) break;
+    const FitPoint point = fit_jointly(records, fit.observations, fit.model.point, told).point;
     fit.model = followed_model(records, point, fit.setting);
     update_misfit(records, fit);
   }
@@ -222,6 +282,9 @@ void keep_time_offset(std::span<const TestRecord> records, ContactFit& fit) {
 
 bool improve_softening(std::span<const TestRecord> records, ContactFit& fit) {
   if (!fit.setting.free[log_beta] || !fit.setting.free[log_k2]) return false;
+  constexpr double few = 5.0;  // units of the readings
+  const double softening = std::exp(-fit.model.point.contact[log_beta]);
+  if (has_slow_branches(records) && softening > few * records.front().unit) return false;
   const ContactFit first = fit;
   bool improved = false;
   for (const double shift : {-2.0, -4.0, -6.0, -8.0, 2.0, 4.0}) {

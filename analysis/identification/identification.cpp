@@ -21,9 +21,8 @@ constexpr double max_log_halfwidth = 0.7;  // a factor of 2 to each side
 constexpr double widest_exponent = 1.0;
 constexpr double widest_time_offset = 1.0;  // samples
 
-/// Half-widths above which the interval is computed by profile likelihood.
+/// Half-width above which the interval is computed by profile likelihood.
 constexpr double max_linear_halfwidth = 0.05;
-constexpr double max_linear_time_offset = 0.25;
 
 bool is_known(const IdentificationOptions& options, Coordinate coordinate) {
   return std::any_of(options.known.begin(), options.known.end(),
@@ -94,10 +93,6 @@ bool is_open(const FittedQuantity& quantity, const QuantityEstimate& estimate) {
   return !(half_width(estimate) <= widest);
 }
 
-bool is_linear(const FittedQuantity& quantity, const QuantityEstimate& estimate) {
-  return half_width(estimate) <= (is_time_offset(quantity) ? max_linear_time_offset : max_linear_halfwidth);
-}
-
 ParameterEstimate parameter_of(const FittedQuantity& quantity, EstimateStatus status,
                                const QuantityEstimate& estimate) {
   const std::string_view key = is_time_offset(quantity) ? std::string_view() : quantity.key;
@@ -146,8 +141,10 @@ struct Estimation {
     }
     if (!fit.setting.free[coordinate]) return kept(quantity);
     QuantityEstimate found = interval_by_replicates(quantity, replicates, widening);
-    if (is_open(quantity, found)) return open(quantity);
-    if (!is_linear(quantity, found) && !quantity.key.empty()) {
+    // What the records determine does not depend on how well the model fits: the widening leaves it as it is.
+    if (is_open(quantity, interval_by_replicates(quantity, replicates, 1.0))) return open(quantity);
+    const bool has_profile = !quantity.key.empty() && !is_time_offset(quantity) && widening == 1.0;
+    if (has_profile && half_width(found) > max_linear_halfwidth) {
       found = interval_by_profile(records, fit, quantity, found);
       if (is_open(quantity, found)) return open(quantity);
     }

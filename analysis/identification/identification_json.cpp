@@ -64,6 +64,7 @@ Json checks_json(const ResidualChecks& checks) {
           {"correlation_length", checks.correlation_length},
           {"expected_correlation_length", checks.expected_correlation_length},
           {"passed", checks.passed},
+          {"reason", checks.passed ? Json() : Json(reason_of_misfit(checks))},
           {"widening", checks.widening}};
 }
 

@@ -68,11 +68,12 @@ std::string checks_text(const ResidualChecks& checks) {
       checks.observations, checks.spread, checks.expected_spread, 100.0 * checks.spread_chance, checks.runs,
       checks.expected_runs, 100.0 * checks.runs_chance);
   if (checks.passed) return text + "  They are what the encoder's steps and noise explain.\n";
-  return text +
-         fmt::format(
-             "  LACK OF FIT: they are more than the encoder's steps and noise explain. The intervals were\n"
-             "  widened by the factor {:.3g}, and hold only as far as the model does.\n",
-             checks.widening);
+  return text + fmt::format(
+                    "  LACK OF FIT: {}.\n"
+                    "  These values are not to be trusted. The intervals were widened by the factor {:.3g}, "
+                    "and hold\n"
+                    "  only as far as the model does.\n",
+                    reason_of_misfit(checks), checks.widening);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "analysis/identification/contact_fit.hpp"
@@ -33,6 +34,9 @@ struct ResidualChecks {
 
 ResidualChecks check_residuals(const ResidualStatistics& residuals,
                                const std::vector<ResidualStatistics>& replicates);
+
+/// What encoder and noise do not explain of the residuals: a clause. Empty if the checks passed.
+std::string reason_of_misfit(const ResidualChecks& checks);
 
 /// A sample whose reading is an outlier: its residual is at least 1.5 counts (for counts) and 12 times the
 /// usual one, and the readings a few samples away are not. Nothing if there is none.

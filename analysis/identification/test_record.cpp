@@ -84,6 +84,13 @@ double largest_torque(const TestRecord& record) {
   return largest;
 }
 
+bool has_slow_branches(std::span<const TestRecord> records) {
+  return std::any_of(records.begin(), records.end(), [](const TestRecord& record) {
+    return std::any_of(record.parts.branches.begin(), record.parts.branches.end(),
+                       std::mem_fn(&LoadingBranch::slow));
+  });
+}
+
 RecordParts parts_of(const TestRecord& record) {
   const double range = torque_range(record);
   return {branches_of(record, range), holds_of(record, range)};

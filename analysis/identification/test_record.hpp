@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -72,6 +73,9 @@ inline double middle_of_reading(const TestRecord& record) {
 }
 
 RecordParts parts_of(const TestRecord& record);
+
+/// Whether a record has a slow branch.
+bool has_slow_branches(std::span<const TestRecord> records);
 
 /// Maximum − minimum torque, N m.
 double torque_range(const TestRecord& record);

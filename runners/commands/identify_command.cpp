@@ -37,7 +37,8 @@ constexpr const char* identify_help =
     "\n"
     "The output ends with the result as a fragment of a manifest; --format yaml prints only\n"
     "that. Unsuitable records are refused with the reason and exit code 4, files that are not\n"
-    "such tables with exit code 2; the exit code is 3 if nothing can be identified.\n"
+    "such tables with exit code 2. The exit code is 3 if nothing can be identified, or if encoder\n"
+    "and noise do not explain the residuals: the answer is printed, but is not to be trusted.\n"
     "\n"
     "Examples: zerocount identify ramps.csv steps.csv holds.csv --counts-per-revolution 1620000\n"
     "          zerocount identify tests.h5 --point 0 --point 1 --format yaml -o friction.yaml\n";
@@ -194,9 +195,9 @@ ExitCode identify_records(const command_line::Arguments& arguments) {
                                                 : identification::identification_text(found);
   command_line::write_text(output.value_or("-"), report);
   if (!found.checks.passed) {
-    fmt::print(
-        stderr,
-        "zerocount identify: warning: lack of fit; the intervals hold only as far as the model does\n");
+    fmt::print(stderr, "zerocount identify: the answer is not to be trusted: {}\n",
+               identification::reason_of_misfit(found.checks));
+    return ExitCode::inconclusive;
   }
   const bool any = std::any_of(found.parameters.begin(), found.parameters.end(),
                                [](const identification::ParameterEstimate& p) {

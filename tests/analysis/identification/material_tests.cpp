@@ -107,6 +107,20 @@ std::vector<TorqueProgramme> one_test() {
   return {test};
 }
 
+std::vector<TorqueProgramme> short_test() {
+  TorqueProgramme test;
+  test.step(0.08)
+      .hold(0.05)
+      .step(0.0)
+      .hold(0.05)
+      .ramp(0.1, 0.4)
+      .hold(0.8)
+      .ramp(-0.1, 0.4)
+      .ramp(0.15, 0.4)
+      .hold(0.8);
+  return {test};
+}
+
 double true_value(const identification::ContactParameters& contact, const std::string& name, double skew) {
   const std::map<std::string, double> values{{"k1", contact.friction.k1},
                                              {"k2", contact.friction.k2},

@@ -50,6 +50,9 @@ std::vector<TorqueProgramme> three_tests();
 /// All of that in one record.
 std::vector<TorqueProgramme> one_test();
 
+/// All that is to be seen in 3 s.
+std::vector<TorqueProgramme> short_test();
+
 /// The contact's parameter of the name that its estimate has; `skew` for the time offset.
 double true_value(const identification::ContactParameters& contact, const std::string& name,
                   double skew = 0.0);

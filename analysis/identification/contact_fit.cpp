@@ -122,19 +122,28 @@ FitSetting with_told_coordinates(const FittedModel& model, const Observations& o
   constexpr double untold_logarithm = 0.7;
   constexpr double untold_exponent = 1.0;
   constexpr double untold_offset = 0.5;
-  const Eigen::VectorXd variance = textbook_covariance(model, observations, setting).diagonal();
   const ResidualStatistics residuals = residual_statistics(residuals_of(model, observations, {}));
   const double error =
       std::max(1.0, std::sqrt(residuals.squares /
                               static_cast<double>(std::max<std::size_t>(residuals.observations, 1)) *
                               residuals.correlation_length));
   FitSetting told = setting;
-  for (const Coordinate coordinate :
-       {log_damping, log_inertia, log_alpha, log_limit, creep_exponent, time_offset}) {
-    const double untold = coordinate == creep_exponent ? untold_exponent
-                          : coordinate == time_offset  ? untold_offset
-                                                       : untold_logarithm;
-    if (error * std::sqrt(variance[coordinate]) > untold) told.free[coordinate] = false;
+  // One after the other: if only a combination of two is not determined, holding one of them is enough.
+  for (double worst = 2.0; worst > 1.0;) {
+    const Eigen::VectorXd variance = textbook_covariance(model, observations, told).diagonal();
+    worst = 0.0;
+    Coordinate least_told = time_offset;
+    for (const Coordinate coordinate :
+         {log_damping, log_inertia, log_alpha, log_limit, creep_exponent, time_offset}) {
+      const double untold = coordinate == creep_exponent ? untold_exponent
+                            : coordinate == time_offset  ? untold_offset
+                                                         : untold_logarithm;
+      const double ratio = told.free[coordinate] ? error * std::sqrt(variance[coordinate]) / untold : 0.0;
+      if (ratio <= worst) continue;
+      worst = ratio;
+      least_told = coordinate;
+    }
+    if (worst > 1.0) told.free[least_told] = false;
   }
   return told;
 }
@@ -229,7 +238,9 @@ void refine(std::span<const TestRecord> records, const FitPoint& from, int round
   update_misfit(records, fit);
   for (int round = 0; round < rounds; ++round) {
     observe_again(records, fit);
-    const FitSetting told = with_told_coordinates(fit.model, fit.observations, fit.setting);
+    const FitSetting told = are_slow_alone(records)
+                                ? with_told_coordinates(fit.model, fit.observations, fit.setting)
+                                : fit.setting;
     if (remaining_step(fit, told) < small_change) break;
     const FitPoint point = fit_jointly(records, fit.observations, fit.model.point, told).point;
     fit.model = followed_model(records, point, fit.setting);

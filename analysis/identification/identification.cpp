@@ -142,11 +142,13 @@ struct Estimation {
     if (!fit.setting.free[coordinate]) return kept(quantity);
     QuantityEstimate found = interval_by_replicates(quantity, replicates, widening);
     // What the records determine does not depend on how well the model fits: the widening leaves it as it is.
-    if (is_open(quantity, interval_by_replicates(quantity, replicates, 1.0))) return open(quantity);
-    const bool has_profile = !quantity.key.empty() && !is_time_offset(quantity) && widening == 1.0;
-    if (has_profile && half_width(found) > max_linear_halfwidth) {
-      found = interval_by_profile(records, fit, quantity, found);
-      if (is_open(quantity, found)) return open(quantity);
+    const QuantityEstimate unwidened = interval_by_replicates(quantity, replicates, 1.0);
+    if (is_open(quantity, unwidened)) return open(quantity);
+    const bool has_profile = !quantity.key.empty() && !is_time_offset(quantity);
+    if (has_profile && half_width(unwidened) > max_linear_halfwidth) {
+      const QuantityEstimate profiled = interval_by_profile(records, fit, quantity, found);
+      if (!is_open(quantity, profiled)) return reported(quantity, profiled);
+      if (widening == 1.0) return open(quantity);
     }
     return reported(quantity, found);
   }

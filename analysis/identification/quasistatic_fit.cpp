@@ -103,7 +103,7 @@ SlowParts slow_parts_of(const TestRecord& record) {
     for (std::size_t k = first; k <= last; ++k) slow[k] = true;
   };
   for (const LoadingBranch& branch : record.parts.branches) {
-    if (branch.slow) mark(branch.first + 1, branch.last);
+    if (is_gradual(record, branch)) mark(branch.first + 1, branch.last);
   }
   for (const TorqueHold& hold : record.parts.holds) {
     if (hold.rings_down)
@@ -246,7 +246,8 @@ SlowFit fit_slow_parts(std::span<const TestRecord> records, const ContactPoint& 
   const SlowPartsFit slow(records, start, creep_torque);
   FreeCoordinates spring{};
   for (const Coordinate coordinate : {log_k1, log_k2, log_beta}) spring[coordinate] = free[coordinate];
-  if (slow.empty() || std::none_of(spring.begin(), spring.end(), [](bool one) { return one; })) {
+  if (!has_slow_branches(records) || slow.empty() ||
+      std::none_of(spring.begin(), spring.end(), [](bool one) { return one; })) {
     return {start, std::numeric_limits<double>::infinity()};
   }
   constexpr std::array rates{1.0, 0.003, 0.01, 0.03, 0.1, 0.3, 3.0, 10.0, 30.0};

@@ -26,7 +26,7 @@ struct SlowFit {
 /// spring that always carries the applied torque. At most some thousand samples of a record are used, evenly
 /// chosen.
 /// @param free coordinates that may change
-/// @returns `start` with the fitted coordinates; `start` itself and infinity if there are no slow parts.
+/// @returns `start` with the fitted coordinates; `start` itself and infinity if there are no slow branches.
 SlowFit fit_slow_parts(std::span<const TestRecord> records, const ContactPoint& start, double creep_torque,
                        const FreeCoordinates& free);
 

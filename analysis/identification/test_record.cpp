@@ -84,10 +84,19 @@ double largest_torque(const TestRecord& record) {
   return largest;
 }
 
+bool is_gradual(const TestRecord& record, const LoadingBranch& branch) {
+  if (!branch.slow) return false;
+  const double step = step_threshold * torque_range(record);
+  for (std::size_t k = branch.first + 1; k <= branch.last; ++k) {
+    if (std::abs(record.torque[k].now - record.torque[k - 1].now) >= step) return false;
+  }
+  return true;
+}
+
 bool has_slow_branches(std::span<const TestRecord> records) {
   return std::any_of(records.begin(), records.end(), [](const TestRecord& record) {
     return std::any_of(record.parts.branches.begin(), record.parts.branches.end(),
-                       std::mem_fn(&LoadingBranch::slow));
+                       [&](const LoadingBranch& branch) { return is_gradual(record, branch); });
   });
 }
 

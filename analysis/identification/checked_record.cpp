@@ -108,9 +108,10 @@ RawSeries until_sliding(const RawSeries& series) {
 std::vector<motion::TorqueCourse> courses_of(const RawSeries& series, const TestRecord& record) {
   std::vector<motion::TorqueCourse> courses;
   const double rate = 2.0 * std::numbers::pi * series.bandwidth;
-  double lagging = 0.0;  // motor torque, lagging behind a commanded one
+  const auto delay = static_cast<std::size_t>(series.delay);  // its fraction is the record's
+  double lagging = 0.0;                                       // motor torque, lagging behind a commanded one
   for (std::size_t k = 0; k < series.torque.size(); ++k) {
-    const double torque = k < series.delay ? 0.0 : series.torque[k - series.delay];
+    const double torque = k < delay ? 0.0 : series.torque[k - delay];
     const double left = std::exp(-rate * interval_after(record, k));
     const double gone = -std::expm1(-rate * interval_after(record, k));
     if (rate == 0.0) {
@@ -154,6 +155,7 @@ TestRecord checked_record(const RawSeries& whole, bool any_magnitude) {
   record.sample_time = checked_sample_time(series);
   record.intervals = uneven_intervals(series);
   record.torque = courses_of(series, record);
+  record.delay_fraction = series.delay - std::floor(series.delay);
   set_readings(series, record);
   record.excluded = series.excluded;
   bridge_masked(record);

@@ -19,6 +19,7 @@ constexpr std::size_t min_reversals = 2;
 /// Maximum half-widths of the interval of an identifiable quantity (of a logarithm; of n).
 constexpr double max_log_halfwidth = 0.7;  // a factor of 2 to each side
 constexpr double widest_exponent = 1.0;
+constexpr double widest_time_offset = 1.0;  // samples
 
 /// Half-width above which the interval is computed by profile likelihood.
 constexpr double max_linear_halfwidth = 0.05;
@@ -83,19 +84,27 @@ double half_width(const QuantityEstimate& estimate) {
   return 0.5 * (estimate.high - estimate.low);
 }
 
+bool is_time_offset(const FittedQuantity& quantity) {
+  return quantity.coordinates.front() == time_offset;
+}
+
 bool is_open(const FittedQuantity& quantity, const QuantityEstimate& estimate) {
-  return !(half_width(estimate) <= (quantity.logarithmic ? max_log_halfwidth : widest_exponent));
+  const double widest = quantity.logarithmic       ? max_log_halfwidth
+                        : is_time_offset(quantity) ? widest_time_offset
+                                                   : widest_exponent;
+  return !(half_width(estimate) <= widest);
 }
 
 ParameterEstimate parameter_of(const FittedQuantity& quantity, EstimateStatus status,
                                const QuantityEstimate& estimate) {
-  return {estimate, std::string(quantity.name), std::string(quantity.key), std::string(quantity.unit),
-          status};
+  const std::string_view key = is_time_offset(quantity) ? std::string_view() : quantity.key;
+  return {estimate, std::string(quantity.name), std::string(key), std::string(quantity.unit), status};
 }
 
 /// Converts an estimate to the parameter's own scale.
 ParameterEstimate reported(const FittedQuantity& quantity, const QuantityEstimate& estimate) {
   ParameterEstimate parameter = parameter_of(quantity, EstimateStatus::estimated, estimate);
+  if (is_time_offset(quantity)) return parameter;
   if (!quantity.logarithmic) {
     constexpr double least_exponent = 1.0;
     parameter.value = std::max(parameter.value, least_exponent);
@@ -132,13 +141,26 @@ struct Estimation {
                              : is_known(options, coordinate)) {
       return given(quantity, options);
     }
+    if (!fit.setting.free[coordinate]) return kept(quantity);
     QuantityEstimate found = interval_by_replicates(quantity, replicates, widening);
-    if (is_open(quantity, found)) return open(quantity);
-    if (half_width(found) > max_linear_halfwidth && !quantity.key.empty()) {
-      found = interval_by_profile(records, fit, quantity, found);
-      if (is_open(quantity, found)) return open(quantity);
+    // What the records determine does not depend on how well the model fits: the widening leaves it as it is.
+    const QuantityEstimate unwidened = interval_by_replicates(quantity, replicates, 1.0);
+    if (is_open(quantity, unwidened)) return open(quantity);
+    const bool has_profile = !quantity.key.empty() && !is_time_offset(quantity);
+    if (has_profile && half_width(unwidened) > max_linear_halfwidth) {
+      const QuantityEstimate profiled = interval_by_profile(records, fit, quantity, found);
+      if (!is_open(quantity, profiled)) return reported(quantity, profiled);
+      if (widening == 1.0) return open(quantity);
     }
     return reported(quantity, found);
+  }
+
+  /// Of the time offset, the only coordinate that a fit keeps by itself.
+  ParameterEstimate kept(const FittedQuantity& quantity) const {
+    ParameterEstimate parameter =
+        parameter_of(quantity, EstimateStatus::kept, {quantity.value, 0.0, quantity.value, quantity.value});
+    parameter.reason = missing_information(records, fit, time_offset);
+    return parameter;
   }
 
   ParameterEstimate open(const FittedQuantity& quantity) const {
@@ -180,6 +202,12 @@ std::vector<Identification::Correlation> strong_correlations(const std::vector<F
   return correlations;
 }
 
+/// Whether the interval of the time offset is too wide to tell anything about it.
+bool shows_no_time_offset(const ContactFit& fit, const ReadingReplicates& replicates) {
+  const FittedQuantity offset = fitted_quantities(fit.model.point, fit.setting.creep_torque).back();
+  return is_open(offset, interval_by_replicates(offset, replicates, 1.0));
+}
+
 }  // namespace
 
 Identification identify(std::vector<TestRecord> records, const IdentificationOptions& options) {
@@ -195,6 +223,10 @@ Identification identify(std::vector<TestRecord> records, const IdentificationOpt
                                     replicates.residuals);
   };
   check();
+  if (fit.setting.free[time_offset] && shows_no_time_offset(fit, replicates)) {
+    keep_time_offset(records, fit);
+    check();
+  }
   if (!result.checks.passed && improve_softening(records, fit)) check();
   refuse_gross_misfit(records, fit, result.checks);
   for (std::size_t r = 0; r < records.size(); ++r) {
@@ -208,6 +240,7 @@ Identification identify(std::vector<TestRecord> records, const IdentificationOpt
   const auto value = [&](std::size_t quantity) { return result.parameters[quantity].value; };
   constexpr std::size_t of_k1 = 0, of_inertia = 5;  // among the fitted quantities
   refuse_implausible_frequency(records, value(of_k1), value(of_inertia));
+  result.sample_time = records.front().sample_time;
   result.correlations = strong_correlations(quantities, result.parameters, replicates);
   return result;
 }

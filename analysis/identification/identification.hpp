@@ -14,17 +14,19 @@ namespace zerocount::identification {
 enum class EstimateStatus {
   estimated,        ///< from the records
   known,            ///< given by the user
+  kept,             ///< the records do not determine it, and the fit kept the given value
   not_identifiable  ///< the records do not determine it
 };
 
 /// Estimate of one parameter in its own unit; all four numbers are NaN if it is not identifiable, and the
-/// standard error is 0 if it is known.
+/// standard error is 0 if it is known or kept.
 struct ParameterEstimate : QuantityEstimate {
-  std::string name;  ///< k1, k2, k1_plus_k2, beta, presliding_damping, inertia, alpha, lambda or n
-  std::string key;   ///< in a manifest; empty for k1_plus_k2
+  /// k1, k2, k1_plus_k2, beta, presliding_damping, inertia, alpha, lambda, n or time_offset
+  std::string name;
+  std::string key;  ///< in a manifest; empty for k1_plus_k2 and time_offset
   std::string unit;
   EstimateStatus status{EstimateStatus::not_identifiable};
-  std::string reason{};  ///< why it is not identifiable
+  std::string reason{};  ///< why it is not identifiable, or kept
 };
 
 /// The detected parts of a record, and the quality of the fit.
@@ -46,6 +48,7 @@ struct RecordSummary {
 
 struct Identification {
   std::vector<ParameterEstimate> parameters;  ///< in the order of the names above
+  double sample_time{0.0};                    ///< of the time offset, s: of the first record
   std::vector<RecordSummary> records;
   ResidualChecks checks;
   /// Correlation of the errors of a pair of estimated parameters; listed if its magnitude is 0.9 or more.
@@ -69,6 +72,10 @@ struct IdentificationOptions {
 /// If the interval is so wide that the model is not linear across it, it is computed by profile likelihood at
 /// the same level. A parameter whose interval spans more than a factor of 4 (n: more than 2) is not
 /// identifiable.
+///
+/// The time offset between torque and angle is fitted together with the contact, before any reading is called
+/// wrong; so the other intervals include its uncertainty. If its interval is wider than ±1 sample, the fit is
+/// repeated with the given delay.
 /// @throws Failure (bad_data) if a record is given twice, the torque reverses less than twice, a single
 /// reading is an outlier, the model does not explain the records, or the rotor's natural frequency is
 /// implausible and the units are not trusted.

@@ -14,6 +14,8 @@ std::string status_word(EstimateStatus status) {
       return "estimated";
     case EstimateStatus::known:
       return "given";
+    case EstimateStatus::kept:
+      return "kept";
     case EstimateStatus::not_identifiable:
       break;
   }
@@ -64,6 +66,7 @@ Json checks_json(const ResidualChecks& checks) {
           {"correlation_length", checks.correlation_length},
           {"expected_correlation_length", checks.expected_correlation_length},
           {"passed", checks.passed},
+          {"reason", checks.passed ? Json() : Json(reason_of_misfit(checks))},
           {"widening", checks.widening}};
 }
 
@@ -75,6 +78,7 @@ std::string identification_json(const Identification& identification) {
   for (const ParameterEstimate& parameter : identification.parameters) {
     json["parameters"].push_back(parameter_json(parameter));
   }
+  json["sample_time"] = identification.sample_time;
   json["correlations"] = Json::array();
   for (const Identification::Correlation& pair : identification.correlations) {
     json["correlations"].push_back({{"one", pair.one}, {"other", pair.other}, {"value", pair.value}});

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "analysis/statistics/quantile.hpp"
 
 namespace zerocount::identification {
@@ -56,6 +58,18 @@ ResidualChecks check_residuals(const ResidualStatistics& residuals,
   const double longer = std::max(1.0, checks.correlation_length / checks.expected_correlation_length);
   checks.widening = larger * std::sqrt(longer);
   return checks;
+}
+
+std::string reason_of_misfit(const ResidualChecks& checks) {
+  if (checks.passed) return "";
+  const bool large = checks.spread_chance < least_chance;
+  return large
+             ? fmt::format("the residuals are {:.2g} times as large as the encoder's steps and noise explain",
+                           checks.spread / checks.expected_spread)
+             : fmt::format(
+                   "the residuals have {:.0f} runs of one sign, where the encoder's steps and noise "
+                   "would give {:.0f}: the model departs systematically from the records",
+                   checks.runs, checks.expected_runs);
 }
 
 std::optional<std::size_t> find_glitch(const TestRecord& record, const Eigen::VectorXd& path) {

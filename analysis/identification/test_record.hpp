@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -49,8 +50,10 @@ struct TestRecord {
   double sample_time{5e-4};                  ///< T, s; of uneven samples the mean
   std::vector<double> intervals{};           ///< [sample] until the next one, s; empty: T each
   std::vector<motion::TorqueCourse> torque;  ///< [sample] from t_k to t_{k+1}
-  std::vector<double> reading;               ///< [sample] angle at t_k, in `unit`
-  double unit{1.0};                          ///< of the readings, rad; for counts one count
+  /// Samples by which the torque acts later than at its sample, from 0 to below 1: the fraction of a delay.
+  double delay_fraction{0.0};
+  std::vector<double> reading;  ///< [sample] angle at t_k, in `unit`
+  double unit{1.0};             ///< of the readings, rad; for counts one count
   /// Whether the readings are whole counts: the angle is somewhere in [reading, reading + 1).
   bool counted{false};
   std::vector<bool> excluded{};  ///< [sample] masked readings; empty: none
@@ -90,6 +93,13 @@ inline double middle_of_reading(const TestRecord& record) {
 }
 
 RecordParts parts_of(const TestRecord& record);
+
+/// Whether a branch is slow and has no step (of 5 % of the range from sample to sample), such as at the end of
+/// a hold.
+bool is_gradual(const TestRecord& record, const LoadingBranch& branch);
+
+/// Whether a record has a gradual branch.
+bool has_slow_branches(std::span<const TestRecord> records);
 
 /// Maximum − minimum torque, N m.
 double torque_range(const TestRecord& record);

@@ -247,11 +247,9 @@ std::string contradiction_in(const SeriesChoice& choice) {
   return "";
 }
 
-std::size_t delay_of(const RawSeries& series, const SeriesChoice& choice, int otherwise) {
-  if (series.torque_kind == TorqueKind::commanded) {
-    return static_cast<std::size_t>(choice.delay.value_or(otherwise));
-  }
-  if (choice.delay.value_or(0) == 0) return 0;
+double delay_of(const RawSeries& series, const SeriesChoice& choice, double otherwise) {
+  if (series.torque_kind == TorqueKind::commanded) return choice.delay.value_or(otherwise);
+  if (choice.delay.value_or(0.0) == 0.0) return 0.0;
   throw Failure(ExitCode::bad_input,
                 fmt::format("{}: drive_torque is the motor's torque, behind any delay; --delay goes with "
                             "--torque torque",
@@ -272,7 +270,7 @@ std::vector<RawSeries> read_columns(const ColumnSource& source, const SeriesChoi
                               series.time.size(), series.torque.size(), series.angle.size()));
   }
   series.bandwidth = choice.bandwidth.value_or(0.0);
-  series.delay = delay_of(series, choice, 0);
+  series.delay = delay_of(series, choice, 0.0);
   if (!series.lines.empty() && source.has("code")) series.code = source.numbers("code");
   series.dac_bits = choice.dac_bits.value_or(0);
   if (source.has("mode")) series.sliding = source.equals("mode", "slide");

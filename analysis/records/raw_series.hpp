@@ -28,7 +28,7 @@ struct RawSeries {
   std::vector<double> torque;      ///< N m; of a linear axis the force, N
   TorqueKind torque_kind{TorqueKind::commanded};
   double bandwidth{0.0};              ///< of the amplifier, Hz; 0: ideal amplifier
-  std::size_t delay{0};               ///< delay of a commanded torque, samples; the torque is 0 before
+  double delay{0.0};                  ///< delay of a commanded torque, samples; the torque is 0 before
   std::vector<double> angle;          ///< whole counts, or rad; of a linear axis the position, m
   double counts_per_revolution{0.0};  ///< 0 if the angle is in rad or m
   bool linear{false};                 ///< of a linear axis
@@ -61,7 +61,7 @@ struct SeriesChoice {
   std::optional<std::string> angle;      ///< column: count or theta
   std::optional<double> counts_per_revolution;
   std::optional<double> bandwidth;  ///< Hz
-  std::optional<int> delay;         ///< of the commanded torque, samples
+  std::optional<double> delay;      ///< of the commanded torque, samples
   std::optional<int> dac_bits;
   std::optional<double> preload;    ///< N m
   std::optional<double> hardening;  ///< rad
@@ -72,7 +72,7 @@ std::string contradiction_in(const SeriesChoice& choice);
 
 /// Delay of the series' torque in samples: the chosen one, or `otherwise`; a motor torque has no delay.
 /// @throws Failure (bad_input) if a delay is chosen for the motor torque.
-std::size_t delay_of(const RawSeries& series, const SeriesChoice& choice, int otherwise);
+double delay_of(const RawSeries& series, const SeriesChoice& choice, double otherwise);
 
 /// Reads the series from columns: those that `choice` maps, otherwise t or time, drive_torque or torque,
 /// theta or count, such as `zerocount trace` writes them. If there are both torques, drive_torque is used. If

@@ -47,7 +47,8 @@ constexpr const char* identify_help =
     "\n"
     "The output ends with the result as a fragment of a manifest; --format yaml prints only\n"
     "that. Unsuitable records are refused with the reason and exit code 4, files that are not\n"
-    "such tables with exit code 2; the exit code is 3 if nothing can be identified.\n"
+    "such tables with exit code 2. The exit code is 3 if nothing can be identified, or if encoder\n"
+    "and noise do not explain the residuals: the answer is printed, but is not to be trusted.\n"
     "\n"
     "Examples: zerocount identify ramps.csv steps.csv holds.csv --counts-per-revolution 1620000\n"
     "          zerocount identify tests.h5 --point 0 --point 1 --format yaml -o friction.yaml\n"
@@ -88,6 +89,14 @@ std::optional<double> bandwidth_option(const command_line::Arguments& arguments)
   return bandwidth;
 }
 
+std::optional<double> delay_option(const command_line::Arguments& arguments) {
+  constexpr double most = 1e6;
+  const std::optional<double> delay = number_option(arguments, "delay", 0.0);
+  if (delay && *delay > most)
+    arguments.refuse(fmt::format("option '--delay': {:g} samples; expected up to {:g}", *delay, most));
+  return delay;
+}
+
 records::SeriesChoice series_choice(const command_line::Arguments& arguments) {
   constexpr double any = -std::numeric_limits<double>::infinity();
   records::SeriesChoice choice;
@@ -95,12 +104,18 @@ records::SeriesChoice series_choice(const command_line::Arguments& arguments) {
   choice.angle = column_option(arguments, "angle", {"count", "theta"});
   choice.counts_per_revolution = number_option(arguments, "counts-per-revolution", 1.0);
   choice.bandwidth = bandwidth_option(arguments);
-  choice.delay = arguments.whole_number("delay", 0, 1000000);
+  choice.delay = delay_option(arguments);
   choice.dac_bits = arguments.whole_number("dac-bits", 2, 32);
   choice.preload = number_option(arguments, "preload", any);
   choice.hardening = number_option(arguments, "hardening", 0.0);
   set_columns(arguments, choice);
   return choice;
+}
+
+/// The least value of a known parameter.
+double least_known(identification::Coordinate coordinate) {
+  if (coordinate == identification::time_offset) return -identification::max_time_offset;
+  return coordinate == identification::creep_exponent ? 1.0 : std::numeric_limits<double>::min();
 }
 
 /// "KEY=VALUE".
@@ -116,9 +131,14 @@ identification::KnownParameter known_parameter(const command_line::Arguments& ar
   }
   const auto coordinate =
       static_cast<identification::Coordinate>(found - identification::coordinate_keys.begin());
-  constexpr double least = std::numeric_limits<double>::min();
-  return {coordinate, number_from(arguments, "fix", text.substr(equals + 1),
-                                  coordinate == identification::creep_exponent ? 1.0 : least)};
+  const double value = number_from(arguments, "fix", text.substr(equals + 1), least_known(coordinate));
+  if (coordinate == identification::time_offset && value > identification::max_time_offset) {
+    arguments.refuse(
+        fmt::format("option '--fix': a time offset of {:g} samples; expected {:g} to {:g}; what "
+                    "is larger belongs in --delay",
+                    value, -identification::max_time_offset, identification::max_time_offset));
+  }
+  return {coordinate, value};
 }
 
 identification::IdentificationOptions identification_options(const command_line::Arguments& arguments) {
@@ -217,9 +237,9 @@ ExitCode identify_records(const command_line::Arguments& arguments) {
                                                 : identification::identification_text(found);
   command_line::write_text(output.value_or("-"), report);
   if (!found.checks.passed) {
-    fmt::print(
-        stderr,
-        "zerocount identify: warning: lack of fit; the intervals hold only as far as the model does\n");
+    fmt::print(stderr, "zerocount identify: the answer is not to be trusted: {}\n",
+               identification::reason_of_misfit(found.checks));
+    return ExitCode::inconclusive;
   }
   const bool any = std::any_of(found.parameters.begin(), found.parameters.end(),
                                [](const identification::ParameterEstimate& p) {
@@ -244,11 +264,13 @@ Command identify_command() {
             {"angle", "COLUMN", "count or theta, if both exist (default count, if N is given)"},
             {"torque", "COLUMN", "torque or drive_torque, if both exist (default the latter)"},
             {"amplifier-bandwidth", "HZ", "of the amplifier (default 0: ideal amplifier)"},
-            {"delay", "SAMPLES", "delay of the column torque (default 0)"},
+            {"delay", "SAMPLES",
+             "delay of the column torque, such as 1.5 (default 0); the time offset is fitted about it"},
             {"dac-bits", "BITS", "word length of the converter of the column code, to detect clipping"},
             {"preload", "TORQUE", "torque of a slow load and unload before the test, N m (default 0)"},
             {"hardening", "XH", "work hardening before the test, rad (default 0)"},
-            {"fix", "KEY=VALUE", "a known parameter, such as friction.n=2; may be repeated", true},
+            {"fix", "KEY=VALUE", "a known parameter, such as friction.n=2 or time_offset=0; may be repeated",
+             true},
             {"any-magnitude", "", "accept values that suggest other units"},
             {"point", "P", "design point in a results file, by label or number (default 0); may be repeated",
              true},

@@ -6,6 +6,7 @@
 
 #include "analysis/identification/confidence_interval.hpp"
 #include "analysis/identification/contact_fit.hpp"
+#include "analysis/identification/joint_draws.hpp"
 #include "analysis/identification/residual_checks.hpp"
 #include "analysis/identification/test_record.hpp"
 
@@ -58,11 +59,14 @@ struct Identification {
     double value{0.0};
   };
   std::vector<Correlation> correlations;
+  JointErrors errors;  ///< of all estimated parameters but k1 + k2
+  JointDraws draws;    ///< so many as the options ask for
 };
 
 struct IdentificationOptions {
   std::vector<KnownParameter> known;
   std::size_t replicates{500};
+  std::size_t draws{0};  ///< joint draws of the parameters
 };
 
 /// Identifies a rotor and its contact from material tests, all of the same contact.
@@ -96,6 +100,10 @@ std::string manifest_fragment(const Identification& identification);
 
 /// `value` with one digit more than the half-width of the parameter's interval justifies.
 std::string with_digits(double value, const ParameterEstimate& parameter);
+
+/// The joint draws as a table for the key `samples` of a manifest: comments with #, a header with the keys of
+/// the parameters, and a line of comma-separated numbers for each draw.
+std::string posterior_table(const Identification& identification);
 
 /// The distribution of one estimated parameter in the fragment.
 std::string distribution_text(const ParameterEstimate& parameter);

@@ -70,6 +70,22 @@ Json checks_json(const ResidualChecks& checks) {
           {"widening", checks.widening}};
 }
 
+/// Matrices in the order of the parameters, of logarithms except for n and the time offset.
+Json errors_json(const JointErrors& errors) {
+  Json object{{"parameters", errors.names}, {"covariance", Json::array()}, {"correlation", Json::array()}};
+  for (Eigen::Index i = 0; i < errors.covariance.rows(); ++i) {
+    Json covariances = Json::array();
+    Json correlations = Json::array();
+    for (Eigen::Index j = 0; j < errors.covariance.cols(); ++j) {
+      covariances.push_back(errors.covariance(i, j));
+      correlations.push_back(errors.correlation(i, j));
+    }
+    object["covariance"].push_back(std::move(covariances));
+    object["correlation"].push_back(std::move(correlations));
+  }
+  return object;
+}
+
 }  // namespace
 
 std::string identification_json(const Identification& identification) {
@@ -83,6 +99,7 @@ std::string identification_json(const Identification& identification) {
   for (const Identification::Correlation& pair : identification.correlations) {
     json["correlations"].push_back({{"one", pair.one}, {"other", pair.other}, {"value", pair.value}});
   }
+  json["errors"] = errors_json(identification.errors);
   json["records"] = Json::array();
   for (const RecordSummary& record : identification.records) json["records"].push_back(record_json(record));
   json["residuals"] = checks_json(identification.checks);

@@ -1,5 +1,6 @@
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/identification/identification.hpp"
 #include "analysis/text/text.hpp"
@@ -68,6 +69,15 @@ std::string time_offset_text(const Identification& identification) {
   return "";
 }
 
+std::string correlations_text(const Identification& identification) {
+  if (identification.correlations.empty()) return "";
+  std::vector<std::string> pairs;
+  for (const Identification::Correlation& pair : identification.correlations)
+    pairs.push_back(fmt::format("{} and {} {:.2f}", pair.one, pair.other, pair.value));
+  return fmt::format("Errors correlate strongly: {}. --posterior writes joint draws.\n",
+                     fmt::join(pairs, ", "));
+}
+
 std::string checks_text(const ResidualChecks& checks) {
   std::string text = fmt::format(
       "Residuals of {} observations, beside those of records made up from the fit:\n"
@@ -96,6 +106,7 @@ std::string identification_text(const Identification& identification) {
     text += fmt::format("{} is not identifiable from this, because {}.\n", parameter.name, parameter.reason);
   }
   text += time_offset_text(identification);
+  text += correlations_text(identification);
   text += "Records:\n";
   for (const RecordSummary& record : identification.records) text += record_line(record);
   text += checks_text(identification.checks);

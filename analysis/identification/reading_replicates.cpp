@@ -96,7 +96,7 @@ std::vector<double> residuals_of(const FittedModel& model, const Observations& o
 
 ReadingReplicates replicate_readings(std::span<const TestRecord> records, const FittedModel& model,
                                      const FitSetting& setting, const std::vector<double>& noise,
-                                     std::size_t replicates) {
+                                     std::size_t replicates, std::size_t first) {
   Observations observations(records.size());
   for (std::size_t r = 0; r < records.size(); ++r)
     observe(records[r], model.motions[r].path, readings_of(records[r]), noise[r], observations[r]);
@@ -107,7 +107,7 @@ ReadingReplicates replicate_readings(std::span<const TestRecord> records, const 
   result.errors.resize(static_cast<Eigen::Index>(replicates), matrix.rows());
   result.residuals.resize(replicates);
   oneapi::tbb::parallel_for(std::size_t{0}, replicates, [&](std::size_t i) {
-    ReplicateNoise random(i);
+    ReplicateNoise random(first + i);
     // The textbook covariance is matrix⁻¹. With matrix = L·Lᵀ, L⁻ᵀz has this covariance.
     const Eigen::VectorXd away = truth_spread * root.matrixU().solve(random.next(matrix.rows()));
     NormalEquationsSum sum(records.size(), setting);

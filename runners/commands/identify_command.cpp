@@ -46,7 +46,9 @@ constexpr const char* identify_help =
     "the Stribeck curve; also of a linear axis, with '--column force=…' and '--column position=…'.\n"
     "\n"
     "The output ends with the result as a fragment of a manifest; --format yaml prints only\n"
-    "that. Unsuitable records are refused with the reason and exit code 4, files that are not\n"
+    "that. It draws the parameters independently; --posterior writes joint draws, for the key\n"
+    "samples of a manifest. Unsuitable records are refused with the reason and exit code 4, files that are "
+    "not\n"
     "such tables with exit code 2. The exit code is 3 if nothing can be identified, or if encoder\n"
     "and noise do not explain the residuals: the answer is printed, but is not to be trusted.\n"
     "\n"
@@ -152,6 +154,13 @@ identification::IdentificationOptions identification_options(const command_line:
       arguments.refuse(fmt::format("option '--fix': '{}' is fixed twice", text.substr(0, text.find('='))));
     }
   }
+  if (arguments.has("draws") && !arguments.has("posterior")) {
+    arguments.refuse("option '--draws' goes with '--posterior'");
+  }
+  if (arguments.has("posterior")) {
+    constexpr std::int64_t least = 1, most = 10'000, usual = 1000;
+    options.draws = static_cast<std::size_t>(arguments.whole_number("draws", least, most).value_or(usual));
+  }
   return options;
 }
 
@@ -189,12 +198,17 @@ std::vector<records::RawSeries> read_all_series(const command_line::Arguments& a
   return found;
 }
 
-/// The options that a sliding axis has no use for.
+/// The options that a sliding axis has no use for. Its windows begin at samples, and so does their torque.
 void refuse_material_options(const command_line::Arguments& arguments) {
-  for (const char* option : {"fix", "preload", "hardening", "dac-bits", "any-magnitude"}) {
+  for (const char* option : {"fix", "preload", "hardening", "dac-bits", "any-magnitude", "posterior"}) {
     if (arguments.has(option)) {
       arguments.refuse(fmt::format("options '--{}' and '--sliding' exclude each other", option));
     }
+  }
+  const std::optional<double> delay = delay_option(arguments);
+  if (delay && *delay != std::floor(*delay)) {
+    arguments.refuse(fmt::format(
+        "option '--delay': {:g} samples; expected a whole number of them with --sliding", *delay));
   }
 }
 
@@ -220,12 +234,24 @@ std::vector<identification::TestRecord> read_records(const command_line::Argumen
   return found;
 }
 
+void write_draws(const identification::Identification& found, const std::filesystem::path& place) {
+  if (found.draws.rows.empty()) {
+    fmt::print(stderr, "zerocount identify: {} is not written: there is no parameter to draw\n",
+               place.string());
+    return;
+  }
+  command_line::write_text(place, identification::posterior_table(found));
+}
+
 ExitCode identify_records(const command_line::Arguments& arguments) {
   const std::string format = arguments.one_of("format", {"text", "json", "yaml"});
   const identification::IdentificationOptions options = identification_options(arguments);
   const std::optional<std::filesystem::path> output = command_line::text_place(arguments, "output");
+  const std::optional<std::filesystem::path> posterior = command_line::text_place(arguments, "posterior");
+  std::vector<std::filesystem::path> outputs{output.value_or("-")};
+  if (posterior) outputs.push_back(*posterior);
   command_line::require_places(arguments, {arguments.operands().begin(), arguments.operands().end()},
-                               output ? std::vector{*output} : std::vector<std::filesystem::path>{});
+                               outputs);
   if (arguments.has("sliding")) {
     refuse_material_options(arguments);
     command_line::write_text(output.value_or("-"), identify_sliding_axis(arguments, format));
@@ -236,6 +262,7 @@ ExitCode identify_records(const command_line::Arguments& arguments) {
                              : format == "yaml" ? identification::manifest_fragment(found)
                                                 : identification::identification_text(found);
   command_line::write_text(output.value_or("-"), report);
+  if (posterior) write_draws(found, *posterior);
   if (!found.checks.passed) {
     fmt::print(stderr, "zerocount identify: the answer is not to be trusted: {}\n",
                identification::reason_of_misfit(found.checks));
@@ -272,6 +299,8 @@ Command identify_command() {
             {"fix", "KEY=VALUE", "a known parameter, such as friction.n=2 or time_offset=0; may be repeated",
              true},
             {"any-magnitude", "", "accept values that suggest other units"},
+            {"posterior", "FILE", "write joint draws of the parameters there, for the key samples"},
+            {"draws", "N", "number of joint draws (default 1000, up to 10000)"},
             {"point", "P", "design point in a results file, by label or number (default 0); may be repeated",
              true},
             {"trial", "I", "trial of the point (default 0)"},

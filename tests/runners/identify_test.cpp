@@ -96,6 +96,81 @@ TEST_F(Identify, ACommandedTorqueIsDelayed) {
             of_motor);
 }
 
+// Half a sample of the delay is found as a time offset if it is not given.
+TEST_F(Identify, ADelayMayHaveAFraction) {
+  folder_.write("tests.yaml", std::string(material_tests) + "controller: {delay: 3}\n");
+  trace("steps.csv", "1");
+  const auto offset_with = [&](const std::string& delay) {
+    const ProgramResult result = run({"identify", "steps.csv", "--counts-per-revolution", "1620000",
+                                      "--torque", "torque", "--delay", delay, "--format", "json"});
+    EXPECT_EQ(result.code, 0) << result.err;
+    const auto json = nlohmann::json::parse(result.out);
+    EXPECT_NEAR(parameter(json, "k1")["value"].get<double>(), 130.0, 1.0) << delay;
+    return parameter(json, "time_offset")["value"].get<double>();
+  };
+  const double whole = offset_with("3");
+  EXPECT_NEAR(whole, 0.0, 0.1);
+  EXPECT_NEAR(offset_with("2.5") - whole, 0.5, 0.02);
+}
+
+// Records of two contacts: the answer is printed, and is not to be trusted.
+TEST_F(Identify, ALackOfFitIsAnExitCode) {
+  trace("one.csv", "1");
+  std::string softer = material_tests;
+  softer.replace(softer.find("k1: 130"), 7, "k1: 127");
+  folder_.write("tests.yaml", softer);
+  trace("other.csv", "1");
+  const ProgramResult result =
+      run({"identify", "one.csv", "other.csv", "--counts-per-revolution", "1620000", "--posterior", "p.csv"});
+  EXPECT_EQ(result.code, 3) << result.err;
+  EXPECT_NE(result.err.find("not to be trusted"), std::string::npos) << result.err;
+  EXPECT_NE(result.out.find("LACK OF FIT"), std::string::npos) << result.out;
+  EXPECT_NE(folder_.read("p.csv").find("# Lack of fit"), std::string::npos);
+}
+
+/// The lines of a table that are no comments.
+std::vector<std::string> table_lines(const std::string& table) {
+  std::vector<std::string> lines;
+  std::istringstream text(table);
+  for (std::string line; std::getline(text, line);) {
+    if (!line.starts_with('#')) lines.push_back(line);
+  }
+  return lines;
+}
+
+TEST_F(Identify, JointDrawsHaveTheNamesOfAManifest) {
+  run_study();
+  const auto draw = [&](const std::string& name, const std::string& number) {
+    const ProgramResult result =
+        run({"identify", "tests.h5", "--point", "0", "--point", "1", "--fix", "friction.n=2", "--posterior",
+             name, "--draws", number, "--format", "json"});
+    EXPECT_EQ(result.code, 0) << result.err;
+    return nlohmann::json::parse(result.out);
+  };
+  const auto json = draw("few.csv", "20");
+  draw("many.csv", "700");
+  const std::string table = folder_.read("many.csv");
+  EXPECT_EQ(table.find("# Joint draws"), 0u);
+  EXPECT_NE(table.find("# Not drawn: friction.n, which is given as 2\n"), std::string::npos) << table;
+  const std::vector<std::string> lines = table_lines(table);
+  ASSERT_EQ(lines.size(), 701u);
+  EXPECT_EQ(lines[0],
+            "friction.k1,friction.k2,friction.beta,plant.presliding_damping,plant.inertia,friction.alpha,"
+            "friction.lambda");
+  // The first draws are the same whatever their number.
+  const std::vector<std::string> few = table_lines(folder_.read("few.csv"));
+  EXPECT_EQ(few, std::vector(lines.begin(), lines.begin() + 21));
+  double below = 0.0;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    if (std::stod(lines[i]) < parameter(json, "k1")["low"].get<double>()) below += 1.0 / 700.0;
+  }
+  EXPECT_NEAR(below, 0.025, 0.02);
+  const auto errors = json["errors"];
+  ASSERT_EQ(errors["correlation"].size(), errors["parameters"].size());
+  EXPECT_EQ(errors["correlation"][0][0], 1.0);
+  EXPECT_EQ(errors["correlation"][0][1], errors["correlation"][1][0]);
+}
+
 // The records of a closed loop have no drive_torque where the drive does nothing but wait.
 TEST_F(Identify, TheDelayOfAClosedLoopIsThatOfItsTorque) {
   for (const std::string delay : {"0", "1", "3"}) {
@@ -189,6 +264,9 @@ TEST_F(Identify, BadUsageIsRefused) {
            {"data.csv", "--counts-per-revolution", "1000", "--amplifier-bandwidth", "1e-9"},
            {"data.csv", "--counts-per-revolution", "1000", "--delay", "-1"},
            {"motor.csv", "--delay", "2"},
+           {"data.csv", "--counts-per-revolution", "1000", "--draws", "5"},
+           {"data.csv", "--counts-per-revolution", "1000", "--posterior", "p.csv", "--draws", "0"},
+           {"data.csv", "--counts-per-revolution", "1000", "--posterior", "data.csv"},
            {"data.csv", "--counts-per-revolution", "1000", "--dac-bits", "1"},
            {"data.csv", "--format", "xml"}}) {
     std::vector<std::string> all{"identify"};
@@ -279,8 +357,12 @@ TEST_F(Identify, ASlidingAxisIsIdentifiedFromItsMotion) {
   const ProgramResult check = run({"check", "study.yaml"});
   EXPECT_EQ(check.code, 0) << check.err << folder_.read("found.yaml");
 
-  for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{
-           {"--fix", "friction.n=2"}, {"--preload", "0.1"}, {"--exclude", "5"}, {"--exclude", "7:8"}}) {
+  for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{{"--fix", "friction.n=2"},
+                                                                                    {"--preload", "0.1"},
+                                                                                    {"--exclude", "5"},
+                                                                                    {"--exclude", "7:8"},
+                                                                                    {"--posterior", "p.csv"},
+                                                                                    {"--delay", "0.5"}}) {
     std::vector<std::string> refused = words;
     refused.insert(refused.end(), more.begin(), more.end());
     EXPECT_EQ(run(refused).code, 2) << ::testing::PrintToString(more);

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
 
 #include "core/failure/failure.hpp"
 #include "tests/analysis/identification/material_tests.hpp"
@@ -287,11 +288,12 @@ TEST(Identification, FindsTheTimeOffsetAndWhatItWouldHaveFalsified) {
     const identification::Identification found = identification::identify({record}, {{}, 300});
     EXPECT_TRUE(found.checks.passed) << skew;
     const identification::ParameterEstimate& offset = estimate_of(found, "time_offset");
-    EXPECT_LE(offset.low, skew);
-    EXPECT_GE(offset.high, skew);
     EXPECT_LT(offset.high - offset.low, 0.2);
-    EXPECT_TRUE(finds(found, "inertia", truth.plant.inertia, 0.05)) << skew;
-    EXPECT_TRUE(finds(found, "k1_plus_k2", truth.friction.k1 + truth.friction.k2, 0.2)) << skew;
+    for (const std::string name : {"time_offset", "inertia", "k1_plus_k2"}) {
+      const identification::ParameterEstimate& estimate = estimate_of(found, name);
+      EXPECT_LT(std::abs(estimate.value - true_value(truth, name, skew)), 4.0 * estimate.standard_error)
+          << name << " " << skew;
+    }
     // Held at 0 instead, half a sample moves the inertia out of its interval.
     if (skew != 0.5) continue;
     const identification::Identification held =
@@ -373,18 +375,19 @@ TEST(Identification, ABreakawayIsRefused) {
   }
 }
 
+// Not on the number of threads.
 TEST(Identification, DependsOnTheRecordAlone) {
   std::mt19937_64 random(55);
   TorqueProgramme programme;
   programme.step(0.05).hold(0.1).step(0.0).hold(0.1).ramp(0.1, 0.4).ramp(-0.1, 0.4).hold(0.5);
   const identification::TestRecord record = simulated_test({}, programme, {}, random);
-  const identification::Identification once = identification::identify({record}, {{}, 100});
-  const identification::Identification again = identification::identify({record}, {{}, 100});
-  for (std::size_t i = 0; i < once.parameters.size(); ++i) {
-    if (once.parameters[i].status != identification::EstimateStatus::estimated) continue;
-    EXPECT_EQ(once.parameters[i].value, again.parameters[i].value);
-    EXPECT_EQ(once.parameters[i].low, again.parameters[i].low);
-  }
+  const auto answer_of = [&](std::size_t threads) {
+    const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+    const identification::Identification found = identification::identify({record}, {{}, 100, 150});
+    EXPECT_EQ(found.draws.rows.size(), 150u);
+    return identification::identification_json(found) + identification::posterior_table(found);
+  };
+  EXPECT_EQ(answer_of(1), answer_of(2));  // with 17 digits
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "analysis/identification/angle_observations.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -66,17 +67,28 @@ double expected_difference(double travel, double noise) {
          travel * std::erf(ratio / std::numbers::sqrt2);
 }
 
-}  // namespace
-
-void observe(const TestRecord& record, const Eigen::VectorXd& path, const Eigen::VectorXd& readings,
-             double noise, std::vector<AngleObservation>& observations) {
-  observations.clear();
+void observe_all(const TestRecord& record, const Eigen::VectorXd& path, const Eigen::VectorXd& readings,
+                 double noise, std::vector<AngleObservation>& observations) {
   if (record.counted && noise == 0.0) return observe_edges(path, readings, observations);
   if (record.counted) return observe_averages(path, readings, noise, observations);
   for (Eigen::Index k = 0; k < path.size(); ++k) {
     const auto at = static_cast<std::size_t>(k);
     observations.push_back({at, at, readings[k], noise * noise});
   }
+}
+
+}  // namespace
+
+void observe(const TestRecord& record, const Eigen::VectorXd& path, const Eigen::VectorXd& readings,
+             double noise, std::vector<AngleObservation>& observations) {
+  observations.clear();
+  observe_all(record, path, readings, noise, observations);
+  if (record.excluded.empty()) return;
+  std::erase_if(observations, [&](const AngleObservation& observation) {
+    const auto first = record.excluded.begin() + static_cast<std::ptrdiff_t>(observation.first);
+    const auto end = record.excluded.begin() + static_cast<std::ptrdiff_t>(observation.last) + 1;
+    return std::find(first, end, true) != end;
+  });
 }
 
 double counting_noise(const Eigen::VectorXd& path, const Eigen::VectorXd& readings) {

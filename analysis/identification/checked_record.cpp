@@ -1,3 +1,5 @@
+#include "analysis/identification/checked_record.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -5,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "analysis/identification/raw_series.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::identification {
@@ -14,29 +15,8 @@ namespace {
 /// Unit (rad) of angles that are not counts.
 constexpr double angle_unit = 1e-6;
 
-/// The torque over each sample interval. If the motor torque was sampled behind an amplifier of known
-/// bandwidth, its samples u and u′ at both ends of an interval are two points of one exponential, which gives
-/// the commanded torque.
-std::vector<motion::TorqueCourse> courses_of(const RawSeries& series, double sample_time) {
-  std::vector<motion::TorqueCourse> courses;
-  const double rate = 2.0 * std::numbers::pi * series.bandwidth;
-  const double left = std::exp(-rate * sample_time);
-  const double gone = -std::expm1(-rate * sample_time);
-  double lagging = 0.0;  // motor torque, lagging behind a commanded one
-  for (std::size_t k = 0; k < series.torque.size(); ++k) {
-    const double torque = k < series.delay ? 0.0 : series.torque[k - series.delay];
-    if (rate == 0.0) {
-      courses.push_back(motion::constant_torque(torque));
-    } else if (series.torque_kind == TorqueKind::commanded) {
-      courses.push_back({lagging, torque, rate});
-      lagging = torque + (lagging - torque) * left;
-    } else {
-      const double next = k + 1 < series.torque.size() ? series.torque[k + 1] : torque;
-      courses.push_back({torque, (next - torque * left) / gone, rate});
-    }
-  }
-  return courses;
-}
+/// A record is cut where it begins to slide. What is left is then checked like any other.
+constexpr std::size_t min_samples_before_sliding = 100;
 
 /// The resolution of angles that are encoder counts converted to rad: all differences are multiples of one
 /// step, and most are 0. Nothing for other angles.
@@ -87,16 +67,98 @@ void set_readings(const RawSeries& series, TestRecord& record) {
   }
 }
 
+/// Puts straight lines in place of masked readings, for the starting values; the fit does not use them.
+void bridge_masked(TestRecord& record) {
+  const std::size_t samples = record.reading.size();
+  for (std::size_t first = 0; first < record.excluded.size();) {
+    std::size_t end = first;
+    while (end < samples && record.excluded[end]) ++end;
+    if (end > first) {
+      const double before =
+          first > 0 ? record.reading[first - 1] : record.reading[std::min(end, samples - 1)];
+      const double after = end < samples ? record.reading[end] : before;
+      for (std::size_t k = first; k < end; ++k) {
+        const double part = static_cast<double>(k - first + 1) / static_cast<double>(end - first + 1);
+        const double between = before + part * (after - before);
+        record.reading[k] = record.counted ? std::round(between) : between;
+      }
+    }
+    first = end + 1;
+  }
+}
+
+/// The series up to the sample at which the hook begins to slide; all of it if it does not.
+RawSeries until_sliding(const RawSeries& series) {
+  const auto slides = std::find(series.sliding.begin(), series.sliding.end(), true);
+  const auto samples = static_cast<std::size_t>(slides - series.sliding.begin());
+  RawSeries part = series;
+  if (slides == series.sliding.end()) return part;
+  part.time.resize(samples);
+  part.torque.resize(samples);
+  part.angle.resize(samples);
+  if (!part.lines.empty()) part.lines.resize(samples);
+  if (!part.code.empty()) part.code.resize(samples);
+  if (!part.excluded.empty()) part.excluded.resize(samples);
+  part.sliding.clear();
+  return part;
+}
+
 }  // namespace
 
-TestRecord checked_record(const RawSeries& series, bool any_magnitude) {
+std::vector<motion::TorqueCourse> courses_of(const RawSeries& series, const TestRecord& record) {
+  std::vector<motion::TorqueCourse> courses;
+  const double rate = 2.0 * std::numbers::pi * series.bandwidth;
+  const auto delay = static_cast<std::size_t>(series.delay);  // its fraction is the record's
+  double lagging = 0.0;                                       // motor torque, lagging behind a commanded one
+  for (std::size_t k = 0; k < series.torque.size(); ++k) {
+    const double torque = k < delay ? 0.0 : series.torque[k - delay];
+    const double left = std::exp(-rate * interval_after(record, k));
+    const double gone = -std::expm1(-rate * interval_after(record, k));
+    if (rate == 0.0) {
+      courses.push_back(motion::constant_torque(torque));
+    } else if (series.torque_kind == TorqueKind::commanded) {
+      courses.push_back({lagging, torque, rate});
+      lagging = torque + (lagging - torque) * left;
+    } else {
+      const double next = k + 1 < series.torque.size() ? series.torque[k + 1] : torque;
+      courses.push_back({torque, (next - torque * left) / gone, rate});
+    }
+  }
+  return courses;
+}
+
+TestRecord checked_record(const RawSeries& whole, bool any_magnitude) {
+  const RawSeries series = until_sliding(whole);
+  if (series.linear) {
+    throw Failure(
+        ExitCode::bad_input,
+        fmt::format("{}: is of a linear axis; expected a rotary one, or the lever that makes torque and "
+                    "angle from force and position: --column 'torque=F[N]*0.01' --column "
+                    "'angle=x[m]/0.01'",
+                    series.name));
+  }
   TestRecord record;
   record.name = series.name;
+  if (series.time.size() < whole.time.size()) {
+    const double from = whole.time[series.time.size()];
+    if (series.time.size() < min_samples_before_sliding) {
+      throw Failure(
+          ExitCode::bad_data,
+          fmt::format("{}: the rotor breaks away and slides at {:.6g} s, after {} samples; expected {} "
+                      "before it at least. Test with less torque, or take --sliding for the slides",
+                      place_of(whole, series.time.size()), from, series.time.size(),
+                      min_samples_before_sliding));
+    }
+    record.note = fmt::format("cut at {:.6g} s, where the rotor breaks away and slides", from);
+  }
   record.start = series.start;
   record.sample_time = checked_sample_time(series);
-  record.torque = courses_of(series, record.sample_time);
+  record.intervals = uneven_intervals(series);
+  record.torque = courses_of(series, record);
+  record.delay_fraction = series.delay - std::floor(series.delay);
   set_readings(series, record);
-  check_sticking(series);
+  record.excluded = series.excluded;
+  bridge_masked(record);
   check_change(series, record);
   record.units_believed = any_magnitude || series.units_known;
   if (!record.units_believed) check_magnitudes(series, record);

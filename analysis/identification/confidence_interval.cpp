@@ -121,6 +121,8 @@ std::vector<FittedQuantity> fitted_quantities(const FitPoint& point, double cree
   const ContactPoint& contact = point.contact;
   FittedQuantity exponent = of_coordinate("n", "1", creep_exponent, contact);
   exponent.logarithmic = false;
+  FittedQuantity offset = of_coordinate("time_offset", "samples", time_offset, contact);
+  offset.logarithmic = false;
   return {of_coordinate("k1", "N m/rad", log_k1, contact),
           of_coordinate("k2", "N m/rad", log_k2, contact),
           sum_of_stiffnesses(contact),
@@ -129,7 +131,8 @@ std::vector<FittedQuantity> fitted_quantities(const FitPoint& point, double cree
           of_coordinate("inertia", "kg m^2", log_inertia, contact),
           of_coordinate("alpha", "1/s", log_alpha, contact),
           hardening_modulus(contact, creep_torque),
-          exponent};
+          exponent,
+          offset};
 }
 
 QuantityEstimate interval_by_replicates(const FittedQuantity& quantity, const ReadingReplicates& replicates,

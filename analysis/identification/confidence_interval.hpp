@@ -12,10 +12,10 @@ namespace zerocount::identification {
 /// A reported quantity: a linear or nearly linear function of the coordinates.
 struct FittedQuantity {
   std::string_view name;
-  std::string_view key;  ///< in a manifest; empty for k1 + k2
+  std::string_view key;  ///< of coordinate_keys; empty for k1 + k2
   std::string_view unit;
   std::vector<Coordinate> coordinates;  ///< coordinates that it depends on
-  double value{0.0};       ///< at the fit: the logarithm of the quantity; for n the quantity itself
+  double value{0.0};       ///< at the fit: the logarithm of the quantity; for n and the offset it itself
   ContactPoint slope;      ///< its derivatives with respect to the coordinates
   bool logarithmic{true};  ///< whether `value` is a logarithm
 };

@@ -25,7 +25,7 @@ ContactParameters contact_at(const ContactPoint& point, double creep_torque) {
 }
 
 ContactPoint point_of(const ContactParameters& contact, double creep_torque) {
-  ContactPoint point;
+  ContactPoint point = ContactPoint::Zero();
   point[log_k1] = std::log(contact.friction.k1);
   point[log_k2] = std::log(contact.friction.k2);
   point[log_beta] = std::log(contact.friction.beta);

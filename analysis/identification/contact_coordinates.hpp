@@ -17,19 +17,20 @@ struct ContactParameters {
   friction::FrictionParameters friction;
 };
 
-/// The coordinates in which a contact is fitted. All but the last are logarithms, because the parameters are
-/// positive and their uncertainty is relative.
+/// The coordinates in which a contact is fitted. The parameters of the contact are logarithms, except for n,
+/// because they are positive and their uncertainty is relative. The last coordinate belongs to the records.
 enum Coordinate : std::size_t {
-  log_k1,         ///< ln k1, of N m/rad
-  log_k2,         ///< ln k2, of N m/rad
-  log_beta,       ///< ln β, of 1/rad
-  log_damping,    ///< ln c, of N m s/rad
-  log_inertia,    ///< ln J, of kg m²
-  log_alpha,      ///< ln α, of 1/s
-  log_limit,      ///< ln(σ0ⁿ/λ), of rad: the hardening at which creep ends under the torque σ0
-  creep_exponent  ///< n; a fit may pass through values below 1
+  log_k1,          ///< ln k1, of N m/rad
+  log_k2,          ///< ln k2, of N m/rad
+  log_beta,        ///< ln β, of 1/rad
+  log_damping,     ///< ln c, of N m s/rad
+  log_inertia,     ///< ln J, of kg m²
+  log_alpha,       ///< ln α, of 1/s
+  log_limit,       ///< ln(σ0ⁿ/λ), of rad: the hardening at which creep ends under the torque σ0
+  creep_exponent,  ///< n; a fit may pass through values below 1
+  time_offset      ///< samples by which the torque acts later than recorded; common to all records
 };
-inline constexpr std::size_t coordinate_count = 8;
+inline constexpr std::size_t coordinate_count = 9;
 /// coordinate_count as an Eigen index.
 inline constexpr auto contact_dimension = static_cast<Eigen::Index>(coordinate_count);
 
@@ -39,16 +40,21 @@ using ContactPoint = Eigen::Matrix<double, coordinate_count, 1, Eigen::DontAlign
 /// True for estimated coordinates; the others keep a given value.
 using FreeCoordinates = std::array<bool, coordinate_count>;
 
-/// Manifest key of the parameter of each coordinate; for log_limit it is friction.lambda.
+/// Largest |time offset| (samples) that a fit may find.
+inline constexpr double max_time_offset = 2.0;
+
+/// Name of the parameter of each coordinate: its manifest key (for log_limit friction.lambda), and that of
+/// the time offset, which is no parameter of a manifest.
 inline constexpr std::array<std::string_view, coordinate_count> coordinate_keys{
     "friction.k1",   "friction.k2",    "friction.beta",   "plant.presliding_damping",
-    "plant.inertia", "friction.alpha", "friction.lambda", "friction.n"};
+    "plant.inertia", "friction.alpha", "friction.lambda", "friction.n",
+    "time_offset"};
 
 /// @param creep_torque σ0, N m. It should be near the torques at which creep was observed; otherwise limit
 /// and exponent are strongly correlated. @returns parameters whose breakaway torque is never reached.
 ContactParameters contact_at(const ContactPoint& point, double creep_torque);
 
-/// The inverse of contact_at, except for the breakaway torque.
+/// The inverse of contact_at, except for the breakaway torque, with a time offset of 0.
 ContactPoint point_of(const ContactParameters& contact, double creep_torque);
 
 }  // namespace zerocount::identification

@@ -30,32 +30,42 @@ Observations all_readings(std::span<const TestRecord> records) {
   Observations observations;
   for (const TestRecord& record : records) {
     std::vector<AngleObservation>& of_record = observations.emplace_back();
-    for (std::size_t k = 0; k < record.reading.size(); ++k)
+    for (std::size_t k = 0; k < record.reading.size(); ++k) {
+      if (is_excluded(record, k)) continue;
       of_record.push_back({k, k, record.reading[k] + middle_of_reading(record), first_variance});
+    }
   }
   return observations;
+}
+
+/// The coordinate of a parameter with a value in its own unit; λ at σ0 = 1 N m.
+double coordinate_of(Coordinate coordinate, double value) {
+  if (coordinate == creep_exponent || coordinate == time_offset) return value;
+  return coordinate == log_limit ? -std::log(value) : std::log(value);
 }
 
 FitSetting setting_for(std::span<const TestRecord> records, const std::vector<KnownParameter>& known) {
   FitSetting setting;
   setting.free.fill(true);
   setting.creep_torque = creep_torque_for(records, known);
-  setting.prior = starting_point(records, setting.creep_torque);
+  ContactPoint values = ContactPoint::Zero();
   for (const auto& [coordinate, value] : known) {
     setting.free[coordinate] = false;
-    const double logarithm = std::log(value);
-    setting.prior[coordinate] =
-        coordinate == creep_exponent ? value : (coordinate == log_limit ? -logarithm : logarithm);
+    values[coordinate] = coordinate_of(coordinate, value);
   }
+  setting.prior = starting_point(records, setting.creep_torque, values, setting.free);
   return setting;
 }
 
 void update_misfit(std::span<const TestRecord> records, ContactFit& fit) {
   fit.misfit.clear();
   for (std::size_t r = 0; r < records.size(); ++r) {
-    const Eigen::VectorXd left =
+    Eigen::VectorXd left =
         readings_of(records[r]).array() + middle_of_reading(records[r]) - fit.model.motions[r].path.array();
-    fit.misfit.push_back(std::sqrt(left.squaredNorm() / static_cast<double>(left.size())));
+    for (std::size_t k = 0; k < records[r].excluded.size(); ++k) {
+      if (records[r].excluded[k]) left[static_cast<Eigen::Index>(k)] = 0.0;
+    }
+    fit.misfit.push_back(std::sqrt(left.squaredNorm() / static_cast<double>(used_samples(records[r]))));
   }
 }
 
@@ -91,11 +101,79 @@ bool is_explained(const TestRecord& record, const Eigen::VectorXd& path) {
 
 bool are_explained(std::span<const TestRecord> records, const FitPoint& point, const FitSetting& setting) {
   for (std::size_t r = 0; r < records.size(); ++r) {
-    Eigen::VectorXd path = angle_path(records[r], contact_at(point.contact, setting.creep_torque));
+    Eigen::VectorXd path = angle_path(records[r], point.contact, setting.creep_torque);
     path.array() += point.offset[static_cast<Eigen::Index>(r)];
     if (!is_explained(records[r], path)) return false;
   }
   return true;
+}
+
+bool can_be_followed(const RecordMotion& motion) {
+  return motion.path.allFinite() && motion.sensitivity.allFinite();
+}
+
+bool can_be_followed(const FittedModel& model) {
+  return std::all_of(model.motions.begin(), model.motions.end(),
+                     [](const RecordMotion& motion) { return can_be_followed(motion); });
+}
+
+/// The setting with only those coordinates free that the observations determine. The others keep their
+/// values: far from a minimum, or where the law is not exact, they would run away to what a wrong spring
+/// leaves. Residuals that are larger and longer correlated than the
+/// errors of the observations count as errors.
+FitSetting with_told_coordinates(const FittedModel& model, const Observations& observations,
+                                 const FitSetting& setting) {
+  // Standard deviations from which a coordinate counts as not determined.
+  constexpr double untold_logarithm = 0.7;
+  constexpr double untold_exponent = 1.0;
+  constexpr double untold_offset = 0.5;
+  const ResidualStatistics residuals = residual_statistics(residuals_of(model, observations, {}));
+  const double error =
+      std::max(1.0, std::sqrt(residuals.squares /
+                              static_cast<double>(std::max<std::size_t>(residuals.observations, 1)) *
+                              residuals.correlation_length));
+  FitSetting told = setting;
+  // One after the other: if only a combination of two is not determined, holding one of them is enough.
+  for (double worst = 2.0; worst > 1.0;) {
+    const Eigen::VectorXd variance = textbook_covariance(model, observations, told).diagonal();
+    worst = 0.0;
+    Coordinate least_told = time_offset;
+    for (const Coordinate coordinate :
+         {log_damping, log_inertia, log_alpha, log_limit, creep_exponent, time_offset}) {
+      const double untold = coordinate == creep_exponent ? untold_exponent
+                            : coordinate == time_offset  ? untold_offset
+                                                         : untold_logarithm;
+      const double ratio = told.free[coordinate] ? error * std::sqrt(variance[coordinate]) / untold : 0.0;
+      if (ratio <= worst) continue;
+      worst = ratio;
+      least_told = coordinate;
+    }
+    if (worst > 1.0) told.free[least_told] = false;
+  }
+  return told;
+}
+
+/// Whether the records have slow branches and no ring-downs.
+bool are_slow_alone(std::span<const TestRecord> records) {
+  return has_slow_branches(records) &&
+         std::none_of(records.begin(), records.end(),
+                      [](const TestRecord& record) { return record.parts.ring_downs() > 0; });
+}
+
+/// The fit from the starting point. If the slow parts are the whole test, that is already their best fit, and
+/// only what the readings determine beside it is left free.
+FitResult first_fit(std::span<const TestRecord> records, const Observations& observations, FitPoint start,
+                    const FitSetting& setting) {
+  if (!are_slow_alone(records)) return fit_jointly(records, observations, start, setting);
+  FittedModel model = model_at(records, start, setting);
+  if (!can_be_followed(model)) return fit_jointly(records, observations, start, setting);
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    Eigen::VectorXd& path = model.motions[r].path;
+    const double off = (readings_of(records[r]) - path).mean() + middle_of_reading(records[r]);
+    path.array() += off;
+    start.offset[static_cast<Eigen::Index>(r)] += off;
+  }
+  return fit_jointly(records, observations, start, with_told_coordinates(model, observations, setting));
 }
 
 /// The rough fit, to all readings with equal weights: from the starting point, or from others if that
@@ -108,9 +186,10 @@ FitPoint fit_roughly(std::span<const TestRecord> records, const FitSetting& sett
   }
   FitSetting rough = setting;
   rough.tolerance = 1e-3;
-  FitResult best = fit_jointly(records, observations, start, rough);
+  FitResult best = first_fit(records, observations, start, rough);
   refuse_glitches(records, best.point, setting);
-  if (are_explained(records, best.point, setting)) return best.point;
+  // Slow parts alone have been searched for the best β.
+  if (are_slow_alone(records) || are_explained(records, best.point, setting)) return best.point;
 
   // A few steps from each of the other starting points; then the best of them are continued.
   std::vector<FitResult> tried;
@@ -140,8 +219,7 @@ FittedModel followed_model(std::span<const TestRecord> records, const FitPoint& 
                            const FitSetting& setting) {
   FittedModel model = model_at(records, point, setting);
   for (std::size_t r = 0; r < records.size(); ++r) {
-    const RecordMotion& motion = model.motions[r];
-    if (motion.path.allFinite() && motion.sensitivity.allFinite()) continue;
+    if (can_be_followed(model.motions[r])) continue;
     throw Failure(
         ExitCode::bad_data,
         fmt::format("{}: the rotor that comes nearest to this record cannot be simulated: it is too "
@@ -153,10 +231,9 @@ FittedModel followed_model(std::span<const TestRecord> records, const FitPoint& 
 }
 
 /// The largest component of the remaining Gauss–Newton step, in textbook standard deviations.
-double remaining_step(const ContactFit& fit) {
-  const Eigen::MatrixXd covariance = textbook_covariance(fit.model, fit.observations, fit.setting);
-  const Eigen::VectorXd step =
-      covariance * normal_equations(fit.model, fit.observations, fit.setting).gradient;
+double remaining_step(const ContactFit& fit, const FitSetting& setting) {
+  const Eigen::MatrixXd covariance = textbook_covariance(fit.model, fit.observations, setting);
+  const Eigen::VectorXd step = covariance * normal_equations(fit.model, fit.observations, setting).gradient;
   return (step.array().abs() / covariance.diagonal().array().sqrt()).maxCoeff();
 }
 
@@ -166,8 +243,11 @@ void refine(std::span<const TestRecord> records, const FitPoint& from, int round
   update_misfit(records, fit);
   for (int round = 0; round < rounds; ++round) {
     observe_again(records, fit);
-    if (remaining_step(fit) < small_change) break;
-    const FitPoint point = fit_jointly(records, fit.observations, fit.model.point, fit.setting).point;
+    const FitSetting told = are_slow_alone(records)
+                                ? with_told_coordinates(fit.model, fit.observations, fit.setting)
+                                : fit.setting;
+    if (remaining_step(fit, told) < small_change) break;
+    const FitPoint point = fit_jointly(records, fit.observations, fit.model.point, told).point;
     fit.model = followed_model(records, point, fit.setting);
     update_misfit(records, fit);
   }
@@ -209,8 +289,18 @@ ContactFit fit_contact(std::span<const TestRecord> records, const std::vector<Kn
   return fit;
 }
 
+void keep_time_offset(std::span<const TestRecord> records, ContactFit& fit) {
+  FitPoint point = fit.model.point;
+  point.contact[time_offset] = fit.setting.prior[time_offset] = 0.0;
+  fit.setting.free[time_offset] = false;
+  refine(records, point, max_rounds, fit);
+}
+
 bool improve_softening(std::span<const TestRecord> records, ContactFit& fit) {
   if (!fit.setting.free[log_beta] || !fit.setting.free[log_k2]) return false;
+  constexpr double few = 5.0;  // units of the readings
+  const double softening = std::exp(-fit.model.point.contact[log_beta]);
+  if (has_slow_branches(records) && softening > few * records.front().unit) return false;
   const ContactFit first = fit;
   bool improved = false;
   for (const double shift : {-2.0, -4.0, -6.0, -8.0, 2.0, 4.0}) {

@@ -36,6 +36,9 @@ double creep_torque_for(std::span<const TestRecord> records, const std::vector<K
 /// fit ends at a rotor that cannot be simulated.
 ContactFit fit_contact(std::span<const TestRecord> records, const std::vector<KnownParameter>& known);
 
+/// Repeats the fit with a time offset of 0, the given delay.
+void keep_time_offset(std::span<const TestRecord> records, ContactFit& fit);
+
 /// Repeats the fit from other values of β and keeps the fit with the smallest spread of residuals. A spring
 /// that softens within a count or two has little influence on the rough fit, which may end far away.
 /// @returns whether `fit` changed.

@@ -27,7 +27,7 @@ constexpr double max_frequency = 2e4;
 void refuse_glitches(std::span<const TestRecord> records, const FitPoint& point, const FitSetting& setting) {
   for (std::size_t r = 0; r < records.size(); ++r) {
     const TestRecord& record = records[r];
-    Eigen::VectorXd path = angle_path(record, contact_at(point.contact, setting.creep_torque));
+    Eigen::VectorXd path = angle_path(record, point.contact, setting.creep_torque);
     path.array() += point.offset[static_cast<Eigen::Index>(r)];
     const std::optional<std::size_t> glitch = find_glitch(record, path);
     if (!glitch) continue;

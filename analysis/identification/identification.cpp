@@ -19,6 +19,7 @@ constexpr std::size_t min_reversals = 2;
 /// Maximum half-widths of the interval of an identifiable quantity (of a logarithm; of n).
 constexpr double max_log_halfwidth = 0.7;  // a factor of 2 to each side
 constexpr double widest_exponent = 1.0;
+constexpr double widest_time_offset = 1.0;  // samples
 
 /// Half-width above which the interval is computed by profile likelihood.
 constexpr double max_linear_halfwidth = 0.05;
@@ -74,6 +75,8 @@ RecordSummary summary_of(const TestRecord& record, const ContactFit& fit, std::s
   summary.ring_downs = record.parts.ring_downs();
   summary.misfit = fit.misfit[number];
   summary.noise = fit.noise[number];
+  summary.excluded = summary.samples - used_samples(record);
+  summary.note = record.note;
   return summary;
 }
 
@@ -81,19 +84,27 @@ double half_width(const QuantityEstimate& estimate) {
   return 0.5 * (estimate.high - estimate.low);
 }
 
+bool is_time_offset(const FittedQuantity& quantity) {
+  return quantity.coordinates.front() == time_offset;
+}
+
 bool is_open(const FittedQuantity& quantity, const QuantityEstimate& estimate) {
-  return !(half_width(estimate) <= (quantity.logarithmic ? max_log_halfwidth : widest_exponent));
+  const double widest = quantity.logarithmic       ? max_log_halfwidth
+                        : is_time_offset(quantity) ? widest_time_offset
+                                                   : widest_exponent;
+  return !(half_width(estimate) <= widest);
 }
 
 ParameterEstimate parameter_of(const FittedQuantity& quantity, EstimateStatus status,
                                const QuantityEstimate& estimate) {
-  return {estimate, std::string(quantity.name), std::string(quantity.key), std::string(quantity.unit),
-          status};
+  const std::string_view key = is_time_offset(quantity) ? std::string_view() : quantity.key;
+  return {estimate, std::string(quantity.name), std::string(key), std::string(quantity.unit), status};
 }
 
 /// Converts an estimate to the parameter's own scale.
 ParameterEstimate reported(const FittedQuantity& quantity, const QuantityEstimate& estimate) {
   ParameterEstimate parameter = parameter_of(quantity, EstimateStatus::estimated, estimate);
+  if (is_time_offset(quantity)) return parameter;
   if (!quantity.logarithmic) {
     constexpr double least_exponent = 1.0;
     parameter.value = std::max(parameter.value, least_exponent);
@@ -124,19 +135,37 @@ struct Estimation {
   const IdentificationOptions& options;
   double widening;
 
-  ParameterEstimate estimate(const FittedQuantity& quantity) const {
+  /// @param jointly collects what is estimated, except for k1 + k2
+  ParameterEstimate estimate(const FittedQuantity& quantity, std::vector<EstimatedQuantity>& jointly) const {
     const Coordinate coordinate = quantity.coordinates.front();
     if (quantity.key.empty() ? is_known(options, log_k1) && is_known(options, log_k2)
                              : is_known(options, coordinate)) {
       return given(quantity, options);
     }
-    QuantityEstimate found = interval_by_replicates(quantity, replicates, widening);
-    if (is_open(quantity, found)) return open(quantity);
-    if (half_width(found) > max_linear_halfwidth && !quantity.key.empty()) {
-      found = interval_by_profile(records, fit, quantity, found);
-      if (is_open(quantity, found)) return open(quantity);
+    if (!fit.setting.free[coordinate]) return kept(quantity);
+    const QuantityEstimate found = interval_by_replicates(quantity, replicates, widening);
+    // What the records determine does not depend on how well the model fits: the widening leaves it as it is.
+    const QuantityEstimate unwidened = interval_by_replicates(quantity, replicates, 1.0);
+    if (is_open(quantity, unwidened)) return open(quantity);
+    const bool has_profile = !quantity.key.empty() && !is_time_offset(quantity);
+    if (has_profile && half_width(unwidened) > max_linear_halfwidth) {
+      const QuantityEstimate profiled = interval_by_profile(records, fit, quantity, found);
+      if (!is_open(quantity, profiled)) {
+        jointly.push_back({quantity, found, profiled});
+        return reported(quantity, profiled);
+      }
+      if (widening == 1.0) return open(quantity);
     }
+    if (!quantity.key.empty()) jointly.push_back({quantity, found, found});
     return reported(quantity, found);
+  }
+
+  /// Of the time offset, the only coordinate that a fit keeps by itself.
+  ParameterEstimate kept(const FittedQuantity& quantity) const {
+    ParameterEstimate parameter =
+        parameter_of(quantity, EstimateStatus::kept, {quantity.value, 0.0, quantity.value, quantity.value});
+    parameter.reason = missing_information(records, fit, time_offset);
+    return parameter;
   }
 
   ParameterEstimate open(const FittedQuantity& quantity) const {
@@ -148,34 +177,41 @@ struct Estimation {
   }
 };
 
-/// Correlation of the errors of two quantities in the replicates.
-double correlation_of(const FittedQuantity& one, const FittedQuantity& other,
-                      const ReadingReplicates& replicates) {
-  const auto centred = [&](const FittedQuantity& quantity) {
-    const Eigen::VectorXd errors = replicates.errors.leftCols<contact_dimension>() * quantity.slope;
-    return Eigen::VectorXd(errors.array() - errors.mean());
-  };
-  const Eigen::VectorXd x = centred(one);
-  const Eigen::VectorXd y = centred(other);
-  return x.dot(y) / std::sqrt(x.squaredNorm() * y.squaredNorm());
-}
-
-std::vector<Identification::Correlation> strong_correlations(const std::vector<FittedQuantity>& quantities,
-                                                             const std::vector<ParameterEstimate>& parameters,
-                                                             const ReadingReplicates& replicates) {
+std::vector<Identification::Correlation> strong_correlations(const JointErrors& errors) {
   constexpr double strong = 0.9;
   std::vector<Identification::Correlation> correlations;
-  for (std::size_t i = 0; i < quantities.size(); ++i) {
-    for (std::size_t j = i + 1; j < quantities.size(); ++j) {
-      const bool both = parameters[i].status == EstimateStatus::estimated &&
-                        parameters[j].status == EstimateStatus::estimated && !quantities[i].key.empty() &&
-                        !quantities[j].key.empty();
-      if (!both) continue;
-      const double value = correlation_of(quantities[i], quantities[j], replicates);
-      if (std::abs(value) >= strong) correlations.push_back({parameters[i].name, parameters[j].name, value});
+  for (Eigen::Index i = 0; i < errors.covariance.rows(); ++i) {
+    for (Eigen::Index j = i + 1; j < errors.covariance.cols(); ++j) {
+      const double value = errors.correlation(i, j);
+      if (std::abs(value) < strong) continue;
+      correlations.push_back(
+          {errors.names[static_cast<std::size_t>(i)], errors.names[static_cast<std::size_t>(j)], value});
     }
   }
   return correlations;
+}
+
+/// Whether the interval of the time offset is too wide to tell anything about it.
+bool shows_no_time_offset(const ContactFit& fit, const ReadingReplicates& replicates) {
+  const FittedQuantity offset = fitted_quantities(fit.model.point, fit.setting.creep_torque).back();
+  return is_open(offset, interval_by_replicates(offset, replicates, 1.0));
+}
+
+/// Draws the parameters of a manifest together. Fits beyond n ≥ 1 are replaced by more replicates; a tenth of
+/// valid ones is enough.
+JointDraws draw_jointly(const Estimation& from, std::vector<EstimatedQuantity> estimated) {
+  std::erase_if(estimated, [](const EstimatedQuantity& one) { return is_time_offset(one.quantity); });
+  JointDraws draws;
+  for (const EstimatedQuantity& one : estimated) draws.keys.emplace_back(one.quantity.key);
+  if (estimated.empty()) return draws;
+  constexpr std::size_t max_blocks = 10;
+  const std::size_t wanted = from.options.draws;
+  for (std::size_t block = 0; block < max_blocks && draws.rows.size() < wanted; ++block) {
+    const ReadingReplicates more = replicate_readings(from.records, from.fit.model, from.fit.setting,
+                                                      from.fit.noise, wanted, block * wanted);
+    append_draws(estimated, more.errors, from.widening, wanted, draws);
+  }
+  return draws;
 }
 
 }  // namespace
@@ -193,6 +229,10 @@ Identification identify(std::vector<TestRecord> records, const IdentificationOpt
                                     replicates.residuals);
   };
   check();
+  if (fit.setting.free[time_offset] && shows_no_time_offset(fit, replicates)) {
+    keep_time_offset(records, fit);
+    check();
+  }
   if (!result.checks.passed && improve_softening(records, fit)) check();
   refuse_gross_misfit(records, fit, result.checks);
   for (std::size_t r = 0; r < records.size(); ++r) {
@@ -200,13 +240,17 @@ Identification identify(std::vector<TestRecord> records, const IdentificationOpt
   }
   const std::vector<FittedQuantity> quantities = fitted_quantities(fit.model.point, fit.setting.creep_torque);
   const Estimation estimation{records, fit, replicates, options, result.checks.widening};
+  std::vector<EstimatedQuantity> estimated;
   for (const FittedQuantity& quantity : quantities) {
-    result.parameters.push_back(estimation.estimate(quantity));
+    result.parameters.push_back(estimation.estimate(quantity, estimated));
   }
   const auto value = [&](std::size_t quantity) { return result.parameters[quantity].value; };
   constexpr std::size_t of_k1 = 0, of_inertia = 5;  // among the fitted quantities
   refuse_implausible_frequency(records, value(of_k1), value(of_inertia));
-  result.correlations = strong_correlations(quantities, result.parameters, replicates);
+  result.sample_time = records.front().sample_time;
+  result.errors = joint_errors(estimated, replicates.errors, result.checks.widening);
+  result.correlations = strong_correlations(result.errors);
+  if (options.draws > 0) result.draws = draw_jointly(estimation, std::move(estimated));
   return result;
 }
 

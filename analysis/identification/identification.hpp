@@ -6,6 +6,7 @@
 
 #include "analysis/identification/confidence_interval.hpp"
 #include "analysis/identification/contact_fit.hpp"
+#include "analysis/identification/joint_draws.hpp"
 #include "analysis/identification/residual_checks.hpp"
 #include "analysis/identification/test_record.hpp"
 
@@ -14,17 +15,19 @@ namespace zerocount::identification {
 enum class EstimateStatus {
   estimated,        ///< from the records
   known,            ///< given by the user
+  kept,             ///< the records do not determine it, and the fit kept the given value
   not_identifiable  ///< the records do not determine it
 };
 
 /// Estimate of one parameter in its own unit; all four numbers are NaN if it is not identifiable, and the
-/// standard error is 0 if it is known.
+/// standard error is 0 if it is known or kept.
 struct ParameterEstimate : QuantityEstimate {
-  std::string name;  ///< k1, k2, k1_plus_k2, beta, presliding_damping, inertia, alpha, lambda or n
-  std::string key;   ///< in a manifest; empty for k1_plus_k2
+  /// k1, k2, k1_plus_k2, beta, presliding_damping, inertia, alpha, lambda, n or time_offset
+  std::string name;
+  std::string key;  ///< in a manifest; empty for k1_plus_k2 and time_offset
   std::string unit;
   EstimateStatus status{EstimateStatus::not_identifiable};
-  std::string reason{};  ///< why it is not identifiable
+  std::string reason{};  ///< why it is not identifiable, or kept
 };
 
 /// The detected parts of a record, and the quality of the fit.
@@ -38,12 +41,15 @@ struct RecordSummary {
   std::size_t reversals{0};
   std::size_t holds{0};
   std::size_t ring_downs{0};
-  double misfit{0.0};  ///< root mean square of the residuals, in the readings' unit
-  double noise{0.0};   ///< of the readings, standard deviation in their unit
+  double misfit{0.0};       ///< root mean square of the residuals, in the readings' unit
+  double noise{0.0};        ///< of the readings, standard deviation in their unit
+  std::size_t excluded{0};  ///< masked samples
+  std::string note{};       ///< what was cut out of it; empty: nothing
 };
 
 struct Identification {
   std::vector<ParameterEstimate> parameters;  ///< in the order of the names above
+  double sample_time{0.0};                    ///< of the time offset, s: of the first record
   std::vector<RecordSummary> records;
   ResidualChecks checks;
   /// Correlation of the errors of a pair of estimated parameters; listed if its magnitude is 0.9 or more.
@@ -53,11 +59,14 @@ struct Identification {
     double value{0.0};
   };
   std::vector<Correlation> correlations;
+  JointErrors errors;  ///< of all estimated parameters but k1 + k2
+  JointDraws draws;    ///< so many as the options ask for
 };
 
 struct IdentificationOptions {
   std::vector<KnownParameter> known;
   std::size_t replicates{500};
+  std::size_t draws{0};  ///< joint draws of the parameters
 };
 
 /// Identifies a rotor and its contact from material tests, all of the same contact.
@@ -67,6 +76,10 @@ struct IdentificationOptions {
 /// If the interval is so wide that the model is not linear across it, it is computed by profile likelihood at
 /// the same level. A parameter whose interval spans more than a factor of 4 (n: more than 2) is not
 /// identifiable.
+///
+/// The time offset between torque and angle is fitted together with the contact, before any reading is called
+/// wrong; so the other intervals include its uncertainty. If its interval is wider than ±1 sample, the fit is
+/// repeated with the given delay.
 /// @throws Failure (bad_data) if a record is given twice, the torque reverses less than twice, a single
 /// reading is an outlier, the model does not explain the records, or the rotor's natural frequency is
 /// implausible and the units are not trusted.
@@ -87,6 +100,10 @@ std::string manifest_fragment(const Identification& identification);
 
 /// `value` with one digit more than the half-width of the parameter's interval justifies.
 std::string with_digits(double value, const ParameterEstimate& parameter);
+
+/// The joint draws as a table for the key `samples` of a manifest: comments with #, a header with the keys of
+/// the parameters, and a line of comma-separated numbers for each draw.
+std::string posterior_table(const Identification& identification);
 
 /// The distribution of one estimated parameter in the fragment.
 std::string distribution_text(const ParameterEstimate& parameter);

@@ -14,6 +14,8 @@ std::string status_word(EstimateStatus status) {
       return "estimated";
     case EstimateStatus::known:
       return "given";
+    case EstimateStatus::kept:
+      return "kept";
     case EstimateStatus::not_identifiable:
       break;
   }
@@ -48,7 +50,9 @@ Json record_json(const RecordSummary& record) {
           {"holds", record.holds},
           {"ring_downs", record.ring_downs},
           {"misfit", record.misfit},
-          {"noise", record.noise}};
+          {"noise", record.noise},
+          {"excluded", record.excluded},
+          {"note", text::printable(record.note)}};
 }
 
 Json checks_json(const ResidualChecks& checks) {
@@ -62,7 +66,24 @@ Json checks_json(const ResidualChecks& checks) {
           {"correlation_length", checks.correlation_length},
           {"expected_correlation_length", checks.expected_correlation_length},
           {"passed", checks.passed},
+          {"reason", checks.passed ? Json() : Json(reason_of_misfit(checks))},
           {"widening", checks.widening}};
+}
+
+/// Matrices in the order of the parameters, of logarithms except for n and the time offset.
+Json errors_json(const JointErrors& errors) {
+  Json object{{"parameters", errors.names}, {"covariance", Json::array()}, {"correlation", Json::array()}};
+  for (Eigen::Index i = 0; i < errors.covariance.rows(); ++i) {
+    Json covariances = Json::array();
+    Json correlations = Json::array();
+    for (Eigen::Index j = 0; j < errors.covariance.cols(); ++j) {
+      covariances.push_back(errors.covariance(i, j));
+      correlations.push_back(errors.correlation(i, j));
+    }
+    object["covariance"].push_back(std::move(covariances));
+    object["correlation"].push_back(std::move(correlations));
+  }
+  return object;
 }
 
 }  // namespace
@@ -73,10 +94,12 @@ std::string identification_json(const Identification& identification) {
   for (const ParameterEstimate& parameter : identification.parameters) {
     json["parameters"].push_back(parameter_json(parameter));
   }
+  json["sample_time"] = identification.sample_time;
   json["correlations"] = Json::array();
   for (const Identification::Correlation& pair : identification.correlations) {
     json["correlations"].push_back({{"one", pair.one}, {"other", pair.other}, {"value", pair.value}});
   }
+  json["errors"] = errors_json(identification.errors);
   json["records"] = Json::array();
   for (const RecordSummary& record : identification.records) json["records"].push_back(record_json(record));
   json["residuals"] = checks_json(identification.checks);

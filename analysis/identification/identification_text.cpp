@@ -1,5 +1,6 @@
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/identification/identification.hpp"
 #include "analysis/text/text.hpp"
@@ -14,25 +15,67 @@ std::vector<std::string> row_of(const ParameterEstimate& parameter) {
   }
   const std::string value = with_digits(parameter.value, parameter);
   if (parameter.status == EstimateStatus::known) return {name, value, parameter.unit, "–", "–", "given"};
+  if (parameter.status == EstimateStatus::kept) return {name, value, parameter.unit, "–", "–", "kept"};
   const double half_width = 0.5 * (parameter.high - parameter.low);
+  const bool relative = parameter.name != "time_offset";
   return {
       name,
       value,
       parameter.unit,
       fmt::format("{} to {}", with_digits(parameter.low, parameter), with_digits(parameter.high, parameter)),
-      fmt::format("{:.2g} %", 100.0 * half_width / parameter.value),
+      relative ? fmt::format("{:.2g} %", 100.0 * half_width / parameter.value)
+               : fmt::format("{:.2g}", half_width),
       "estimated"};
+}
+
+std::string left_out_text(const RecordSummary& record) {
+  std::string text;
+  if (!record.note.empty()) text += fmt::format("    {}\n", record.note);
+  if (record.excluded > 0) text += fmt::format("    {} samples masked by --exclude\n", record.excluded);
+  return text;
 }
 
 std::string record_line(const RecordSummary& record) {
   const std::string noise =
       record.noise > 0.0 ? fmt::format(", noise {:.3g}", record.noise) : std::string(", no noise");
   return fmt::format(
-      "  {}: {} samples, {:.4g} s; {} branches, {} reversals, {} holds, {} ring-downs\n"
-      "    read in {} of {:.6g} rad{}; the model leaves {:.3g} (root mean square)\n",
-      text::printable(record.name), record.samples, record.duration, record.branches, record.reversals,
-      record.holds, record.ring_downs, record.counted ? "counts" : "units", record.unit, noise,
-      record.misfit);
+             "  {}: {} samples, {:.4g} s; {} branches, {} reversals, {} holds, {} ring-downs\n"
+             "    read in {} of {:.6g} rad{}; the model leaves {:.3g} (root mean square)\n",
+             text::printable(record.name), record.samples, record.duration, record.branches, record.reversals,
+             record.holds, record.ring_downs, record.counted ? "counts" : "units", record.unit, noise,
+             record.misfit) +
+         left_out_text(record);
+}
+
+std::string time_offset_text(const Identification& identification) {
+  if (identification.parameters.empty() || identification.parameters.back().name != "time_offset") return "";
+  const ParameterEstimate& offset = identification.parameters.back();
+  const auto in_us = [&](double samples) { return 1e6 * identification.sample_time * samples; };
+  switch (offset.status) {
+    case EstimateStatus::estimated:
+      return fmt::format(
+          "The torque acts {:.4g} us (95 %: {:.4g} to {:.4g} us) later than recorded, which the other\n"
+          "intervals take into account.\n",
+          in_us(offset.value), in_us(offset.low), in_us(offset.high));
+    case EstimateStatus::kept:
+      return fmt::format(
+          "The time offset is kept at {:g} samples, because {}.\n"
+          "The other intervals hold if that is right.\n",
+          offset.value, offset.reason);
+    case EstimateStatus::known:
+    case EstimateStatus::not_identifiable:
+      break;
+  }
+  return "";
+}
+
+std::string correlations_text(const Identification& identification) {
+  if (identification.correlations.empty()) return "";
+  std::vector<std::string> pairs;
+  for (const Identification::Correlation& pair : identification.correlations)
+    pairs.push_back(fmt::format("{} and {} {:.2f}", pair.one, pair.other, pair.value));
+  return fmt::format("Errors correlate strongly: {}. --posterior writes joint draws.\n",
+                     fmt::join(pairs, ", "));
 }
 
 std::string checks_text(const ResidualChecks& checks) {
@@ -43,11 +86,12 @@ std::string checks_text(const ResidualChecks& checks) {
       checks.observations, checks.spread, checks.expected_spread, 100.0 * checks.spread_chance, checks.runs,
       checks.expected_runs, 100.0 * checks.runs_chance);
   if (checks.passed) return text + "  They are what the encoder's steps and noise explain.\n";
-  return text +
-         fmt::format(
-             "  LACK OF FIT: they are more than the encoder's steps and noise explain. The intervals were\n"
-             "  widened by the factor {:.3g}, and hold only as far as the model does.\n",
-             checks.widening);
+  return text + fmt::format(
+                    "  LACK OF FIT: {}.\n"
+                    "  These values are not to be trusted. The intervals were widened by the factor {:.3g}, "
+                    "and hold\n"
+                    "  only as far as the model does.\n",
+                    reason_of_misfit(checks), checks.widening);
 }
 
 }  // namespace
@@ -61,6 +105,8 @@ std::string identification_text(const Identification& identification) {
     if (parameter.status != EstimateStatus::not_identifiable) continue;
     text += fmt::format("{} is not identifiable from this, because {}.\n", parameter.name, parameter.reason);
   }
+  text += time_offset_text(identification);
+  text += correlations_text(identification);
   text += "Records:\n";
   for (const RecordSummary& record : identification.records) text += record_line(record);
   text += checks_text(identification.checks);

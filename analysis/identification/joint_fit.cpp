@@ -94,7 +94,8 @@ class JointResiduals : public ceres::CostFunction {
       if (!(away <= max_distance && away >= (j == log_limit ? -max_creep_decrease : -max_distance)))
         return false;
     }
-    return contact[creep_exponent] >= least_exponent && contact[creep_exponent] <= max_exponent;
+    return contact[creep_exponent] >= least_exponent && contact[creep_exponent] <= max_exponent &&
+           std::abs(contact[time_offset]) <= max_time_offset;
   }
 
   void add_prior(const ContactPoint& contact, int row, double* residuals, double* by_contact,

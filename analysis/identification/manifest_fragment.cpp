@@ -27,6 +27,7 @@ std::string manifest_number(double value, double relative_uncertainty) {
 std::string line_of(const ParameterEstimate& parameter, const std::string& name) {
   switch (parameter.status) {
     case EstimateStatus::known:
+    case EstimateStatus::kept:
       return fmt::format("  {}: {}   # {}, given\n", name, manifest_number(parameter.value, 0.0),
                          parameter.unit);
     case EstimateStatus::estimated:

@@ -70,6 +70,11 @@ std::string of_creep(const std::vector<CreepingHold>& holds, Coordinate coordina
   return "the holds are too short, or too much alike, to show the course of creep";
 }
 
+std::string of_time_offset() {
+  return "the torque changes too slowly for the readings to show it: record a step, or give it with "
+         "--fix time_offset=0";
+}
+
 }  // namespace
 
 std::string missing_information(std::span<const TestRecord> records, const ContactFit& fit,
@@ -86,6 +91,8 @@ std::string missing_information(std::span<const TestRecord> records, const Conta
     case log_limit:
     case creep_exponent:
       break;
+    case time_offset:
+      return of_time_offset();
   }
   return of_creep(creeping_holds(records, fit), coordinate);
 }

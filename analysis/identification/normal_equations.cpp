@@ -65,9 +65,15 @@ NormalEquations NormalEquationsSum::with_prior(const ContactPoint& at) const {
   NormalEquations equations = sum_;
   const double weight = 1.0 / (setting_.prior_spread * setting_.prior_spread);
   for (Eigen::Index j = 0; j < contact_dimension; ++j) {
-    const bool free = setting_.free[static_cast<std::size_t>(j)];
-    equations.matrix(j, j) += free ? weight : 1.0;
-    if (free) equations.gradient[j] += weight * (setting_.prior[j] - at[j]);
+    if (setting_.free[static_cast<std::size_t>(j)]) {
+      equations.matrix(j, j) += weight;
+      equations.gradient[j] += weight * (setting_.prior[j] - at[j]);
+    } else {
+      equations.matrix.row(j).setZero();
+      equations.matrix.col(j).setZero();
+      equations.matrix(j, j) = 1.0;
+      equations.gradient[j] = 0.0;
+    }
   }
   return equations;
 }

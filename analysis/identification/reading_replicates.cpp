@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include <Eigen/Cholesky>
+#include <oneapi/tbb/parallel_for.h>
 
 #include "core/random/random_numbers.hpp"
 #include "core/random/variates.hpp"
@@ -63,13 +64,17 @@ ResidualStatistics residual_statistics(const std::vector<double>& residuals) {
   return statistics;
 }
 
-std::vector<double> residuals_of(const FittedModel& model, const Observations& observations,
-                                 const Eigen::VectorXd& step) {
+namespace {
+
+/// As residuals_of(), with other paths than the model's.
+std::vector<double> residuals_along(const FittedModel& model,
+                                    const std::vector<const Eigen::VectorXd*>& paths,
+                                    const Observations& observations, const Eigen::VectorXd& step) {
   std::vector<double> residuals;
   for (std::size_t r = 0; r < observations.size(); ++r) {
     const RecordMotion& motion = model.motions[r];
     for (const AngleObservation& observation : observations[r]) {
-      double modelled = mean_over(observation, motion.path).value();
+      double modelled = mean_over(observation, *paths[r]).value();
       if (step.size() > 0) {
         modelled += (mean_over(observation, motion.sensitivity) * step.head<contact_dimension>()).value() +
                     step[contact_dimension + static_cast<Eigen::Index>(r)];
@@ -80,9 +85,18 @@ std::vector<double> residuals_of(const FittedModel& model, const Observations& o
   return residuals;
 }
 
+}  // namespace
+
+std::vector<double> residuals_of(const FittedModel& model, const Observations& observations,
+                                 const Eigen::VectorXd& step) {
+  std::vector<const Eigen::VectorXd*> paths;
+  for (const RecordMotion& motion : model.motions) paths.push_back(&motion.path);
+  return residuals_along(model, paths, observations, step);
+}
+
 ReadingReplicates replicate_readings(std::span<const TestRecord> records, const FittedModel& model,
                                      const FitSetting& setting, const std::vector<double>& noise,
-                                     std::size_t replicates) {
+                                     std::size_t replicates, std::size_t first) {
   Observations observations(records.size());
   for (std::size_t r = 0; r < records.size(); ++r)
     observe(records[r], model.motions[r].path, readings_of(records[r]), noise[r], observations[r]);
@@ -91,21 +105,25 @@ ReadingReplicates replicate_readings(std::span<const TestRecord> records, const 
 
   ReadingReplicates result;
   result.errors.resize(static_cast<Eigen::Index>(replicates), matrix.rows());
-  FittedModel truth = model;
-  for (std::size_t i = 0; i < replicates; ++i) {
-    ReplicateNoise random(i);
+  result.residuals.resize(replicates);
+  oneapi::tbb::parallel_for(std::size_t{0}, replicates, [&](std::size_t i) {
+    ReplicateNoise random(first + i);
     // The textbook covariance is matrix⁻¹. With matrix = L·Lᵀ, L⁻ᵀz has this covariance.
     const Eigen::VectorXd away = truth_spread * root.matrixU().solve(random.next(matrix.rows()));
     NormalEquationsSum sum(records.size(), setting);
+    Observations read(records.size());
+    std::vector<Eigen::VectorXd> paths(records.size());
+    std::vector<const Eigen::VectorXd*> path_of;
     for (std::size_t r = 0; r < records.size(); ++r) {
       const RecordMotion& motion = model.motions[r];
-      Eigen::VectorXd& path = truth.motions[r].path;
+      Eigen::VectorXd& path = paths[r];
       path = motion.path;
+      path_of.push_back(&path);
       path.noalias() += motion.sensitivity * away.head<contact_dimension>();
       path.array() += away[contact_dimension + static_cast<Eigen::Index>(r)];
       const Eigen::VectorXd readings = read_path(records[r], path, noise[r], random);
-      observe(records[r], path, readings, noise[r], observations[r]);
-      sum.add(r, observations[r], path, motion.sensitivity);
+      observe(records[r], path, readings, noise[r], read[r]);
+      sum.add(r, read[r], path, motion.sensitivity);
     }
     NormalEquations equations = sum.with_prior(setting.prior);
     // The error of the prior is drawn too: coordinates that only the prior determines keep its uncertainty.
@@ -115,8 +133,8 @@ ReadingReplicates replicate_readings(std::span<const TestRecord> records, const 
     }
     const Eigen::VectorXd error = equations.matrix.llt().solve(equations.gradient);
     result.errors.row(static_cast<Eigen::Index>(i)) = error;
-    result.residuals.push_back(residual_statistics(residuals_of(truth, observations, error)));
-  }
+    result.residuals[i] = residual_statistics(residuals_along(model, path_of, read, error));
+  });
   return result;
 }
 

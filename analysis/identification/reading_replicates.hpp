@@ -43,8 +43,9 @@ struct ReadingReplicates {
 /// three times the textbook standard deviations: enough to vary these positions, and little enough for the
 /// linearisation.
 /// @param noise [record] of the readings, in the record's unit.
+/// @param first number of the first replicate; each is a function of its number
 ReadingReplicates replicate_readings(std::span<const TestRecord> records, const FittedModel& model,
                                      const FitSetting& setting, const std::vector<double>& noise,
-                                     std::size_t replicates);
+                                     std::size_t replicates, std::size_t first = 0);
 
 }  // namespace zerocount::identification

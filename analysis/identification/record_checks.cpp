@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/identification/raw_series.hpp"
+#include "analysis/identification/checked_record.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "core/failure/failure.hpp"
 
@@ -51,11 +51,21 @@ double usual_interval(const std::vector<double>& time) {
   return statistics::upper_median(std::move(over_two));
 }
 
+/// Refuses gaps, in which the torque is unknown, and samples so close together that their times cannot be
+/// right.
 void check_gaps(const RawSeries& series) {
   constexpr double gap = 1.75;  // of the interval: more than the jitter of two samples
+  constexpr double min_interval = 0.1;
   const double interval = usual_interval(series.time);
   for (std::size_t k = 1; k < series.time.size(); ++k) {
     const double waited = series.time[k] - series.time[k - 1];
+    if (waited < min_interval * interval) {
+      refuse(
+          place_of(series, k),
+          fmt::format("{} s comes {:.2g} sampling intervals ({:.6g} s) after the sample before; expected {} "
+                      "at least",
+                      series.time[k], waited / interval, interval, min_interval));
+    }
     if (waited <= gap * interval) continue;
     refuse(place_of(series, k), fmt::format("the samples are not equally spaced: {} s come {:.3g} sampling "
                                             "intervals ({:.6g} s) after the sample before. Are samples "
@@ -154,17 +164,21 @@ double checked_sample_time(const RawSeries& series) {
     refuse(place_of(series, k), fmt::format("the time {} s does not come after {} s", time[k], time[k - 1]));
   }
   check_gaps(series);
+  return nearest_grid(time).interval;
+}
+
+std::vector<double> uneven_intervals(const RawSeries& series) {
+  const std::vector<double>& time = series.time;
   const RegularGrid grid = nearest_grid(time);
+  double farthest = 0.0;
   for (std::size_t k = 0; k < time.size(); ++k) {
-    const double off = std::abs(time[k] - grid.start - static_cast<double>(k) * grid.interval);
-    if (off <= jitter_allowed * grid.interval) continue;
-    refuse(place_of(series, k),
-           fmt::format(
-               "the samples are not equally spaced: at {} s this one is {:.2g} sampling intervals ({:.6g} s) "
-               "off the nearest regular grid; expected {} at most",
-               time[k], off / grid.interval, grid.interval, jitter_allowed));
+    farthest = std::max(farthest, std::abs(time[k] - grid.start - static_cast<double>(k) * grid.interval));
   }
-  return grid.interval;
+  if (farthest <= jitter_allowed * grid.interval) return {};
+  std::vector<double> intervals;
+  for (std::size_t k = 0; k + 1 < time.size(); ++k) intervals.push_back(time[k + 1] - time[k]);
+  intervals.push_back(grid.interval);
+  return intervals;
 }
 
 void check_magnitudes(const RawSeries& series, const TestRecord& record) {
@@ -176,7 +190,8 @@ void check_magnitudes(const RawSeries& series, const TestRecord& record) {
   check_plausible(
       series,
       {"the travel", "rad", 4e-6, 0.05,
-       "is the angle in mrad or degrees, are the counts per revolution right, did the rotor slide?"},
+       "is the angle in mrad or degrees, are the counts per revolution right, did the rotor slide "
+       "(then --sliding)?"},
       turned);
   check_plausible(series,
                   {"the torque's range over the travel", "N m/rad", 1.0, 2e4,
@@ -203,9 +218,19 @@ void check_motion(const RawSeries& series, const TestRecord& record) {
     agreement += (record.torque[k - 1].now - record.torque[k - lag].now) *
                  (record.reading[k] - record.reading[k - lag]);
   }
-  if (agreement < 0.0) {
+  if (agreement >= 0.0) return;
+  double energy = 0.0;
+  for (std::size_t k = 1; k < sample_count(record); ++k) {
+    energy += record.torque[k - 1].now * (record.reading[k] - record.reading[k - 1]);
+  }
+  if (energy < 0.0) {
     refuse(series.name, "the angle falls where the torque rises: one of them has the wrong sign");
   }
+  refuse(
+      series.name,
+      "the angle does not follow the torque as it does on a spring, although the torque drives the motion: "
+      "the "
+      "axis slides. Material tests stay within the pre-sliding range; --sliding identifies a sliding axis");
 }
 
 void check_glitches(const RawSeries& series, const TestRecord& record) {
@@ -228,17 +253,6 @@ void check_glitches(const RawSeries& series, const TestRecord& record) {
          fmt::format("this one angle is {:.3g} rad off those before and after it: a fault of the reading. "
                      "Put in what they say, or cut the record",
                      *highest * record.unit));
-}
-
-void check_sticking(const RawSeries& series) {
-  const auto slides = std::find(series.sliding.begin(), series.sliding.end(), true);
-  if (slides == series.sliding.end()) return;
-  const auto sample = static_cast<std::size_t>(slides - series.sliding.begin());
-  refuse(place_of(series, sample),
-         fmt::format(
-             "the rotor breaks away and slides at {:.6g} s; what is identified holds before that only: test "
-             "with less torque, or cut the record",
-             series.time[sample]));
 }
 
 void check_clipping(const RawSeries& series, const TestRecord& record) {

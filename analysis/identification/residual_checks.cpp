@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "analysis/statistics/quantile.hpp"
 
 namespace zerocount::identification {
@@ -58,6 +60,18 @@ ResidualChecks check_residuals(const ResidualStatistics& residuals,
   return checks;
 }
 
+std::string reason_of_misfit(const ResidualChecks& checks) {
+  if (checks.passed) return "";
+  const bool large = checks.spread_chance < least_chance;
+  return large
+             ? fmt::format("the residuals are {:.2g} times as large as the encoder's steps and noise explain",
+                           checks.spread / checks.expected_spread)
+             : fmt::format(
+                   "the residuals have {:.0f} runs of one sign, where the encoder's steps and noise "
+                   "would give {:.0f}: the model departs systematically from the records",
+                   checks.runs, checks.expected_runs);
+}
+
 std::optional<std::size_t> find_glitch(const TestRecord& record, const Eigen::VectorXd& path) {
   const std::size_t samples = record.reading.size();
   std::vector<double> off(samples);
@@ -89,6 +103,7 @@ std::size_t largest_misfit_growth(const TestRecord& record, const Eigen::VectorX
   double largest = 0.0;
   for (Eigen::Index k = lag; k < path.size(); ++k) {
     const auto at = static_cast<std::size_t>(k);
+    if (is_excluded(record, at) || is_excluded(record, at - lag)) continue;
     const double change = record.reading[at] - path[k] - record.reading[at - lag] + path[k - lag];
     if (std::abs(change) <= largest) continue;
     largest = std::abs(change);

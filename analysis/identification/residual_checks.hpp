@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "analysis/identification/contact_fit.hpp"
@@ -34,6 +35,9 @@ struct ResidualChecks {
 ResidualChecks check_residuals(const ResidualStatistics& residuals,
                                const std::vector<ResidualStatistics>& replicates);
 
+/// What encoder and noise do not explain of the residuals: a clause. Empty if the checks passed.
+std::string reason_of_misfit(const ResidualChecks& checks);
+
 /// A sample whose reading is an outlier: its residual is at least 1.5 counts (for counts) and 12 times the
 /// usual one, and the readings a few samples away are not. Nothing if there is none.
 std::optional<std::size_t> find_glitch(const TestRecord& record, const Eigen::VectorXd& path);
@@ -41,8 +45,8 @@ std::optional<std::size_t> find_glitch(const TestRecord& record, const Eigen::Ve
 /// The sample at which the residuals change most over 20 samples.
 std::size_t largest_misfit_growth(const TestRecord& record, const Eigen::VectorXd& path);
 
-// Checks of the records after a fit. Each throws Failure (bad_data) with the record, the place in it and the
-// // reason.
+// Checks of the records after a fit. Each throws Failure (bad_data) with the record, the place in it and
+// the reason.
 
 /// Refuses records with a single outlier (see find_glitch()).
 void refuse_glitches(std::span<const TestRecord> records, const FitPoint& point, const FitSetting& setting);

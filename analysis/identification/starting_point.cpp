@@ -1,11 +1,15 @@
 #include "analysis/identification/starting_point.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
 #include <numbers>
 
+#include <oneapi/tbb/parallel_for.h>
+
+#include "analysis/identification/quasistatic_fit.hpp"
 #include "analysis/identification/record_motion.hpp"
 
 namespace zerocount::identification {
@@ -32,7 +36,7 @@ RingDown largest_ring_down(std::span<const TestRecord> records) {
 
 /// Sum of squares of the residuals about their mean, in units of the readings.
 double misfit(const TestRecord& record, const ContactPoint& point, double creep_torque) {
-  const Eigen::VectorXd path = angle_path(record, contact_at(point, creep_torque));
+  const Eigen::VectorXd path = angle_path(record, point, creep_torque);
   const Eigen::VectorXd residual = readings_of(record) - path;
   const double sum = (residual.array() - residual.mean()).square().sum();
   return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
@@ -50,14 +54,16 @@ double misfit(const ChosenRecords& records, const ContactPoint& point, double cr
 /// the fraction `proportion`.
 ContactPoint best_of(const ChosenRecords& records, const ContactPoint& point, double creep_torque,
                      std::span<const ContactPoint> changes, double proportion = 1.0) {
+  std::vector<double> left(changes.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, changes.size(), [&](std::size_t i) {
+    left[i] = misfit(records, point + changes[i], creep_torque);
+  });
   ContactPoint best = point;
   double least = proportion * misfit(records, point, creep_torque);
-  for (const ContactPoint& change : changes) {
-    const ContactPoint tried = point + change;
-    const double left = misfit(records, tried, creep_torque);
-    if (left >= least) continue;
-    least = left;
-    best = tried;
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    if (left[i] >= least) continue;
+    least = left[i];
+    best = point + changes[i];
   }
   return best;
 }
@@ -131,6 +137,13 @@ ContactPoint point_with_creep(std::span<const TestRecord> records, const CreepEs
   return best_of(all_of(records), point_of(contact, creep_torque), creep_torque, softening_changes());
 }
 
+ContactPoint with_known(ContactPoint point, const ContactPoint& known, const FreeCoordinates& free) {
+  for (std::size_t j = 0; j < coordinate_count; ++j) {
+    if (!free[j]) point[j] = known[j];
+  }
+  return point;
+}
+
 }  // namespace
 
 FirstOvershoot first_overshoot(const TestRecord& record, const TorqueHold& ring_down) {
@@ -168,25 +181,40 @@ motion::PlantParameters estimate_ring_down(std::span<const TestRecord> records, 
   return plant;
 }
 
-ContactPoint starting_point(std::span<const TestRecord> records, double creep_torque) {
+ContactPoint starting_point(std::span<const TestRecord> records, double creep_torque,
+                            const ContactPoint& known, const FreeCoordinates& free) {
   CreepEstimate creep = estimate_creep(records, creep_torque);
   const bool seen = creep.limit > 0.0;
   // No hold shows creep. Search its limit as a fraction of the spring's travel, starting with a small one.
   const double travel = seen ? 0.0 : creep_torque / estimate_spring(records, creep, creep_torque).k1;
   if (!seen) creep.limit = 1e-3 * travel;
-  ContactPoint point = point_with_creep(records, creep, creep_torque);
-  if (seen) return with_best_ringing(records, point, creep_torque);
-
-  double least = misfit(all_of(records), point, creep_torque);
-  for (const double proportion : {0.1, 0.2, 0.3, 0.45, 0.7, 1.0, 1.5, 2.2, 3.3}) {
-    creep.limit = proportion * travel;
-    const ContactPoint tried = point_with_creep(records, creep, creep_torque);
-    const double left = misfit(all_of(records), tried, creep_torque);
-    if (left >= least) continue;
-    least = left;
-    point = tried;
+  const ContactPoint estimated = with_known(point_with_creep(records, creep, creep_torque), known, free);
+  ContactPoint point = estimated;
+  SlowFit slow = fit_slow_parts(records, estimated, creep_torque, free);
+  for (const double proportion : {0.1, 0.3, 1.0, 3.0}) {
+    if (seen) break;
+    if (std::isfinite(slow.squares)) {
+      ContactPoint start = estimated;
+      if (free[log_limit]) start[log_limit] = std::log(proportion * travel);
+      const SlowFit tried = fit_slow_parts(records, start, creep_torque, free);
+      if (tried.squares < slow.squares) slow = tried;
+    } else {
+      creep.limit = proportion * travel;
+      const ContactPoint tried = with_known(point_with_creep(records, creep, creep_torque), known, free);
+      const std::array<ContactPoint, 1> change{tried - point};
+      point = best_of(all_of(records), point, creep_torque, change);
+    }
   }
-  return with_best_ringing(records, point, creep_torque);
+  if (std::isfinite(slow.squares)) {
+    // The inertia and the damping of the same frequency and damping ratio.
+    const double softer = slow.point[log_k1] - point[log_k1];
+    if (free[log_inertia]) slow.point[log_inertia] += softer;
+    if (free[log_damping]) slow.point[log_damping] += softer;
+    constexpr double not_worse = 1.2;
+    const double left = misfit(all_of(records), slow.point, creep_torque);
+    if (left < not_worse * misfit(all_of(records), point, creep_torque)) point = slow.point;
+  }
+  return with_known(with_best_ringing(records, point, creep_torque), known, free);
 }
 
 std::vector<ContactPoint> other_starting_points(std::span<const TestRecord> records,

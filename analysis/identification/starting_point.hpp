@@ -50,8 +50,11 @@ FirstOvershoot first_overshoot(const TestRecord& record, const TorqueHold& ring_
 motion::PlantParameters estimate_ring_down(std::span<const TestRecord> records, double k1);
 
 /// Starting point of the joint fit: the estimates above, with β, J and c from a coarse grid search around
-/// them (sum of squares over all readings).
-ContactPoint starting_point(std::span<const TestRecord> records, double creep_torque);
+/// them (sum of squares over all readings). Where there are slow parts, the spring and its creep are those of
+/// the law without inertia and damping (see fit_slow_parts()).
+/// @param known values of the coordinates that are not `free`
+ContactPoint starting_point(std::span<const TestRecord> records, double creep_torque,
+                            const ContactPoint& known, const FreeCoordinates& free);
 
 /// Alternative starting points: springs with much larger or smaller β and with other values of k2/β, each
 /// with its best J and c of the grid.

@@ -84,6 +84,22 @@ double largest_torque(const TestRecord& record) {
   return largest;
 }
 
+bool is_gradual(const TestRecord& record, const LoadingBranch& branch) {
+  if (!branch.slow) return false;
+  const double step = step_threshold * torque_range(record);
+  for (std::size_t k = branch.first + 1; k <= branch.last; ++k) {
+    if (std::abs(record.torque[k].now - record.torque[k - 1].now) >= step) return false;
+  }
+  return true;
+}
+
+bool has_slow_branches(std::span<const TestRecord> records) {
+  return std::any_of(records.begin(), records.end(), [](const TestRecord& record) {
+    return std::any_of(record.parts.branches.begin(), record.parts.branches.end(),
+                       [&](const LoadingBranch& branch) { return is_gradual(record, branch); });
+  });
+}
+
 RecordParts parts_of(const TestRecord& record) {
   const double range = torque_range(record);
   return {branches_of(record, range), holds_of(record, range)};

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,19 +47,40 @@ struct RecordParts {
 /// One checked material test: the motor torque and the encoder reading at each sample.
 struct TestRecord {
   std::string name;                          ///< name in messages
-  double sample_time{5e-4};                  ///< T, s
+  double sample_time{5e-4};                  ///< T, s; of uneven samples the mean
+  std::vector<double> intervals{};           ///< [sample] until the next one, s; empty: T each
   std::vector<motion::TorqueCourse> torque;  ///< [sample] from t_k to t_{k+1}
-  std::vector<double> reading;               ///< [sample] angle at t_k, in `unit`
-  double unit{1.0};                          ///< of the readings, rad; for counts one count
+  /// Samples by which the torque acts later than at its sample, from 0 to below 1: the fraction of a delay.
+  double delay_fraction{0.0};
+  std::vector<double> reading;  ///< [sample] angle at t_k, in `unit`
+  double unit{1.0};             ///< of the readings, rad; for counts one count
   /// Whether the readings are whole counts: the angle is somewhere in [reading, reading + 1).
   bool counted{false};
-  bool units_believed{false};  ///< skips the checks of magnitudes
-  motion::PlantStart start;    ///< state of the contact at the first sample
-  RecordParts parts;           ///< parts_of() the record, which identify() sets
+  std::vector<bool> excluded{};  ///< [sample] masked readings; empty: none
+  std::string note{};            ///< what was cut out of it; empty: nothing
+  bool units_believed{false};    ///< skips the checks of magnitudes
+  motion::PlantStart start;      ///< state of the contact at the first sample
+  RecordParts parts;             ///< parts_of() the record, which identify() sets
 };
 
 inline std::size_t sample_count(const TestRecord& record) {
   return record.reading.size();
+}
+
+/// Time from a sample to the next one, s.
+inline double interval_after(const TestRecord& record, std::size_t sample) {
+  return record.intervals.empty() ? record.sample_time : record.intervals[sample];
+}
+
+/// Whether the readings of a sample are masked.
+inline bool is_excluded(const TestRecord& record, std::size_t sample) {
+  return !record.excluded.empty() && record.excluded[sample];
+}
+
+/// Number of samples that are not masked.
+inline std::size_t used_samples(const TestRecord& record) {
+  const auto masked = std::count(record.excluded.begin(), record.excluded.end(), true);
+  return sample_count(record) - static_cast<std::size_t>(masked);
 }
 
 inline Eigen::Map<const Eigen::VectorXd> readings_of(const TestRecord& record) {
@@ -70,6 +93,13 @@ inline double middle_of_reading(const TestRecord& record) {
 }
 
 RecordParts parts_of(const TestRecord& record);
+
+/// Whether a branch is slow and has no step (of 5 % of the range from sample to sample), such as at the end of
+/// a hold.
+bool is_gradual(const TestRecord& record, const LoadingBranch& branch);
+
+/// Whether a record has a gradual branch.
+bool has_slow_branches(std::span<const TestRecord> records);
 
 /// Maximum − minimum torque, N m.
 double torque_range(const TestRecord& record);

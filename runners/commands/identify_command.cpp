@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <optional>
 #include <string>
@@ -10,12 +9,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/identification/checked_record.hpp"
 #include "analysis/identification/identification.hpp"
-#include "analysis/identification/raw_series.hpp"
+#include "analysis/records/raw_series.hpp"
+#include "analysis/sliding_identification/sliding_identification.hpp"
 #include "results/reading/study_file.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
+#include "runners/commands/record_options.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -26,21 +28,34 @@ constexpr const char* identify_help =
     "and the inertia from the ringing after a step of the torque, alpha, lambda and n from\n"
     "creep at constant torque; all are fitted together, with 95 % confidence intervals. A record\n"
     "may have only some of these tests: parameters that it does not determine are listed with\n"
-    "the reason. Several records must be tests of the same contact. Linear axes are not\n"
-    "supported yet.\n"
+    "the reason. Several records must be tests of the same contact, of a rotary axis.\n"
     "\n"
     "A table (CSV) has the columns t (s), torque or drive_torque (N m), and theta (rad) or\n"
     "count, for which --counts-per-revolution is needed; 'zerocount trace' writes such tables.\n"
+    "--column names other columns and their units: QUANTITY=COLUMN, or QUANTITY=COLUMN[UNIT]\n"
+    "with factors *NUMBER and /NUMBER that make the quantity from the unit, 0.87 N m/A say.\n"
+    "Quantities are time, torque, drive_torque, angle and repetition. COLUMN is a name in the\n"
+    "header, #NUMBER, or the path of a dataset in an HDF5 or MAT v7.3 file. A new repetition of\n"
+    "the tests begins where the column of the repetition changes, or the time starts again.\n"
     "A results file has the traces of the trials that its manifest retains; the encoder's\n"
     "counts are used. At its first sample the contact must be unloaded and virgin, or have the\n"
     "state given by --preload and --hardening.\n"
     "\n"
+    "--sliding takes motion records instead, in which the axis slides to and fro, under open or\n"
+    "closed loop, and finds the inertia, the viscous damping, the Coulomb level and, if it shows,\n"
+    "the Stribeck curve; also of a linear axis, with '--column force=…' and '--column position=…'.\n"
+    "\n"
     "The output ends with the result as a fragment of a manifest; --format yaml prints only\n"
-    "that. Unsuitable records are refused with the reason and exit code 4, files that are not\n"
-    "such tables with exit code 2; the exit code is 3 if nothing can be identified.\n"
+    "that. It draws the parameters independently; --posterior writes joint draws, for the key\n"
+    "samples of a manifest. Unsuitable records are refused with the reason and exit code 4, files that are "
+    "not\n"
+    "such tables with exit code 2. The exit code is 3 if nothing can be identified, or if encoder\n"
+    "and noise do not explain the residuals: the answer is printed, but is not to be trusted.\n"
     "\n"
     "Examples: zerocount identify ramps.csv steps.csv holds.csv --counts-per-revolution 1620000\n"
-    "          zerocount identify tests.h5 --point 0 --point 1 --format yaml -o friction.yaml\n";
+    "          zerocount identify tests.h5 --point 0 --point 1 --format yaml -o friction.yaml\n"
+    "          zerocount identify log.txt --column time=t[ms] --column 'torque=I[A]*0.87' \\\n"
+    "            --column 'angle=pos[mm]/10'\n";
 
 double number_from(const command_line::Arguments& arguments, const std::string& option, std::string_view text,
                    double low) {
@@ -76,18 +91,33 @@ std::optional<double> bandwidth_option(const command_line::Arguments& arguments)
   return bandwidth;
 }
 
-identification::SeriesChoice series_choice(const command_line::Arguments& arguments) {
+std::optional<double> delay_option(const command_line::Arguments& arguments) {
+  constexpr double most = 1e6;
+  const std::optional<double> delay = number_option(arguments, "delay", 0.0);
+  if (delay && *delay > most)
+    arguments.refuse(fmt::format("option '--delay': {:g} samples; expected up to {:g}", *delay, most));
+  return delay;
+}
+
+records::SeriesChoice series_choice(const command_line::Arguments& arguments) {
   constexpr double any = -std::numeric_limits<double>::infinity();
-  identification::SeriesChoice choice;
+  records::SeriesChoice choice;
   choice.torque = column_option(arguments, "torque", {"torque", "drive_torque"});
   choice.angle = column_option(arguments, "angle", {"count", "theta"});
   choice.counts_per_revolution = number_option(arguments, "counts-per-revolution", 1.0);
   choice.bandwidth = bandwidth_option(arguments);
-  choice.delay = arguments.whole_number("delay", 0, 1000000);
+  choice.delay = delay_option(arguments);
   choice.dac_bits = arguments.whole_number("dac-bits", 2, 32);
   choice.preload = number_option(arguments, "preload", any);
   choice.hardening = number_option(arguments, "hardening", 0.0);
+  set_columns(arguments, choice);
   return choice;
+}
+
+/// The least value of a known parameter.
+double least_known(identification::Coordinate coordinate) {
+  if (coordinate == identification::time_offset) return -identification::max_time_offset;
+  return coordinate == identification::creep_exponent ? 1.0 : std::numeric_limits<double>::min();
 }
 
 /// "KEY=VALUE".
@@ -103,9 +133,14 @@ identification::KnownParameter known_parameter(const command_line::Arguments& ar
   }
   const auto coordinate =
       static_cast<identification::Coordinate>(found - identification::coordinate_keys.begin());
-  constexpr double least = std::numeric_limits<double>::min();
-  return {coordinate, number_from(arguments, "fix", text.substr(equals + 1),
-                                  coordinate == identification::creep_exponent ? 1.0 : least)};
+  const double value = number_from(arguments, "fix", text.substr(equals + 1), least_known(coordinate));
+  if (coordinate == identification::time_offset && value > identification::max_time_offset) {
+    arguments.refuse(
+        fmt::format("option '--fix': a time offset of {:g} samples; expected {:g} to {:g}; what "
+                    "is larger belongs in --delay",
+                    value, -identification::max_time_offset, identification::max_time_offset));
+  }
+  return {coordinate, value};
 }
 
 identification::IdentificationOptions identification_options(const command_line::Arguments& arguments) {
@@ -119,15 +154,14 @@ identification::IdentificationOptions identification_options(const command_line:
       arguments.refuse(fmt::format("option '--fix': '{}' is fixed twice", text.substr(0, text.find('='))));
     }
   }
+  if (arguments.has("draws") && !arguments.has("posterior")) {
+    arguments.refuse("option '--draws' goes with '--posterior'");
+  }
+  if (arguments.has("posterior")) {
+    constexpr std::int64_t least = 1, most = 10'000, usual = 1000;
+    options.draws = static_cast<std::size_t>(arguments.whole_number("draws", least, most).value_or(usual));
+  }
   return options;
-}
-
-/// Whether `path` is a results file, by its signature or by its name (the signature may be damaged).
-bool holds_results(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string signature(8, '\0');
-  file.read(signature.data(), static_cast<std::streamsize>(signature.size()));
-  return signature == "\x89HDF\r\n\x1a\n" || std::filesystem::path(path).extension() == ".h5";
 }
 
 std::vector<std::int64_t> points_of(const command_line::Arguments& arguments, const std::string& path) {
@@ -138,46 +172,101 @@ std::vector<std::int64_t> points_of(const command_line::Arguments& arguments, co
   return points;
 }
 
-std::vector<identification::TestRecord> read_records(const command_line::Arguments& arguments) {
-  const identification::SeriesChoice choice = series_choice(arguments);
-  const bool any_magnitude = arguments.has("any-magnitude");
+std::vector<records::RawSeries> read_all_series(const command_line::Arguments& arguments) {
+  const records::SeriesChoice choice = series_choice(arguments);
+  const auto holds_results = [&](const std::string& path) {
+    return record_file(path, choice) == RecordFile::results;
+  };
   const std::vector<std::string>& paths = arguments.operands();
   if ((arguments.has("point") || arguments.has("trial")) &&
       std::none_of(paths.begin(), paths.end(), holds_results)) {
     arguments.refuse("options '--point' and '--trial' go with a results file");
   }
-  std::vector<identification::TestRecord> records;
+  std::vector<records::RawSeries> found;
   for (const std::string& path : paths) {
     if (!holds_results(path)) {
-      records.push_back(
-          identification::checked_record(identification::read_csv_series(path, choice), any_magnitude));
+      for (records::RawSeries& series : read_series(path, choice)) found.push_back(std::move(series));
       continue;
     }
     constexpr std::int64_t most = std::int64_t{1} << 53;
     const std::int64_t index = arguments.whole_number("trial", 0, most).value_or(0);
     for (const std::int64_t point : points_of(arguments, path)) {
-      records.push_back(identification::checked_record(
-          identification::read_study_series(path, point, index, choice), any_magnitude));
+      found.push_back(records::read_study_series(path, point, index, choice));
     }
   }
-  return records;
+  exclude_times(arguments, found);
+  return found;
+}
+
+/// The options that a sliding axis has no use for. Its windows begin at samples, and so does their torque.
+void refuse_material_options(const command_line::Arguments& arguments) {
+  for (const char* option : {"fix", "preload", "hardening", "dac-bits", "any-magnitude", "posterior"}) {
+    if (arguments.has(option)) {
+      arguments.refuse(fmt::format("options '--{}' and '--sliding' exclude each other", option));
+    }
+  }
+  const std::optional<double> delay = delay_option(arguments);
+  if (delay && *delay != std::floor(*delay)) {
+    arguments.refuse(fmt::format(
+        "option '--delay': {:g} samples; expected a whole number of them with --sliding", *delay));
+  }
+}
+
+std::string identify_sliding_axis(const command_line::Arguments& arguments, const std::string& format) {
+  std::vector<sliding_identification::SlidingRecord> found;
+  for (const records::RawSeries& series : read_all_series(arguments)) {
+    found.push_back(sliding_identification::sliding_record(series));
+    if (found.back().linear != found.front().linear) {
+      arguments.refuse("the records are of a linear and of a rotary axis; expected one axis");
+    }
+  }
+  const auto result = sliding_identification::identify_sliding(std::move(found));
+  return format == "json"   ? sliding_identification::sliding_json(result)
+         : format == "yaml" ? sliding_identification::sliding_fragment(result)
+                            : sliding_identification::sliding_text(result);
+}
+
+std::vector<identification::TestRecord> read_records(const command_line::Arguments& arguments) {
+  std::vector<identification::TestRecord> found;
+  for (const records::RawSeries& series : read_all_series(arguments)) {
+    found.push_back(identification::checked_record(series, arguments.has("any-magnitude")));
+  }
+  return found;
+}
+
+void write_draws(const identification::Identification& found, const std::filesystem::path& place) {
+  if (found.draws.rows.empty()) {
+    fmt::print(stderr, "zerocount identify: {} is not written: there is no parameter to draw\n",
+               place.string());
+    return;
+  }
+  command_line::write_text(place, identification::posterior_table(found));
 }
 
 ExitCode identify_records(const command_line::Arguments& arguments) {
   const std::string format = arguments.one_of("format", {"text", "json", "yaml"});
   const identification::IdentificationOptions options = identification_options(arguments);
   const std::optional<std::filesystem::path> output = command_line::text_place(arguments, "output");
+  const std::optional<std::filesystem::path> posterior = command_line::text_place(arguments, "posterior");
+  std::vector<std::filesystem::path> outputs{output.value_or("-")};
+  if (posterior) outputs.push_back(*posterior);
   command_line::require_places(arguments, {arguments.operands().begin(), arguments.operands().end()},
-                               output ? std::vector{*output} : std::vector<std::filesystem::path>{});
+                               outputs);
+  if (arguments.has("sliding")) {
+    refuse_material_options(arguments);
+    command_line::write_text(output.value_or("-"), identify_sliding_axis(arguments, format));
+    return ExitCode::success;
+  }
   const identification::Identification found = identification::identify(read_records(arguments), options);
   const std::string report = format == "json"   ? identification::identification_json(found)
                              : format == "yaml" ? identification::manifest_fragment(found)
                                                 : identification::identification_text(found);
   command_line::write_text(output.value_or("-"), report);
+  if (posterior) write_draws(found, *posterior);
   if (!found.checks.passed) {
-    fmt::print(
-        stderr,
-        "zerocount identify: warning: lack of fit; the intervals hold only as far as the model does\n");
+    fmt::print(stderr, "zerocount identify: the answer is not to be trusted: {}\n",
+               identification::reason_of_misfit(found.checks));
+    return ExitCode::inconclusive;
   }
   const bool any = std::any_of(found.parameters.begin(), found.parameters.end(),
                                [](const identification::ParameterEstimate& p) {
@@ -193,16 +282,25 @@ ExitCode identify_records(const command_line::Arguments& arguments) {
 Command identify_command() {
   return {{"identify",
            "DATA.csv|FILE...",
-           {{"counts-per-revolution", "N", "resolution of the encoder of the column count"},
+           {{"counts-per-revolution", "N", "resolution of the encoder of an angle in counts"},
+            column_options()[0],
+            column_options()[1],
+            column_options()[2],
+            column_options()[3],
+            {"sliding", "", "identify inertia and sliding friction from motion records"},
             {"angle", "COLUMN", "count or theta, if both exist (default count, if N is given)"},
             {"torque", "COLUMN", "torque or drive_torque, if both exist (default the latter)"},
             {"amplifier-bandwidth", "HZ", "of the amplifier (default 0: ideal amplifier)"},
-            {"delay", "SAMPLES", "delay of the column torque (default 0)"},
+            {"delay", "SAMPLES",
+             "delay of the column torque, such as 1.5 (default 0); the time offset is fitted about it"},
             {"dac-bits", "BITS", "word length of the converter of the column code, to detect clipping"},
             {"preload", "TORQUE", "torque of a slow load and unload before the test, N m (default 0)"},
             {"hardening", "XH", "work hardening before the test, rad (default 0)"},
-            {"fix", "KEY=VALUE", "a known parameter, such as friction.n=2; may be repeated", true},
+            {"fix", "KEY=VALUE", "a known parameter, such as friction.n=2 or time_offset=0; may be repeated",
+             true},
             {"any-magnitude", "", "accept values that suggest other units"},
+            {"posterior", "FILE", "write joint draws of the parameters there, for the key samples"},
+            {"draws", "N", "number of joint draws (default 1000, up to 10000)"},
             {"point", "P", "design point in a results file, by label or number (default 0); may be repeated",
              true},
             {"trial", "I", "trial of the point (default 0)"},

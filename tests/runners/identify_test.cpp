@@ -1,7 +1,11 @@
 // `zerocount identify` from the command line: from a study's file and from its trace to a manifest that can
 // be checked.
 #include <algorithm>
+#include <map>
+#include <numbers>
+#include <sstream>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -92,6 +96,81 @@ TEST_F(Identify, ACommandedTorqueIsDelayed) {
             of_motor);
 }
 
+// Half a sample of the delay is found as a time offset if it is not given.
+TEST_F(Identify, ADelayMayHaveAFraction) {
+  folder_.write("tests.yaml", std::string(material_tests) + "controller: {delay: 3}\n");
+  trace("steps.csv", "1");
+  const auto offset_with = [&](const std::string& delay) {
+    const ProgramResult result = run({"identify", "steps.csv", "--counts-per-revolution", "1620000",
+                                      "--torque", "torque", "--delay", delay, "--format", "json"});
+    EXPECT_EQ(result.code, 0) << result.err;
+    const auto json = nlohmann::json::parse(result.out);
+    EXPECT_NEAR(parameter(json, "k1")["value"].get<double>(), 130.0, 1.0) << delay;
+    return parameter(json, "time_offset")["value"].get<double>();
+  };
+  const double whole = offset_with("3");
+  EXPECT_NEAR(whole, 0.0, 0.1);
+  EXPECT_NEAR(offset_with("2.5") - whole, 0.5, 0.02);
+}
+
+// Records of two contacts: the answer is printed, and is not to be trusted.
+TEST_F(Identify, ALackOfFitIsAnExitCode) {
+  trace("one.csv", "1");
+  std::string softer = material_tests;
+  softer.replace(softer.find("k1: 130"), 7, "k1: 127");
+  folder_.write("tests.yaml", softer);
+  trace("other.csv", "1");
+  const ProgramResult result =
+      run({"identify", "one.csv", "other.csv", "--counts-per-revolution", "1620000", "--posterior", "p.csv"});
+  EXPECT_EQ(result.code, 3) << result.err;
+  EXPECT_NE(result.err.find("not to be trusted"), std::string::npos) << result.err;
+  EXPECT_NE(result.out.find("LACK OF FIT"), std::string::npos) << result.out;
+  EXPECT_NE(folder_.read("p.csv").find("# Lack of fit"), std::string::npos);
+}
+
+/// The lines of a table that are no comments.
+std::vector<std::string> table_lines(const std::string& table) {
+  std::vector<std::string> lines;
+  std::istringstream text(table);
+  for (std::string line; std::getline(text, line);) {
+    if (!line.starts_with('#')) lines.push_back(line);
+  }
+  return lines;
+}
+
+TEST_F(Identify, JointDrawsHaveTheNamesOfAManifest) {
+  run_study();
+  const auto draw = [&](const std::string& name, const std::string& number) {
+    const ProgramResult result =
+        run({"identify", "tests.h5", "--point", "0", "--point", "1", "--fix", "friction.n=2", "--posterior",
+             name, "--draws", number, "--format", "json"});
+    EXPECT_EQ(result.code, 0) << result.err;
+    return nlohmann::json::parse(result.out);
+  };
+  const auto json = draw("few.csv", "20");
+  draw("many.csv", "700");
+  const std::string table = folder_.read("many.csv");
+  EXPECT_EQ(table.find("# Joint draws"), 0u);
+  EXPECT_NE(table.find("# Not drawn: friction.n, which is given as 2\n"), std::string::npos) << table;
+  const std::vector<std::string> lines = table_lines(table);
+  ASSERT_EQ(lines.size(), 701u);
+  EXPECT_EQ(lines[0],
+            "friction.k1,friction.k2,friction.beta,plant.presliding_damping,plant.inertia,friction.alpha,"
+            "friction.lambda");
+  // The first draws are the same whatever their number.
+  const std::vector<std::string> few = table_lines(folder_.read("few.csv"));
+  EXPECT_EQ(few, std::vector(lines.begin(), lines.begin() + 21));
+  double below = 0.0;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    if (std::stod(lines[i]) < parameter(json, "k1")["low"].get<double>()) below += 1.0 / 700.0;
+  }
+  EXPECT_NEAR(below, 0.025, 0.02);
+  const auto errors = json["errors"];
+  ASSERT_EQ(errors["correlation"].size(), errors["parameters"].size());
+  EXPECT_EQ(errors["correlation"][0][0], 1.0);
+  EXPECT_EQ(errors["correlation"][0][1], errors["correlation"][1][0]);
+}
+
 // The records of a closed loop have no drive_torque where the drive does nothing but wait.
 TEST_F(Identify, TheDelayOfAClosedLoopIsThatOfItsTorque) {
   for (const std::string delay : {"0", "1", "3"}) {
@@ -167,7 +246,6 @@ TEST_F(Identify, BadDataAreRefusedWithTheReason) {
 
 TEST_F(Identify, BadUsageIsRefused) {
   folder_.write("data.csv", "t,torque,count\n0,0,0\n");
-  folder_.write("tabs.csv", "t\ttorque\ttheta\n0\t0\t0\n");
   folder_.write("times.csv", "t,time,torque,theta\n0,0,0,0\n");
   folder_.write("motor.csv", "t,drive_torque,theta\n0,0,0\n");
   folder_.write("wrong.csv", "time [ms],torque,theta\n0,0,0\n");
@@ -175,10 +253,9 @@ TEST_F(Identify, BadUsageIsRefused) {
            {},
            {"nothing.csv"},
            {"data.csv"},
-           {"wrong.csv"},
+           {"wrong.csv", "--column", "time=t"},
            {"data.csv", "--counts-per-revolution", "many"},
            {"data.csv", "--counts-per-revolution", "1000", "--angle", "theta"},
-           {"tabs.csv"},
            {"times.csv"},
            {"data.csv", "--fix", "friction.k3=1"},
            {"data.csv", "--fix", "friction.n=0.5"},
@@ -187,6 +264,9 @@ TEST_F(Identify, BadUsageIsRefused) {
            {"data.csv", "--counts-per-revolution", "1000", "--amplifier-bandwidth", "1e-9"},
            {"data.csv", "--counts-per-revolution", "1000", "--delay", "-1"},
            {"motor.csv", "--delay", "2"},
+           {"data.csv", "--counts-per-revolution", "1000", "--draws", "5"},
+           {"data.csv", "--counts-per-revolution", "1000", "--posterior", "p.csv", "--draws", "0"},
+           {"data.csv", "--counts-per-revolution", "1000", "--posterior", "data.csv"},
            {"data.csv", "--counts-per-revolution", "1000", "--dac-bits", "1"},
            {"data.csv", "--format", "xml"}}) {
     std::vector<std::string> all{"identify"};
@@ -194,6 +274,116 @@ TEST_F(Identify, BadUsageIsRefused) {
     const ProgramResult result = run(all);
     EXPECT_EQ(result.code, 2) << ::testing::PrintToString(words) << result.err;
   }
+}
+
+/// The trace of a point as a foreign log: other names, units, separators and decimal marks.
+std::string foreign_log(const std::string& trace) {
+  std::istringstream lines(trace);
+  std::string line;
+  std::getline(lines, line);
+  std::vector<std::string> names;
+  for (std::istringstream cells(line); std::getline(cells, line, ',');) names.push_back(line);
+  std::string log = "% logged by hand\nZeit;Strom;Weg\nms;A;mm\n";
+  while (std::getline(lines, line)) {
+    std::map<std::string, double> row;
+    std::istringstream cells(line);
+    std::string cell;
+    for (const std::string& name : names) {
+      std::getline(cells, cell, ',');
+      if (name == "t" || name == "torque" || name == "count") row[name] = std::stod(cell);
+    }
+    log += fmt::format("{:.9f};{:.12g};{:.12g}\n", row["t"] * 1e3, row["torque"] / 0.87,
+                       row["count"] * 2.0 * std::numbers::pi / 1620000.0 * 10.0);
+  }
+  std::replace(log.begin(), log.end(), '.', ',');
+  return log;
+}
+
+TEST_F(Identify, AForeignLogNeedsItsColumnsNamed) {
+  run_study();
+  trace("slow.csv", "0");
+  folder_.write("log.txt", foreign_log(folder_.read("slow.csv")));
+  const std::vector<std::string> named{"--column", "time=Zeit",        "--column", "torque=Strom[A]*0.87",
+                                       "--column", "angle=Weg[mm]/10", "--format", "json"};
+  std::vector<std::string> words{"identify", "log.txt"};
+  words.insert(words.end(), named.begin(), named.end());
+  const ProgramResult of_log = run(words);
+  ASSERT_EQ(of_log.code, 0) << of_log.err;
+  const ProgramResult of_trace =
+      run({"identify", "slow.csv", "--counts-per-revolution", "1620000", "--format", "json"});
+  for (const std::string name : {"k1", "beta"}) {
+    const auto log = parameter(nlohmann::json::parse(of_log.out), name);
+    const auto csv = parameter(nlohmann::json::parse(of_trace.out), name);
+    EXPECT_NEAR(log["value"].get<double>() / csv["value"].get<double>(), 1.0, 1e-4) << name;
+  }
+  const ProgramResult unnamed = run({"identify", "log.txt"});
+  EXPECT_EQ(unnamed.code, 2);
+  EXPECT_EQ(unnamed.err.find("log.txt: has no column for the torque"), 0u) << unnamed.err;
+}
+
+// Piecewise parabolas: 0.6 N m drive 0.02 kg m² against 0.4 N m, to and fro.
+TEST_F(Identify, ASlidingAxisIsIdentifiedFromItsMotion) {
+  std::string log = "time [ms];I [A];angle [mrad]\n";
+  double angle = 0.0;
+  double velocity = 0.0;
+  for (int k = 0; k < 3000; ++k) {
+    const int phase = (k / 500) % 2 == 0 ? 1 : -1;
+    log += fmt::format("{};{};{:.9f}\n", k, 0.6 * phase / 0.87, 1e3 * angle);
+    const double slides = velocity != 0.0 ? velocity : phase;
+    const double acceleration = (0.6 * phase - 0.4 * (slides > 0.0 ? 1 : -1)) / 0.02;
+    angle += 1e-3 * velocity + 0.5e-6 * acceleration;
+    velocity += 1e-3 * acceleration;
+    if (std::abs(velocity) < 1e-9) velocity = 0.0;
+  }
+  folder_.write("motion.csv", log);
+  const std::vector<std::string> words{
+      "identify", "--sliding",  "motion.csv", "--column", "time=time", "--column", "drive_torque=I[A]*0.87",
+      "--column", "angle=angle"};
+  std::vector<std::string> as_json = words;
+  as_json.insert(as_json.end(), {"--format", "json"});
+  const ProgramResult result = run(as_json);
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_NEAR(parameter(json, "inertia")["value"].get<double>(), 0.02, 1e-6);
+  EXPECT_NEAR(parameter(json, "coulomb_level")["value"].get<double>(), 0.4, 1e-4);
+  EXPECT_EQ(parameter(json, "stribeck_velocity")["status"], "not_identifiable");
+
+  std::vector<std::string> fragment = words;
+  fragment.insert(fragment.end(), {"--format", "yaml", "-o", "found.yaml", "--exclude", "0.2:0.3"});
+  ASSERT_EQ(run(fragment).code, 0);
+  folder_.write("study.yaml",
+                "zerocount: 1\nname: sliding\nseed: 1\ntrials: 4\ncommand: {targets: [3], hold: 0.1}\n" +
+                    folder_.read("found.yaml"));
+  const ProgramResult check = run({"check", "study.yaml"});
+  EXPECT_EQ(check.code, 0) << check.err << folder_.read("found.yaml");
+
+  for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{{"--fix", "friction.n=2"},
+                                                                                    {"--preload", "0.1"},
+                                                                                    {"--exclude", "5"},
+                                                                                    {"--exclude", "7:8"},
+                                                                                    {"--posterior", "p.csv"},
+                                                                                    {"--delay", "0.5"}}) {
+    std::vector<std::string> refused = words;
+    refused.insert(refused.end(), more.begin(), more.end());
+    EXPECT_EQ(run(refused).code, 2) << ::testing::PrintToString(more);
+  }
+}
+
+TEST_F(Identify, ColumnsAreRefusedWithTheReason) {
+  const auto refusal = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "identify");
+    const ProgramResult result = run(words);
+    EXPECT_EQ(result.code, 2) << ::testing::PrintToString(words) << result.err;
+    return result.err;
+  };
+  folder_.write("log.txt", "a b c\n1 2 3\n");
+  folder_.write("old.mat", std::string("MATLAB 5.0 MAT-file, Platform: GLNXA64\n"));
+  EXPECT_NE(refusal({"log.txt", "--column", "speed=a"}).find("QUANTITY one of time"), std::string::npos);
+  EXPECT_NE(refusal({"log.txt", "--column", "time=a", "--column", "time=b"}).find("given twice"),
+            std::string::npos);
+  EXPECT_NE(refusal({"log.txt", "--sample-time", "0"}).find("no positive number"), std::string::npos);
+  EXPECT_NE(refusal({"log.txt", "--separator", "dot"}).find("comma, semicolon, tab"), std::string::npos);
+  EXPECT_NE(refusal({"old.mat"}).find("version 7.3"), std::string::npos);
 }
 
 TEST_F(Identify, TrialsWithoutRecordsAreNamed) {
@@ -205,7 +395,8 @@ TEST_F(Identify, TrialsWithoutRecordsAreNamed) {
   EXPECT_EQ(run({"identify", "tests.h5", "--point", "2"}).code, 2);
 }
 
-TEST_F(Identify, BreakawayIsNamed) {
+// What is before the breakaway is identified, and the cut is named.
+TEST_F(Identify, ARecordIsCutAtItsBreakaway) {
   folder_.write("slide.yaml", R"(
 zerocount: 1
 name: slide
@@ -216,9 +407,11 @@ command: {torque: {levels: [0.1, -0.1, 0.12, 0.0], rate: 0.4}, hold: 0.1}
 retain: {trials: [0]}
 )");
   ASSERT_EQ(run({"run", "slide.yaml", "-o", "slide.h5"}).code, 0);
-  const ProgramResult result = run({"identify", "slide.h5"});
-  EXPECT_EQ(result.code, 4);
-  EXPECT_NE(result.err.find("breaks away"), std::string::npos) << result.err;
+  const ProgramResult result = run({"identify", "slide.h5", "--format", "json"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_NE(json["records"][0]["note"].get<std::string>().find("breaks away"), std::string::npos);
+  EXPECT_NEAR(parameter(json, "k1")["value"].get<double>(), 110.0, 1.0);
 }
 
 }  // namespace

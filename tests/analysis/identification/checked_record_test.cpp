@@ -1,4 +1,6 @@
 // What a record must be, and the reason that is given where it is not.
+#include "analysis/identification/checked_record.hpp"
+
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -6,7 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/identification/raw_series.hpp"
 #include "core/failure/failure.hpp"
 #include "core/plant/plant.hpp"
 #include "tests/analysis/identification/material_tests.hpp"
@@ -85,15 +86,30 @@ TEST(CheckedRecord, TimeMustRise) {
                       "good.csv:102", "does not come after"));
 }
 
-TEST(CheckedRecord, SamplesMustBeEquallySpacedButForJitter) {
-  const auto jitter = [](double proportion) {
-    return [proportion](identification::RawSeries& s) {
-      for (std::size_t k = 1; k + 1 < s.time.size(); k += 2) s.time[k] += proportion * 5e-4;
-    };
+TEST(CheckedRecord, UnevenSamplesKeepTheirInstants) {
+  const auto jittered = [](double proportion) {
+    identification::RawSeries series = good_series();
+    for (std::size_t k = 1; k + 1 < series.time.size(); k += 2) series.time[k] += proportion * 5e-4;
+    return series;
   };
-  EXPECT_EQ(record_refusal(jitter(0.1)), "not refused");
-  EXPECT_EQ(record_refusal(jitter(0.45)), "not refused");  // half of it off the grid between
-  EXPECT_TRUE(refused(record_refusal(jitter(0.6)), "good.csv:2", "not equally spaced"));
+  // Half of the jitter is off the grid between; a quarter of an interval is taken for that of the clock.
+  EXPECT_TRUE(identification::checked_record(jittered(0.1), false).intervals.empty());
+  EXPECT_TRUE(identification::checked_record(jittered(0.45), false).intervals.empty());
+  const identification::TestRecord uneven = identification::checked_record(jittered(0.6), false);
+  ASSERT_EQ(uneven.intervals.size(), uneven.reading.size());
+  EXPECT_NEAR(uneven.intervals[2], 1.6 * 5e-4, 1e-12);
+  EXPECT_NEAR(uneven.intervals[3], 0.4 * 5e-4, 1e-12);
+  EXPECT_NEAR(uneven.sample_time, 5e-4, 1e-9);
+}
+
+TEST(CheckedRecord, GapsAndCoincidentSamplesAreRefused) {
+  EXPECT_TRUE(refused(record_refusal([](identification::RawSeries& s) { s.time[700] += 0.95 * 5e-4; }),
+                      "good.csv:702", "Are samples missing?"));
+  EXPECT_TRUE(refused(record_refusal([](identification::RawSeries& s) {
+                        s.time[700] += 0.74 * 5e-4;
+                        s.time[701] -= 0.2 * 5e-4;
+                      }),
+                      "good.csv:703", "expected 0.1 at least"));
 
   // A sample that is missing anywhere inside.
   for (const std::size_t missing : {10, 500, 1500}) {
@@ -178,12 +194,45 @@ TEST(CheckedRecord, UnitsAThousandfoldOffAreRefused) {
   EXPECT_NO_THROW(identification::checked_record(millinewtons, true));
 }
 
-TEST(CheckedRecord, SlidingIsNamed) {
+TEST(CheckedRecord, ARecordIsCutWhereItBeginsToSlide) {
+  identification::RawSeries series = good_series();
+  series.sliding.assign(series.time.size(), false);
+  series.sliding[1321] = true;
+  const identification::TestRecord record = identification::checked_record(series, false);
+  EXPECT_EQ(identification::sample_count(record), 1321u);
+  EXPECT_EQ(record.torque.size(), 1321u);
+  EXPECT_EQ(record.note, "cut at 0.6605 s, where the rotor breaks away and slides");
   EXPECT_TRUE(refused(record_refusal([](identification::RawSeries& s) {
                         s.sliding.assign(s.time.size(), false);
-                        s.sliding[321] = true;
+                        s.sliding[21] = true;
                       }),
-                      "good.csv:323", "breaks away"));
+                      "good.csv:23", "breaks away"));
+}
+
+// The torque of a loop that moves a sliding axis to and fro: against friction, and ahead of the motion.
+TEST(CheckedRecord, ASlidingAxisHasNoWrongSign) {
+  const auto sliding = [](identification::RawSeries& s) {
+    constexpr double period = 400.0;  // samples
+    for (std::size_t k = 0; k < s.time.size(); ++k) {
+      const double phase = 2.0 * std::numbers::pi * static_cast<double>(k) / period;
+      s.angle[k] = std::round(4000.0 * (1.0 - std::cos(phase)));
+      s.torque[k] = 0.02 * (std::sin(phase) > 0.0 ? 1.0 : -1.0) + 0.1 * std::cos(phase);
+    }
+  };
+  EXPECT_TRUE(refused(record_refusal(sliding), "good.csv", "--sliding identifies a sliding axis"));
+}
+
+// Masked readings may be anything; the straight line in their place is not fitted.
+TEST(CheckedRecord, MaskedReadingsAreBridged) {
+  identification::RawSeries series = good_series();
+  for (std::size_t k = 500; k < 520; ++k) series.angle[k] = 1e6;
+  EXPECT_TRUE(records::exclude(series, {500 * 5e-4 - 1e-9, 519 * 5e-4 + 1e-9}));
+  const identification::TestRecord record = identification::checked_record(series, false);
+  EXPECT_EQ(identification::used_samples(record), series.time.size() - 20);
+  for (std::size_t k = 499; k < 520; ++k) {
+    EXPECT_LE(std::abs(record.reading[k + 1] - record.reading[k]), 20.0) << k;
+    EXPECT_EQ(identification::is_excluded(record, k), k >= 500) << k;
+  }
 }
 
 // The torque that was recorded is cut off, the one that acted was not.

@@ -9,21 +9,6 @@
 namespace zerocount::testing {
 namespace {
 
-/// All that is to be seen in 3 s.
-std::vector<TorqueProgramme> short_test() {
-  TorqueProgramme test;
-  test.step(0.08)
-      .hold(0.05)
-      .step(0.0)
-      .hold(0.05)
-      .ramp(0.1, 0.4)
-      .hold(0.8)
-      .ramp(-0.1, 0.4)
-      .ramp(0.15, 0.4)
-      .hold(0.8);
-  return {test};
-}
-
 /// The chance that fewer hold of so many rigs' intervals, each with the chance of 95 %, is 1 to 2 in 1000.
 /// With intervals 0.6 of the width that they should have (76 %) it would be 7 in 10 of 24 rigs, and there are
 /// nine parameters.
@@ -35,7 +20,7 @@ void expect_coverage(const CoverageStudy& study) {
   const int rigs = study.sets;
   EXPECT_EQ(study.refused, 0);
   EXPECT_LE(study.lacking, 3);
-  ASSERT_EQ(study.parameters.size(), 9u);
+  ASSERT_EQ(study.parameters.size(), 10u);
   for (const IntervalCoverage& coverage : study.parameters) {
     EXPECT_GE(coverage.estimated, rigs - 1) << coverage.name;
     EXPECT_GE(coverage.held + rigs - coverage.estimated, least_held(rigs)) << coverage.name;

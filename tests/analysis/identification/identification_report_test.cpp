@@ -156,6 +156,7 @@ TEST(IdentificationReport, TextSaysWhatIsOpenAndWhatDoesNotFit) {
   found.parameters[0].reason = "nothing was seen";
   found.checks.passed = false;
   found.checks.widening = 2.5;
+  found.checks.spread_chance = 0.002;
   const std::string text = identification::identification_text(found);
   EXPECT_NE(text.find("k1 is not identifiable from this, because nothing was seen."), std::string::npos)
       << text;

@@ -1,5 +1,6 @@
 #include "tests/analysis/identification/material_tests.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -41,6 +42,23 @@ identification::ContactParameters random_contact(std::mt19937_64& random) {
   return contact;
 }
 
+namespace {
+
+/// From sample k to the next, with a torque that is late by `skew` samples (or early, if it is negative).
+void advance_skewed(const identification::TestRecord& record, std::size_t k, double skew,
+                    plant::Plant& plant) {
+  const auto torque_of = [&](double sample) {
+    if (sample < 0.0) return motion::constant_torque(0.0);
+    return record.torque[std::min(static_cast<std::size_t>(sample), record.torque.size() - 1)];
+  };
+  const double newest = static_cast<double>(k) - std::floor(skew);
+  const double before = (skew - std::floor(skew)) * record.sample_time;
+  if (before > 0.0) plant.advance(torque_of(newest - 1.0), before);
+  plant.advance(torque_of(newest), record.sample_time - before);
+}
+
+}  // namespace
+
 identification::TestRecord simulated_test(const identification::ContactParameters& contact,
                                           const TorqueProgramme& programme, const TestInstrument& instrument,
                                           std::mt19937_64& random) {
@@ -51,15 +69,17 @@ identification::TestRecord simulated_test(const identification::ContactParameter
   record.counted = true;
   const double phase = std::uniform_real_distribution<double>(0.0, 1.0)(random);
   std::normal_distribution<double> noise(0.0, 1.0);
-  plant::Plant plant(contact.plant, {contact.friction, {}}, {}, {1e-11 * record.unit});
   for (double torque : programme.torque()) {
     if (instrument.torque_step > 0.0) {
       torque = instrument.torque_step * std::nearbyint(torque / instrument.torque_step);
     }
+    record.torque.push_back(motion::constant_torque(torque));
+  }
+  plant::Plant plant(contact.plant, {contact.friction, {}}, {}, {1e-11 * record.unit});
+  for (std::size_t k = 0; k < record.torque.size(); ++k) {
     const double shaken = instrument.noise > 0.0 ? instrument.noise * noise(random) : 0.0;
     record.reading.push_back(std::floor(plant.theta() / record.unit + phase + shaken));
-    record.torque.push_back(motion::constant_torque(torque));
-    plant.advance(record.torque.back(), record.sample_time);
+    advance_skewed(record, k, instrument.skew, plant);
   }
   return record;
 }
@@ -87,7 +107,21 @@ std::vector<TorqueProgramme> one_test() {
   return {test};
 }
 
-double true_value(const identification::ContactParameters& contact, const std::string& name) {
+std::vector<TorqueProgramme> short_test() {
+  TorqueProgramme test;
+  test.step(0.08)
+      .hold(0.05)
+      .step(0.0)
+      .hold(0.05)
+      .ramp(0.1, 0.4)
+      .hold(0.8)
+      .ramp(-0.1, 0.4)
+      .ramp(0.15, 0.4)
+      .hold(0.8);
+  return {test};
+}
+
+double true_value(const identification::ContactParameters& contact, const std::string& name, double skew) {
   const std::map<std::string, double> values{{"k1", contact.friction.k1},
                                              {"k2", contact.friction.k2},
                                              {"k1_plus_k2", contact.friction.k1 + contact.friction.k2},
@@ -96,14 +130,15 @@ double true_value(const identification::ContactParameters& contact, const std::s
                                              {"inertia", contact.plant.inertia},
                                              {"alpha", contact.friction.alpha},
                                              {"lambda", contact.friction.lambda},
-                                             {"n", contact.friction.n}};
+                                             {"n", contact.friction.n},
+                                             {"time_offset", skew}};
   return values.at(name);
 }
 
 namespace {
 
 void count(const identification::Identification& found, const identification::ContactParameters& truth,
-           int set, CoverageStudy& study) {
+           double skew, int set, CoverageStudy& study) {
   study.parameters.resize(found.parameters.size());
   for (std::size_t i = 0; i < found.parameters.size(); ++i) {
     const identification::ParameterEstimate& parameter = found.parameters[i];
@@ -111,7 +146,7 @@ void count(const identification::Identification& found, const identification::Co
     coverage.name = parameter.name;
     if (parameter.status == identification::EstimateStatus::not_identifiable) ++coverage.open;
     if (parameter.status != identification::EstimateStatus::estimated) continue;
-    const double value = true_value(truth, parameter.name);
+    const double value = true_value(truth, parameter.name, skew);
     ++coverage.estimated;
     if (parameter.low <= value && value <= parameter.high) ++coverage.held;
     const double error = (parameter.value - value) / parameter.standard_error;
@@ -120,7 +155,8 @@ void count(const identification::Identification& found, const identification::Co
       coverage.farthest = std::abs(error);
       coverage.farthest_set = set;
     }
-    coverage.half_widths += 0.5 * (parameter.high - parameter.low) / parameter.value;
+    coverage.half_widths +=
+        0.5 * (parameter.high - parameter.low) / (parameter.name == "time_offset" ? 1.0 : parameter.value);
   }
   if (found.checks.passed) return;
   ++study.lacking;
@@ -142,7 +178,7 @@ CoverageStudy study_coverage(int first, int sets, const std::vector<TorqueProgra
       records.push_back(simulated_test(truth, programme, instrument, random));
     }
     try {
-      count(identification::identify(records, options), truth, set, study);
+      count(identification::identify(records, options), truth, instrument.skew, set, study);
     } catch (const Failure&) {
       ++study.refused;
     }

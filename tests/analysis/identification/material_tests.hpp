@@ -33,6 +33,7 @@ struct TestInstrument {
   double counts_per_revolution{1.62e6};
   double torque_step{2.4e-4};  ///< Δu, N m; 0: the torque is exact
   double noise{0.0};           ///< of the readings before rounding, counts
+  double skew{0.0};            ///< the torque acts so much later than its sample, samples
 };
 
 /// A rig of the paper's kind: its numbers, each times a random factor of 0.5 to 2, and n between 1.5 and 2.5.
@@ -49,8 +50,12 @@ std::vector<TorqueProgramme> three_tests();
 /// All of that in one record.
 std::vector<TorqueProgramme> one_test();
 
-/// The contact's parameter of the name that its estimate has.
-double true_value(const identification::ContactParameters& contact, const std::string& name);
+/// All that is to be seen in 3 s.
+std::vector<TorqueProgramme> short_test();
+
+/// The contact's parameter of the name that its estimate has; `skew` for the time offset.
+double true_value(const identification::ContactParameters& contact, const std::string& name,
+                  double skew = 0.0);
 
 /// How often the intervals of a parameter held the truth.
 struct IntervalCoverage {

@@ -37,6 +37,76 @@ TEST(RecordMotion, IsThePlantsWhateverTheHolds) {
   }
 }
 
+// Uneven instants, all of them on a grid ten times as fine. A torque that is late gives the same readings
+// later.
+TEST(RecordMotion, OfUnevenSamplesIsThatAtTheirInstants) {
+  std::mt19937_64 random(24);
+  const identification::ContactParameters contact = random_contact(random);
+  const identification::TestRecord even = simulated_test(contact, one_test().front(), {}, random);
+  identification::TestRecord uneven = even;
+  identification::TestRecord fine = even;
+  fine.sample_time = 0.1 * even.sample_time;
+  fine.torque.clear();
+  std::vector<Eigen::Index> instants;
+  for (const motion::TorqueCourse& torque : even.torque) {
+    const int steps = std::uniform_int_distribution<int>(2, 17)(random);
+    instants.push_back(static_cast<Eigen::Index>(fine.torque.size()));
+    uneven.intervals.push_back(steps * fine.sample_time);
+    fine.torque.insert(fine.torque.end(), static_cast<std::size_t>(steps), torque);
+  }
+  fine.reading.assign(fine.torque.size(), 0.0);
+  const Eigen::VectorXd judge = sample_by_sample(fine, contact);
+  for (const int late : {0, 3, 14, -4}) {  // steps of the grid; the test begins at rest
+    const Eigen::VectorXd path = identification::angle_path(uneven, contact, 0.1 * late);
+    for (std::size_t k = 0; k < instants.size(); ++k) {
+      const Eigen::Index at = std::clamp<Eigen::Index>(instants[k] - late, 0, judge.size() - 1);
+      ASSERT_NEAR(path[static_cast<Eigen::Index>(k)], judge[at], 1e-4) << k << " " << late;
+    }
+  }
+}
+
+/// θ (in the record's unit) at every sample with a torque that is late by `delay` samples, 0 to 1 of which
+/// are split off every interval.
+Eigen::VectorXd with_late_torque(const identification::TestRecord& record,
+                                 const identification::ContactParameters& contact, double delay) {
+  Eigen::VectorXd path(static_cast<Eigen::Index>(identification::sample_count(record)));
+  plant::Plant plant(contact.plant, {contact.friction, {}}, record.start, {1e-11 * record.unit});
+  const auto last = static_cast<double>(record.torque.size() - 1);
+  const auto torque_at = [&](double sample) {
+    return sample < 0.0 ? motion::constant_torque(0.0)
+                        : record.torque[static_cast<std::size_t>(std::min(sample, last))];
+  };
+  const double before = (delay - std::floor(delay)) * record.sample_time;
+  for (std::size_t k = 0; k < identification::sample_count(record); ++k) {
+    path[static_cast<Eigen::Index>(k)] = plant.theta() / record.unit;
+    const double newest = static_cast<double>(k) - std::floor(delay);
+    if (before > 0.0) plant.advance(torque_at(newest - 1.0), before);
+    plant.advance(torque_at(newest), record.sample_time - before);
+  }
+  return path;
+}
+
+// The path samples the response at other instants; here the torque changes at other instants.
+TEST(RecordMotion, ALateOrEarlyTorqueIsASplitInterval) {
+  std::mt19937_64 random(26);
+  for (const double delay : {0.1, 0.5, 1.0, 1.7, -0.4, -1.0, -2.0}) {
+    const identification::ContactParameters contact = random_contact(random);
+    TorqueProgramme test;
+    // At rest as long as the torque may be early.
+    test.hold(0.01).step(0.08).hold(0.3).ramp(0.1, 0.4).hold(3.0).ramp(-0.1, 0.4).step(0.05).hold(1.0);
+    identification::TestRecord record = simulated_test(contact, test, {}, random);
+    const Eigen::VectorXd expected = with_late_torque(record, contact, delay);
+    const auto off = [&](double offset) {
+      return (identification::angle_path(record, contact, offset) - expected).cwiseAbs().maxCoeff();
+    };
+    EXPECT_LT(off(delay), 1e-2) << delay;
+    EXPECT_GT(off(delay + 0.05), 0.1) << delay;
+    if (delay <= 0.0) continue;
+    record.delay_fraction = 0.1;  // given, and the rest is the offset
+    EXPECT_LT(off(delay - 0.1), 1e-2) << delay;
+  }
+}
+
 TEST(RecordMotion, BeginsWithTheContactAsItIsSaidToBe) {
   std::mt19937_64 random(22);
   const identification::ContactParameters contact = random_contact(random);
@@ -72,10 +142,9 @@ TEST(RecordMotion, DerivativesAreThoseOfThePath) {
       identification::ContactPoint down = point;
       up[j] += 1e-4;
       down[j] -= 1e-4;
-      const Eigen::VectorXd expected =
-          (identification::angle_path(record, identification::contact_at(up, creep_torque)) -
-           identification::angle_path(record, identification::contact_at(down, creep_torque))) /
-          2e-4;
+      const Eigen::VectorXd expected = (identification::angle_path(record, up, creep_torque) -
+                                        identification::angle_path(record, down, creep_torque)) /
+                                       2e-4;
       const double scale = std::max(1.0, expected.cwiseAbs().maxCoeff());
       EXPECT_LT((column - expected).norm(), 1e-2 * expected.norm() + 1e-3)
           << identification::coordinate_keys[j] << scale;

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "analysis/identification/raw_series.hpp"
+#include "analysis/records/raw_series.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "core/failure/failure.hpp"
 #include "core/trial/random_history.hpp"
@@ -8,7 +8,7 @@
 #include "results/layout/header.hpp"
 #include "results/reading/study_file.hpp"
 
-namespace zerocount::identification {
+namespace zerocount::records {
 namespace {
 
 /// Index of the first sample of global row `row` in the trace, which is ordered by trial; the size of the
@@ -81,4 +81,4 @@ RawSeries read_study_series(const std::filesystem::path& path, std::int64_t poin
   return series;
 }
 
-}  // namespace zerocount::identification
+}  // namespace zerocount::records

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <vector>
+
+#include "analysis/identification/test_record.hpp"
+#include "analysis/records/raw_series.hpp"
+
+namespace zerocount::identification {
+
+using records::place_of;
+using records::RawSeries;
+using records::TorqueKind;
+
+/// Checks the series and converts it to a record for the fit. Where the series says that the hook slides, the
+/// record ends before that, and its note says so.
+/// @param any_magnitude whether to accept values that suggest other units
+/// @throws Failure (bad_data) with the reason if one of the checks below fails.
+TestRecord checked_record(const RawSeries& series, bool any_magnitude);
+
+/// The torque over each sample interval. If the motor torque was sampled behind an amplifier of known
+/// bandwidth, its samples u and u′ at both ends of an interval are two points of one exponential, which gives
+/// the commanded torque.
+/// @param record its sampling intervals
+std::vector<motion::TorqueCourse> courses_of(const RawSeries& series, const TestRecord& record);
+
+// Requirements on a series. Each check throws Failure (bad_data) with the place and the reason.
+
+/// Requires at least 100 samples with increasing times, without gaps: no interval is longer than 1.75 times
+/// the usual one (the median), because the torque in between is unknown, or shorter than a tenth of it.
+/// @returns the sampling interval, s.
+double checked_sample_time(const RawSeries& series);
+
+/// The interval after each sample, s, of a series with checked times that deviate from a regular grid by more
+/// than a quarter of the sampling interval; empty for one on the grid, whose deviations are taken for those
+/// of its clock.
+std::vector<double> uneven_intervals(const RawSeries& series);
+
+/// Requires magnitudes that are plausible for a rotor on its bearing's friction, in SI units. Values wrong by
+/// a factor of a thousand suggest another unit.
+///
+/// | quantity | accepted |
+/// | --- | --- |
+/// | sampling interval | 1 µs … 20 ms |
+/// | largest torque | 1e-3 … 20 N m |
+/// | travel (maximum − minimum angle) | 4e-6 … 0.05 rad |
+/// | range of the torque over travel | 1 … 2e4 N m/rad |
+void check_magnitudes(const RawSeries& series, const TestRecord& record);
+
+/// Requires a torque that is not always 0, and an angle that changes.
+void check_change(const RawSeries& series, const TestRecord& record);
+
+/// Requires a travel of at least 5 counts, in the direction of the torque. Friction takes energy: where the
+/// torque takes it from the motion, one of both has the wrong sign; where it gives energy and the angle does
+/// not rise with the torque all the same, the axis slides.
+void check_motion(const RawSeries& series, const TestRecord& record);
+
+/// Refuses a single reading whose distance from its neighbours is more than ten times that of all others.
+void check_glitches(const RawSeries& series, const TestRecord& record);
+
+/// Refuses a clipped torque: a DAC code that stays at the end of its range for 3 samples, or a torque that
+/// stays at its extreme after a slow rise while the angle continues and returns.
+void check_clipping(const RawSeries& series, const TestRecord& record);
+
+}  // namespace zerocount::identification

@@ -1,0 +1,114 @@
+#include "analysis/records/column_mapping.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "analysis/text/text.hpp"
+
+namespace zerocount::records {
+namespace {
+
+struct QuantityRow {
+  std::string_view name;
+  std::optional<Dimension> dimension;
+};
+
+/// In the order of Quantity.
+constexpr std::array<QuantityRow, 8> quantity_rows{{{"time", Dimension::time},
+                                                    {"torque", Dimension::torque},
+                                                    {"drive_torque", Dimension::torque},
+                                                    {"angle", Dimension::angle},
+                                                    {"force", Dimension::force},
+                                                    {"drive_force", Dimension::force},
+                                                    {"position", Dimension::length},
+                                                    {"repetition", std::nullopt}}};
+
+std::string_view without_blanks(std::string_view text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  return text;
+}
+
+/// The product of "*NUMBER" and "/NUMBER", one after the other; none if the text is something else.
+std::optional<double> product_of(std::string_view text) {
+  double product = 1.0;
+  while (!text.empty()) {
+    const char sign = text.front();
+    if (sign != '*' && sign != '/') return std::nullopt;
+    text = without_blanks(text.substr(1));
+    double number = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc{} || !std::isfinite(number) || number == 0.0) return std::nullopt;
+    product = sign == '*' ? product * number : product / number;
+    text = without_blanks(text.substr(static_cast<std::size_t>(end - text.data())));
+  }
+  return std::isfinite(product) && product != 0.0 ? std::optional(product) : std::nullopt;
+}
+
+}  // namespace
+
+std::string_view name_of(Quantity quantity) {
+  return quantity_rows[static_cast<std::size_t>(quantity)].name;
+}
+
+std::string quantity_names() {
+  std::string text;
+  for (const QuantityRow& row : quantity_rows) text += (text.empty() ? "" : ", ") + std::string(row.name);
+  return text;
+}
+
+std::optional<Dimension> dimension_of(Quantity quantity) {
+  return quantity_rows[static_cast<std::size_t>(quantity)].dimension;
+}
+
+bool is_linear(Quantity quantity) {
+  return dimension_of(quantity) == Dimension::force || dimension_of(quantity) == Dimension::length;
+}
+
+bool is_rotary(Quantity quantity) {
+  return dimension_of(quantity) == Dimension::torque || dimension_of(quantity) == Dimension::angle;
+}
+
+ParsedMapping parse_mapping(std::string_view text) {
+  ParsedMapping parsed;
+  const auto refuse = [&](std::string fault) {
+    parsed.fault = fmt::format("'{}': {}", text::printable(text), fault);
+    return parsed;
+  };
+  const std::size_t equals = text.find('=');
+  const std::string_view name = without_blanks(text.substr(0, equals));
+  const auto row = std::find_if(quantity_rows.begin(), quantity_rows.end(),
+                                [&](const QuantityRow& known) { return known.name == name; });
+  if (equals == std::string_view::npos || row == quantity_rows.end()) {
+    return refuse(fmt::format("expected QUANTITY=COLUMN, with QUANTITY one of {}", quantity_names()));
+  }
+  parsed.mapping.quantity = static_cast<Quantity>(row - quantity_rows.begin());
+  std::string_view column = without_blanks(text.substr(equals + 1));
+  const std::size_t close = column.rfind(']');
+  const std::size_t open = close == std::string_view::npos ? close : column.rfind('[', close);
+  if (open != std::string_view::npos) {
+    const std::string_view unit = column.substr(open + 1, close - open - 1);
+    const std::string_view factors = without_blanks(column.substr(close + 1));
+    column = without_blanks(column.substr(0, open));
+    parsed.mapping.unit = unit_named(unit);
+    if (!parsed.mapping.unit) {
+      return refuse(
+          fmt::format("'{}' is no known unit; expected one of {}", text::printable(unit), unit_names()));
+    }
+    if (!factors.empty()) parsed.mapping.factor = product_of(factors);
+    if (!factors.empty() && !parsed.mapping.factor) {
+      return refuse(fmt::format("'{}' after the unit; expected factors *NUMBER or /NUMBER other than 0",
+                                text::printable(factors)));
+    }
+    if (!row->dimension) return refuse(fmt::format("a {} has no unit", name));
+  }
+  if (column.empty()) return refuse("the column is missing after '='");
+  parsed.mapping.column = column;
+  return parsed;
+}
+
+}  // namespace zerocount::records

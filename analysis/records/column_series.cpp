@@ -1,0 +1,294 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/records/column_source.hpp"
+#include "analysis/records/raw_series.hpp"
+#include "analysis/text/text.hpp"
+#include "core/failure/failure.hpp"
+
+namespace zerocount::records {
+namespace {
+
+/// A column of a source, and how its numbers become a quantity.
+struct FoundColumn {
+  Quantity quantity;
+  std::string column;
+  Unit unit;
+  double factor{1.0};  ///< of the numbers as they stand, to the quantity's SI unit
+  bool has_factor{false};
+};
+
+const ColumnMapping* mapping_of(const SeriesChoice& choice, std::initializer_list<Quantity> quantities) {
+  for (const ColumnMapping& mapping : choice.columns) {
+    if (std::find(quantities.begin(), quantities.end(), mapping.quantity) != quantities.end())
+      return &mapping;
+  }
+  return nullptr;
+}
+
+[[noreturn]] void refuse_column(const ColumnSource& source, const std::string& reason) {
+  throw Failure(ExitCode::bad_input, fmt::format("{}: {}", source.name(), reason));
+}
+
+/// The unit that the file says; `usual` if it says none.
+Unit unit_in_file(const ColumnSource& source, const std::string& column, const Unit& usual) {
+  const std::string name = source.unit(column);
+  if (name.empty()) return usual;
+  if (const std::optional<Unit> unit = unit_named(name)) return *unit;
+  refuse_column(source, fmt::format("column '{}' is in '{}', which is no known unit; expected one of {}, or "
+                                    "--column with the unit",
+                                    text::printable(column), text::printable(name), unit_names()));
+}
+
+/// Finishes the column: a unit of another dimension needs factors. An encoder's counts need none, because
+/// --counts-per-revolution may be given.
+FoundColumn finished(const ColumnSource& source, FoundColumn found, std::optional<double> factor) {
+  const Dimension dimension = dimension_of(found.quantity).value();
+  const bool own = found.unit.dimension == dimension;
+  const bool counted_angle = dimension == Dimension::angle && found.unit.dimension == Dimension::count;
+  if (!own && !factor && !counted_angle) {
+    refuse_column(source,
+                  fmt::format("column '{}' is in {}, which is no {} without a factor; expected "
+                              "--column '{}={}[{}]*FACTOR'",
+                              text::printable(found.column), found.unit.name, name_of(found.quantity),
+                              name_of(found.quantity), text::printable(found.column), found.unit.name));
+  }
+  found.has_factor = factor.has_value();
+  found.factor = (own ? found.unit.si : 1.0) * factor.value_or(1.0);
+  return found;
+}
+
+FoundColumn mapped_column(const ColumnSource& source, const ColumnMapping& mapping, const Unit& usual) {
+  if (!source.has(mapping.column)) {
+    refuse_column(source, fmt::format("has no column '{}'; its columns are {}",
+                                      text::printable(mapping.column), source.columns_text()));
+  }
+  FoundColumn found{mapping.quantity, mapping.column,
+                    mapping.unit ? *mapping.unit : unit_in_file(source, mapping.column, usual)};
+  return finished(source, found, mapping.factor);
+}
+
+/// The first of the names that the source has, or the chosen one.
+FoundColumn usual_column(const ColumnSource& source, Quantity quantity,
+                         const std::optional<std::string>& chosen, const std::vector<std::string>& names) {
+  const std::vector<std::string> candidates = chosen ? std::vector{*chosen} : names;
+  const auto name = std::find_if(candidates.begin(), candidates.end(),
+                                 [&](const std::string& one) { return source.has(one); });
+  if (name == candidates.end()) {
+    refuse_column(source, fmt::format("has no column for the {}; expected {}, or --column {}=COLUMN; its "
+                                      "columns are {}",
+                                      name_of(quantity), fmt::join(candidates, " or "), name_of(quantity),
+                                      source.columns_text()));
+  }
+  if (*name == "drive_torque") quantity = Quantity::drive_torque;
+  const Dimension dimension = dimension_of(quantity).value();
+  const Unit usual = *name == "count"                ? unit_named("count").value()
+                     : dimension == Dimension::time  ? unit_named("s").value()
+                     : dimension == Dimension::angle ? unit_named("rad").value()
+                                                     : unit_named("N m").value();
+  return finished(source, {quantity, *name, unit_in_file(source, *name, usual)}, std::nullopt);
+}
+
+std::vector<double> scaled_numbers(const ColumnSource& source, const FoundColumn& column) {
+  std::vector<double> values = source.numbers(column.column);
+  if (column.factor == 1.0) return values;
+  for (double& value : values) value *= column.factor;
+  return values;
+}
+
+void read_time(const ColumnSource& source, const SeriesChoice& choice, RawSeries& series) {
+  if (choice.sample_time) {
+    for (std::size_t k = 0; k < series.torque.size(); ++k) {
+      series.time.push_back(static_cast<double>(k) * *choice.sample_time);
+    }
+    return;
+  }
+  if (const ColumnMapping* mapping = mapping_of(choice, {Quantity::time})) {
+    series.time = scaled_numbers(source, mapped_column(source, *mapping, unit_named("s").value()));
+    return;
+  }
+  if (source.has("t") && source.has("time")) {
+    refuse_column(source, "has both columns t and time; expected one of them, or --column time=COLUMN");
+  }
+  series.time = scaled_numbers(source, usual_column(source, Quantity::time, std::nullopt, {"t", "time"}));
+}
+
+void read_torque(const ColumnSource& source, const SeriesChoice& choice, RawSeries& series) {
+  const ColumnMapping* mapping =
+      mapping_of(choice, {Quantity::torque, Quantity::drive_torque, Quantity::force, Quantity::drive_force});
+  const FoundColumn column =
+      mapping != nullptr
+          ? mapped_column(source, *mapping, unit_named(is_linear(mapping->quantity) ? "N" : "N m").value())
+          : usual_column(source, Quantity::torque, choice.torque, {"drive_torque", "torque"});
+  series.torque = scaled_numbers(source, column);
+  const bool of_motor = column.quantity == Quantity::drive_torque || column.quantity == Quantity::drive_force;
+  series.torque_kind = of_motor ? TorqueKind::motor : TorqueKind::commanded;
+}
+
+void read_angle(const ColumnSource& source, const SeriesChoice& choice, RawSeries& series) {
+  const ColumnMapping* mapping = mapping_of(choice, {Quantity::angle, Quantity::position});
+  std::vector<std::string> names{"theta", "count"};
+  if (choice.counts_per_revolution) std::swap(names[0], names[1]);
+  FoundColumn column =
+      mapping != nullptr
+          ? mapped_column(source, *mapping, unit_named(is_linear(mapping->quantity) ? "m" : "rad").value())
+          : usual_column(source, Quantity::angle, choice.angle, names);
+  series.linear = is_linear(column.quantity);
+  if (!series.linear && column.unit.dimension == Dimension::count) {
+    if (!column.has_factor && !choice.counts_per_revolution) {
+      refuse_column(source, "the angle is in counts; --counts-per-revolution is missing");
+    }
+    if (column.has_factor && choice.counts_per_revolution) {
+      refuse_column(source,
+                    "the angle has a factor for its counts beside --counts-per-revolution; expected "
+                    "one of them");
+    }
+    // Counts stay whole numbers, whose resolution is known.
+    series.counts_per_revolution =
+        column.has_factor ? 2.0 * std::numbers::pi / std::abs(column.factor) : *choice.counts_per_revolution;
+    column.factor = column.factor < 0.0 ? -1.0 : 1.0;
+  }
+  series.angle = scaled_numbers(source, column);
+}
+
+template <class Value>
+std::vector<Value> part_of(const std::vector<Value>& values, std::size_t first, std::size_t end) {
+  if (values.empty()) return {};
+  return {values.begin() + static_cast<std::ptrdiff_t>(first),
+          values.begin() + static_cast<std::ptrdiff_t>(end)};
+}
+
+/// First samples of the repetitions. The time restarts where it falls back to within a hundredth of the
+/// duration so far from its first value; what falls back less far is a fault of the time.
+std::vector<std::size_t> repetition_starts(const RawSeries& series, const std::vector<double>& repetition) {
+  std::vector<std::size_t> starts{0};
+  const std::vector<double>& time = series.time;
+  for (std::size_t k = 1; k < time.size(); ++k) {
+    const double first = time[starts.back()];
+    const double tolerance = 0.01 * (time[k - 1] - first);
+    const bool restarts = time[k] < time[k - 1] && time[k] <= first + tolerance && k > starts.back() + 1;
+    const bool changes = !repetition.empty() && repetition[k] != repetition[k - 1];
+    if (restarts || changes) starts.push_back(k);
+  }
+  return starts;
+}
+
+std::vector<RawSeries> split(const RawSeries& series, std::vector<std::size_t> starts) {
+  if (starts.size() == 1) return {series};
+  starts.push_back(series.time.size());
+  std::vector<RawSeries> parts;
+  for (std::size_t i = 0; i + 1 < starts.size(); ++i) {
+    const std::size_t first = starts[i];
+    const std::size_t end = starts[i + 1];
+    RawSeries part = series;
+    part.name = fmt::format("{}, repetition {}", series.name, i + 1);
+    part.file = series.name;
+    part.lines = part_of(series.lines, first, end);
+    part.time = part_of(series.time, first, end);
+    part.torque = part_of(series.torque, first, end);
+    part.angle = part_of(series.angle, first, end);
+    part.code = part_of(series.code, first, end);
+    part.excluded = part_of(series.excluded, first, end);
+    part.sliding = part_of(series.sliding, first, end);
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::string place_of(const RawSeries& series, std::size_t sample) {
+  if (series.lines.empty()) return fmt::format("{}, sample {}", series.name, sample);
+  return fmt::format("{}:{}", series.file.empty() ? series.name : series.file, series.lines[sample]);
+}
+
+bool exclude(RawSeries& series, const ExcludedTime& interval) {
+  series.excluded.resize(series.time.size(), false);
+  bool any = false;
+  for (std::size_t k = 0; k < series.time.size(); ++k) {
+    if (series.time[k] < interval.from || series.time[k] > interval.to) continue;
+    series.excluded[k] = true;
+    any = true;
+  }
+  return any;
+}
+
+std::string contradiction_in(const SeriesChoice& choice) {
+  for (std::size_t i = 0; i < choice.columns.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (choice.columns[i].quantity != choice.columns[j].quantity) continue;
+      return fmt::format("'--column {}=…' is given twice", name_of(choice.columns[i].quantity));
+    }
+  }
+  const auto has = [&](std::initializer_list<Quantity> quantities) {
+    return mapping_of(choice, quantities) != nullptr;
+  };
+  using enum Quantity;
+  int torques = 0;
+  for (const Quantity quantity : {torque, drive_torque, force, drive_force})
+    torques += has({quantity}) ? 1 : 0;
+  if (torques > 1) return "'--column' gives two of torque, drive_torque, force and drive_force";
+  if (has({angle}) && has({position})) return "'--column' gives both angle and position";
+  const bool linear = has({force, drive_force}) || has({position});
+  if (linear && !(has({force, drive_force}) && has({position}))) {
+    return "a linear axis needs both '--column force=…' (or drive_force) and '--column position=…'";
+  }
+  if (torques > 0 && choice.torque) return "'--torque' and '--column' both choose the torque";
+  if (has({angle, position}) && choice.angle) return "'--angle' and '--column' both choose the angle";
+  if (has({time}) && choice.sample_time) return "'--sample-time' and '--column time=…' exclude each other";
+  if (linear && choice.counts_per_revolution) {
+    return "'--counts-per-revolution' is of a rotary axis; of a linear one, '--column "
+           "position=COLUMN[count]*FACTOR' has the m of one count";
+  }
+  return "";
+}
+
+double delay_of(const RawSeries& series, const SeriesChoice& choice, double otherwise) {
+  if (series.torque_kind == TorqueKind::commanded) return choice.delay.value_or(otherwise);
+  if (choice.delay.value_or(0.0) == 0.0) return 0.0;
+  throw Failure(ExitCode::bad_input,
+                fmt::format("{}: drive_torque is the motor's torque, behind any delay; --delay goes with "
+                            "--torque torque",
+                            series.name));
+}
+
+std::vector<RawSeries> read_columns(const ColumnSource& source, const SeriesChoice& choice) {
+  RawSeries series;
+  series.name = source.name();
+  series.lines = source.lines();
+  read_torque(source, choice, series);
+  read_angle(source, choice, series);
+  read_time(source, choice, series);
+  if (series.time.size() != series.torque.size() || series.angle.size() != series.torque.size()) {
+    refuse_column(source,
+                  fmt::format("time, torque and angle have {}, {} and {} samples; expected as many of "
+                              "each",
+                              series.time.size(), series.torque.size(), series.angle.size()));
+  }
+  series.bandwidth = choice.bandwidth.value_or(0.0);
+  series.delay = delay_of(series, choice, 0.0);
+  if (!series.lines.empty() && source.has("code")) series.code = source.numbers("code");
+  series.dac_bits = choice.dac_bits.value_or(0);
+  if (source.has("mode")) series.sliding = source.equals("mode", "slide");
+  series.start.preload = choice.preload.value_or(0.0);
+  series.start.hardening = choice.hardening.value_or(0.0);
+  std::vector<double> repetition;
+  if (const ColumnMapping* mapping = mapping_of(choice, {Quantity::repetition})) {
+    if (!source.has(mapping->column)) {
+      refuse_column(source, fmt::format("has no column '{}'; its columns are {}",
+                                        text::printable(mapping->column), source.columns_text()));
+    }
+    repetition = source.numbers(mapping->column);
+    if (repetition.size() != series.time.size()) {
+      refuse_column(source, fmt::format("the repetition has {} samples, the time {}", repetition.size(),
+                                        series.time.size()));
+    }
+  }
+  return split(series, repetition_starts(series, repetition));
+}
+
+}  // namespace zerocount::records

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "analysis/records/column_source.hpp"
+#include "results/hdf5/array_file.hpp"
+
+namespace zerocount::records {
+
+/// The datasets of an HDF5 file, or of a MAT file of version 7.3, as columns. A column is the path of a
+/// vector, or PATH#NUMBER: the vector with that number, from 1, of a matrix, along its longer dimension.
+class DatasetFile : public ColumnSource {
+ public:
+  /// @throws Failure: bad_data if the file is damaged; machine_failed if it cannot be read.
+  explicit DatasetFile(const std::filesystem::path& path) : name_(path.string()), file_(path) {}
+
+  const std::string& name() const override { return name_; }
+  bool has(std::string_view column) const override { return find(column).count > 0; }
+  std::string columns_text() const override;
+  std::string unit(std::string_view) const override { return ""; }
+  std::vector<double> numbers(std::string_view column) const override;
+  std::vector<bool> equals(std::string_view, std::string_view) const override { return {}; }
+  std::vector<std::size_t> lines() const override { return {}; }
+
+ private:
+  /// Elements first, first + stride, … of a dataset.
+  struct Vector {
+    std::string path;
+    std::size_t first{0};
+    std::size_t stride{1};
+    std::size_t count{0};  ///< 0: there is no such vector
+  };
+  Vector find(std::string_view column) const;
+
+  std::string name_;
+  hdf5::ArrayFile file_;
+};
+
+}  // namespace zerocount::records

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/records/column_mapping.hpp"
+#include "analysis/records/text_table.hpp"
+#include "core/motion/plant_start.hpp"
+
+namespace zerocount::records {
+
+/// Meaning of the torque of a series.
+enum class TorqueKind {
+  commanded,  ///< command to the amplifier at t_k, held until t_{k+1}
+  motor       ///< motor torque at t_k
+};
+
+/// A test as read, unchecked.
+struct RawSeries {
+  std::string name;                ///< name in messages
+  std::string file{};              ///< the file, where the series is one repetition of several in it
+  std::vector<std::size_t> lines;  ///< [sample] line in the file; empty for a file without lines
+  std::vector<double> time;        ///< s
+  std::vector<double> torque;      ///< N m; of a linear axis the force, N
+  TorqueKind torque_kind{TorqueKind::commanded};
+  double bandwidth{0.0};              ///< of the amplifier, Hz; 0: ideal amplifier
+  double delay{0.0};                  ///< delay of a commanded torque, samples; the torque is 0 before
+  std::vector<double> angle;          ///< whole counts, or rad; of a linear axis the position, m
+  double counts_per_revolution{0.0};  ///< 0 if the angle is in rad or m
+  bool linear{false};                 ///< of a linear axis
+  std::vector<double> code;           ///< DAC codes; empty if unknown
+  int dac_bits{0};                    ///< 0 if unknown
+  std::vector<bool> sliding;          ///< whether the hook slid; empty if unknown
+  std::vector<bool> excluded;         ///< [sample] masked readings; empty: none
+  motion::PlantStart start;           ///< initial state of the contact
+  bool units_known{false};            ///< certainly SI units, because this program wrote the file
+};
+
+/// "NAME:LINE", or "NAME, sample K".
+std::string place_of(const RawSeries& series, std::size_t sample);
+
+/// An interval of time whose readings are not used, s. Their torque acts all the same.
+struct ExcludedTime {
+  double from{0.0};
+  double to{0.0};
+};
+
+/// Masks the samples in the interval, limits included. @return whether there are any.
+bool exclude(RawSeries& series, const ExcludedTime& interval);
+
+/// The user's choices for the interpretation of a file.
+struct SeriesChoice {
+  std::vector<ColumnMapping> columns{};  ///< at most one of each quantity
+  std::optional<Separator> separator{};  ///< of a text
+  std::optional<double> sample_time{};   ///< s: the file has no times, sample k is at k·T
+  std::optional<std::string> torque;     ///< column: torque or drive_torque
+  std::optional<std::string> angle;      ///< column: count or theta
+  std::optional<double> counts_per_revolution;
+  std::optional<double> bandwidth;  ///< Hz
+  std::optional<double> delay;      ///< of the commanded torque, samples
+  std::optional<int> dac_bits;
+  std::optional<double> preload;    ///< N m
+  std::optional<double> hardening;  ///< rad
+};
+
+/// The reason why the choices contradict each other; empty if they do not.
+std::string contradiction_in(const SeriesChoice& choice);
+
+/// Delay of the series' torque in samples: the chosen one, or `otherwise`; a motor torque has no delay.
+/// @throws Failure (bad_input) if a delay is chosen for the motor torque.
+double delay_of(const RawSeries& series, const SeriesChoice& choice, double otherwise);
+
+/// Reads the series from columns: those that `choice` maps, otherwise t or time, drive_torque or torque,
+/// theta or count, such as `zerocount trace` writes them. If there are both torques, drive_torque is used. If
+/// there are both angles, count is used if the counts per revolution are given, theta otherwise.
+///
+/// The file has several repetitions if the mapped column of the repetition changes, or if the time returns to
+/// the first one. Each becomes a series, and begins with the initial state of the contact.
+/// @throws Failure: bad_input if columns are missing or their units do not fit, or if a delay is chosen for
+/// the motor torque; and the failures of the source.
+std::vector<RawSeries> read_columns(const ColumnSource& source, const SeriesChoice& choice);
+
+/// Reads the trace of a trial from a results file. The initial state of the contact, the encoder's
+/// resolution, the delay and the amplifier's bandwidth are those of the trial, unless chosen otherwise. The
+/// angle is that of the fine encoder's counts, unless theta is chosen.
+/// @throws Failure: bad_input if the file has no such trial or no trace of it, or if a delay is chosen for
+/// the motor torque; and the failures of StudyFile.
+RawSeries read_study_series(const std::filesystem::path& path, std::int64_t point, std::int64_t index,
+                            const SeriesChoice& choice);
+
+}  // namespace zerocount::records

@@ -1,0 +1,326 @@
+#include "analysis/records/text_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "analysis/records/unit.hpp"
+#include "analysis/text/text.hpp"
+#include "core/failure/failure.hpp"
+#include "experiments/yaml/text_file.hpp"
+
+namespace zerocount::records {
+namespace {
+
+constexpr std::size_t max_faults_listed = 5;
+constexpr std::size_t max_table_size = std::size_t{1} << 31;  // bytes
+
+bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r';
+}
+
+/// Removes surrounding blanks.
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+/// Removes surrounding blanks and quotation marks.
+std::string_view unquoted(std::string_view text) {
+  text = trimmed(text);
+  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') return text.substr(1, text.size() - 2);
+  return text;
+}
+
+bool separates(char c, Separator separator) {
+  switch (separator) {
+    case Separator::comma:
+      return c == ',';
+    case Separator::semicolon:
+      return c == ';';
+    case Separator::tab:
+      return c == '\t';
+    case Separator::blanks:
+      return is_blank(c);
+  }
+  return false;
+}
+
+/// Takes the next cell from `line`. If `line` ends with a separator, one more cell follows: `more` says so.
+std::string_view next_cell(std::string_view& line, Separator separator, bool& more) {
+  bool quoted = false;
+  int brackets = 0;
+  std::size_t end = 0;
+  for (; end < line.size(); ++end) {
+    const char c = line[end];
+    if (c == '"') quoted = !quoted;
+    if (separator == Separator::blanks && (c == '[' || c == '(')) ++brackets;
+    if (separator == Separator::blanks && (c == ']' || c == ')')) --brackets;
+    if (!quoted && brackets <= 0 && separates(c, separator)) break;
+  }
+  const std::string_view cell = line.substr(0, end);
+  more = end < line.size();
+  line.remove_prefix(more ? end + 1 : end);
+  if (separator == Separator::blanks) line = trimmed(line);
+  return unquoted(cell);
+}
+
+std::vector<std::string_view> cells_of(std::string_view line, Separator separator) {
+  std::vector<std::string_view> cells;
+  if (separator == Separator::blanks) line = trimmed(line);
+  for (bool more = true; more;) cells.push_back(next_cell(line, separator, more));
+  return cells;
+}
+
+/// The cells of a header. Between blanks a unit in brackets belongs to the name before it.
+std::vector<std::string> header_cells(std::string_view line, Separator separator) {
+  std::vector<std::string> cells;
+  for (const std::string_view cell : cells_of(line, separator)) {
+    const bool is_unit = separator == Separator::blanks && (cell.starts_with('[') || cell.starts_with('('));
+    if (is_unit && !cells.empty()) {
+      cells.back() += cell;
+    } else {
+      cells.emplace_back(cell);
+    }
+  }
+  return cells;
+}
+
+/// Parses all of `text` as a number; NaN if that fails.
+double number_of(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = std::nan("");
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc{} && stop == end ? value : std::nan("");
+}
+
+/// The same, with a decimal comma too unless commas separate the cells.
+double number_of(std::string_view text, Separator separator) {
+  if (separator == Separator::comma || text.find(',') == std::string_view::npos ||
+      text.find('.') != std::string_view::npos) {
+    return number_of(text);
+  }
+  std::string with_point(text);
+  with_point[with_point.find(',')] = '.';
+  return number_of(with_point);
+}
+
+bool all_numbers(const std::vector<std::string_view>& cells, Separator separator) {
+  return std::all_of(cells.begin(), cells.end(),
+                     [&](std::string_view cell) { return std::isfinite(number_of(cell, separator)); });
+}
+
+/// Whether a cell has a blank inside, as numbers have none.
+bool has_blank_inside(const std::vector<std::string_view>& cells) {
+  return std::any_of(cells.begin(), cells.end(),
+                     [](std::string_view cell) { return cell.find(' ') != std::string_view::npos; });
+}
+
+constexpr std::array separators{Separator::tab, Separator::semicolon, Separator::comma, Separator::blanks};
+
+Separator separator_of(std::string_view first, std::string_view second) {
+  for (const Separator separator : separators) {
+    const std::size_t count = header_cells(first, separator).size();
+    const std::vector<std::string_view> below = cells_of(second, separator);
+    const bool decimal_commas = separator == Separator::comma && has_blank_inside(below);
+    if (count >= 2 && below.size() == count && !decimal_commas) return separator;
+  }
+  for (const Separator separator : separators) {
+    if (cells_of(first, separator).size() >= 2) return separator;
+  }
+  return Separator::comma;
+}
+
+/// "[mm]", "(mm)" or "mm".
+std::string_view without_brackets(std::string_view unit) {
+  const bool bracketed =
+      (unit.starts_with('[') && unit.ends_with(']')) || (unit.starts_with('(') && unit.ends_with(')'));
+  return bracketed ? trimmed(unit.substr(1, unit.size() - 2)) : unit;
+}
+
+}  // namespace
+
+std::vector<std::string> separator_names() {
+  return {"comma", "semicolon", "tab", "blanks"};
+}
+
+TextTable::TextTable(const std::filesystem::path& path, std::optional<Separator> separator)
+    : name_(yaml::name_of_text(path)), text_(yaml::read_text(path, max_table_size, "a table")) {
+  if (text_.size() > max_table_size) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: the file is too large; expected at most {} bytes", name_, max_table_size));
+  }
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  std::size_t at = text_.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+  std::vector<Line> content;
+  std::string_view comment_above;
+  for (std::size_t number = 1; at < text_.size(); ++number) {
+    const std::size_t end = std::min(text_.find('\n', at), text_.size());
+    const std::string_view line = std::string_view(text_).substr(at, end - at);
+    const std::string_view shown = trimmed(line);
+    if (shown.starts_with('#') || shown.starts_with('%')) {
+      if (content.empty()) comment_above = trimmed(shown.substr(1));
+    } else if (!shown.empty()) {
+      content.push_back({line.ends_with('\r') ? line.substr(0, line.size() - 1) : line, number});
+    }
+    at = end + 1;
+  }
+  if (content.empty())
+    throw Failure(ExitCode::bad_input, fmt::format("{}: is empty; expected a table", name_));
+  if (content.front().text.find('\0') != std::string_view::npos) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: is no text; expected a table of numbers, or a results file", name_));
+  }
+  separator_ = separator.value_or(
+      separator_of(content.front().text, content.size() > 1 ? content[1].text : content.front().text));
+  read(content, comment_above);
+}
+
+void TextTable::read(const std::vector<Line>& content, std::string_view comment_above) {
+  const std::vector<std::string_view> first = cells_of(content.front().text, separator_);
+  if (first.size() == 1) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}:{}: one cell only; expected columns separated by commas, semicolons, tabs "
+                              "or blanks{}",
+                              name_, content.front().number,
+                              separator_ == Separator::comma ? "" : ", or another --separator"));
+  }
+  std::size_t row = 1;
+  if (all_numbers(first, separator_)) {
+    row = 0;
+    named_ = header_cells(comment_above, separator_).size() == first.size();
+    if (!named_) columns_.resize(first.size());
+    if (named_) read_header(comment_above);
+  } else {
+    read_header(content.front().text);
+    if (content.size() > 1 && read_units(content[1].text)) row = 2;
+  }
+  for (; row < content.size(); ++row) add_row(content[row]);
+}
+
+void TextTable::read_header(std::string_view line) {
+  for (const std::string& text : header_cells(line, separator_)) {
+    std::string_view cell = text;
+    std::string_view unit;
+    for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
+      const std::size_t bracket = cell.find(open);
+      if (bracket == std::string_view::npos || !cell.ends_with(close)) continue;
+      const std::string_view inside = trimmed(cell.substr(bracket + 1, cell.size() - bracket - 2));
+      if (open == '(' && !unit_named(inside)) continue;
+      unit = inside;
+      cell = trimmed(cell.substr(0, bracket));
+      break;
+    }
+    columns_.push_back({std::string(cell), std::string(unit)});
+  }
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    if (columns_[i].name.empty() || find(columns_[i].name) == i) continue;
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: two columns are named '{}'", name_, text::printable(columns_[i].name)));
+  }
+}
+
+bool TextTable::read_units(std::string_view line) {
+  const std::vector<std::string_view> cells = cells_of(line, separator_);
+  bool any = false;
+  for (const std::string_view cell : cells) {
+    const std::string_view unit = without_brackets(cell);
+    if (std::isfinite(number_of(unit, separator_)) && unit == cell) return false;
+    if (!unit.empty() && unit != "-" && !unit_named(unit)) return false;
+    any = any || unit_named(unit);
+  }
+  if (!any || cells.size() != columns_.size()) return false;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::string_view unit = without_brackets(cells[i]);
+    if (columns_[i].unit.empty() && unit != "-") columns_[i].unit = unit;
+  }
+  return true;
+}
+
+void TextTable::add_row(const Line& line) {
+  if (const std::size_t cells = cells_of(line.text, separator_).size(); cells != columns_.size()) {
+    throw Failure(ExitCode::bad_data,
+                  fmt::format("{}:{}: a row of {} cells; expected {}, as the {} has", name_, line.number,
+                              cells, columns_.size(), named_ ? "header" : "first row"));
+  }
+  lines_.push_back(line.number);
+  starts_.push_back(static_cast<std::size_t>(line.text.data() - text_.data()));
+}
+
+std::string TextTable::columns_text() const {
+  if (!named_) return fmt::format("#1 to #{}, without names", columns_.size());
+  std::string text;
+  for (const Column& column : columns_) text += (text.empty() ? "" : ", ") + text::printable(column.name);
+  return text;
+}
+
+std::size_t TextTable::find(std::string_view column) const {
+  const auto found = named_ ? std::find_if(columns_.begin(), columns_.end(),
+                                           [&](const Column& known) { return known.name == column; })
+                            : columns_.end();
+  if (found != columns_.end() || !column.starts_with('#')) {
+    return static_cast<std::size_t>(found - columns_.begin());
+  }
+  std::size_t number = 0;
+  const auto [stop, error] = std::from_chars(column.data() + 1, column.data() + column.size(), number);
+  const bool exists = error == std::errc{} && stop == column.data() + column.size() && number >= 1 &&
+                      number <= columns_.size();
+  return exists ? number - 1 : columns_.size();
+}
+
+std::string_view TextTable::cell(std::size_t row, std::size_t column) const {
+  std::string_view line = std::string_view(text_).substr(starts_[row]);
+  line = line.substr(0, line.find('\n'));
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  if (separator_ == Separator::blanks) line = trimmed(line);
+  bool more = true;
+  for (std::size_t i = 0; i < column; ++i) next_cell(line, separator_, more);
+  return next_cell(line, separator_, more);
+}
+
+std::vector<double> TextTable::numbers(std::string_view column) const {
+  const std::size_t at = find(column);
+  std::vector<double> values;
+  values.reserve(rows());
+  std::vector<std::string> faults;
+  std::size_t fault_count = 0;
+  std::optional<std::size_t> point;
+  std::optional<std::size_t> comma;
+  for (std::size_t row = 0; row < rows(); ++row) {
+    const std::string_view text = cell(row, at);
+    values.push_back(number_of(text, separator_));
+    if (!point && text.find('.') != std::string_view::npos) point = row;
+    if (!comma && text.find(',') != std::string_view::npos) comma = row;
+    if (std::isfinite(values.back())) continue;
+    if (++fault_count > max_faults_listed) continue;
+    const std::string shown = text::printable(text.substr(0, 40));
+    faults.push_back(fmt::format("{}:{}: {}: {} is no finite number", name_, line(row), column,
+                                 shown.empty() ? "an empty cell" : "'" + shown + "'"));
+  }
+  if (faults.empty() && point && comma) {
+    faults.push_back(fmt::format("{}:{}: {}: a decimal {}; line {} has a decimal {}: expected one kind",
+                                 name_, line(std::max(*point, *comma)), column,
+                                 *point > *comma ? "point" : "comma", line(std::min(*point, *comma)),
+                                 *point > *comma ? "comma" : "point"));
+    fault_count = 1;
+  }
+  if (faults.empty()) return values;
+  std::string message;
+  for (const std::string& fault : faults) message += (message.empty() ? "" : "\n") + fault;
+  if (fault_count > faults.size()) message += fmt::format("\nand {} more", fault_count - faults.size());
+  throw Failure(ExitCode::bad_data, message);
+}
+
+std::vector<bool> TextTable::equals(std::string_view column, std::string_view word) const {
+  const std::size_t at = find(column);
+  std::vector<bool> equal(rows());
+  for (std::size_t row = 0; row < rows(); ++row) equal[row] = cell(row, at) == word;
+  return equal;
+}
+
+}  // namespace zerocount::records

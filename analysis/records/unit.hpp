@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace zerocount::records {
+
+/// What a number of a record measures.
+enum class Dimension {
+  time,        ///< SI unit: s
+  torque,      ///< N m
+  angle,       ///< rad
+  force,       ///< N
+  length,      ///< m
+  current,     ///< A
+  voltage,     ///< V
+  count,       ///< steps of an encoder or of a converter; no SI unit
+  proportion,  ///< of a rated value; no SI unit
+};
+
+/// A unit of the columns of a record.
+struct Unit {
+  std::string_view name;
+  Dimension dimension;
+  double si;  ///< one of it in the SI unit of its dimension
+};
+
+/// The unit of that name, or none. Blanks, '·' and '*' inside are ignored: "N m", "Nm" and "N·m" are the
+/// same.
+std::optional<Unit> unit_named(std::string_view name);
+
+/// The names of all units, for messages.
+std::string unit_names();
+
+}  // namespace zerocount::records

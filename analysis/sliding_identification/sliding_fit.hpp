@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "analysis/sliding_identification/sliding_motion.hpp"
+
+namespace zerocount::sliding_identification {
+
+using FreeParameters = std::array<bool, sliding_dimension>;
+
+/// Result of a fit of the sliding law to all windows.
+struct SlidingFit {
+  SlidingPoint point{SlidingPoint::Zero()};
+  FreeParameters free{};
+  std::vector<std::array<double, 2>> starts;  ///< [window] initial position and velocity
+  double squares{0.0};                        ///< sum of squared residuals
+  std::size_t samples{0};
+  std::size_t windows{0};
+  std::size_t strokes{0};
+  /// Covariance of the point; zero for parameters that are not free. See fit_sliding().
+  Eigen::Matrix<double, sliding_dimension, sliding_dimension> covariance{};
+  /// Root mean square over the windows of the mean torque that the model leaves unexplained.
+  double unexplained_torque{0.0};
+};
+
+/// The starting point: least squares of the torque on acceleration, direction, velocity and 1 (the inverse
+/// dynamics), over all samples of the windows. Its derivatives are differences of the readings over a few
+/// samples, whose errors bias it; the fit does not use them.
+/// @throws Failure (bad_data) if the axis accelerates against the torque.
+SlidingPoint starting_point(std::span<const SlidingRecord> records, bool both_directions);
+
+/// Fits the law by output error: positions simulated under the torque that was applied, against those read.
+///
+/// Under closed loop the torque follows from the readings, so it correlates with their errors, and
+/// regressions of the torque on derivatives of the readings are biased (Söderström and Stoica, System
+/// Identification, 1989, chapter 10). Here the readings are in the residuals only, so the loop does not
+/// matter. Each window has its own initial position and velocity (multiple shooting: Bock, in Numerical
+/// Treatment of Inverse Problems, 1983), so forces that the model lacks do not add up over the record.
+///
+/// The residuals within a window, or within a stroke, may depend on each other in any way: the variance of
+/// each parameter is the largest of that by independent residuals and those by the jackknife over windows and
+/// over strokes (cluster-robust: MacKinnon, Nielsen and Webb, J. Econometrics 232 (2023) 272; Cameron and
+/// Miller, J. Human Resources 50 (2015) 317).
+SlidingFit fit_sliding(std::span<const SlidingRecord> records, const SlidingPoint& start,
+                       const FreeParameters& free);
+
+/// How much of the sum of squares a Stribeck excess with this velocity (rad/s or m/s) would explain, by one
+/// Gauss–Newton step from a fit without.
+double stribeck_gain(std::span<const SlidingRecord> records, const SlidingFit& fit, double velocity);
+
+}  // namespace zerocount::sliding_identification

@@ -1,0 +1,151 @@
+#include "analysis/sliding_identification/sliding_record.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "analysis/identification/checked_record.hpp"
+#include "analysis/statistics/quantile.hpp"
+#include "core/failure/failure.hpp"
+
+namespace zerocount::sliding_identification {
+namespace {
+
+constexpr std::size_t smoothing_samples = 5;
+constexpr double min_steps_per_span = 3.0;
+constexpr double min_window_steps = 50.0;
+constexpr std::size_t min_stroke_samples = 20;
+
+[[noreturn]] void refuse(const records::RawSeries& series, const std::string& reason) {
+  throw Failure(ExitCode::bad_data, fmt::format("{}: {}", series.name, reason));
+}
+
+/// Smallest difference of the readings that is not 0: the step of an encoder.
+double least_step(const std::vector<double>& position) {
+  double least = 0.0;
+  double largest = 0.0;
+  for (std::size_t k = 1; k < position.size(); ++k) {
+    const double step = std::abs(position[k] - position[k - 1]);
+    largest = std::max(largest, step);
+    if (step > 0.0 && (least == 0.0 || step < least)) least = step;
+  }
+  constexpr double rounding = 1e-6;  // of written numbers: differences that small are none of an encoder
+  return least > rounding * largest ? least : 0.0;
+}
+
+/// Standard deviation of readings with independent errors, from third differences, which smooth motion hardly
+/// contributes to (the sum of their squared weights is 20); by the median, which single jerks do not move.
+double noise_of(const std::vector<double>& position) {
+  std::vector<double> differences;
+  for (std::size_t k = 3; k < position.size(); ++k) {
+    differences.push_back(
+        std::abs(position[k] - 3.0 * position[k - 1] + 3.0 * position[k - 2] - position[k - 3]));
+  }
+  constexpr double median_of_normal = 0.6745;
+  return statistics::upper_median(std::move(differences)) / (median_of_normal * std::sqrt(20.0));
+}
+
+/// Whether the axis stops within the samples about `k`, in which it moves by `moved`: between its neighbours
+/// it moves by less than half of the mean velocity.
+bool stops_at(const SlidingRecord& record, std::size_t k, double moved) {
+  constexpr double visible = 10.0;  // steps: where there are fewer, readings that stay are none of a stop
+  constexpr double slow = 0.1;      // of what it moves over ten samples, in two
+  const double here = std::abs(record.position[k + 1] - record.position[k - 1]);
+  return moved >= visible * record.resolution && here < slow * moved;
+}
+
+/// Direction of the motion at each sample: −1, 1, or 0 where it rests or is too slow to tell.
+std::vector<int> directions_of(const SlidingRecord& record, const std::vector<bool>& excluded) {
+  std::vector<int> direction(record.position.size(), 0);
+  const std::size_t h = record.smoothing;
+  for (std::size_t k = h; k + h < record.position.size(); ++k) {
+    const double moved = record.position[k + h] - record.position[k - h];
+    if (std::abs(moved) < min_steps_per_span * record.resolution) continue;
+    if (stops_at(record, k, std::abs(moved)) || (!excluded.empty() && excluded[k])) continue;
+    direction[k] = moved > 0.0 ? 1 : -1;
+  }
+  return direction;
+}
+
+void add_stroke(SlidingRecord& record, std::size_t first, std::size_t last, int direction) {
+  const double travel = std::abs(record.position[last] - record.position[first]);
+  if (travel < min_window_steps * record.resolution) return;
+  record.strokes.push_back({first, last, record.strokes.size(), static_cast<double>(direction)});
+}
+
+void find_strokes(SlidingRecord& record, const std::vector<bool>& excluded) {
+  const std::vector<int> direction = directions_of(record, excluded);
+  const std::size_t samples = direction.size();
+  for (std::size_t first = 0; first < samples;) {
+    std::size_t end = first + 1;
+    while (end < samples && direction[end] == direction[first]) ++end;
+    const std::size_t margin = record.smoothing;
+    if (direction[first] != 0 && end - first >= min_stroke_samples + 2 * margin) {
+      add_stroke(record, first + margin, end - 1 - margin, direction[first]);
+    }
+    first = end;
+  }
+}
+
+}  // namespace
+
+SlidingRecord sliding_record(const records::RawSeries& series) {
+  identification::TestRecord sampled;
+  sampled.sample_time = identification::checked_sample_time(series);
+  sampled.intervals = identification::uneven_intervals(series);
+  SlidingRecord record;
+  record.name = series.name;
+  record.linear = series.linear;
+  record.torque = identification::courses_of(series, sampled);
+  record.smoothing = smoothing_samples;
+  const double unit =
+      series.counts_per_revolution > 0.0 ? 2.0 * std::numbers::pi / series.counts_per_revolution : 1.0;
+  double now = 0.0;
+  for (std::size_t k = 0; k < series.time.size(); ++k) {
+    record.time.push_back(now);
+    now += identification::interval_after(sampled, k);
+    record.position.push_back(unit * (series.angle[k] - series.angle.front()));
+  }
+  const bool idle = std::all_of(series.torque.begin(), series.torque.end(),
+                                [&](double torque) { return torque == series.torque.front(); });
+  if (idle) refuse(series, "the torque or force is constant");
+  record.resolution = std::max(least_step(record.position), 3.0 * noise_of(record.position));
+  if (!(record.resolution > 0.0)) record.resolution = std::numeric_limits<double>::min();
+  const std::size_t h = record.smoothing;
+  record.velocity.assign(record.position.size(), 0.0);
+  for (std::size_t k = h; k + h < record.position.size(); ++k) {
+    record.velocity[k] =
+        (record.position[k + h] - record.position[k - h]) / (record.time[k + h] - record.time[k - h]);
+    record.max_velocity = std::max(record.max_velocity, std::abs(record.velocity[k]));
+  }
+  find_strokes(record, series.excluded);
+  cut_windows(record, max_window_samples);
+  if (record.windows.empty()) {
+    refuse(series,
+           fmt::format("shows no sliding: nowhere does it move on by {:g} steps of its readings ({:.3g} {}) "
+                       "in one direction; material tests within the pre-sliding range are identified "
+                       "without --sliding",
+                       min_window_steps, record.resolution, series.linear ? "m" : "rad"));
+  }
+  return record;
+}
+
+void cut_windows(SlidingRecord& record, std::size_t samples) {
+  record.windows.clear();
+  for (const Window& stroke : record.strokes) {
+    const double travel = std::abs(record.position[stroke.last] - record.position[stroke.first]);
+    const std::size_t length = samples_of(stroke);
+    const auto by_travel = static_cast<std::size_t>(travel / (min_window_steps * record.resolution));
+    const std::size_t parts = std::max<std::size_t>(1, std::min(length / samples, by_travel));
+    for (std::size_t i = 0; i < parts; ++i) {
+      record.windows.push_back({stroke.first + i * length / parts,
+                                stroke.first + (i + 1) * length / parts - 1, stroke.stroke,
+                                stroke.direction});
+    }
+  }
+}
+
+}  // namespace zerocount::sliding_identification

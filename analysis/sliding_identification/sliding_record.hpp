@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "analysis/records/raw_series.hpp"
+#include "core/motion/torque_course.hpp"
+
+namespace zerocount::sliding_identification {
+
+/// A part of a stroke, over which the motion is simulated from an initial state of its own.
+struct Window {
+  std::size_t first{0};   ///< sample
+  std::size_t last{0};    ///< sample, included
+  std::size_t stroke{0};  ///< number of the stroke in the record
+  double direction{0.0};  ///< −1 or 1: the sign of the velocity
+};
+
+/// A motion record, checked and cut into windows in which the axis slides without a reversal.
+///
+/// Lengths are in rad and torques in N m; of a linear axis in m and N.
+struct SlidingRecord {
+  std::string name;  ///< in messages
+  bool linear{false};
+  std::vector<double> time;                  ///< [sample], s
+  std::vector<motion::TorqueCourse> torque;  ///< [sample] from t_k to t_{k+1}
+  std::vector<double> position;              ///< [sample] as read, from 0 at the first sample
+  std::vector<double> velocity;  ///< [sample] over `smoothing` samples to both sides, for the start
+  double resolution{0.0};        ///< step of the readings, or three standard deviations of their noise
+  std::size_t smoothing{1};
+  std::vector<Window> strokes;
+  std::vector<Window> windows;
+  double max_velocity{0.0};  ///< largest |velocity|
+};
+
+inline std::size_t samples_of(const Window& window) {
+  return window.last - window.first + 1;
+}
+
+constexpr std::size_t max_window_samples = 256;
+constexpr std::size_t min_window_samples = 16;
+
+/// Finds the strokes of a series, and cuts them into windows of max_window_samples. A stroke is a longest run
+/// of samples at which the velocity, over 5 samples to both sides, has one sign and moves the axis by at
+/// least 3 steps of the readings, without a stop in between; 5 samples at each of its ends are left out,
+/// because the reversal may be among them. Strokes shorter than 50 steps or 20 samples are left out.
+/// @throws Failure (bad_data) if the times do not increase or have gaps, the torque is constant, or there is
+/// no stroke.
+SlidingRecord sliding_record(const records::RawSeries& series);
+
+/// Cuts the strokes into windows of about `samples` samples, and at least 50 steps of the readings.
+void cut_windows(SlidingRecord& record, std::size_t samples);
+
+}  // namespace zerocount::sliding_identification

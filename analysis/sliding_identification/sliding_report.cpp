@@ -1,0 +1,180 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "analysis/sliding_identification/sliding_identification.hpp"
+#include "analysis/text/text.hpp"
+
+namespace zerocount::sliding_identification {
+namespace {
+
+using identification::EstimateStatus;
+using identification::ParameterEstimate;
+using Json = nlohmann::ordered_json;
+
+const ParameterEstimate& parameter_of(const SlidingIdentification& identification, const std::string& name) {
+  return *std::find_if(identification.parameters.begin(), identification.parameters.end(),
+                       [&](const ParameterEstimate& one) { return one.name == name; });
+}
+
+bool is_estimated(const ParameterEstimate& parameter) {
+  return parameter.status == EstimateStatus::estimated;
+}
+
+std::vector<std::string> row_of(const ParameterEstimate& parameter) {
+  if (!is_estimated(parameter)) {
+    return {parameter.name, "–", parameter.unit, "–", "–", "not identifiable"};
+  }
+  const auto text = [&](double value) { return identification::with_digits(value, parameter); };
+  return {parameter.name,
+          text(parameter.value),
+          parameter.unit,
+          text(parameter.low) + " to " + text(parameter.high),
+          fmt::format("{:.2g} %", 50.0 * (parameter.high - parameter.low) / std::abs(parameter.value)),
+          "estimated"};
+}
+
+std::string record_line(const SlidingSummary& record, bool linear) {
+  const char* length = linear ? "m" : "rad";
+  return fmt::format(
+      "  {}: {} samples, {:.4g} s, read in steps of {:.3g} {}\n"
+      "    {} samples in {} windows of {} strokes were used, at {:.3g} to {:.3g} {}/s\n",
+      text::printable(record.name), record.samples, record.duration, record.resolution, length, record.used,
+      record.windows, record.strokes, record.min_velocity, record.max_velocity, length);
+}
+
+/// A number that every YAML reader takes for one.
+std::string yaml_number(double value) {
+  std::string text = fmt::format("{:.6g}", value);
+  const std::size_t exponent = text.find('e');
+  if (exponent != std::string::npos && text.find('.') == std::string::npos) text.insert(exponent, ".0");
+  return text;
+}
+
+std::string ratio_text(const ParameterEstimate& ratio) {
+  return fmt::format("{{truncated_normal: {{mean: {}, sd: {}, low: 0, high: 1}}}}", yaml_number(ratio.value),
+                     yaml_number(ratio.standard_error));
+}
+
+std::string fragment_line(const ParameterEstimate& parameter, const std::string& name) {
+  if (!is_estimated(parameter)) {
+    return fmt::format("  # {}: not identifiable, because {}\n", name, parameter.reason);
+  }
+  return fmt::format("  {}: {}   # {}, 95 %: {} to {}\n", name,
+                     parameter.name == "coulomb_ratio" ? ratio_text(parameter)
+                                                       : identification::distribution_text(parameter),
+                     parameter.unit, identification::with_digits(parameter.low, parameter),
+                     identification::with_digits(parameter.high, parameter));
+}
+
+/// Where sliding shows no level above the Coulomb level, that is the only one known of the breakaway.
+std::string friction_lines(const SlidingIdentification& identification) {
+  const ParameterEstimate& breakaway = parameter_of(identification, "breakaway_level");
+  const ParameterEstimate& coulomb = parameter_of(identification, "coulomb_level");
+  if (is_estimated(breakaway) || !is_estimated(coulomb)) {
+    return fragment_line(breakaway, "breakaway") +
+           fragment_line(parameter_of(identification, "coulomb_ratio"), "coulomb_ratio") +
+           fragment_line(parameter_of(identification, "stribeck_velocity"), "stribeck_velocity");
+  }
+  return fragment_line(coulomb, "breakaway") +
+         "  coulomb_ratio: 1   # sliding shows no level above the Coulomb level\n";
+}
+
+Json parameter_json(const ParameterEstimate& parameter) {
+  Json object;
+  object["name"] = parameter.name;
+  object["key"] = parameter.key.empty() ? Json() : Json(parameter.key);
+  object["unit"] = parameter.unit;
+  object["status"] = is_estimated(parameter) ? "estimated" : "not_identifiable";
+  object["value"] = parameter.value;
+  object["standard_error"] = parameter.standard_error;
+  object["low"] = parameter.low;
+  object["high"] = parameter.high;
+  if (!parameter.reason.empty()) object["reason"] = parameter.reason;
+  return object;
+}
+
+}  // namespace
+
+std::string sliding_fragment(const SlidingIdentification& identification) {
+  std::string text = "# Identified from the sliding motion in";
+  for (const SlidingSummary& record : identification.records) {
+    text += fmt::format("{} {}", &record == &identification.records.front() ? "" : ",", record.name);
+  }
+  text += ".\n# The central 95 % of each distribution are the confidence interval.\n";
+  const ParameterEstimate& offset = parameter_of(identification, "offset");
+  if (is_estimated(offset)) {
+    text += fmt::format("# A constant {} of {} {} acts against the drive; a manifest has none.\n",
+                        identification.linear ? "force" : "torque",
+                        identification::with_digits(offset.value, offset), offset.unit);
+  }
+  if (identification.linear) text += "axis: linear\n";
+  const auto group = [&](const std::string& name, const std::string& lines) {
+    const bool any = lines.find("\n  ") != std::string::npos || !lines.starts_with("  #");
+    text += (any ? "" : "# ") + name + ":\n" + lines;
+  };
+  group("plant", fragment_line(parameter_of(identification, "inertia"), "inertia") +
+                     fragment_line(parameter_of(identification, "sliding_damping"), "sliding_damping"));
+  group("friction", friction_lines(identification));
+  return text;
+}
+
+std::string sliding_text(const SlidingIdentification& identification) {
+  const char* torque_unit = identification.linear ? "N" : "N m";
+  std::vector<std::vector<std::string>> cells{{"parameter", "value", "unit", "95 % interval", "±", "status"}};
+  for (const ParameterEstimate& parameter : identification.parameters) cells.push_back(row_of(parameter));
+  std::string text = "Sliding axis: inertia and friction from its motion\n\n" +
+                     text::aligned_table(cells, {false, true, false, true, true, false}) + "\n";
+  for (const ParameterEstimate& parameter : identification.parameters) {
+    if (is_estimated(parameter)) continue;
+    text += fmt::format("{} is not identifiable from this, because {}.\n", parameter.name, parameter.reason);
+  }
+  text += "Records:\n";
+  for (const SlidingSummary& record : identification.records)
+    text += record_line(record, identification.linear);
+  text += fmt::format(
+      "The model leaves {:.3g} steps of the readings, and {:.3g} of {:.3g} {} (root mean squares).\n"
+      "The intervals allow for residuals that depend on each other within a window or a stroke.\n",
+      identification.misfit, identification.unexplained_torque, identification.torque, torque_unit);
+  return text + "\nTo paste into a manifest:\n\n" + sliding_fragment(identification);
+}
+
+std::string sliding_json(const SlidingIdentification& identification) {
+  Json json;
+  json["kind"] = "sliding";
+  json["axis"] = identification.linear ? "linear" : "rotary";
+  json["parameters"] = Json::array();
+  for (const ParameterEstimate& parameter : identification.parameters) {
+    json["parameters"].push_back(parameter_json(parameter));
+  }
+  Json rows = Json::array();
+  for (Eigen::Index i = 0; i < identification.correlation.rows(); ++i) {
+    Json row = Json::array();
+    for (Eigen::Index j = 0; j < identification.correlation.cols(); ++j) {
+      row.push_back(identification.correlation(i, j));
+    }
+    rows.push_back(row);
+  }
+  json["correlation"] = {{"parameters", identification.correlated}, {"matrix", rows}};
+  json["records"] = Json::array();
+  for (const SlidingSummary& record : identification.records) {
+    json["records"].push_back({{"name", text::printable(record.name)},
+                               {"samples", record.samples},
+                               {"duration", record.duration},
+                               {"resolution", record.resolution},
+                               {"strokes", record.strokes},
+                               {"windows", record.windows},
+                               {"used", record.used},
+                               {"min_velocity", record.min_velocity},
+                               {"max_velocity", record.max_velocity}});
+  }
+  json["misfit"] = identification.misfit;
+  json["unexplained_torque"] = identification.unexplained_torque;
+  json["torque"] = identification.torque;
+  json["manifest"] = sliding_fragment(identification);
+  return json.dump(2) + "\n";
+}
+
+}  // namespace zerocount::sliding_identification

@@ -1,0 +1,72 @@
+// Records whose samples come at uneven instants are identified from the instants at which they came.
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "analysis/identification/checked_record.hpp"
+#include "analysis/identification/identification.hpp"
+#include "core/plant/plant.hpp"
+#include "tests/analysis/identification/material_tests.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+/// A test whose samples are 0.3 to 1.7 intervals apart; the torque is held from each to the next.
+records::RawSeries uneven_series(const identification::ContactParameters& contact,
+                                 const TorqueProgramme& programme, std::mt19937_64& random) {
+  records::RawSeries series;
+  series.name = "uneven.csv";
+  series.counts_per_revolution = 1.62e6;
+  const double unit = 2.0 * std::numbers::pi / series.counts_per_revolution;
+  plant::Plant plant(contact.plant, {contact.friction, {}}, {}, {1e-11 * unit});
+  double now = 0.0;
+  std::uniform_real_distribution<double> part(0.3, 1.7);
+  for (const double torque : programme.torque()) {
+    series.time.push_back(now);
+    series.torque.push_back(torque);
+    series.angle.push_back(std::floor(plant.theta() / unit + 0.3));
+    const double interval = programme.sample_time() * part(random);
+    plant.advance(motion::constant_torque(torque), interval);
+    now += interval;
+  }
+  return series;
+}
+
+TEST(UnevenRecords, GiveTheTruth) {
+  std::mt19937_64 random(77);
+  identification::ContactParameters truth;
+  const records::RawSeries series = uneven_series(truth, one_test().front(), random);
+  const identification::TestRecord record = identification::checked_record(series, false);
+  ASSERT_FALSE(record.intervals.empty());
+  const identification::Identification found = identification::identify({record});
+  EXPECT_TRUE(found.checks.passed);
+  for (const identification::ParameterEstimate& parameter : found.parameters) {
+    ASSERT_EQ(parameter.status, identification::EstimateStatus::estimated) << parameter.name;
+    const double value = true_value(truth, parameter.name);
+    EXPECT_LT(std::abs(parameter.value - value), 4.0 * parameter.standard_error) << parameter.name;
+    if (parameter.name != "time_offset") {
+      EXPECT_NEAR(parameter.value / value, 1.0, 0.1) << parameter.name;
+    }
+  }
+}
+
+// A burst of wrong readings, with which the record would be refused. The torque acts all the same.
+TEST(MaskedRecords, GiveTheTruth) {
+  std::mt19937_64 random(78);
+  identification::ContactParameters truth;
+  records::RawSeries series = uneven_series(truth, one_test().front(), random);
+  for (std::size_t k = 3000; k < 3100; ++k) series.angle[k] += 200.0;
+  EXPECT_TRUE(records::exclude(series, {series.time[2999], series.time[3100]}));
+  const identification::Identification found =
+      identification::identify({identification::checked_record(series, false)});
+  EXPECT_TRUE(found.checks.passed);
+  EXPECT_EQ(found.records.front().excluded, 102u);
+  for (const identification::ParameterEstimate& parameter : found.parameters) {
+    const double value = true_value(truth, parameter.name);
+    EXPECT_LT(std::abs(parameter.value - value), 4.0 * parameter.standard_error) << parameter.name;
+  }
+}
+
+}  // namespace
+}  // namespace zerocount::testing

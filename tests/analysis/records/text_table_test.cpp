@@ -1,0 +1,156 @@
+// Tables: what is read, and how each fault is named with its line.
+#include "analysis/records/text_table.hpp"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "core/failure/failure.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+class TextTables : public ::testing::Test {
+ protected:
+  records::TextTable table(const std::string& text) {
+    return records::TextTable(folder_.write("data.csv", text));
+  }
+
+  /// The message with which the text is refused, the column `x` read as numbers.
+  std::string refusal(const std::string& text, ExitCode code) {
+    try {
+      table(text).numbers("x");
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.code(), code) << failure.what();
+      const std::string message = failure.what();
+      const std::string name = (folder_ / "data.csv").string();
+      EXPECT_EQ(message.find(name), 0u) << message;
+      return message.substr(name.size());
+    }
+    ADD_FAILURE() << "not refused: " << text;
+    return "";
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(TextTables, NumbersReadBackToTheSameDouble) {
+  const records::TextTable read = table("x,y\n0.1,1\n-2.4e-4,+2\n 5e-324 ,3\n1.7976931348623157e308,4\n");
+  EXPECT_EQ(read.numbers("x"), (std::vector<double>{0.1, -2.4e-4, 5e-324, 1.7976931348623157e308}));
+  EXPECT_EQ(read.numbers("y"), (std::vector<double>{1, 2, 3, 4}));
+}
+
+TEST_F(TextTables, TakesWhatOtherProgramsWrite) {
+  // Byte order mark, carriage returns, quotation marks, comments, empty lines, units, no last line feed.
+  const records::TextTable read =
+      table("\xEF\xBB\xBF# a rig\r\n\"t [s]\", torque [N m] \r\n\r\n\"0.5\" , 1\r\n# more\r\n1.5,2");
+  EXPECT_EQ(read.unit("t"), "s");
+  EXPECT_EQ(read.unit("torque"), "N m");
+  EXPECT_EQ(read.numbers("t"), (std::vector<double>{0.5, 1.5}));
+  EXPECT_EQ(read.numbers("torque"), (std::vector<double>{1, 2}));
+  EXPECT_EQ(read.line(0), 4u);
+  EXPECT_EQ(read.line(1), 6u);
+}
+
+TEST_F(TextTables, WordsAreCompared) {
+  const records::TextTable read = table("x,mode\n1,stick\n2,slide\n");
+  EXPECT_EQ(read.equals("mode", "slide"), (std::vector<bool>{false, true}));
+}
+
+TEST_F(TextTables, CellsThatAreNoNumbersAreNamedWithTheirLines) {
+  EXPECT_EQ(refusal("x,y\n1,0\nabc,0\n", ExitCode::bad_data), ":3: x: 'abc' is no finite number");
+  EXPECT_EQ(refusal("y,x\n1,\n", ExitCode::bad_data), ":2: x: an empty cell is no finite number");
+  for (const std::string cell : {"nan", "inf", "-inf", "1e999", "1.5.2", "0x10", "1 2", "--1"}) {
+    EXPECT_EQ(refusal("x,y\n1,0\n\n" + cell + ",0\n", ExitCode::bad_data),
+              ":4: x: '" + cell + "' is no finite number");
+  }
+}
+
+TEST_F(TextTables, ListsTheFirstFaultsAndCountsTheRest) {
+  std::string text = "x,y\n";
+  for (int i = 0; i < 8; ++i) text += "?,0\n";
+  const std::string message = refusal(text, ExitCode::bad_data);
+  EXPECT_NE(message.find(":6: x: '?'"), std::string::npos) << message;
+  EXPECT_EQ(message.find(":7: x: '?'"), std::string::npos) << message;
+  EXPECT_NE(message.find("and 3 more"), std::string::npos) << message;
+}
+
+TEST_F(TextTables, EverySeparatorIsDetected) {
+  const std::vector<double> x{0.001, 0.002};
+  for (const std::string text :
+       {"x,y [N m]\n0.001,1\n0.002,2\n", "x;y [N m]\n0.001;1\n0.002;2\n", "x\ty [N m]\n0.001\t1\n0.002\t2\n",
+        "x y [N m]\n0.001 1\n  0.002   2 \n", "x;y [N m]\n0,001;1\n0,002;2\n",
+        "x y [N m]\n0,001 1\n0,002 2\n", "x\ty [N m]\n1,0e-3\t1\n0,002\t2\n"}) {
+    const records::TextTable read = table(text);
+    EXPECT_EQ(read.numbers("x"), x) << text;
+    EXPECT_EQ(read.numbers("y"), (std::vector<double>{1, 2})) << text;
+    EXPECT_EQ(read.unit("y"), "N m") << text;
+  }
+}
+
+// Blanks between decimal commas, where the rows have as many commas as the header.
+TEST_F(TextTables, DecimalCommasAreNotTakenForSeparators) {
+  const records::TextTable read = table("0,001 0,5 12\n0,002 -0,6 13\n");
+  EXPECT_EQ(read.numbers("#2"), (std::vector<double>{0.5, -0.6}));
+  EXPECT_EQ(read.numbers("#3"), (std::vector<double>{12, 13}));
+}
+
+TEST_F(TextTables, AGivenSeparatorIsTaken) {
+  const records::TextTable read(folder_.write("data.csv", "x;y\n1,5;2\n"), records::Separator::semicolon);
+  EXPECT_EQ(read.numbers("x"), (std::vector<double>{1.5}));
+  EXPECT_THROW(records::TextTable(folder_ / "data.csv", records::Separator::tab), Failure);
+}
+
+TEST_F(TextTables, OneKindOfDecimalMark) {
+  EXPECT_EQ(refusal("x;y\n1,5;2\n2.5;3\n", ExitCode::bad_data),
+            ":3: x: a decimal point; line 2 has a decimal comma: expected one kind");
+  EXPECT_EQ(refusal("x;y\n1.234,5;2\n", ExitCode::bad_data), ":2: x: '1.234,5' is no finite number");
+}
+
+TEST_F(TextTables, ALineOfUnitsBelowTheHeader) {
+  for (const std::string text : {"x;y;z\ns;mN m;-\n1;2;3\n", "% a rig\nx;y;z\n[s];[mN·m];\n1;2;3\n",
+                                 "x;y [mN m];z\n(s);(kN);\n1;2;3\n"}) {
+    const records::TextTable read = table(text);
+    EXPECT_EQ(read.unit("x"), "s") << text;
+    EXPECT_TRUE(read.unit("y") == "mN m" || read.unit("y") == "mN·m") << text;
+    EXPECT_EQ(read.unit("z"), "") << text;
+    EXPECT_EQ(read.numbers("z"), (std::vector<double>{3})) << text;
+  }
+  // A row that is not of units is a row of data.
+  EXPECT_EQ(refusal("x;y\nabc;s\n1;2\n", ExitCode::bad_data), ":2: x: 'abc' is no finite number");
+}
+
+TEST_F(TextTables, UnitsInRoundBracketsIfTheyAreUnits) {
+  const records::TextTable read = table("Time (ms),torque (filtered),phi (°)\n1,2,3\n");
+  EXPECT_EQ(read.unit("Time"), "ms");
+  EXPECT_EQ(read.unit("phi"), "°");
+  EXPECT_EQ(read.numbers("torque (filtered)"), (std::vector<double>{2}));
+}
+
+// What numpy.savetxt(header=…) writes, and what has no header at all.
+TEST_F(TextTables, WithoutAHeaderTheCommentAboveOrNumbersNameTheColumns) {
+  EXPECT_EQ(table("# a rig\n# x y [A]\n1 2\n3 4\n").numbers("y"), (std::vector<double>{2, 4}));
+  const records::TextTable read = table("# of 3 November\n1 2\n3 4\n");
+  EXPECT_EQ(read.numbers("#1"), (std::vector<double>{1, 3}));
+  EXPECT_EQ(read.line(0), 2u);
+  EXPECT_FALSE(read.has("#3"));
+  EXPECT_FALSE(read.has("#0"));
+  EXPECT_FALSE(read.has(""));
+}
+
+TEST_F(TextTables, WhatIsNoTableIsRefused) {
+  EXPECT_EQ(refusal("x,y\n1,2\n3\n", ExitCode::bad_data),
+            ":3: a row of 1 cells; expected 2, as the header has");
+  EXPECT_EQ(refusal("zerocount\n", ExitCode::bad_input),
+            ":1: one cell only; expected columns separated by commas, semicolons, tabs or blanks");
+  EXPECT_EQ(refusal("x,x\n1,2\n", ExitCode::bad_input), ": two columns are named 'x'");
+  EXPECT_EQ(refusal("", ExitCode::bad_input), ": is empty; expected a table");
+  EXPECT_EQ(refusal(std::string("a\0b\n", 4), ExitCode::bad_input),
+            ": is no text; expected a table of numbers, or a results file");
+  EXPECT_THROW(records::TextTable(folder_ / "nothing.csv"), Failure);
+  EXPECT_THROW(records::TextTable(folder_.path()), Failure);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

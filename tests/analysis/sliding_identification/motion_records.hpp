@@ -1,0 +1,54 @@
+#pragma once
+
+#include <random>
+#include <vector>
+
+#include "analysis/records/raw_series.hpp"
+
+namespace zerocount::testing {
+
+/// A sliding axis; units of a linear one, m, N, kg.
+struct SlidingAxis {
+  double mass{95.1089};
+  double damping{203.5034};        ///< N s/m
+  double coulomb{20.3935};         ///< N
+  double offset{-3.1648};          ///< N, against the drive
+  double breakaway{20.3935};       ///< N
+  double stribeck_velocity{0.01};  ///< m/s
+  double friction_noise{0.0};      ///< standard deviation of a force that the record does not show, N
+};
+
+/// Drive, sensor and loop.
+struct AxisLoop {
+  double gain{35.15065};         ///< N/V
+  double position_gain{160.18};  ///< 1/s
+  double velocity_gain{243.45};  ///< V s/m
+  double voltage_limit{10.0};    ///< V
+  double resolution{5e-8};       ///< m
+  double sample_time{1e-3};      ///< s
+  double noise{0.0};             ///< of the readings, standard deviation, m
+};
+
+/// A move: speed (m/s) with its sign, and how long it lasts, s.
+struct Cruise {
+  double velocity;
+  double duration;
+};
+
+/// The motion of the electro-mechanical positioning system (EMPS) of A. Janot, M. Gautier and M. Brunot, Data
+/// Set and Reference Models of EMPS, 2019 Workshop on Nonlinear System Identification Benchmarks, Eindhoven:
+/// 1 kHz, trapezoidal velocities up to 0.123 m/s with 0.83 m/s², four equal laps of 6.24 s, a cascade of P
+/// position and velocity control, ±10 V, steps of 0.05 µm. The defaults above are its published parameters
+/// and gains.
+std::vector<Cruise> emps_lap();
+
+/// `laps` laps under closed loop, with the force and the position as recorded: each at its sample, the force
+/// held to the next. The motion is that of core's Plant with the law `coulomb`.
+records::RawSeries closed_loop_record(const SlidingAxis& axis, const AxisLoop& loop,
+                                      const std::vector<Cruise>& lap, int laps, std::mt19937_64& random);
+
+/// The force given beforehand: as sum of two sines. No loop.
+records::RawSeries open_loop_record(const SlidingAxis& axis, const AxisLoop& loop, double duration,
+                                    std::mt19937_64& random);
+
+}  // namespace zerocount::testing

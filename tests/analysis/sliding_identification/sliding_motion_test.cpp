@@ -1,0 +1,96 @@
+// The motion over a window: that of core's Plant, and its derivatives.
+#include "analysis/sliding_identification/sliding_motion.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/plant/plant.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+using sliding_identification::SlidingPoint;
+using sliding_identification::SlidingRecord;
+using sliding_identification::Window;
+using sliding_identification::WindowMotion;
+
+constexpr double inertia = 0.02;
+constexpr double coulomb = 0.4;
+constexpr double damping = 0.05;
+constexpr double offset = 0.03;
+constexpr double excess = 0.15;
+constexpr double stribeck_velocity = 0.5;
+
+SlidingPoint point_of_motion() {
+  SlidingPoint point;
+  point << std::log(inertia), coulomb, damping, offset, excess, std::log(stribeck_velocity);
+  return point;
+}
+
+/// 200 samples under a wavy torque; behind an amplifier if `rate` is not 0.
+SlidingRecord wavy_record(double direction, double rate) {
+  SlidingRecord record;
+  for (int k = 0; k < 200; ++k) {
+    record.time.push_back(1e-3 * k);
+    const double torque = direction * (0.6 + 0.1 * std::sin(0.05 * k));
+    record.torque.push_back({torque, rate > 0.0 ? torque + 0.02 : torque, rate});
+  }
+  record.position.assign(200, 0.0);
+  return record;
+}
+
+TEST(SlidingMotion, IsThatOfThePlant) {
+  for (const double direction : {-1.0, 1.0}) {
+    for (const double rate : {0.0, 500.0}) {
+      const SlidingRecord record = wavy_record(direction, rate);
+      const WindowMotion motion =
+          window_motion(record, {0, 199, 0, direction}, point_of_motion(), 0.0, direction * 0.2);
+      motion::PlantParameters plant;
+      plant.inertia = inertia;
+      plant.sliding_damping = damping;
+      friction::FrictionAlongRotor friction;
+      friction.model = friction::FrictionModel::coulomb;
+      friction.uniform.breakaway = coulomb + excess;
+      friction.uniform.coulomb_ratio = coulomb / (coulomb + excess);
+      friction.uniform.stribeck_velocity = stribeck_velocity;
+      motion::PlantStart start;
+      start.velocity = direction * 0.2;
+      plant::Plant judge(plant, friction, start, {1e-13});
+      for (std::size_t k = 0; k < 200; ++k) {
+        ASSERT_NEAR(motion.position[static_cast<Eigen::Index>(k)], judge.theta(), 5e-9) << k;
+        motion::TorqueCourse course = record.torque[k];
+        course.now -= offset;
+        course.settled -= offset;
+        judge.advance(course, 1e-3);
+      }
+    }
+  }
+}
+
+TEST(SlidingMotion, DerivativesAreThoseOfTheMotion) {
+  const SlidingRecord record = wavy_record(1.0, 0.0);
+  const Window window{3, 180, 0, 1.0};
+  const WindowMotion motion = window_motion(record, window, point_of_motion(), 0.1, 0.3);
+  const auto difference = [&](std::size_t column) -> Eigen::VectorXd {
+    constexpr double step = 1e-5;
+    const auto moved = [&](double by) {
+      SlidingPoint point = point_of_motion();
+      double position = 0.1;
+      double velocity = 0.3;
+      if (column < sliding_identification::sliding_dimension) point[static_cast<Eigen::Index>(column)] += by;
+      if (column == sliding_identification::sliding_dimension) position += by;
+      if (column == sliding_identification::sliding_dimension + 1) velocity += by;
+      return window_motion(record, window, point, position, velocity).position;
+    };
+    return (moved(step) - moved(-step)) / (2.0 * step);
+  };
+  for (std::size_t column = 0; column < sliding_identification::window_columns; ++column) {
+    const Eigen::VectorXd judge = difference(column);
+    const Eigen::VectorXd off = motion.slopes.col(static_cast<Eigen::Index>(column)) - judge;
+    EXPECT_LT(off.cwiseAbs().maxCoeff(), 1e-6 * judge.cwiseAbs().maxCoeff() + 1e-10) << column;
+  }
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -10,7 +10,8 @@
 #include "core/failure/failure.hpp"
 #include "results/storage/durable_file.hpp"
 
-namespace zerocount::history::sqlite {
+namespace zerocount::history {
+namespace sqlite {
 
 Statement::Statement(const Connection& connection, sqlite3_stmt* statement)
     : connection_(&connection), statement_(statement, [](sqlite3_stmt* one) { sqlite3_finalize(one); }) {}
@@ -167,4 +168,5 @@ void Transaction::commit() {
   open_ = false;
 }
 
-}  // namespace zerocount::history::sqlite
+}  // namespace sqlite
+}  // namespace zerocount::history

@@ -11,7 +11,8 @@ struct sqlite3;
 struct sqlite3_stmt;
 
 /// A thin layer over SQLite: no handle leaks, and no text of SQLite reaches the user.
-namespace zerocount::history::sqlite {
+namespace zerocount::history {
+namespace sqlite {
 
 class Connection;
 
@@ -89,4 +90,5 @@ class Transaction {
   bool open_{true};
 };
 
-}  // namespace zerocount::history::sqlite
+}  // namespace sqlite
+}  // namespace zerocount::history

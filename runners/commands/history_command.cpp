@@ -11,8 +11,12 @@
 #include "analysis/history/database.hpp"
 #include "analysis/history/run_record.hpp"
 #include "analysis/history/series.hpp"
+#include "analysis/report/report.hpp"
+#include "experiments/yaml/text_file.hpp"
 #include "results/reading/study_file.hpp"
+#include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
+#include "runners/commands/figure_picture.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -31,11 +35,18 @@ constexpr const char* history_help =
     "is stated below the table. How it is found, and the tables of the database:\n"
     "analysis/history/README.md\n"
     "\n"
+    "history plot draws the series: values with bounds, and the first run after each change.\n"
+    "\n"
     "Example: zerocount history add gains.h5 --database history.sqlite\n"
-    "         zerocount history show --database history.sqlite --point b --measure success_rate\n";
+    "         zerocount history show --database history.sqlite --point b --measure success_rate\n"
+    "         zerocount history plot --database history.sqlite -o history.html\n";
 
 std::filesystem::path database_of(const command_line::Arguments& arguments) {
   return arguments.value("database").value_or("history.sqlite");
+}
+
+history::SeriesFilter filter_of(const command_line::Arguments& arguments) {
+  return {arguments.value("study"), arguments.value("point"), arguments.value("measure")};
 }
 
 ExitCode add(const command_line::Arguments& arguments) {
@@ -60,12 +71,34 @@ ExitCode add(const command_line::Arguments& arguments) {
 
 ExitCode show(const command_line::Arguments& arguments) {
   const std::string format = arguments.one_of("format", {"text", "json", "csv"});
-  const history::SeriesFilter filter{arguments.value("study"), arguments.value("point"),
-                                     arguments.value("measure")};
-  const history::History shown = history::history_of(history::read_runs(database_of(arguments)), filter);
+  const history::History shown =
+      history::history_of(history::read_runs(database_of(arguments)), filter_of(arguments));
   if (format == "text") fmt::print("{}", history::history_text(shown));
   if (format == "json") fmt::print("{}", history::history_json(shown));
   if (format == "csv") fmt::print("{}", history::history_csv(shown));
+  return ExitCode::success;
+}
+
+ExitCode plot_history(const command_line::Arguments& arguments) {
+  arguments.required("output");
+  const std::filesystem::path output = *command_line::text_place(arguments, "output");
+  const std::filesystem::path database = database_of(arguments);
+  const std::string extension = output.extension().string();
+  const bool page = extension == ".html" || extension == ".htm" || yaml::is_standard_stream(output);
+  if (!page && extension != ".svg" && extension != ".png")
+    arguments.refuse(
+        fmt::format("option '--output': '{}' does not end in .html, .svg or .png", output.string()));
+  command_line::require_places(arguments, {database}, {output});
+  const history::History shown = history::history_of(history::read_runs(database), filter_of(arguments));
+  if (!page && shown.series.size() > 1)
+    arguments.refuse(
+        fmt::format("a picture shows one series, and these are {}; choose with --study, --point and "
+                    "--measure, or write a page (.html)",
+                    shown.series.size()));
+  const report::ReportPage drawn = report::history_page(shown);
+  command_line::write_text(
+      output,
+      page ? report::html_page(drawn) : picture(drawn.sections.front().figures.front(), extension == ".png"));
   return ExitCode::success;
 }
 
@@ -77,14 +110,17 @@ struct HistoryAction {
 };
 
 std::vector<HistoryAction> actions() {
-  return {{"add", {"compare"}, add}, {"show", {"study", "point", "measure", "format"}, show}};
+  return {{"add", {"compare"}, add},
+          {"show", {"study", "point", "measure", "format"}, show},
+          {"plot", {"study", "point", "measure", "output", "force"}, plot_history}};
 }
 
 ExitCode run_history(const command_line::Arguments& arguments) {
   const std::vector<HistoryAction> all = actions();
   const std::string& name = arguments.operands()[0];
   const auto action = std::ranges::find(all, name, &HistoryAction::name);
-  if (action == all.end()) arguments.refuse(fmt::format("'{}' is no action; expected add or show", name));
+  if (action == all.end())
+    arguments.refuse(fmt::format("'{}' is no action; expected add, show or plot", name));
   for (const HistoryAction& other : all) {
     for (const std::string_view option : other.options) {
       if (arguments.has(option) && std::ranges::find(action->options, option) == action->options.end())
@@ -100,13 +136,15 @@ ExitCode run_history(const command_line::Arguments& arguments) {
 
 Command history_command() {
   return {{"history",
-           "add FILE | show",
+           "add FILE | show | plot -o PLOT",
            {{"database", "DB", "the history (default: history.sqlite)"},
             {"compare", "FILE", "add: what 'zerocount compare --json FILE' wrote about the results file"},
             {"study", "NAME", "only this study"},
             {"point", "LABEL", "only this design point"},
             {"measure", "NAME", "only this measure, such as success_rate"},
-            {"format", "FORMAT", "show: text (default), json or csv"}},
+            {"format", "FORMAT", "show: text (default), json or csv"},
+            {"output,o", "PLOT", "plot: a page of all series (*.html), or one series as *.svg or *.png"},
+            command_line::force_option()},
            1,
            2},
           "results over time, with the runs at which they changed",

@@ -133,6 +133,34 @@ TEST_F(HistoryCommand, LosesNothingOfProcessesAtTheSameTime) {
   for (const json& series : series_shown()) EXPECT_EQ(series.at("runs").size(), files.size());
 }
 
+TEST_F(HistoryCommand, DrawsASeriesAndAPageOfAll) {
+  ASSERT_EQ(program({"history", "add", "first.h5"}).code, 0);
+  const std::vector<std::string> one{"history", "plot", "--point", "low", "--measure", "success_rate", "-o"};
+  const auto plot = [&](const std::string& output) {
+    std::vector<std::string> words = one;
+    words.push_back(output);
+    return program(words);
+  };
+  EXPECT_EQ(plot("a.svg").code, 0);
+  EXPECT_EQ(folder_.read("a.svg").find("<svg"), 0U);
+  EXPECT_EQ(plot("a.svg").code, 2) << "it exists already";
+  EXPECT_EQ(plot("a.pdf").code, 2);
+  EXPECT_EQ(program({"history", "plot", "-o", "b.svg"}).code, 2) << "a picture of several series";
+  EXPECT_EQ(program({"history", "plot", "-o", "all.html"}).code, 0);
+  EXPECT_NE(folder_.read("all.html").find("small, high: jerk_count over time"), std::string::npos);
+  EXPECT_EQ(program({"history", "plot", "-o", "history.sqlite", "--force"}).code, 2);
+}
+
+TEST_F(HistoryCommand, IsASectionOfTheReport) {
+  ASSERT_EQ(program({"history", "add", "first.h5"}).code, 0);
+  ASSERT_EQ(program({"report", "first.h5", "--history", "history.sqlite", "-o", "a.html"}).code, 0);
+  EXPECT_NE(folder_.read("a.html").find("small, low: success_rate over time"), std::string::npos);
+  run("other.h5", "controller.kp=1.0e-4");
+  ASSERT_EQ(program({"report", "other.h5", "--history", "history.sqlite", "-o", "b.html"}).code, 0);
+  EXPECT_NE(folder_.read("b.html").find("The history has no run of this study."), std::string::npos);
+  EXPECT_EQ(program({"report", "first.h5", "--history", "none.sqlite", "-o", "c.html"}).code, 2);
+}
+
 TEST_F(HistoryCommand, RefusesWhatItCannotUse) {
   EXPECT_EQ(program({"history"}).code, 2);
   EXPECT_EQ(program({"history", "remove"}).code, 2);

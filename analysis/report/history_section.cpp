@@ -74,7 +74,7 @@ Figure history_figure(const Series& series, std::size_t number) {
 PageSection history_section(const history::History& history, std::size_t max_figures) {
   PageSection section{"history", "Over time", "", {}};
   if (history.series.empty()) {
-    section.html = "<p>The history has no run of this study.</p>\n";
+    section.html = "<p>The history has fewer than two runs of this study.</p>\n";
     return section;
   }
   std::vector<const Series*> ordered;

@@ -44,12 +44,12 @@ constexpr const char* plot_help =
     "\n"
     "Example: zerocount plot gains.h5 --figure success -o success.svg\n";
 
-/// The runs of the file's study in a history; nothing if there are none.
+/// The runs of the file's study in a history; nothing if there are fewer than two.
 history::History history_of_study(const std::filesystem::path& database, const reading::StudyFile& file) {
   std::vector<history::RunRecord> runs = history::read_runs(database);
   const std::string series = history::series_sha256(file);
   std::erase_if(runs, [&](const history::RunRecord& run) { return run.series_sha256 != series; });
-  return runs.empty() ? history::History{} : history::history_of(runs);
+  return runs.size() < 2 ? history::History{} : history::history_of(runs);
 }
 
 report::StudyReport report_of(const command_line::Arguments& arguments, const reading::StudyFile& file) {

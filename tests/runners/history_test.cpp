@@ -152,12 +152,19 @@ TEST_F(HistoryCommand, DrawsASeriesAndAPageOfAll) {
 }
 
 TEST_F(HistoryCommand, IsASectionOfTheReport) {
+  const auto page_of = [&](const std::string& file) {
+    EXPECT_EQ(program({"report", file, "--history", "history.sqlite", "-o", "page.html", "--force"}).code, 0);
+    return folder_.read("page.html");
+  };
   ASSERT_EQ(program({"history", "add", "first.h5"}).code, 0);
-  ASSERT_EQ(program({"report", "first.h5", "--history", "history.sqlite", "-o", "a.html"}).code, 0);
-  EXPECT_NE(folder_.read("a.html").find("small, low: success_rate over time"), std::string::npos);
+  EXPECT_NE(page_of("first.h5").find("The history has fewer than two runs of this study."),
+            std::string::npos);
+  run("second.h5", "seed=4");
   run("other.h5", "controller.kp=1.0e-4");
-  ASSERT_EQ(program({"report", "other.h5", "--history", "history.sqlite", "-o", "b.html"}).code, 0);
-  EXPECT_NE(folder_.read("b.html").find("The history has no run of this study."), std::string::npos);
+  ASSERT_EQ(program({"history", "add", "second.h5"}).code, 0);
+  EXPECT_NE(page_of("first.h5").find("small, low: success_rate over time"), std::string::npos);
+  EXPECT_NE(page_of("other.h5").find("The history has fewer than two runs of this study."),
+            std::string::npos);
   EXPECT_EQ(program({"report", "first.h5", "--history", "none.sqlite", "-o", "c.html"}).code, 2);
 }
 

@@ -11,6 +11,8 @@
 namespace zerocount::report {
 namespace {
 
+constexpr std::size_t max_history_figures = 12;  ///< of a report
+
 /// Simulates trials again, and collects their differences from the file.
 struct Replays {
   const ReportedStudy& reported;
@@ -119,6 +121,7 @@ StudyReport study_report(const reading::StudyFile& file, const ReportOptions& op
       made.zerocount_version, made.git_commit, made.created);
   add(page, {"verdict", "Verdict", verdict_html(reported), {}});
   if (options.comparison) add(page, comparison_section(*options.comparison));
+  if (options.history) add(page, history_section(*options.history, max_history_figures));
   add(page, success_section(reported));
   if (std::optional<Figure> settling = settling_figure(reported))
     add(page, {"settling", "Settling time", "", {std::move(*settling)}});
@@ -141,6 +144,13 @@ StudyReport study_report(const reading::StudyFile& file, const ReportOptions& op
   report.warnings = replays.warnings;
   page.sections.front().html = warnings_html(report.warnings) + page.sections.front().html;
   return report;
+}
+
+ReportPage history_page(const history::History& history) {
+  ReportPage page{
+      "Results over time", "", "This page is self-contained and requests nothing from anywhere.", {}};
+  add(page, history_section(history, history.series.size()));
+  return page;
 }
 
 std::vector<std::string> figure_names(const ReportPage& page) {

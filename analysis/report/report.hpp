@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/comparison/comparison.hpp"
+#include "analysis/history/series.hpp"
 #include "analysis/report/page.hpp"
 #include "analysis/report/thinned_trace.hpp"
 #include "results/reading/study_file.hpp"
@@ -17,6 +18,7 @@ namespace zerocount::report {
 /// Options of a report.
 struct ReportOptions {
   std::optional<comparison::StudyComparison> comparison{};  ///< with a baseline
+  std::optional<history::History> history{};                ///< earlier runs of this study
   std::optional<std::int64_t> focus{};  ///< design point of the single trials; default: the best point
   /// Compares a repeated trial with its record; returns the differences, one line each.
   std::function<std::vector<std::string>(const ReplayedTrial&)> check{};
@@ -32,6 +34,9 @@ struct StudyReport {
 /// again.
 /// @throws Failure as StudyFile; bad_input if the focus is not a design point.
 StudyReport study_report(const reading::StudyFile& file, const ReportOptions& options = {});
+
+/// A page on a history alone: a figure for every series.
+ReportPage history_page(const history::History& history);
 
 /// The names of all figures of a report.
 std::vector<std::string> figure_names(const ReportPage& page);

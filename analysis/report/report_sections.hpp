@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
 #include "analysis/comparison/comparison.hpp"
+#include "analysis/history/series.hpp"
 #include "analysis/report/page.hpp"
 #include "analysis/report/reported_study.hpp"
 
@@ -25,6 +27,10 @@ std::string points_html(const ReportedStudy& reported);
 /// Comparison with a baseline: the verdict, the differences of the manifests, and every measure at every
 /// point, failed ones first.
 PageSection comparison_section(const comparison::StudyComparison& comparison);
+
+/// The series of a history as figures, those that changed first, and their changes in words. At most
+/// `max_figures`; a note states if there are more.
+PageSection history_section(const history::History& history, std::size_t max_figures);
 
 /// The anchor of sensitivity_section() in the page.
 inline constexpr const char* sensitivity_section_name = "sensitivity";

@@ -26,6 +26,13 @@ std::string trailer_of(const fs::path& path, const FileDescriptor& file, std::si
   return fmt::format("{}{}\n", trailer_start, hash::hexadecimal(sha256_of(path, file, length)));
 }
 
+[[noreturn]] void fail_missing(const fs::path& path) {
+  throw Failure(ExitCode::bad_data,
+                fmt::format("{}: the checksum at its end is missing: it was changed since it was written, or "
+                            "damaged, or is no results file of zerocount",
+                            path.string()));
+}
+
 }  // namespace
 
 void append_checksum(const fs::path& path) {
@@ -55,12 +62,7 @@ void require_valid_checksum(const fs::path& path) {
     case ChecksumState::valid:
       return;
     case ChecksumState::missing:
-      throw Failure(
-          ExitCode::bad_data,
-          fmt::format(
-              "{}: the checksum at its end is missing: it was changed since it was written, or damaged, "
-              "or is no results file of zerocount",
-              path.string()));
+      fail_missing(path);
     case ChecksumState::wrong:
       throw Failure(
           ExitCode::bad_data,
@@ -68,6 +70,20 @@ void require_valid_checksum(const fs::path& path) {
                       "of its contents",
                       path.string()));
   }
+}
+
+std::string recorded_checksum(const fs::path& path) {
+  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!file.valid()) fail_with(path, "read", errno);
+  std::string found(checksum_trailer_length, '\0');
+  const std::size_t size = size_of_file(path, file);
+  if (size > checksum_trailer_length) {
+    if (::lseek(file.get(), static_cast<off_t>(size - checksum_trailer_length), SEEK_SET) < 0)
+      fail_with(path, "read", errno);
+    read_some(path, file, std::as_writable_bytes(std::span(found)));
+  }
+  if (!found.starts_with(trailer_start)) fail_missing(path);
+  return found.substr(trailer_start.size(), 64);
 }
 
 }  // namespace zerocount::storage

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
 
 namespace zerocount::storage {
 
@@ -28,5 +29,9 @@ ChecksumState check_checksum(const std::filesystem::path& path);
 /// @throws Failure: bad_data if the checksum trailer is missing or wrong, machine_failed if the file cannot
 /// be read.
 void require_valid_checksum(const std::filesystem::path& path);
+
+/// The SHA-256 that the trailer of a valid file records, 64 hexadecimal digits: it identifies the contents.
+/// @throws Failure as require_valid_checksum, without reading more than the trailer.
+std::string recorded_checksum(const std::filesystem::path& path);
 
 }  // namespace zerocount::storage

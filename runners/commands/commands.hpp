@@ -26,6 +26,7 @@ Command merge_command();
 Command export_command();
 Command compare_command();
 Command baseline_command();
+Command history_command();
 Command jerks_command();
 Command plan_command();
 Command identify_command();

@@ -18,6 +18,7 @@
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
 #include "runners/commands/record_options.hpp"
+#include "runners/status/status.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -236,8 +237,7 @@ std::vector<identification::TestRecord> read_records(const command_line::Argumen
 
 void write_draws(const identification::Identification& found, const std::filesystem::path& place) {
   if (found.draws.rows.empty()) {
-    fmt::print(stderr, "zerocount identify: {} is not written: there is no parameter to draw\n",
-               place.string());
+    status::tell("zerocount identify: {} is not written: there is no parameter to draw\n", place.string());
     return;
   }
   command_line::write_text(place, identification::posterior_table(found));
@@ -264,8 +264,8 @@ ExitCode identify_records(const command_line::Arguments& arguments) {
   command_line::write_text(output.value_or("-"), report);
   if (posterior) write_draws(found, *posterior);
   if (!found.checks.passed) {
-    fmt::print(stderr, "zerocount identify: the answer is not to be trusted: {}\n",
-               identification::reason_of_misfit(found.checks));
+    status::tell("zerocount identify: the answer is not to be trusted: {}\n",
+                 identification::reason_of_misfit(found.checks));
     return ExitCode::inconclusive;
   }
   const bool any = std::any_of(found.parameters.begin(), found.parameters.end(),
@@ -273,7 +273,7 @@ ExitCode identify_records(const command_line::Arguments& arguments) {
                                  return p.status == identification::EstimateStatus::estimated;
                                });
   if (any) return ExitCode::success;
-  fmt::print(stderr, "zerocount identify: nothing is identifiable from this\n");
+  status::tell("zerocount identify: nothing is identifiable from this\n");
   return ExitCode::inconclusive;
 }
 

@@ -10,14 +10,15 @@
 
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/comparison/gate_rules.hpp"
+#include "analysis/history/database.hpp"
 #include "analysis/report/report.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/reading/study_file.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
-#include "runners/commands/child_process.hpp"
 #include "runners/commands/commands.hpp"
+#include "runners/commands/figure_picture.hpp"
 #include "runners/commands/replay.hpp"
 #include "runners/status/status.hpp"
 
@@ -33,7 +34,7 @@ constexpr const char* report_help =
     "PDF.\n"
     "\n"
     "With a baseline, the page also has the result of 'zerocount compare'. The exit code does\n"
-    "not depend on that result.\n"
+    "not depend on that result. With a history, it has the earlier runs and when they changed.\n"
     "\n"
     "Example: zerocount report gains.h5 -o gains.html\n";
 
@@ -43,6 +44,14 @@ constexpr const char* plot_help =
     "this study has.\n"
     "\n"
     "Example: zerocount plot gains.h5 --figure success -o success.svg\n";
+
+/// The runs of the file's study in a history; nothing if there are fewer than two.
+history::History history_of_study(const std::filesystem::path& database, const reading::StudyFile& file) {
+  std::vector<history::RunRecord> runs = history::read_runs(database);
+  const std::string series = history::series_sha256(file);
+  std::erase_if(runs, [&](const history::RunRecord& run) { return run.series_sha256 != series; });
+  return runs.size() < 2 ? history::History{} : history::history_of(runs);
+}
 
 report::StudyReport report_of(const command_line::Arguments& arguments, const reading::StudyFile& file) {
   report::ReportOptions options;
@@ -58,6 +67,7 @@ report::StudyReport report_of(const command_line::Arguments& arguments, const re
       if (arguments.has(option)) arguments.refuse(fmt::format("option '--{}' needs '--baseline'", option));
     }
   }
+  if (const auto database = arguments.value("history")) options.history = history_of_study(*database, file);
   options.check = [&file](const report::ReplayedTrial& replayed) {
     return differences_from_record(file, replayed.result);
   };
@@ -78,7 +88,7 @@ std::filesystem::path picture_or_page(const command_line::Arguments& arguments,
                                  fmt::join(extensions, " or ")));
   }
   std::vector<std::filesystem::path> inputs{arguments.operands()[0]};
-  for (const char* const option : {"baseline", "margins"}) {
+  for (const char* const option : {"baseline", "margins", "history"}) {
     if (const auto path = arguments.value(option)) inputs.emplace_back(*path);
   }
   command_line::require_places(arguments, inputs, {output});
@@ -90,27 +100,6 @@ ExitCode write_report(const command_line::Arguments& arguments) {
   const reading::StudyFile file(arguments.operands()[0]);
   command_line::write_text(output, report::html_page(report_of(arguments, file).page));
   return ExitCode::success;
-}
-
-/// Output of a program for `input`.
-std::string output_of(const std::vector<std::string>& words, std::string_view input,
-                      std::string_view package) {
-  const std::optional<ChildResult> result = run_child(words, input);
-  if (!result) {
-    throw Failure(ExitCode::machine_failed, fmt::format("zerocount plot: there is no {} here, which draws "
-                                                        "the figure; install it (Debian: apt-get install {})",
-                                                        words.front(), package));
-  }
-  if (result->code == 0 && !result->out.empty()) return result->out;
-  throw Failure(ExitCode::machine_failed, fmt::format("zerocount plot: {} failed with exit code {}; expected "
-                                                      "nodejs 18 or later and librsvg 2.50 or later",
-                                                      words.front(), result->code));
-}
-
-std::string picture(const report::Figure& figure, bool png) {
-  const std::string svg = output_of({"node", "-"}, report::drawing_program(figure), "nodejs");
-  // Three pixels per point of the figure: 300 per inch at a width of 140 mm.
-  return png ? output_of({"rsvg-convert", "--format", "png", "--zoom", "3"}, svg, "librsvg2-bin") : svg;
 }
 
 ExitCode plot(const command_line::Arguments& arguments) {
@@ -140,6 +129,7 @@ Command report_command() {
             {"baseline", "FILE", "compare with these results"},
             {"margins", "FILE", "the margins and requirements of that comparison"},
             {"changed-fails", "", "in that comparison a change for the better fails too"},
+            {"history", "DB", "show the earlier runs of the study in this history ('zerocount history')"},
             {"point", "P", "design point whose trials are shown, by label or number (default: the best)"},
             command_line::force_option()}},
           "write one HTML page on a results file",
@@ -155,6 +145,7 @@ Command plot_command() {
             {"baseline", "FILE", "compare with these results"},
             {"margins", "FILE", "the margins and requirements of that comparison"},
             {"changed-fails", "", "in that comparison a change for the better fails too"},
+            {"history", "DB", "show the earlier runs of the study in this history ('zerocount history')"},
             {"point", "P", "design point whose trials are shown, by label or number (default: the best)"},
             command_line::force_option()}},
           "draw one figure of the report as SVG or PNG",

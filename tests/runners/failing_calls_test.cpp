@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <regex>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -191,6 +192,42 @@ TEST_F(FailingCalls, ThatWriteOtherOutputs) {
   fail_calls(
       {{"baseline", "in.h5", "-o", "out.h5", "--reason", "first"}, {"out.h5", "out.h5.log.yaml"}, "", false},
       "writes", faults, 4);
+}
+
+// A history is changed in place: whatever fails, it has the runs from before, and the new one or not.
+TEST_F(FailingCalls, ThatWriteAHistory) {
+  make_input();
+  complete({"run", "study.yaml", "-o", "earlier.h5", "-q"});
+  complete({"history", "add", "earlier.h5"});
+  const std::string before = read_bytes(folder_ / "history.sqlite");
+  const Writer add{{"history", "add", "in.h5"}, {"history.sqlite"}, before, false};
+  const auto runs = [&] {
+    const ProgramResult shown = zerocount_program({"history", "show", "--format", "json"}, folder_.path());
+    EXPECT_EQ(shown.code, 0) << shown.err;
+    const std::regex run("\"study_sha256\": \"[0-9a-f]+\"");
+    std::set<std::string> found;
+    for (std::sregex_iterator it(shown.out.begin(), shown.out.end(), run), end; it != end; ++it)
+      found.insert(it->str());
+    return found.size();
+  };
+  ASSERT_EQ(run_with(add, "writes", 0, faults[0]).code, 0);
+  ASSERT_EQ(runs(), 2U);
+  const long count = std::atol(read_bytes(counts_ / "count").c_str());
+  ASSERT_GT(count, 5);
+  for (long at = 1; at <= count; ++at) {
+    const Fault& fault = faults[static_cast<std::size_t>(at) % faults.size()];
+    SCOPED_TRACE("call " + std::to_string(at) + ", error " + fault.error +
+                 (fault.lasting ? ", lasting" : ""));
+    fs::remove(folder_ / "history.sqlite-journal");
+    restore(add);
+    const ProgramResult result = run_with(add, "writes", at, fault);
+    EXPECT_TRUE(result.code == 0 || result.code == 5) << result.code << ": " << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_NE(result.err.find("history.sqlite"), std::string::npos) << result.err;
+    const std::size_t found = runs();
+    EXPECT_TRUE(found == 2 || (found == 1 && result.code == 5)) << found;
+    if (HasFailure()) return;
+  }
 }
 
 // The disk says that it has written, and has not.

@@ -1,4 +1,5 @@
 // The nightly job, run as it is on studies of a few trials.
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -33,8 +34,9 @@ class Nightly : public ::testing::Test {
 
   std::filesystem::path last_night() const {
     std::filesystem::path last;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_ / "out"))
-      last = std::max(last, entry.path());
+    for (const auto& entry : std::filesystem::directory_iterator(folder_ / "out")) {
+      if (entry.is_directory()) last = std::max(last, entry.path());
+    }
     return last;
   }
 
@@ -64,6 +66,32 @@ TEST_F(Nightly, FindsTheRegression) {
   folder_.write("small.yaml", slower);
   EXPECT_EQ(night(), 1) << said_;
   EXPECT_NE(read_bytes(last_night() / "summary.md").find("regression"), std::string::npos);
+}
+
+TEST_F(Nightly, AddsItsResultsToTheHistory) {
+  ASSERT_EQ(script("make-baselines", "--reason first"), 0) << said_;
+  ASSERT_EQ(night(), 0) << said_;
+  EXPECT_NE(said_.find("history: No change is significant."), std::string::npos) << said_;
+  EXPECT_NE(read_bytes(last_night() / "summary.md").find("## History"), std::string::npos);
+  const auto runs = [&](const std::string& database) {
+    const ProgramResult shown =
+        zerocount_program({"history", "show", "--database", database, "--study", "small", "--point", "low",
+                           "--measure", "success_rate", "--format", "csv"},
+                          folder_.path());
+    EXPECT_EQ(shown.code, 0) << shown.err;
+    return std::count(shown.out.begin(), shown.out.end(), '\n') - 1;
+  };
+  EXPECT_EQ(runs("out/history.sqlite"), 2) << "the two studies, of one name and two seeds, are two series";
+  const std::string page = read_bytes(last_night() / "small.html");
+  EXPECT_TRUE(page.empty() || page.find("Over time") != std::string::npos);
+  ASSERT_EQ(
+      script("nightly", fmt::format("--out {0}/other --history {0}/mine.sqlite", folder_.path().string())), 0)
+      << said_;
+  EXPECT_EQ(runs("mine.sqlite"), 2);
+  ASSERT_EQ(script("nightly", fmt::format("--out {}/none --history none", folder_.path().string())), 0)
+      << said_;
+  EXPECT_EQ(said_.find("history"), std::string::npos) << said_;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "none/history.sqlite"));
 }
 
 // With the margins of the repository: every change fails, whichever way it goes.

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "analysis/history/run_record.hpp"
+
+/// The SQLite file of a history. README.md documents its schema.
+namespace zerocount::history {
+
+/// The version of the schema, kept as the file's `user_version`.
+inline constexpr std::int64_t schema_version = 1;
+
+/// What add_run() did.
+enum class Addition {
+  added,
+  already_there,     ///< the run was added before; nothing changed
+  comparison_added,  ///< the run was added before, without the comparison that it has now
+};
+
+/// Adds a run to a history, which is made where there is no file. All of the run is added or nothing. Waits
+/// while another process writes.
+/// @throws Failure: bad_data where the file is damaged, something else, or of a newer version of the schema;
+/// machine_failed where it cannot be written.
+Addition add_run(const std::filesystem::path& database, const RunRecord& run);
+
+/// All runs of a history, by the time at which they were made.
+/// @throws Failure: bad_input where there is no such file, otherwise as add_run().
+std::vector<RunRecord> read_runs(const std::filesystem::path& database);
+
+}  // namespace zerocount::history

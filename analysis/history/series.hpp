@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/history/run_record.hpp"
+
+namespace zerocount::history {
+
+/// Probability of a false alarm, in any of the series looked at, within false_alarm_runs runs.
+inline constexpr double false_alarm_probability = 0.05;
+inline constexpr double false_alarm_runs = 100.0;
+
+/// Which series are looked at; what is missing is not restricted.
+struct SeriesFilter {
+  std::optional<std::string> study{};
+  std::optional<std::string> point{};
+  std::optional<std::string> measure{};
+  std::optional<std::string> series_sha256{};
+};
+
+/// How a series is tested (README.md).
+enum class SeriesTest {
+  levels,   ///< statistics::level_changes: the runs drew different random numbers
+  baseline  ///< the runs share their draws: each is judged by its comparison with the baseline
+};
+
+/// One run of a series.
+struct SeriesRun {
+  RunRecord run{};  ///< without its values
+  RunValue value{};
+};
+
+/// A change that became significant. Indices are of SeriesRun.
+struct SeriesChange {
+  std::size_t first{0};        ///< first run after the change, as estimated
+  std::size_t significant{0};  ///< run at which the change was significant
+  bool since_baseline{false};  ///< the change lies between the baseline and run `first`
+  double before{statistics::unknown};
+  double after{statistics::unknown};  ///< mean over the runs from `first` to `significant`
+  double z{statistics::unknown};  ///< of SeriesTest::levels: signed root of the likelihood ratio statistic
+  double p{statistics::unknown};  ///< of SeriesTest::baseline: two-sided
+};
+
+/// The values of one measure at one point in all runs of one series.
+struct Series {
+  std::string study;
+  std::string series_sha256;
+  std::string point;
+  std::string measure;
+  std::string unit;
+  std::vector<SeriesRun> runs;  ///< by time
+  SeriesTest test{SeriesTest::levels};
+  std::vector<SeriesChange> changes;
+};
+
+/// What a history shows of the series that were asked for.
+struct History {
+  std::vector<Series> series;
+  double threshold{statistics::unknown};  ///< of |z|, of SeriesTest::levels
+  double max_p{statistics::unknown};      ///< of SeriesTest::baseline
+};
+
+/// Sorts runs into series and finds their changes. With m series, each is tested so that it gives a false
+/// alarm with the probability false_alarm_probability/m within false_alarm_runs runs (Bonferroni).
+/// @param runs by time
+/// @throws Failure (bad_input) that lists what there is where the filter leaves nothing.
+History history_of(const std::vector<RunRecord>& runs, const SeriesFilter& filter = {});
+
+/// "rose from 36.5 % to 41 % between 2026-01-01 (commit 1a2b3c4) and 2026-01-02 (commit …); significant since
+/// …".
+std::string change_sentence(const Series& series, const SeriesChange& change);
+
+/// What the tests assume and how often they are wrong, in a sentence.
+std::string false_alarm_sentence(const History& history);
+
+/// For a terminal: a row per series, the changes in words, and of a single series every run.
+std::string history_text(const History& history);
+/// One object with every run; unknown numbers are null.
+std::string history_json(const History& history);
+/// A line per run of every series.
+std::string history_csv(const History& history);
+
+}  // namespace zerocount::history

@@ -1,0 +1,101 @@
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "analysis/report/html.hpp"
+#include "analysis/report/report_sections.hpp"
+
+namespace zerocount::report {
+namespace {
+
+using history::Series;
+using history::SeriesChange;
+using history::SeriesRun;
+using nlohmann::ordered_json;
+
+std::string short_commit(const std::string& commit) {
+  return commit.substr(0, 10);
+}
+
+FigureData runs_data(const Series& series) {
+  return data_of<SeriesRun>(
+      "runs", series.runs,
+      {{{"date", "", ""}, [](const SeriesRun& one) { return one.run.created; }},
+       {{"run", "run", ""}, [](const SeriesRun& one) { return one.run.created; }},
+       {{"commit", "commit", ""}, [](const SeriesRun& one) { return short_commit(one.run.git_commit); }},
+       {{"seed", "seed", ""}, [](const SeriesRun& one) { return one.run.seed; }},
+       {{"trials", "trials per point", "1"}, [](const SeriesRun& one) { return one.run.trials; }},
+       {{"value", series.measure, series.unit}, [](const SeriesRun& one) { return datum(one.value.value); }},
+       {{"low", "lower 95 % bound", series.unit},
+        [](const SeriesRun& one) { return datum(one.value.bounds.low); }},
+       {{"high", "upper 95 % bound", series.unit},
+        [](const SeriesRun& one) { return datum(one.value.bounds.high); }},
+       {{"verdict", "against the baseline", ""}, [](const SeriesRun& one) {
+          return one.value.comparison ? one.value.comparison->verdict : std::string();
+        }}});
+}
+
+FigureData changes_data(const Series& series) {
+  return data_of<SeriesChange>(
+      "changes", series.changes,
+      {{{"date", "", ""}, [&](const SeriesChange& one) { return series.runs[one.first].run.created; }},
+       {{"commit", "", ""},
+        [&](const SeriesChange& one) { return short_commit(series.runs[one.first].run.git_commit); }},
+       {{"sentence", "", ""}, [&](const SeriesChange& one) { return change_sentence(series, one); }}});
+}
+
+std::string caption_of(const Series& series) {
+  std::string caption = fmt::format(
+      "{} runs, with the 95 % bounds of each (bars){}. ", series.runs.size(),
+      series.test == history::SeriesTest::baseline
+          ? ". The runs share their random numbers, and so their errors; they are judged by their paired "
+            "comparison with the baseline"
+          : "");
+  if (series.changes.empty()) return caption + "No change is significant. ";
+  for (const SeriesChange& change : series.changes)
+    caption += fmt::format("It {}. ", change_sentence(series, change));
+  return caption + "A dashed line stands at the first run after a change, with its commit. ";
+}
+
+Figure history_figure(const Series& series, std::size_t number) {
+  Figure figure = figure_of("history", fmt::format("history-{}", number),
+                            fmt::format("{}, {}: {} over time", series.study, series.point, series.measure),
+                            caption_of(series), {runs_data(series), changes_data(series)});
+  ordered_json& y = figure.specification["layer"][2]["encoding"]["y"];
+  y["title"] = series.unit == "1" ? series.measure : fmt::format("{} ({})", series.measure, series.unit);
+  if (series.runs.front().value.kind == statistics::MeasurementKind::proportion) y["axis"]["format"] = "~p";
+  return figure;
+}
+
+}  // namespace
+
+PageSection history_section(const history::History& history, std::size_t max_figures) {
+  PageSection section{"history", "Over time", "", {}};
+  if (history.series.empty()) {
+    section.html = "<p>The history has fewer than two runs of this study.</p>\n";
+    return section;
+  }
+  std::vector<const Series*> ordered;
+  for (const Series& series : history.series) ordered.push_back(&series);
+  std::stable_sort(ordered.begin(), ordered.end(), [](const Series* one, const Series* other) {
+    return !one->changes.empty() && other->changes.empty();
+  });
+  const auto changed =
+      std::count_if(ordered.begin(), ordered.end(), [](const Series* one) { return !one->changes.empty(); });
+  section.html = fmt::format("<p>{} {}</p>\n",
+                             changed == 0 ? "No change is significant."
+                                          : fmt::format("{} of {} series changed.", changed, ordered.size()),
+                             html_prose(false_alarm_sentence(history)));
+  if (ordered.size() > max_figures) {
+    section.html += fmt::format("<p>Shown are {} of {} series, those that changed first.</p>\n", max_figures,
+                                ordered.size());
+    ordered.resize(max_figures);
+  }
+  for (const Series* const series : ordered)
+    section.figures.push_back(history_figure(*series, section.figures.size() + 1));
+  return section;
+}
+
+}  // namespace zerocount::report

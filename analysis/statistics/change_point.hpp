@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "analysis/statistics/proportion.hpp"
+#include "analysis/statistics/unknown.hpp"
+
+/// Changes of the level of a sequence of measurements that comes one by one.
+namespace zerocount::statistics {
+
+/// What a sequence measures, which decides the likelihood.
+enum class MeasurementKind {
+  mean,       ///< of n values: normal, with a variance that is known for each measurement
+  proportion  ///< of n trials: binomial, with a design effect where trials depend on each other
+};
+
+/// One measurement of a sequence, in the order of time.
+struct Measurement {
+  double value{0.0};
+  double size{1.0};        ///< n > 0, the number of values or trials
+  double dispersion{1.0};  ///< of a mean: variance of one value; of a proportion: the design effect, ≥ 1
+  std::size_t draws{0};    ///< measurements with the same number were made with the same random numbers
+};
+
+/// A change that became significant.
+struct LevelChange {
+  std::size_t first{0};     ///< first measurement after the change, as estimated
+  std::size_t detected{0};  ///< measurement at which the change became significant
+  double before{unknown};   ///< mean of the measurements before `first`
+  double after{unknown};    ///< mean of those from `first` up to `detected`
+  double z{0.0};            ///< signed root of the likelihood ratio statistic
+};
+
+/// A mean of n values with bounds of this confidence, taken for those of a normal distribution: its
+/// dispersion is n·((high − low)/2z)². Nothing unless the bounds are finite, low < high and n > 0.
+std::optional<Measurement> measured_mean(double value, double n, const ConfidenceInterval& bounds,
+                                         double confidence);
+
+/// A proportion of n trials with bounds of this confidence: its design effect is the square of their width
+/// over that of the Clopper–Pearson bounds for independent trials, at least 1. Nothing unless 0 ≤ value ≤ 1
+/// and n > 0.
+std::optional<Measurement> measured_proportion(double value, double n, const ConfidenceInterval& bounds,
+                                               double confidence);
+
+/// The threshold h of level_changes() at which a sequence without a change gives a false alarm with this
+/// probability at each further measurement:
+///
+///   p = h·e^(−h²/2)/√(2π)·∫₀ʰ x·ν(x)² dx,  ν(x) = (2/x)·(Φ(x/2) − ½)/((x/2)·Φ(x/2) + φ(x/2)).
+///
+/// An approximation for large h: Siegmund and Venkatraman, Annals of Statistics 23 (1995), 255, Theorem 1,
+/// where 1/p is the mean time between false alarms; ν from Siegmund, Sequential Analysis (1985), (4.38).
+/// @param probability in (0, 0.05].
+double change_threshold(double probability);
+
+/// The changes of a sequence, each found at the first measurement that shows it.
+///
+/// After each measurement, every division of all of them into n₀ values before and n₁ values from the k-th
+/// on, with means m₀, m₁ and m together and the average dispersion φ, gives the likelihood ratio statistic of
+/// two levels against one:
+///
+///   mean:        Z_k² = (m₁ − m₀)²/(φ·(1/n₀ + 1/n₁)),
+///   proportion:  Z_k² = (2/φ)·Σᵢ nᵢ·(mᵢ·ln(mᵢ/m) + (1 − mᵢ)·ln((1 − mᵢ)/(1 − m))).
+///
+/// A change is significant where max |Z_k| ≥ h (Siegmund and Venkatraman 1995, section 2), and the maximum
+/// estimates k. The search then starts again with the measurements from k on.
+///
+/// The dispersion is averaged because that of a single measurement depends on its value: weights by it would
+/// favour the values on one side. Measurements on one side that were made with the same random numbers count
+/// as a single one, their average: what the errors of such measurements have in common is no evidence. As
+/// they are not correlated negatively, the variance of Z_k is then at most about 1.
+/// @param threshold h
+std::vector<LevelChange> level_changes(MeasurementKind kind, std::span<const Measurement> measurements,
+                                       double threshold);
+
+}  // namespace zerocount::statistics

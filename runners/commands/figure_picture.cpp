@@ -1,0 +1,39 @@
+#include "runners/commands/figure_picture.hpp"
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "analysis/report/report.hpp"
+#include "core/failure/failure.hpp"
+#include "runners/commands/child_process.hpp"
+
+namespace zerocount::commands {
+namespace {
+
+/// Output of a program for `input`.
+std::string output_of(const std::vector<std::string>& words, std::string_view input,
+                      std::string_view package) {
+  const std::optional<ChildResult> result = run_child(words, input);
+  if (!result) {
+    throw Failure(ExitCode::machine_failed, fmt::format("zerocount plot: there is no {} here, which draws "
+                                                        "the figure; install it (Debian: apt-get install {})",
+                                                        words.front(), package));
+  }
+  if (result->code == 0 && !result->out.empty()) return result->out;
+  throw Failure(ExitCode::machine_failed, fmt::format("zerocount plot: {} failed with exit code {}; expected "
+                                                      "nodejs 18 or later and librsvg 2.50 or later",
+                                                      words.front(), result->code));
+}
+
+}  // namespace
+
+std::string picture(const report::Figure& figure, bool png) {
+  const std::string svg = output_of({"node", "-"}, report::drawing_program(figure), "nodejs");
+  // Three pixels per point of the figure: 300 per inch at a width of 140 mm.
+  return png ? output_of({"rsvg-convert", "--format", "png", "--zoom", "3"}, svg, "librsvg2-bin") : svg;
+}
+
+}  // namespace zerocount::commands

@@ -1,0 +1,156 @@
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "analysis/history/database.hpp"
+#include "analysis/history/run_record.hpp"
+#include "analysis/history/series.hpp"
+#include "analysis/report/report.hpp"
+#include "experiments/yaml/text_file.hpp"
+#include "results/reading/study_file.hpp"
+#include "runners/command_line/output_place.hpp"
+#include "runners/commands/commands.hpp"
+#include "runners/commands/figure_picture.hpp"
+#include "runners/status/status.hpp"
+
+namespace zerocount::commands {
+namespace {
+
+constexpr const char* history_help =
+    "Results over time, in an SQLite database that 'add' makes where there is none.\n"
+    "\n"
+    "history add FILE adds the values of a results file: of each rate, settling time and number of\n"
+    "jerks that 'zerocount compare' judges, at every point, with its 95 % bounds. With --compare\n"
+    "also the verdicts of a comparison of FILE with its baseline. A file that was added before is\n"
+    "not added again.\n"
+    "\n"
+    "history show prints each series of values and where it changed: the runs and commits between\n"
+    "which the change lies, and the run since which it is significant. Runs of a changed manifest\n"
+    "are a new series; another seed or number of trials is not. The probability of a false alarm\n"
+    "is stated below the table. How it is found, and the tables of the database:\n"
+    "analysis/history/README.md\n"
+    "\n"
+    "history plot draws the series: values with bounds, and the first run after each change.\n"
+    "\n"
+    "Example: zerocount history add gains.h5 --database history.sqlite\n"
+    "         zerocount history show --database history.sqlite --point b --measure success_rate\n"
+    "         zerocount history plot --database history.sqlite -o history.html\n";
+
+std::filesystem::path database_of(const command_line::Arguments& arguments) {
+  return arguments.value("database").value_or("history.sqlite");
+}
+
+history::SeriesFilter filter_of(const command_line::Arguments& arguments) {
+  return {arguments.value("study"), arguments.value("point"), arguments.value("measure")};
+}
+
+ExitCode add(const command_line::Arguments& arguments) {
+  if (arguments.operands().size() != 2) arguments.refuse("'history add' needs the results FILE to add");
+  const std::filesystem::path database = database_of(arguments);
+  const std::string file = arguments.operands()[1];
+  history::RunRecord run = history::record_of(reading::StudyFile(file));
+  if (const auto json = arguments.value("compare")) history::add_comparison(run, *json);
+  switch (history::add_run(database, run)) {
+    case history::Addition::added:
+      status::tell("{}: added to {}\n", file, database.string());
+      break;
+    case history::Addition::already_there:
+      status::tell("{}: is in {} already, nothing to do\n", file, database.string());
+      break;
+    case history::Addition::comparison_added:
+      status::tell("{}: is in {} already; added its comparison\n", file, database.string());
+      break;
+  }
+  return ExitCode::success;
+}
+
+ExitCode show(const command_line::Arguments& arguments) {
+  const std::string format = arguments.one_of("format", {"text", "json", "csv"});
+  const history::History shown =
+      history::history_of(history::read_runs(database_of(arguments)), filter_of(arguments));
+  if (format == "text") fmt::print("{}", history::history_text(shown));
+  if (format == "json") fmt::print("{}", history::history_json(shown));
+  if (format == "csv") fmt::print("{}", history::history_csv(shown));
+  return ExitCode::success;
+}
+
+ExitCode plot_history(const command_line::Arguments& arguments) {
+  arguments.required("output");
+  const std::filesystem::path output = *command_line::text_place(arguments, "output");
+  const std::filesystem::path database = database_of(arguments);
+  const std::string extension = output.extension().string();
+  const bool page = extension == ".html" || extension == ".htm" || yaml::is_standard_stream(output);
+  if (!page && extension != ".svg" && extension != ".png")
+    arguments.refuse(
+        fmt::format("option '--output': '{}' does not end in .html, .svg or .png", output.string()));
+  command_line::require_places(arguments, {database}, {output});
+  const history::History shown = history::history_of(history::read_runs(database), filter_of(arguments));
+  if (!page && shown.series.size() > 1)
+    arguments.refuse(
+        fmt::format("a picture shows one series, and these are {}; choose with --study, --point and "
+                    "--measure, or write a page (.html)",
+                    shown.series.size()));
+  const report::ReportPage drawn = report::history_page(shown);
+  command_line::write_text(
+      output,
+      page ? report::html_page(drawn) : picture(drawn.sections.front().figures.front(), extension == ".png"));
+  return ExitCode::success;
+}
+
+/// What is done with a history, and the options that it takes.
+struct HistoryAction {
+  std::string_view name;
+  std::vector<std::string_view> options;
+  ExitCode (*run)(const command_line::Arguments&);
+};
+
+std::vector<HistoryAction> actions() {
+  return {{"add", {"compare"}, add},
+          {"show", {"study", "point", "measure", "format"}, show},
+          {"plot", {"study", "point", "measure", "output", "force"}, plot_history}};
+}
+
+ExitCode run_history(const command_line::Arguments& arguments) {
+  const std::vector<HistoryAction> all = actions();
+  const std::string& name = arguments.operands()[0];
+  const auto action = std::ranges::find(all, name, &HistoryAction::name);
+  if (action == all.end())
+    arguments.refuse(fmt::format("'{}' is no action; expected add, show or plot", name));
+  for (const HistoryAction& other : all) {
+    for (const std::string_view option : other.options) {
+      if (arguments.has(option) && std::ranges::find(action->options, option) == action->options.end())
+        arguments.refuse(fmt::format("option '--{}' does not go with 'history {}'", option, name));
+    }
+  }
+  if (name != "add" && arguments.operands().size() > 1)
+    arguments.refuse(fmt::format("'history {}' takes no file; name the history with --database", name));
+  return action->run(arguments);
+}
+
+}  // namespace
+
+Command history_command() {
+  return {{"history",
+           "add FILE | show | plot -o PLOT",
+           {{"database", "DB", "the history (default: history.sqlite)"},
+            {"compare", "FILE", "add: what 'zerocount compare --json FILE' wrote about the results file"},
+            {"study", "NAME", "only this study"},
+            {"point", "LABEL", "only this design point"},
+            {"measure", "NAME", "only this measure, such as success_rate"},
+            {"format", "FORMAT", "show: text (default), json or csv"},
+            {"output,o", "PLOT", "plot: a page of all series (*.html), or one series as *.svg or *.png"},
+            command_line::force_option()},
+           1,
+           2},
+          "results over time, with the runs at which they changed",
+          history_help,
+          run_history};
+}
+
+}  // namespace zerocount::commands

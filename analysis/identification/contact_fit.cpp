@@ -270,9 +270,12 @@ double creep_torque_for(std::span<const TestRecord> records, const std::vector<K
   return 0.7 * largest;
 }
 
-ContactFit fit_contact(std::span<const TestRecord> records, const std::vector<KnownParameter>& known) {
+ContactFit fit_contact(std::span<const TestRecord> records, const std::vector<KnownParameter>& known,
+                       const StageReport& report) {
   ContactFit fit;
+  if (report) report("starting values");
   fit.setting = setting_for(records, known);
+  if (report) report("rough fit");
   const FitPoint point = fit_roughly(records, fit.setting);
   for (std::size_t j = 0; j < coordinate_count; ++j) {
     if (fit.setting.free[j]) fit.setting.prior[j] = point.contact[j];
@@ -283,6 +286,7 @@ ContactFit fit_contact(std::span<const TestRecord> records, const std::vector<Kn
   // The rough fit has the smallest residuals of all; later fits do not reduce them much further.
   constexpr double rough_tolerance = 1.5;
   refuse_unexplained(records, fit, rough_tolerance);
+  if (report) report("fit");
   refine(records, point, max_rounds, fit);
   refuse_glitches(records, fit.model.point, fit.setting);
   refuse_unexplained(records, fit, 1.0);
@@ -298,9 +302,7 @@ void keep_time_offset(std::span<const TestRecord> records, ContactFit& fit) {
 
 bool improve_softening(std::span<const TestRecord> records, ContactFit& fit) {
   if (!fit.setting.free[log_beta] || !fit.setting.free[log_k2]) return false;
-  constexpr double few = 5.0;  // units of the readings
-  const double softening = std::exp(-fit.model.point.contact[log_beta]);
-  if (has_slow_branches(records) && softening > few * records.front().unit) return false;
+  if (are_slow_alone(records)) return false;  // fit_slow_parts() has searched
   const ContactFit first = fit;
   bool improved = false;
   for (const double shift : {-2.0, -4.0, -6.0, -8.0, 2.0, 4.0}) {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analysis/identification/joint_fit.hpp"
@@ -13,6 +15,9 @@ struct KnownParameter {
   Coordinate coordinate{log_k1};  ///< coordinate of the parameter, by coordinate_keys
   double value{0.0};              ///< in the parameter's own unit
 };
+
+/// Called with the name of each stage of a computation when it begins, for messages; may be empty.
+using StageReport = std::function<void(std::string_view)>;
 
 /// A contact fitted to records.
 struct ContactFit {
@@ -34,13 +39,15 @@ double creep_torque_for(std::span<const TestRecord> records, const std::vector<K
 /// updated observations until the fit no longer changes.
 /// @throws Failure (bad_data) if a single reading is an outlier, the model does not explain a record, or the
 /// fit ends at a rotor that cannot be simulated.
-ContactFit fit_contact(std::span<const TestRecord> records, const std::vector<KnownParameter>& known);
+ContactFit fit_contact(std::span<const TestRecord> records, const std::vector<KnownParameter>& known,
+                       const StageReport& report = {});
 
 /// Repeats the fit with a time offset of 0, the given delay.
 void keep_time_offset(std::span<const TestRecord> records, ContactFit& fit);
 
 /// Repeats the fit from other values of β and keeps the fit with the smallest spread of residuals. A spring
-/// that softens within a count or two has little influence on the rough fit, which may end far away.
+/// that softens within a count or two has little influence on the rough fit, which may end far away. Records
+/// of slow parts alone are left as they are: their β has been searched.
 /// @returns whether `fit` changed.
 bool improve_softening(std::span<const TestRecord> records, ContactFit& fit);
 

@@ -220,20 +220,28 @@ Identification identify(std::vector<TestRecord> records, const IdentificationOpt
   check_different(records);
   for (TestRecord& record : records) record.parts = parts_of(record);
   check_reversals(records, options);
-  ContactFit fit = fit_contact(records, options.known);
+  ContactFit fit = fit_contact(records, options.known, options.report);
   ReadingReplicates replicates;
   Identification result;
+  const auto enter = [&](std::string_view stage) {
+    if (options.report) options.report(stage);
+  };
   const auto check = [&] {
+    enter("replicates of the readings");
     replicates = replicate_readings(records, fit.model, fit.setting, fit.noise, options.replicates);
     result.checks = check_residuals(residual_statistics(residuals_of(fit.model, fit.observations, {})),
                                     replicates.residuals);
   };
   check();
   if (fit.setting.free[time_offset] && shows_no_time_offset(fit, replicates)) {
+    enter("fit with the given delay");
     keep_time_offset(records, fit);
     check();
   }
-  if (!result.checks.passed && improve_softening(records, fit)) check();
+  if (!result.checks.passed) {
+    enter("fit with other values of beta");
+    if (improve_softening(records, fit)) check();
+  }
   refuse_gross_misfit(records, fit, result.checks);
   for (std::size_t r = 0; r < records.size(); ++r) {
     result.records.push_back(summary_of(records[r], fit, r));
@@ -242,6 +250,7 @@ Identification identify(std::vector<TestRecord> records, const IdentificationOpt
   const Estimation estimation{records, fit, replicates, options, result.checks.widening};
   std::vector<EstimatedQuantity> estimated;
   for (const FittedQuantity& quantity : quantities) {
+    enter(fmt::format("interval of {}", quantity.name));
     result.parameters.push_back(estimation.estimate(quantity, estimated));
   }
   const auto value = [&](std::size_t quantity) { return result.parameters[quantity].value; };
@@ -250,7 +259,10 @@ Identification identify(std::vector<TestRecord> records, const IdentificationOpt
   result.sample_time = records.front().sample_time;
   result.errors = joint_errors(estimated, replicates.errors, result.checks.widening);
   result.correlations = strong_correlations(result.errors);
-  if (options.draws > 0) result.draws = draw_jointly(estimation, std::move(estimated));
+  if (options.draws > 0) {
+    enter("joint draws");
+    result.draws = draw_jointly(estimation, std::move(estimated));
+  }
   return result;
 }
 

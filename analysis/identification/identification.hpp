@@ -67,6 +67,7 @@ struct IdentificationOptions {
   std::vector<KnownParameter> known;
   std::size_t replicates{500};
   std::size_t draws{0};  ///< joint draws of the parameters
+  StageReport report{};
 };
 
 /// Identifies a rotor and its contact from material tests, all of the same contact.

@@ -189,10 +189,11 @@ ContactPoint starting_point(std::span<const TestRecord> records, double creep_to
   const double travel = seen ? 0.0 : creep_torque / estimate_spring(records, creep, creep_torque).k1;
   if (!seen) creep.limit = 1e-3 * travel;
   const ContactPoint estimated = with_known(point_with_creep(records, creep, creep_torque), known, free);
+  // The error of an estimated creep law is larger than what a fit of the spring to slow parts could gain.
+  if (seen) return with_known(with_best_ringing(records, estimated, creep_torque), known, free);
   ContactPoint point = estimated;
   SlowFit slow = fit_slow_parts(records, estimated, creep_torque, free);
   for (const double proportion : {0.1, 0.3, 1.0, 3.0}) {
-    if (seen) break;
     if (std::isfinite(slow.squares)) {
       ContactPoint start = estimated;
       if (free[log_limit]) start[log_limit] = std::log(proportion * travel);

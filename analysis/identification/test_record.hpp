@@ -94,8 +94,8 @@ inline double middle_of_reading(const TestRecord& record) {
 
 RecordParts parts_of(const TestRecord& record);
 
-/// Whether a branch is slow and has no step (of 5 % of the range from sample to sample), such as at the end of
-/// a hold.
+/// Whether a branch is slow and has no step (of 5 % of the range from sample to sample), such as at the end
+/// of a hold.
 bool is_gradual(const TestRecord& record, const LoadingBranch& branch);
 
 /// Whether a record has a gradual branch.

@@ -18,6 +18,7 @@
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
 #include "runners/commands/record_options.hpp"
+#include "runners/commands/stage_progress.hpp"
 #include "runners/status/status.hpp"
 
 namespace zerocount::commands {
@@ -235,6 +236,13 @@ std::vector<identification::TestRecord> read_records(const command_line::Argumen
   return found;
 }
 
+identification::Identification identify_with_progress(const command_line::Arguments& arguments,
+                                                      identification::IdentificationOptions options) {
+  StageProgress progress("zerocount identify", arguments.has("quiet"));
+  options.report = [&](std::string_view stage) { progress.enter(stage); };
+  return identification::identify(read_records(arguments), options);
+}
+
 void write_draws(const identification::Identification& found, const std::filesystem::path& place) {
   if (found.draws.rows.empty()) {
     status::tell("zerocount identify: {} is not written: there is no parameter to draw\n", place.string());
@@ -245,7 +253,7 @@ void write_draws(const identification::Identification& found, const std::filesys
 
 ExitCode identify_records(const command_line::Arguments& arguments) {
   const std::string format = arguments.one_of("format", {"text", "json", "yaml"});
-  const identification::IdentificationOptions options = identification_options(arguments);
+  identification::IdentificationOptions options = identification_options(arguments);
   const std::optional<std::filesystem::path> output = command_line::text_place(arguments, "output");
   const std::optional<std::filesystem::path> posterior = command_line::text_place(arguments, "posterior");
   std::vector<std::filesystem::path> outputs{output.value_or("-")};
@@ -257,7 +265,7 @@ ExitCode identify_records(const command_line::Arguments& arguments) {
     command_line::write_text(output.value_or("-"), identify_sliding_axis(arguments, format));
     return ExitCode::success;
   }
-  const identification::Identification found = identification::identify(read_records(arguments), options);
+  const identification::Identification found = identify_with_progress(arguments, std::move(options));
   const std::string report = format == "json"   ? identification::identification_json(found)
                              : format == "yaml" ? identification::manifest_fragment(found)
                                                 : identification::identification_text(found);
@@ -306,6 +314,7 @@ Command identify_command() {
             {"trial", "I", "trial of the point (default 0)"},
             {"format", "FORMAT", "text (default), json or yaml"},
             {"output,o", "FILE", "write there instead of to standard output"},
+            {"quiet,q", "", "print no progress"},
             command_line::force_option()},
            1,
            64},

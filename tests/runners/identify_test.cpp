@@ -49,7 +49,7 @@ const nlohmann::json& parameter(const nlohmann::json& json, const std::string& n
 TEST_F(Identify, FindsTheTruthInAResultsFile) {
   run_study();
   const ProgramResult result =
-      run({"identify", "tests.h5", "--point", "0", "--point", "1", "--format", "json"});
+      run({"identify", "tests.h5", "--point", "0", "--point", "1", "--format", "json", "--quiet"});
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(result.err, "");  // no library speaks to the user
   const auto json = nlohmann::json::parse(result.out);

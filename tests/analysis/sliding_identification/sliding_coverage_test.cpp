@@ -62,7 +62,8 @@ CoverageOf coverage(int axes,
   return coverage;
 }
 
-/// A binomial proportion of 0.95 lies above this in 99.9 % of the cases.
+/// A binomial proportion of 0.95 lies above this in 99.9 % of the cases. The 72
+/// intervals of six parameters of 12 axes fall below it in half of the cases if they hold the truth in 87 %.
 double least_expected(int count) {
   return 0.95 * count - 3.1 * std::sqrt(0.95 * 0.05 * count) - 0.5;
 }
@@ -89,14 +90,22 @@ TEST(SlidingCoverage, OfClosedLoopRecords) {
 }
 
 // Forces that the record does not show, correlated in time, fed back by the loop.
-TEST(SlidingCoverage, OfClosedLoopRecordsWithUnknownForces) {
-  constexpr int axes = 50;
+void expect_coverage_with_unknown_forces(int axes) {
   expect_coverage(coverage(axes,
                            [](std::mt19937_64& random, SlidingAxis& axis) {
                              axis.friction_noise = 0.01 * axis.coulomb;
                              return closed_loop_record(axis, {}, emps_lap(), 2, random);
                            }),
                   axes, "unknown forces");
+}
+
+TEST(SlidingCoverage, OfClosedLoopRecordsWithUnknownForces) {
+  expect_coverage_with_unknown_forces(12);
+}
+
+// Takes minutes: --gtest_also_run_disabled_tests.
+TEST(SlidingCoverage, DISABLED_OfManyClosedLoopRecordsWithUnknownForces) {
+  expect_coverage_with_unknown_forces(50);
 }
 
 TEST(SlidingCoverage, OfCoarselyReadRecordsWithNoise) {

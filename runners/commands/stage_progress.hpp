@@ -1,0 +1,42 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <thread>
+
+#include "runners/status/status.hpp"
+
+namespace zerocount::commands {
+
+/// Prints the stage of a long computation to stderr, with the time since its start. A computation that ends
+/// soon prints nothing.
+class StageProgress {
+ public:
+  /// @param verb of the messages that are no terminal's: "zerocount identify"
+  StageProgress(std::string verb, bool quiet);
+  /// Removes the line from a terminal.
+  ~StageProgress();
+  StageProgress(const StageProgress&) = delete;
+  StageProgress& operator=(const StageProgress&) = delete;
+  StageProgress(StageProgress&&) = delete;
+  StageProgress& operator=(StageProgress&&) = delete;
+
+  void enter(std::string_view stage);
+
+ private:
+  void print_until_end();
+
+  std::string verb_;
+  status::StatusLine line_;
+  std::chrono::steady_clock::time_point start_;
+  std::mutex mutex_;  // of the members below
+  std::condition_variable change_;
+  std::string stage_;
+  bool ended_{false};
+  std::thread printer_;
+};
+
+}  // namespace zerocount::commands

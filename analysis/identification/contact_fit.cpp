@@ -44,6 +44,13 @@ double coordinate_of(Coordinate coordinate, double value) {
   return coordinate == log_limit ? -std::log(value) : std::log(value);
 }
 
+/// Whether the records have slow branches and no ring-downs.
+bool are_slow_alone(std::span<const TestRecord> records) {
+  return has_slow_branches(records) &&
+         std::none_of(records.begin(), records.end(),
+                      [](const TestRecord& record) { return record.parts.ring_downs() > 0; });
+}
+
 FitSetting setting_for(std::span<const TestRecord> records, const std::vector<KnownParameter>& known) {
   FitSetting setting;
   setting.free.fill(true);
@@ -53,6 +60,8 @@ FitSetting setting_for(std::span<const TestRecord> records, const std::vector<Kn
     setting.free[coordinate] = false;
     values[coordinate] = coordinate_of(coordinate, value);
   }
+  // Slow parts hardly change from one sample to the next: a free offset would lead their fit astray.
+  if (are_slow_alone(records)) setting.free[time_offset] = false;
   setting.prior = starting_point(records, setting.creep_torque, values, setting.free);
   return setting;
 }
@@ -153,13 +162,6 @@ FitSetting with_told_coordinates(const FittedModel& model, const Observations& o
   return told;
 }
 
-/// Whether the records have slow branches and no ring-downs.
-bool are_slow_alone(std::span<const TestRecord> records) {
-  return has_slow_branches(records) &&
-         std::none_of(records.begin(), records.end(),
-                      [](const TestRecord& record) { return record.parts.ring_downs() > 0; });
-}
-
 /// The fit from the starting point. If the slow parts are the whole test, that is already their best fit, and
 /// only what the readings determine beside it is left free.
 FitResult first_fit(std::span<const TestRecord> records, const Observations& observations, FitPoint start,
@@ -188,8 +190,7 @@ FitPoint fit_roughly(std::span<const TestRecord> records, const FitSetting& sett
   rough.tolerance = 1e-3;
   FitResult best = first_fit(records, observations, start, rough);
   refuse_glitches(records, best.point, setting);
-  // Slow parts alone have been searched for the best β.
-  if (are_slow_alone(records) || are_explained(records, best.point, setting)) return best.point;
+  if (are_explained(records, best.point, setting)) return best.point;
 
   // A few steps from each of the other starting points; then the best of them are continued.
   std::vector<FitResult> tried;

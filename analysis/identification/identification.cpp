@@ -19,6 +19,10 @@ constexpr std::size_t min_reversals = 2;
 /// Maximum half-widths of the interval of an identifiable quantity (of a logarithm; of n).
 constexpr double max_log_halfwidth = 0.7;  // a factor of 2 to each side
 constexpr double widest_exponent = 1.0;
+
+/// Largest half-width (of a logarithm) of an interval that was widened because the model does not fit.
+constexpr double widest_widened = 7.0;  // a factor of 1000 to each side
+
 constexpr double widest_time_offset = 1.0;  // samples
 
 /// Half-width above which the interval is computed by profile likelihood.
@@ -156,8 +160,18 @@ struct Estimation {
       }
       if (widening == 1.0) return open(quantity);
     }
+    if (quantity.logarithmic && half_width(found) > widest_widened) return beyond_the_model(quantity);
     if (!quantity.key.empty()) jointly.push_back({quantity, found, found});
     return reported(quantity, found);
+  }
+
+  /// Of a quantity that the readings would determine if the model fitted.
+  ParameterEstimate beyond_the_model(const FittedQuantity& quantity) const {
+    ParameterEstimate parameter = open(quantity);
+    parameter.reason =
+        "the model departs systematically from the records, and the interval that allows for it spans more "
+        "than a factor of a thousand to each side";
+    return parameter;
   }
 
   /// Of the time offset, the only coordinate that a fit keeps by itself.

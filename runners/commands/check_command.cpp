@@ -11,6 +11,7 @@
 #include "runners/commands/point_theory.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/plugins/hidden_state.hpp"
+#include "runners/status/status.hpp"
 #include "runners/study_run/cost.hpp"
 #include "runners/study_run/engine_use.hpp"
 #include "runners/study_run/progress.hpp"
@@ -132,8 +133,7 @@ ExitCode check(const command_line::Arguments& arguments) {
     const std::string& label = study.point_labels[static_cast<std::size_t>(point)];
     fmt::print("  point {}: {}\n{}", point, label, describe(theory));
     if (!may_be_too_slow(theory)) continue;
-    fmt::print(
-        stderr,
+    status::tell(
         "warning: point {} ({}): the loop's slowest time constant{}: moves may end before they arrive\n",
         point, label, slowness_text(theory));
   }

@@ -86,11 +86,13 @@ std::optional<std::size_t> find_row(const Rows& rows, const hdf5::Dataset& datas
 TEST(Documentation, DescribesEveryDatasetOfAFileAndNoOther) {
   const TemporaryFolder directory;
   const TemporaryFolder directory_with_rigs;
-  const TemporaryFolder directory_with_plugin;
-  study::Study with_plugin = sample_study();
-  with_plugin.features.own_controller = true;
-  with_plugin.plugin = std::make_shared<const plugin::ControllerPlugin>(
+  const TemporaryFolder directory_with_companions;
+  study::Study with_companions = sample_study();
+  with_companions.features.own_controller = true;
+  with_companions.plugin = std::make_shared<const plugin::ControllerPlugin>(
       plugin::ControllerPlugin{{"own", "1", "0123", {{"gain", "1", "a gain", 1.0, 0.0, 2.0}}}});
+  with_companions.samples = study::JointSamples{
+      .file = "posterior.csv", .text = "friction.k1\n110\n", .parameters = {"friction.k1"}, .rows = 1};
   const Rows rows = documented("path");
   ASSERT_GT(rows.size(), 40U);
   std::set<std::size_t> used;
@@ -114,7 +116,7 @@ TEST(Documentation, DescribesEveryDatasetOfAFileAndNoOther) {
   };
   for_each_dataset(write_sample_file(directory.path(), sample_study()), look_up);
   for_each_dataset(write_sample_file(directory_with_rigs.path(), sample_study_with_rigs()), look_up);
-  for_each_dataset(write_sample_file(directory_with_plugin.path(), with_plugin), look_up);
+  for_each_dataset(write_sample_file(directory_with_companions.path(), with_companions), look_up);
   for (std::size_t i = 0; i < rows.size(); ++i)
     EXPECT_TRUE(used.contains(i)) << rows[i][0] << " is in no file";
 }

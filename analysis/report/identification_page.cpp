@@ -1,6 +1,7 @@
 #include "analysis/report/identification_page.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -94,17 +95,18 @@ FigureData band_data(double half_width) {
   return {"band", {{"low", "", ""}, {"high", "", ""}}, {{datum(-half_width), datum(half_width)}}};
 }
 
-std::string band_text(const RecordSummary& record, const ShownUnit& unit) {
-  const std::string band =
-      fmt::format("The band of ± {:.3g} {}", unit.size * residual_band(record), unit.name);
-  if (!record.counted) return fmt::format("{} is 1.96 standard deviations of the residuals. ", band);
-  if (record.noise == 0.0) return fmt::format("{} is the rounding of the encoder. ", band);
+std::string band_text(const RecordSummary& record, const ShownUnit& unit, double band) {
+  const std::string text = fmt::format("The band of ±{:.3g} {} is", band, unit.name);
+  if (!record.counted)
+    return fmt::format(
+        "{} 1.96 standard deviations of the noise, by the differences of successive residuals. ", text);
+  if (record.noise == 0.0) return fmt::format("{} the rounding of the encoder. ", text);
   return fmt::format(
-      "{} is the rounding of the encoder and 1.96 standard deviations of the noise, {:.3g} counts each. ",
-      band, record.noise);
+      "{} the rounding of the encoder, and 1.96 standard deviations of the noise ({:.3g} counts). ", text,
+      record.noise);
 }
 
-std::string fit_caption(const RecordSummary& record, const ShownUnit& unit, std::size_t drawn) {
+std::string fit_caption(const RecordSummary& record, const ShownUnit& unit, double band, std::size_t drawn) {
   std::string caption = fmt::format(
       "{} samples in {:.4g} s. Top: the readings (wide line) and the readings that the fit expects (thin "
       "line) "
@@ -116,14 +118,14 @@ std::string fit_caption(const RecordSummary& record, const ShownUnit& unit, std:
                         "encoder rounds down",
                         1e6 * record.unit)
           : "",
-      unit.size * record.misfit, unit.name, band_text(record, unit));
+      unit.size * record.misfit, unit.name, band_text(record, unit, band));
   if (record.excluded > 0)
     caption += fmt::format(
         "Grey are the {} masked samples: the fit does not use their readings, so they have no residual. ",
         record.excluded);
   if (!record.note.empty()) caption += fmt::format("The record is {}. ", record.note);
   if (drawn < record.samples)
-    caption += fmt::format("Drawn are {} of the samples, among them all extremes. ", drawn);
+    caption += fmt::format("{} of the samples are drawn, among them all extremes. ", drawn);
   return caption;
 }
 
@@ -134,7 +136,6 @@ void set_axes(ordered_json& specification, const ShownUnit& unit, const AxisRang
   for (ordered_json* const axis : {&panels[0]["encoding"]["y"], &panels[2]["encoding"]["x"]}) {
     (*axis)["title"] = angle;
     (*axis)["scale"]["domain"] = {datum(range.low), datum(range.high)};
-    (*axis)["scale"]["nice"] = true;
     if (unit.name != "counts") (*axis)["axis"].erase("tickMinStep");
   }
   panels[1]["encoding"]["y"]["title"] = fmt::format("residual ({})", unit.name);
@@ -151,10 +152,10 @@ Figure fit_figure(const RecordSummary& record, const FittedRecord& beside, std::
                   std::size_t buckets) {
   const ShownUnit unit = shown_unit(record);
   const std::vector<std::size_t> samples = drawn_samples(beside, buckets);
+  const double band = unit.size * residual_band(record, beside);
   Figure figure = figure_of("identification", fmt::format("record-{}", number), record.name,
-                            fit_caption(record, unit, samples.size()),
-                            {samples_data(beside, unit, samples), masks_data(beside),
-                             band_data(unit.size * residual_band(record))});
+                            fit_caption(record, unit, band, samples.size()),
+                            {samples_data(beside, unit, samples), masks_data(beside), band_data(band)});
   set_axes(figure.specification, unit, angle_range(beside, unit), record.excluded > 0);
   return figure;
 }
@@ -194,8 +195,21 @@ std::vector<std::size_t> drawn_samples(const FittedRecord& record, std::size_t b
   return drawn;
 }
 
-double residual_band(const RecordSummary& record) {
-  return (record.counted ? 0.5 : 0.0) + normal_95 * record.noise;
+double reading_noise(const RecordSummary& record, const FittedRecord& beside) {
+  if (record.counted) return record.noise;
+  double squares = 0.0;
+  double differences = 0.0;
+  for (std::size_t k = 1; k < beside.time.size(); ++k) {
+    if (beside.excluded[k] || beside.excluded[k - 1]) continue;
+    const double difference = residual(beside, k) - residual(beside, k - 1);
+    squares += difference * difference;
+    differences += 1.0;
+  }
+  return differences > 0.0 ? std::sqrt(0.5 * squares / differences) : 0.0;
+}
+
+double residual_band(const RecordSummary& record, const FittedRecord& beside) {
+  return (record.counted ? 0.5 : 0.0) + normal_95 * reading_noise(record, beside);
 }
 
 ReportPage identification_page(const Identification& identification) {

@@ -184,12 +184,32 @@ TEST(IdentificationPage, AnglesAreInMicroradians) {
   Identification found = identification_of({random_record(4, 300, false)});
   found.records[0].counted = false;
   found.records[0].unit = 1e-7;
-  found.records[0].noise = 2.0;
   const report::Figure figure = report::identification_page(found).sections[0].figures[0];
+  const double band = report::residual_band(found.records[0], found.fitted[0]);
   EXPECT_NEAR(figure.data[0].rows[0][2].get<double>(), 0.1 * found.fitted[0].reading[0], 1e-3);
-  EXPECT_NEAR(figure.data[2].rows[0][1].get<double>(), 0.1 * 1.96 * 2.0, 1e-9);
+  EXPECT_NEAR(figure.data[2].rows[0][1].get<double>() / (0.1 * band), 1.0, 1e-5);
   EXPECT_EQ(figure.specification["vconcat"][0]["encoding"]["y"]["title"], "angle (µrad)");
   EXPECT_EQ(figure.specification["vconcat"][1]["encoding"]["y"]["title"], "residual (µrad)");
+}
+
+// The band is that of the noise, also where the model departs from the record by much more.
+TEST(ReadingNoise, IsThatOfTheReadingsAlone) {
+  std::mt19937_64 random(9);
+  std::normal_distribution<double> normal(0.0, 0.3);
+  identification::RecordSummary record;
+  FittedRecord beside;
+  for (std::size_t k = 0; k < 20000; ++k) {
+    beside.time.push_back(1e-3 * static_cast<double>(k));
+    beside.fitted.push_back(0.0);
+    beside.reading.push_back(5.0 * std::sin(1e-3 * static_cast<double>(k)) + normal(random));
+    beside.excluded.push_back(k >= 100 && k < 200);
+  }
+  for (std::size_t k = 100; k < 200; ++k) beside.reading[k] = 1e9;
+  EXPECT_NEAR(report::reading_noise(record, beside), 0.3, 0.01);
+  EXPECT_NEAR(report::residual_band(record, beside), 1.96 * 0.3, 0.02);
+  record.counted = true;
+  record.noise = 2.0;
+  EXPECT_EQ(report::residual_band(record, beside), 0.5 + 1.96 * 2.0);
 }
 
 TEST(IdentificationPage, SaysWhetherTheModelFits) {

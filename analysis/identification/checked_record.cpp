@@ -69,6 +69,7 @@ void set_readings(const RawSeries& series, TestRecord& record) {
 
 /// Puts straight lines in place of masked readings, for the starting values; the fit does not use them.
 void bridge_masked(TestRecord& record) {
+  if (used_samples(record) < sample_count(record)) record.recorded = record.reading;
   const std::size_t samples = record.reading.size();
   for (std::size_t first = 0; first < record.excluded.size();) {
     std::size_t end = first;
@@ -153,6 +154,7 @@ TestRecord checked_record(const RawSeries& whole, bool any_magnitude) {
   }
   record.start = series.start;
   record.sample_time = checked_sample_time(series);
+  record.first_time = series.time.front();
   record.intervals = uneven_intervals(series);
   record.torque = courses_of(series, record);
   record.delay_fraction = series.delay - std::floor(series.delay);

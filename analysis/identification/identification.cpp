@@ -259,6 +259,7 @@ Identification identify(std::vector<TestRecord> records, const IdentificationOpt
   refuse_gross_misfit(records, fit, result.checks);
   for (std::size_t r = 0; r < records.size(); ++r) {
     result.records.push_back(summary_of(records[r], fit, r));
+    result.fitted.push_back(fitted_record(records[r], fit.model.motions[r].path));
   }
   const std::vector<FittedQuantity> quantities = fitted_quantities(fit.model.point, fit.setting.creep_torque);
   const Estimation estimation{records, fit, replicates, options, result.checks.widening};

@@ -6,6 +6,7 @@
 
 #include "analysis/identification/confidence_interval.hpp"
 #include "analysis/identification/contact_fit.hpp"
+#include "analysis/identification/fitted_record.hpp"
 #include "analysis/identification/joint_draws.hpp"
 #include "analysis/identification/residual_checks.hpp"
 #include "analysis/identification/test_record.hpp"
@@ -51,6 +52,7 @@ struct Identification {
   std::vector<ParameterEstimate> parameters;  ///< in the order of the names above
   double sample_time{0.0};                    ///< of the time offset, s: of the first record
   std::vector<RecordSummary> records;
+  std::vector<FittedRecord> fitted;  ///< [record] for figures
   ResidualChecks checks;
   /// Correlation of the errors of a pair of estimated parameters; listed if its magnitude is 0.9 or more.
   struct Correlation {

@@ -48,6 +48,7 @@ struct RecordParts {
 struct TestRecord {
   std::string name;                          ///< name in messages
   double sample_time{5e-4};                  ///< T, s; of uneven samples the mean
+  double first_time{0.0};                    ///< of the first sample, as recorded, s
   std::vector<double> intervals{};           ///< [sample] until the next one, s; empty: T each
   std::vector<motion::TorqueCourse> torque;  ///< [sample] from t_k to t_{k+1}
   /// Samples by which the torque acts later than at its sample, from 0 to below 1: the fraction of a delay.
@@ -57,10 +58,13 @@ struct TestRecord {
   /// Whether the readings are whole counts: the angle is somewhere in [reading, reading + 1).
   bool counted{false};
   std::vector<bool> excluded{};  ///< [sample] masked readings; empty: none
-  std::string note{};            ///< what was cut out of it; empty: nothing
-  bool units_believed{false};    ///< skips the checks of magnitudes
-  motion::PlantStart start;      ///< state of the contact at the first sample
-  RecordParts parts;             ///< parts_of() the record, which identify() sets
+  /// [sample] The readings as recorded; empty: as `reading`, which has straight lines in place of masked
+  /// ones.
+  std::vector<double> recorded{};
+  std::string note{};          ///< what was cut out of it; empty: nothing
+  bool units_believed{false};  ///< skips the checks of magnitudes
+  motion::PlantStart start;    ///< state of the contact at the first sample
+  RecordParts parts;           ///< parts_of() the record, which identify() sets
 };
 
 inline std::size_t sample_count(const TestRecord& record) {

@@ -63,6 +63,13 @@ std::string html_facts(const std::vector<HtmlFact>& facts) {
   return text + "</tbody></table></div>\n";
 }
 
+std::string html_verdict(const std::string& headline, const std::vector<std::string>& lines) {
+  std::string html =
+      fmt::format("<div class=\"verdict\"><p class=\"headline\">{}</p>\n", html_prose(headline));
+  for (const std::string& line : lines) html += fmt::format("<p>{}</p>\n", html_prose(line));
+  return html + "</div>\n";
+}
+
 std::string html_preformatted(const std::string& head, const std::string& text, bool open) {
   return fmt::format("<details{}><summary>{}</summary><pre>{}</pre></details>\n", open ? " open" : "",
                      html_text(head), html_text(text));

@@ -30,6 +30,9 @@ struct HtmlFact {
 };
 std::string html_facts(const std::vector<HtmlFact>& facts);
 
+/// Conclusions: a headline, and a paragraph for each of `lines`. All plain text.
+std::string html_verdict(const std::string& headline, const std::vector<std::string>& lines);
+
 /// Preformatted text below the line `head`, which hides and shows it. @param open shown at first
 std::string html_preformatted(const std::string& head, const std::string& text, bool open = false);
 

@@ -1,8 +1,9 @@
 #include "analysis/report/thinned_trace.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
+
+#include "analysis/report/thinning.hpp"
 
 namespace zerocount::report {
 namespace {
@@ -25,25 +26,11 @@ void TraceThinner::add(const trial::SampleRecord& sample) {
 }
 
 void TraceThinner::close_bucket() {
-  if (at_hand_.empty()) return;
-  const auto by_error = [](const trial::SampleRecord& a, const trial::SampleRecord& b) {
-    return a.error < b.error;
-  };
-  const auto by_torque = [](const trial::SampleRecord& a, const trial::SampleRecord& b) {
-    return a.torque < b.torque;
-  };
-  const auto errors = std::minmax_element(at_hand_.begin(), at_hand_.end(), by_error);
-  const auto torques = std::minmax_element(at_hand_.begin(), at_hand_.end(), by_torque);
-  std::array<std::ptrdiff_t, 6> places{0,
-                                       errors.first - at_hand_.begin(),
-                                       errors.second - at_hand_.begin(),
-                                       torques.first - at_hand_.begin(),
-                                       torques.second - at_hand_.begin(),
-                                       std::ssize(at_hand_) - 1};
-  std::sort(places.begin(), places.end());
-  const auto end = std::unique(places.begin(), places.end());
-  for (auto place = places.begin(); place != end; ++place) {
-    const trial::SampleRecord& sample = at_hand_[static_cast<std::size_t>(*place)];
+  const std::vector<SampleQuantity> quantities{
+      [&](std::size_t i) { return static_cast<double>(at_hand_[i].error); },
+      [&](std::size_t i) { return at_hand_[i].torque; }};
+  for (const std::size_t place : extreme_samples(0, at_hand_.size(), quantities)) {
+    const trial::SampleRecord& sample = at_hand_[place];
     const std::size_t size = kept_.size();
     if (size >= 2 && alike(kept_[size - 1], sample) && alike(kept_[size - 2], sample)) kept_.pop_back();
     kept_.push_back(sample);

@@ -220,13 +220,6 @@ void add_theory(std::vector<std::string>& lines, const ReportedStudy& reported) 
   beyond.add_to(lines, "Criterion (7) is exceeded");
 }
 
-std::string as_html(const std::string& headline, const std::vector<std::string>& lines) {
-  std::string html =
-      fmt::format("<div class=\"verdict\"><p class=\"headline\">{}</p>\n", html_prose(headline));
-  for (const std::string& line : lines) html += fmt::format("<p>{}</p>\n", html_prose(line));
-  return html + "</div>\n";
-}
-
 std::string open_loop_verdict(const ReportedStudy& reported) {
   std::int64_t lost = 0;
   std::int64_t broke_away = 0;
@@ -236,7 +229,7 @@ std::string open_loop_verdict(const ReportedStudy& reported) {
     broke_away += point.of(&trial::MoveOutcome::broke_away).trials;
     trials += point.trials;
   }
-  return as_html(
+  return html_verdict(
       "A material test: the rotor was loaded by torques, without targets, so there is no success rate.",
       {fmt::format("In {} of {} trials the contact broke away into sliding; {} failed numerically. The table "
                    "below shows how far each level moved the rotor, and the part of creep.",
@@ -260,7 +253,7 @@ std::string verdict_html(const ReportedStudy& reported) {
   add_times(lines, reported, best);
   add_spread(lines, reported, best);
   add_theory(lines, reported);
-  return as_html(headline(reported, best), lines);
+  return html_verdict(headline(reported, best), lines);
 }
 
 }  // namespace zerocount::report

@@ -8,6 +8,7 @@
 
 #include "analysis/report/report.hpp"
 #include "core/failure/failure.hpp"
+#include "experiments/yaml/text_file.hpp"
 #include "runners/commands/child_process.hpp"
 
 namespace zerocount::commands {
@@ -34,6 +35,22 @@ std::string picture(const report::Figure& figure, bool png) {
   const std::string svg = output_of({"node", "-"}, report::drawing_program(figure), "nodejs");
   // Three pixels per point of the figure: 300 per inch at a width of 140 mm.
   return png ? output_of({"rsvg-convert", "--format", "png", "--zoom", "3"}, svg, "librsvg2-bin") : svg;
+}
+
+DrawingKind drawing_kind(const command_line::Arguments& arguments, std::string_view option,
+                         const std::filesystem::path& place) {
+  const std::string extension = place.extension().string();
+  if (extension == ".html" || extension == ".htm" || yaml::is_standard_stream(place))
+    return DrawingKind::page;
+  if (extension == ".svg") return DrawingKind::svg;
+  if (extension == ".png") return DrawingKind::png;
+  arguments.refuse(
+      fmt::format("option '--{}': '{}' does not end in .html, .svg or .png", option, place.string()));
+}
+
+std::string drawing(const report::ReportPage& page, DrawingKind kind) {
+  if (kind == DrawingKind::page) return report::html_page(page);
+  return picture(page.sections.front().figures.front(), kind == DrawingKind::png);
 }
 
 }  // namespace zerocount::commands

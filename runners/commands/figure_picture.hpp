@@ -1,8 +1,12 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "analysis/report/figure.hpp"
+#include "analysis/report/page.hpp"
+#include "runners/command_line/command_line.hpp"
 
 namespace zerocount::commands {
 
@@ -10,5 +14,16 @@ namespace zerocount::commands {
 /// PNG.
 /// @throws Failure (machine_failed) where they are missing or fail.
 std::string picture(const report::Figure& figure, bool png);
+
+/// The kind of a file with figures: an HTML page of all of them, or a picture of one.
+enum class DrawingKind { page, svg, png };
+
+/// The kind by the ending of a file's name; standard output gets a page. Refuses other endings.
+DrawingKind drawing_kind(const command_line::Arguments& arguments, std::string_view option,
+                         const std::filesystem::path& place);
+
+/// The page, or the picture of its first figure.
+/// @throws Failure as picture().
+std::string drawing(const report::ReportPage& page, DrawingKind kind);
 
 }  // namespace zerocount::commands

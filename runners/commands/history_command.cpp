@@ -12,7 +12,6 @@
 #include "analysis/history/run_record.hpp"
 #include "analysis/history/series.hpp"
 #include "analysis/report/report.hpp"
-#include "experiments/yaml/text_file.hpp"
 #include "results/reading/study_file.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
@@ -84,22 +83,15 @@ ExitCode plot_history(const command_line::Arguments& arguments) {
   arguments.required("output");
   const std::filesystem::path output = *command_line::text_place(arguments, "output");
   const std::filesystem::path database = database_of(arguments);
-  const std::string extension = output.extension().string();
-  const bool page = extension == ".html" || extension == ".htm" || yaml::is_standard_stream(output);
-  if (!page && extension != ".svg" && extension != ".png")
-    arguments.refuse(
-        fmt::format("option '--output': '{}' does not end in .html, .svg or .png", output.string()));
+  const DrawingKind kind = drawing_kind(arguments, "output", output);
   command_line::require_places(arguments, {database}, {output});
   const history::History shown = history::history_of(history::read_runs(database), filter_of(arguments));
-  if (!page && shown.series.size() > 1)
+  if (kind != DrawingKind::page && shown.series.size() > 1)
     arguments.refuse(
         fmt::format("a picture shows one series, and these are {}; choose with --study, --point and "
                     "--measure, or write a page (.html)",
                     shown.series.size()));
-  const report::ReportPage drawn = report::history_page(shown);
-  command_line::write_text(
-      output,
-      page ? report::html_page(drawn) : picture(drawn.sections.front().figures.front(), extension == ".png"));
+  command_line::write_text(output, drawing(report::history_page(shown), kind));
   return ExitCode::success;
 }
 

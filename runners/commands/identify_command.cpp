@@ -12,11 +12,13 @@
 #include "analysis/identification/checked_record.hpp"
 #include "analysis/identification/identification.hpp"
 #include "analysis/records/raw_series.hpp"
+#include "analysis/report/identification_page.hpp"
 #include "analysis/sliding_identification/sliding_identification.hpp"
 #include "results/reading/study_file.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
+#include "runners/commands/figure_picture.hpp"
 #include "runners/commands/record_options.hpp"
 #include "runners/commands/stage_progress.hpp"
 #include "runners/status/status.hpp"
@@ -49,13 +51,17 @@ constexpr const char* identify_help =
     "\n"
     "The output ends with the result as a fragment of a manifest; --format yaml prints only\n"
     "that. It draws the parameters independently; --posterior writes joint draws, for the key\n"
-    "samples of a manifest. Unsuitable records are refused with the reason and exit code 4, files that are "
-    "not\n"
-    "such tables with exit code 2. The exit code is 3 if nothing can be identified, or if encoder\n"
-    "and noise do not explain the residuals: the answer is printed, but is not to be trusted.\n"
+    "samples of a manifest. --plot draws each record with the fit, its residuals, and the torque\n"
+    "over the angle: as a page (.html), or one record as a picture (.svg or .png), which needs node,\n"
+    "and rsvg-convert for PNG (Debian: nodejs, librsvg2-bin).\n"
+    "\n"
+    "Unsuitable records are refused with the reason and exit code 4, files that are not such\n"
+    "tables with exit code 2. The exit code is 3 if nothing can be identified, or if encoder and\n"
+    "noise do not explain the residuals: the answer is printed, but is not to be trusted.\n"
     "\n"
     "Examples: zerocount identify ramps.csv steps.csv holds.csv --counts-per-revolution 1620000\n"
     "          zerocount identify tests.h5 --point 0 --point 1 --format yaml -o friction.yaml\n"
+    "          zerocount identify tests.h5 --point 0 --point 1 --plot fit.html\n"
     "          zerocount identify log.txt --column time=t[ms] --column 'torque=I[A]*0.87' \\\n"
     "            --column 'angle=pos[mm]/10'\n";
 
@@ -202,7 +208,8 @@ std::vector<records::RawSeries> read_all_series(const command_line::Arguments& a
 
 /// The options that a sliding axis has no use for. Its windows begin at samples, and so does their torque.
 void refuse_material_options(const command_line::Arguments& arguments) {
-  for (const char* option : {"fix", "preload", "hardening", "dac-bits", "any-magnitude", "posterior"}) {
+  for (const char* option :
+       {"fix", "preload", "hardening", "dac-bits", "any-magnitude", "posterior", "plot"}) {
     if (arguments.has(option)) {
       arguments.refuse(fmt::format("options '--{}' and '--sliding' exclude each other", option));
     }
@@ -237,10 +244,41 @@ std::vector<identification::TestRecord> read_records(const command_line::Argumen
 }
 
 identification::Identification identify_with_progress(const command_line::Arguments& arguments,
+                                                      std::vector<identification::TestRecord> records,
                                                       identification::IdentificationOptions options) {
   StageProgress progress("zerocount identify", arguments.has("quiet"));
   options.report = [&](std::string_view stage) { progress.enter(stage); };
-  return identification::identify(read_records(arguments), options);
+  return identification::identify(std::move(records), options);
+}
+
+/// The output files and streams.
+struct IdentifyOutputs {
+  std::filesystem::path report;
+  std::optional<std::filesystem::path> posterior;
+  std::optional<std::filesystem::path> plot;
+  DrawingKind plot_kind{DrawingKind::page};
+};
+
+IdentifyOutputs identify_outputs(const command_line::Arguments& arguments) {
+  IdentifyOutputs outputs{command_line::text_place(arguments, "output").value_or("-"),
+                          command_line::text_place(arguments, "posterior"),
+                          command_line::text_place(arguments, "plot")};
+  std::vector<std::filesystem::path> places{outputs.report};
+  if (outputs.posterior) places.push_back(*outputs.posterior);
+  if (outputs.plot) {
+    places.push_back(*outputs.plot);
+    outputs.plot_kind = drawing_kind(arguments, "plot", *outputs.plot);
+  }
+  command_line::require_places(arguments, {arguments.operands().begin(), arguments.operands().end()}, places);
+  return outputs;
+}
+
+/// A picture has room for one record.
+void refuse_picture_of_several(const command_line::Arguments& arguments, const IdentifyOutputs& outputs,
+                               std::size_t records) {
+  if (!outputs.plot || outputs.plot_kind == DrawingKind::page || records == 1) return;
+  arguments.refuse(fmt::format(
+      "option '--plot': a picture shows one record, and these are {}; write a page (.html)", records));
 }
 
 void write_draws(const identification::Identification& found, const std::filesystem::path& place) {
@@ -254,23 +292,24 @@ void write_draws(const identification::Identification& found, const std::filesys
 ExitCode identify_records(const command_line::Arguments& arguments) {
   const std::string format = arguments.one_of("format", {"text", "json", "yaml"});
   identification::IdentificationOptions options = identification_options(arguments);
-  const std::optional<std::filesystem::path> output = command_line::text_place(arguments, "output");
-  const std::optional<std::filesystem::path> posterior = command_line::text_place(arguments, "posterior");
-  std::vector<std::filesystem::path> outputs{output.value_or("-")};
-  if (posterior) outputs.push_back(*posterior);
-  command_line::require_places(arguments, {arguments.operands().begin(), arguments.operands().end()},
-                               outputs);
+  const IdentifyOutputs outputs = identify_outputs(arguments);
   if (arguments.has("sliding")) {
     refuse_material_options(arguments);
-    command_line::write_text(output.value_or("-"), identify_sliding_axis(arguments, format));
+    command_line::write_text(outputs.report, identify_sliding_axis(arguments, format));
     return ExitCode::success;
   }
-  const identification::Identification found = identify_with_progress(arguments, std::move(options));
+  std::vector<identification::TestRecord> records = read_records(arguments);
+  refuse_picture_of_several(arguments, outputs, records.size());
+  const identification::Identification found =
+      identify_with_progress(arguments, std::move(records), std::move(options));
   const std::string report = format == "json"   ? identification::identification_json(found)
                              : format == "yaml" ? identification::manifest_fragment(found)
                                                 : identification::identification_text(found);
-  command_line::write_text(output.value_or("-"), report);
-  if (posterior) write_draws(found, *posterior);
+  command_line::write_text(outputs.report, report);
+  if (outputs.posterior) write_draws(found, *outputs.posterior);
+  if (outputs.plot) {
+    command_line::write_text(*outputs.plot, drawing(report::identification_page(found), outputs.plot_kind));
+  }
   if (!found.checks.passed) {
     status::tell("zerocount identify: the answer is not to be trusted: {}\n",
                  identification::reason_of_misfit(found.checks));
@@ -309,6 +348,7 @@ Command identify_command() {
             {"any-magnitude", "", "accept values that suggest other units"},
             {"posterior", "FILE", "write joint draws of the parameters there, for the key samples"},
             {"draws", "N", "number of joint draws (default 1000, up to 10000)"},
+            {"plot", "FILE", "draw the fit: a page of all records (*.html), or one record as *.svg or *.png"},
             {"point", "P", "design point in a results file, by label or number (default 0); may be repeated",
              true},
             {"trial", "I", "trial of the point (default 0)"},

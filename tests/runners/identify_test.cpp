@@ -113,6 +113,30 @@ TEST_F(Identify, ADelayMayHaveAFraction) {
   EXPECT_NEAR(offset_with("2.5") - whole, 0.5, 0.02);
 }
 
+TEST_F(Identify, DrawsTheFit) {
+  run_study();
+  const std::vector<std::string> both{"identify", "tests.h5", "--point", "0", "--point", "1"};
+  const auto draw = [&](std::vector<std::string> words, const std::string& place) {
+    words.insert(words.end(), {"--plot", place});
+    return run(words);
+  };
+  const ProgramResult page = draw(both, "fit.html");
+  ASSERT_EQ(page.code, 0) << page.err;
+  EXPECT_EQ(page.out, run(both).out) << "the figures change nothing of the answer";
+  const std::string html = folder_.read("fit.html");
+  EXPECT_TRUE(html.starts_with("<!DOCTYPE html>"));
+  EXPECT_NE(html.find("figure-record-2"), std::string::npos);
+  EXPECT_NE(html.find("The model explains the records."), std::string::npos);
+  EXPECT_EQ(draw(both, "fit.html").code, 2) << "it exists already";
+  EXPECT_EQ(draw(both, "none/fit.html").code, 5) << "there is no such folder";
+  const ProgramResult several = draw(both, "fit.svg");
+  EXPECT_EQ(several.code, 2);
+  EXPECT_NE(several.err.find("a picture shows one record, and these are 2"), std::string::npos)
+      << several.err;
+  ASSERT_EQ(draw({"identify", "tests.h5", "--point", "1"}, "fit.svg").code, 0);
+  EXPECT_EQ(folder_.read("fit.svg").find("<svg"), 0U);
+}
+
 // Records of two contacts: the answer is printed, and is not to be trusted.
 TEST_F(Identify, ALackOfFitIsAnExitCode) {
   trace("one.csv", "1");
@@ -267,6 +291,11 @@ TEST_F(Identify, BadUsageIsRefused) {
            {"data.csv", "--counts-per-revolution", "1000", "--draws", "5"},
            {"data.csv", "--counts-per-revolution", "1000", "--posterior", "p.csv", "--draws", "0"},
            {"data.csv", "--counts-per-revolution", "1000", "--posterior", "data.csv"},
+           {"data.csv", "--counts-per-revolution", "1000", "--plot", "fit.pdf"},
+           {"data.csv", "--counts-per-revolution", "1000", "--plot", "data.csv"},
+           {"data.csv", "--counts-per-revolution", "1000", "--plot", "-"},
+           {"data.csv", "--counts-per-revolution", "1000", "--plot", "fit.html", "-o", "fit.html"},
+           {"data.csv", "--sliding", "--plot", "fit.html"},
            {"data.csv", "--counts-per-revolution", "1000", "--dac-bits", "1"},
            {"data.csv", "--format", "xml"}}) {
     std::vector<std::string> all{"identify"};

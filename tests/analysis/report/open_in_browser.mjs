@@ -46,6 +46,17 @@ function report(name, manifest, more = []) {
   return join(folder, `${name}.html`);
 }
 
+/// The page of an identification, with a masked interval, of a file with a hostile name.
+function identification() {
+  writeFileSync(join(folder, "tests.yaml"), shipped("identification", 1));
+  execFileSync(zerocount, ["run", "tests.yaml", "-o", "tests.h5"], {cwd: folder, stdio: "pipe"});
+  const steps = "<img src=x onerror='window.broken = true'>.csv";
+  execFileSync(zerocount, ["trace", "tests.h5", "--point", "steps", "-o", steps], {cwd: folder, stdio: "pipe"});
+  execFileSync(zerocount, ["identify", "tests.h5", "--point", "ramps", steps, "--counts-per-revolution", "1620000",
+    "--exclude", "0.3:0.35", "--plot", "fit.html"], {cwd: folder, stdio: "pipe"});
+  return join(folder, "fit.html");
+}
+
 const shipped = (name, trials) =>
   readFileSync(join(root, `experiments/manifests/${name}.yaml`), "utf8").replace(/^trials: \d+/m, `trials: ${trials}`);
 
@@ -141,6 +152,17 @@ try {
     const opened = await open(browser, path);
     await checkPage(opened);
     expect(await opened.page.locator(`#figure-${name}`).count() === 1, `${name}: the figure of the paper is there`);
+    await opened.context.close();
+  }
+  const fit = identification();
+  for (const [scheme, width] of [["light", 1000], ["dark", 390]]) {
+    const opened = await open(browser, fit, {scheme, width, phone: width < 500});
+    expect(await checkPage(opened) === 2, `${opened.name}: a figure for each record`);
+    await opened.page.screenshot({path: join(screenshots, `fit-${scheme}-${width}.png`), fullPage: true});
+    if (width === 1000) {
+      await checkTables(opened);
+      await checkHover(opened, "record-2", "residual");
+    }
     await opened.context.close();
   }
 } finally {

@@ -73,7 +73,7 @@ std::string_view word_of(statistics::MeasurementKind kind) {
                             connection.path().string()));
 }
 
-/// Whether the file is a new database, without anything in it.
+/// True if the file is a new database, without anything in it.
 /// @throws Failure (bad_data) where it is no history that this program knows.
 bool is_new(const Connection& connection) {
   const std::int64_t application = connection.whole_number("PRAGMA application_id");

@@ -11,7 +11,7 @@ namespace zerocount::history {
 /// The version of the schema, kept as the file's `user_version`.
 inline constexpr std::int64_t schema_version = 1;
 
-/// What add_run() did.
+/// Result of add_run().
 enum class Addition {
   added,
   already_there,     ///< the run was added before; nothing changed

@@ -14,7 +14,7 @@
 /// Results over time: the values of many runs of a study, and when they changed.
 namespace zerocount::history {
 
-/// What `zerocount compare` found of a run as a whole.
+/// Result of `zerocount compare` for a run as a whole.
 struct RunComparison {
   std::string verdict;           ///< of the gate
   std::string layer;             ///< see comparison::ComparisonLayer
@@ -22,7 +22,7 @@ struct RunComparison {
   std::string baseline_commit;
 };
 
-/// What `zerocount compare` found of one measure at one point.
+/// Result of `zerocount compare` for one measure at one point.
 struct ValueComparison {
   std::string verdict;                   ///< of the change
   double baseline{statistics::unknown};  ///< value of the baseline

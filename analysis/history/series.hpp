@@ -56,7 +56,7 @@ struct Series {
   std::vector<SeriesChange> changes;
 };
 
-/// What a history shows of the series that were asked for.
+/// The series that were asked for, and the limits of their tests.
 struct History {
   std::vector<Series> series;
   double threshold{statistics::unknown};  ///< of |z|, of SeriesTest::levels
@@ -73,7 +73,7 @@ History history_of(const std::vector<RunRecord>& runs, const SeriesFilter& filte
 /// …".
 std::string change_sentence(const Series& series, const SeriesChange& change);
 
-/// What the tests assume and how often they are wrong, in a sentence.
+/// A sentence with the assumptions of the tests and their rate of false alarms.
 std::string false_alarm_sentence(const History& history);
 
 /// For a terminal: a row per series, the changes in words, and of a single series every run.

@@ -44,7 +44,7 @@ double coordinate_of(Coordinate coordinate, double value) {
   return coordinate == log_limit ? -std::log(value) : std::log(value);
 }
 
-/// Whether the records have slow branches and no ring-downs.
+/// True if the records have slow branches and no ring-downs.
 bool are_slow_alone(std::span<const TestRecord> records) {
   return has_slow_branches(records) &&
          std::none_of(records.begin(), records.end(),
@@ -90,7 +90,7 @@ void observe_again(std::span<const TestRecord> records, ContactFit& fit) {
   }
 }
 
-/// Whether quantisation and noise explain the residuals. For counts the test is the distance of the path from
+/// True if quantisation and noise explain the residuals. For counts the test is the distance of the path from
 /// the counts, for other readings the autocorrelation of the residuals.
 bool is_explained(const TestRecord& record, const Eigen::VectorXd& path) {
   const Eigen::VectorXd readings = readings_of(record);

@@ -148,7 +148,7 @@ struct Estimation {
     }
     if (!fit.setting.free[coordinate]) return kept(quantity);
     const QuantityEstimate found = interval_by_replicates(quantity, replicates, widening);
-    // What the records determine does not depend on how well the model fits: the widening leaves it as it is.
+    // A lack of fit does not change which parameters the records determine, so this interval is not widened.
     const QuantityEstimate unwidened = interval_by_replicates(quantity, replicates, 1.0);
     if (is_open(quantity, unwidened)) return open(quantity);
     const bool has_profile = !quantity.key.empty() && !is_time_offset(quantity);
@@ -165,7 +165,7 @@ struct Estimation {
     return reported(quantity, found);
   }
 
-  /// Of a quantity that the readings would determine if the model fitted.
+  /// The estimate of a quantity that the readings would determine if the model fitted.
   ParameterEstimate beyond_the_model(const FittedQuantity& quantity) const {
     ParameterEstimate parameter = open(quantity);
     parameter.reason =
@@ -174,7 +174,7 @@ struct Estimation {
     return parameter;
   }
 
-  /// Of the time offset, the only coordinate that a fit keeps by itself.
+  /// The estimate of the time offset, the only coordinate that a fit keeps by itself.
   ParameterEstimate kept(const FittedQuantity& quantity) const {
     ParameterEstimate parameter =
         parameter_of(quantity, EstimateStatus::kept, {quantity.value, 0.0, quantity.value, quantity.value});
@@ -205,7 +205,7 @@ std::vector<Identification::Correlation> strong_correlations(const JointErrors& 
   return correlations;
 }
 
-/// Whether the interval of the time offset is too wide to tell anything about it.
+/// True if the interval of the time offset is too wide for the fit to determine it.
 bool shows_no_time_offset(const ContactFit& fit, const ReadingReplicates& replicates) {
   const FittedQuantity offset = fitted_quantities(fit.model.point, fit.setting.creep_torque).back();
   return is_open(offset, interval_by_replicates(offset, replicates, 1.0));

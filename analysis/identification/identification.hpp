@@ -104,6 +104,11 @@ std::string manifest_fragment(const Identification& identification);
 /// `value` with one digit more than the half-width of the parameter's interval justifies.
 std::string with_digits(double value, const ParameterEstimate& parameter);
 
+/// A number for a manifest, with two digits more than its relative uncertainty justifies; all digits if that
+/// is 0. It has a decimal point and a sign of the exponent, because some YAML readers take 2e5 and 2.0e5 for
+/// texts.
+std::string manifest_number(double value, double relative_uncertainty);
+
 /// The joint draws as a table for the key `samples` of a manifest: comments with #, a header with the keys of
 /// the parameters, and a line of comma-separated numbers for each draw.
 std::string posterior_table(const Identification& identification);

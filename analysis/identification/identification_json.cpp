@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "analysis/identification/estimate_json.hpp"
 #include "analysis/identification/identification.hpp"
 #include "analysis/text/text.hpp"
 
@@ -8,31 +9,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string status_word(EstimateStatus status) {
-  switch (status) {
-    case EstimateStatus::estimated:
-      return "estimated";
-    case EstimateStatus::known:
-      return "given";
-    case EstimateStatus::kept:
-      return "kept";
-    case EstimateStatus::not_identifiable:
-      break;
-  }
-  return "not_identifiable";
-}
-
 Json parameter_json(const ParameterEstimate& parameter) {
-  Json object;
-  object["name"] = parameter.name;
-  object["key"] = parameter.key.empty() ? Json() : Json(parameter.key);
-  object["unit"] = parameter.unit;
-  object["status"] = status_word(parameter.status);
-  object["value"] = parameter.value;
-  object["standard_error"] = parameter.standard_error;
-  object["low"] = parameter.low;
-  object["high"] = parameter.high;
-  if (!parameter.reason.empty()) object["reason"] = parameter.reason;
+  Json object = estimate_json(parameter);
   if (parameter.status == EstimateStatus::estimated && !parameter.key.empty()) {
     object["distribution"] = distribution_text(parameter);
   }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
+
 namespace zerocount::identification {
 namespace {
 
@@ -52,6 +54,13 @@ void append_draws(std::span<const EstimatedQuantity> quantities, const Eigen::Ma
     }
     if (valid) draws.rows.push_back(std::move(row));
   }
+}
+
+std::string reason_of_missing_draws(const JointDraws& draws, std::size_t wanted) {
+  if (draws.keys.empty()) return "there is no parameter to draw";
+  if (draws.rows.size() >= wanted) return "";
+  return fmt::format("only {} of {} draws are valid; in the others n is less than {:g}, or a value overflows",
+                     draws.rows.size(), wanted, min_exponent);
 }
 
 double JointErrors::correlation(Eigen::Index one, Eigen::Index other) const {

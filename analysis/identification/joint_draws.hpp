@@ -32,6 +32,9 @@ struct EstimatedQuantity {
 void append_draws(std::span<const EstimatedQuantity> quantities, const Eigen::MatrixXd& errors,
                   double widening, std::size_t max_rows, JointDraws& draws);
 
+/// Reason why there are fewer draws than wanted; empty if there are as many.
+std::string reason_of_missing_draws(const JointDraws& draws, std::size_t wanted);
+
 /// Covariance of the errors of estimated quantities, on their own scales: of logarithms, except for n and the
 /// time offset.
 struct JointErrors {

@@ -10,20 +10,6 @@ namespace {
 
 constexpr double two_sided_95 = 1.959963984540054;  // Φ⁻¹(0.975)
 
-/// The number with two digits more than its uncertainty justifies. Always with a decimal point and a sign of
-/// the exponent, because some YAML readers take 2e5 and 2.0e5 for texts.
-std::string manifest_number(double value, double relative_uncertainty) {
-  constexpr int min_digits = 3;
-  constexpr int max_digits = 17;
-  const double wanted = relative_uncertainty > 0.0 ? 3.0 - std::log10(relative_uncertainty) : max_digits;
-  const int digits = static_cast<int>(std::clamp(std::ceil(wanted), double{min_digits}, double{max_digits}));
-  std::string text = fmt::format("{}", std::stod(fmt::format("{:.{}g}", value, digits)));
-  const std::size_t exponent = text.find('e');
-  if (exponent == std::string::npos) return text;
-  if (text.find('.') == std::string::npos) text.insert(exponent, ".0");
-  return text;
-}
-
 std::string line_of(const ParameterEstimate& parameter, const std::string& name) {
   switch (parameter.status) {
     case EstimateStatus::known:
@@ -41,6 +27,18 @@ std::string line_of(const ParameterEstimate& parameter, const std::string& name)
 }
 
 }  // namespace
+
+std::string manifest_number(double value, double relative_uncertainty) {
+  constexpr int min_digits = 3;
+  constexpr int max_digits = 17;
+  const double wanted = relative_uncertainty > 0.0 ? 3.0 - std::log10(relative_uncertainty) : max_digits;
+  const int digits = static_cast<int>(std::clamp(std::ceil(wanted), double{min_digits}, double{max_digits}));
+  std::string text = fmt::format("{}", std::stod(fmt::format("{:.{}g}", value, digits)));
+  const std::size_t exponent = text.find('e');
+  if (exponent == std::string::npos) return text;
+  if (text.find('.') == std::string::npos) text.insert(exponent, ".0");
+  return text;
+}
 
 std::string with_digits(double value, const ParameterEstimate& parameter) {
   const double width = parameter.high - parameter.low;

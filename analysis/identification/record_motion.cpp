@@ -157,7 +157,7 @@ class RecordRun {
     plant_.advance(torque_of(interval + 1), before);
   }
 
-  /// Whether the torque is constant over an interval and equal to the one before.
+  /// True if the torque is constant over an interval and equal to the one before.
   bool same_torque(std::ptrdiff_t interval) const {
     if (interval <= 0) return false;
     const motion::TorqueCourse& torque = torque_of(interval);

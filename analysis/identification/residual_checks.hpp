@@ -35,7 +35,8 @@ struct ResidualChecks {
 ResidualChecks check_residuals(const ResidualStatistics& residuals,
                                const std::vector<ResidualStatistics>& replicates);
 
-/// What encoder and noise do not explain of the residuals: a clause. Empty if the checks passed.
+/// A clause that names the part of the residuals that encoder and noise do not explain. Empty if the checks
+/// passed.
 std::string reason_of_misfit(const ResidualChecks& checks);
 
 /// A sample whose reading is an outlier: its residual is at least 1.5 counts (for counts) and 12 times the

@@ -19,7 +19,7 @@ struct LoadingBranch {
   std::size_t last{0};
   double from{0.0};  ///< N m; 0 before the first sample
   double to{0.0};    ///< N m
-  /// Whether the rotor follows without oscillation: 20 samples or more, over at least 20 % of the range.
+  /// True if the rotor follows without oscillation: 20 samples or more, over at least 20 % of the range.
   bool slow{false};
 };
 
@@ -55,7 +55,7 @@ struct TestRecord {
   double delay_fraction{0.0};
   std::vector<double> reading;  ///< [sample] angle at t_k, in `unit`
   double unit{1.0};             ///< of the readings, rad; for counts one count
-  /// Whether the readings are whole counts: the angle is somewhere in [reading, reading + 1).
+  /// True if the readings are whole counts: the angle is somewhere in [reading, reading + 1).
   bool counted{false};
   std::vector<bool> excluded{};  ///< [sample] masked readings; empty: none
   /// [sample] The readings as recorded; empty: as `reading`, which has straight lines in place of masked
@@ -76,7 +76,7 @@ inline double interval_after(const TestRecord& record, std::size_t sample) {
   return record.intervals.empty() ? record.sample_time : record.intervals[sample];
 }
 
-/// Whether the readings of a sample are masked.
+/// True if the reading of a sample is masked.
 inline bool is_excluded(const TestRecord& record, std::size_t sample) {
   return !record.excluded.empty() && record.excluded[sample];
 }
@@ -98,11 +98,11 @@ inline double middle_of_reading(const TestRecord& record) {
 
 RecordParts parts_of(const TestRecord& record);
 
-/// Whether a branch is slow and has no step (of 5 % of the range from sample to sample), such as at the end
+/// True if a branch is slow and has no step (of 5 % of the range from sample to sample), such as at the end
 /// of a hold.
 bool is_gradual(const TestRecord& record, const LoadingBranch& branch);
 
-/// Whether a record has a gradual branch.
+/// True if a record has a gradual branch.
 bool has_slow_branches(std::span<const TestRecord> records);
 
 /// Maximum − minimum torque, N m.

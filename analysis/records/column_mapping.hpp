@@ -8,7 +8,7 @@
 
 namespace zerocount::records {
 
-/// What `--column` can assign a column to.
+/// The quantities to which `--column` can assign a column.
 enum class Quantity {
   time,
   torque,        ///< commanded, of a rotary axis
@@ -28,7 +28,7 @@ std::optional<Dimension> dimension_of(Quantity quantity);
 bool is_linear(Quantity quantity);  ///< of a linear axis only
 bool is_rotary(Quantity quantity);  ///< of a rotary axis only
 
-/// Where the values of a quantity come from: `torque=current[A]*0.87`.
+/// The source of the values of a quantity: `torque=current[A]*0.87`.
 ///
 ///     QUANTITY=COLUMN  or  QUANTITY=COLUMN[UNIT]FACTORS,  FACTORS any number of *NUMBER and /NUMBER
 ///

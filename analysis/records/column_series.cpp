@@ -62,11 +62,25 @@ FoundColumn finished(const ColumnSource& source, FoundColumn found, std::optiona
   return found;
 }
 
+/// True if the name of a column seems to have a factor, *… or /NUMBER. Paths of datasets begin with /.
+bool seems_to_have_factor(const std::string& column) {
+  const std::string name = column.substr(0, column.find('['));
+  if (name.find('*') != std::string::npos) return true;
+  const std::size_t slash = name.rfind('/');
+  return slash != std::string::npos && !name.starts_with('/') && slash + 1 < name.size() &&
+         name.find_first_not_of("0123456789.eE+- ", slash + 1) == std::string::npos;
+}
+
+void require_column(const ColumnSource& source, const std::string& column) {
+  if (source.has(column)) return;
+  refuse_column(
+      source,
+      fmt::format("has no column '{}'; its columns are {}{}", text::printable(column), source.columns_text(),
+                  seems_to_have_factor(column) ? "; factors stand after a unit, as in current[A]*0.87" : ""));
+}
+
 FoundColumn mapped_column(const ColumnSource& source, const ColumnMapping& mapping, const Unit& usual) {
-  if (!source.has(mapping.column)) {
-    refuse_column(source, fmt::format("has no column '{}'; its columns are {}",
-                                      text::printable(mapping.column), source.columns_text()));
-  }
+  require_column(source, mapping.column);
   FoundColumn found{mapping.quantity, mapping.column,
                     mapping.unit ? *mapping.unit : unit_in_file(source, mapping.column, usual)};
   return finished(source, found, mapping.factor);
@@ -278,10 +292,7 @@ std::vector<RawSeries> read_columns(const ColumnSource& source, const SeriesChoi
   series.start.hardening = choice.hardening.value_or(0.0);
   std::vector<double> repetition;
   if (const ColumnMapping* mapping = mapping_of(choice, {Quantity::repetition})) {
-    if (!source.has(mapping->column)) {
-      refuse_column(source, fmt::format("has no column '{}'; its columns are {}",
-                                        text::printable(mapping->column), source.columns_text()));
-    }
+    require_column(source, mapping->column);
     repetition = source.numbers(mapping->column);
     if (repetition.size() != series.time.size()) {
       refuse_column(source, fmt::format("the repetition has {} samples, the time {}", repetition.size(),

@@ -15,7 +15,7 @@ class ColumnSource {
   /// Name of the file in messages.
   virtual const std::string& name() const = 0;
 
-  /// Whether there is such a column, by its name in the header, by its number from 1 ("#2"), or by its path.
+  /// True if there is such a column, by its name in the header, by its number from 1 ("#2"), or by its path.
   virtual bool has(std::string_view column) const = 0;
 
   /// The columns, for messages.

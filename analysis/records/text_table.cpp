@@ -115,7 +115,7 @@ bool all_numbers(const std::vector<std::string_view>& cells, Separator separator
                      [&](std::string_view cell) { return std::isfinite(number_of(cell, separator)); });
 }
 
-/// Whether a cell has a blank inside, as numbers have none.
+/// True if a cell has a blank inside; numbers have none.
 bool has_blank_inside(const std::vector<std::string_view>& cells) {
   return std::any_of(cells.begin(), cells.end(),
                      [](std::string_view cell) { return cell.find(' ') != std::string_view::npos; });

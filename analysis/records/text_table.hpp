@@ -11,7 +11,7 @@
 
 namespace zerocount::records {
 
-/// What separates the cells of a line.
+/// Separator of the cells of a line.
 enum class Separator {
   comma,
   semicolon,

@@ -6,7 +6,7 @@
 
 namespace zerocount::records {
 
-/// What a number of a record measures.
+/// Physical dimension of the numbers of a column.
 enum class Dimension {
   time,        ///< SI unit: s
   torque,      ///< N m

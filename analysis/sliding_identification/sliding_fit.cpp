@@ -97,6 +97,13 @@ double solve(std::vector<FittedWindow>& windows, SlidingPoint& point, const Free
   options.num_threads = 1;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
+  if (!summary.IsSolutionUsable()) {
+    throw Failure(
+        ExitCode::bad_data,
+        fmt::format("{}: the simulated motion cannot be fitted to the positions; expected torque and "
+                    "position in the units that --column gives",
+                    windows.front().record->name));
+  }
   return 2.0 * summary.final_cost;
 }
 
@@ -105,7 +112,7 @@ Eigen::MatrixXd beyond(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& lo
   return columns - local * local.colPivHouseholderQr().solve(columns);
 }
 
-/// What one window adds to the estimating equations, its initial state eliminated.
+/// Contribution of one window to the estimating equations, its initial state eliminated.
 struct WindowScore {
   std::pair<const SlidingRecord*, std::size_t> stroke;
   Covariance information;

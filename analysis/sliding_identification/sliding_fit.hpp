@@ -45,6 +45,8 @@ SlidingPoint starting_point(std::span<const SlidingRecord> records, bool both_di
 /// each parameter is the largest of that by independent residuals and those by the jackknife over windows and
 /// over strokes (cluster-robust: MacKinnon, Nielsen and Webb, J. Econometrics 232 (2023) 272; Cameron and
 /// Miller, J. Human Resources 50 (2015) 317).
+/// @throws Failure (bad_data) if the simulated motion is not finite at the start, or at several steps in a
+/// row.
 SlidingFit fit_sliding(std::span<const SlidingRecord> records, const SlidingPoint& start,
                        const FreeParameters& free);
 

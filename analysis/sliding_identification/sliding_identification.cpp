@@ -86,7 +86,12 @@ std::optional<SlidingFit> stribeck_fit(const std::vector<SlidingRecord>& records
   FreeParameters free = without.free;
   free[stribeck_excess] = free[log_stribeck_velocity] = true;
   start[stribeck_excess] = 0.1 * std::abs(start[coulomb_level]);
-  SlidingFit fit = fit_sliding(records, start, free);
+  SlidingFit fit;
+  try {
+    fit = fit_sliding(records, start, free);
+  } catch (const Failure&) {
+    return std::nullopt;  // the fit without the curve remains
+  }
   const double excess_error = std::sqrt(fit.covariance(stribeck_excess, stribeck_excess));
   const double velocity_error = std::sqrt(fit.covariance(log_stribeck_velocity, log_stribeck_velocity));
   const double ratio = fit.point[stribeck_excess] / excess_error;

@@ -11,7 +11,7 @@
 
 namespace zerocount::sliding_identification {
 
-/// What was used of a record.
+/// The used part of a record.
 struct SlidingSummary {
   std::string name;
   std::size_t samples{0};

@@ -48,7 +48,7 @@ double noise_of(const std::vector<double>& position) {
   return statistics::upper_median(std::move(differences)) / (median_of_normal * std::sqrt(20.0));
 }
 
-/// Whether the axis stops within the samples about `k`, in which it moves by `moved`: between its neighbours
+/// True if the axis stops within the samples about `k`, in which it moves by `moved`: between its neighbours
 /// it moves by less than half of the mean velocity.
 bool stops_at(const SlidingRecord& record, std::size_t k, double moved) {
   constexpr double visible = 10.0;  // steps: where there are fewer, readings that stay are none of a stop

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/identification/estimate_json.hpp"
 #include "analysis/sliding_identification/sliding_identification.hpp"
 #include "analysis/text/text.hpp"
 
@@ -45,17 +46,12 @@ std::string record_line(const SlidingSummary& record, bool linear) {
       record.windows, record.strokes, record.min_velocity, record.max_velocity, length);
 }
 
-/// A number that every YAML reader takes for one.
-std::string yaml_number(double value) {
-  std::string text = fmt::format("{:.6g}", value);
-  const std::size_t exponent = text.find('e');
-  if (exponent != std::string::npos && text.find('.') == std::string::npos) text.insert(exponent, ".0");
-  return text;
-}
-
 std::string ratio_text(const ParameterEstimate& ratio) {
-  return fmt::format("{{truncated_normal: {{mean: {}, sd: {}, low: 0, high: 1}}}}", yaml_number(ratio.value),
-                     yaml_number(ratio.standard_error));
+  constexpr double spread_uncertainty = 1e-3;  // four digits are enough for a spread
+  return fmt::format(
+      "{{truncated_normal: {{mean: {}, sd: {}, low: 0, high: 1}}}}",
+      identification::manifest_number(ratio.value, ratio.standard_error / std::abs(ratio.value)),
+      identification::manifest_number(ratio.standard_error, spread_uncertainty));
 }
 
 std::string fragment_line(const ParameterEstimate& parameter, const std::string& name) {
@@ -69,7 +65,7 @@ std::string fragment_line(const ParameterEstimate& parameter, const std::string&
                      identification::with_digits(parameter.high, parameter));
 }
 
-/// Where sliding shows no level above the Coulomb level, that is the only one known of the breakaway.
+/// If sliding shows no level above the Coulomb level, the breakaway torque is taken to be the Coulomb level.
 std::string friction_lines(const SlidingIdentification& identification) {
   const ParameterEstimate& breakaway = parameter_of(identification, "breakaway_level");
   const ParameterEstimate& coulomb = parameter_of(identification, "coulomb_level");
@@ -80,20 +76,6 @@ std::string friction_lines(const SlidingIdentification& identification) {
   }
   return fragment_line(coulomb, "breakaway") +
          "  coulomb_ratio: 1   # sliding shows no level above the Coulomb level\n";
-}
-
-Json parameter_json(const ParameterEstimate& parameter) {
-  Json object;
-  object["name"] = parameter.name;
-  object["key"] = parameter.key.empty() ? Json() : Json(parameter.key);
-  object["unit"] = parameter.unit;
-  object["status"] = is_estimated(parameter) ? "estimated" : "not_identifiable";
-  object["value"] = parameter.value;
-  object["standard_error"] = parameter.standard_error;
-  object["low"] = parameter.low;
-  object["high"] = parameter.high;
-  if (!parameter.reason.empty()) object["reason"] = parameter.reason;
-  return object;
 }
 
 }  // namespace
@@ -147,7 +129,7 @@ std::string sliding_json(const SlidingIdentification& identification) {
   json["axis"] = identification.linear ? "linear" : "rotary";
   json["parameters"] = Json::array();
   for (const ParameterEstimate& parameter : identification.parameters) {
-    json["parameters"].push_back(parameter_json(parameter));
+    json["parameters"].push_back(identification::estimate_json(parameter));
   }
   Json rows = Json::array();
   for (Eigen::Index i = 0; i < identification.correlation.rows(); ++i) {

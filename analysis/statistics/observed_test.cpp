@@ -6,7 +6,6 @@
 #include <numeric>
 #include <vector>
 
-#include <boost/math/distributions/hypergeometric.hpp>
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
@@ -14,7 +13,7 @@
 namespace zerocount::statistics {
 namespace {
 
-constexpr std::int64_t most_trials = 1'000'000'000;  // two samples together fit the law's 32 bits
+constexpr std::int64_t most_trials = 1'000'000'000;  // products of two numbers of trials fit 64 bits
 
 void require_counts(const Successes& counts) {
   if (counts.successes >= 0 && counts.successes <= counts.trials && counts.trials <= most_trials) return;
@@ -23,13 +22,28 @@ void require_counts(const Successes& counts) {
                             counts.successes, counts.trials, most_trials));
 }
 
-/// P(x), x = 0 … n, of the number of successes among n trials taken from all of them.
+/// P(x), x = 0 … n, of the number of successes among n trials taken from all of them (hypergeometric).
+///
+/// By the ratio of neighbours, P(x + 1)/P(x) = (K − x)·(n − x)/((x + 1)·(N − K − n + x + 1)), from the mode
+/// outwards, where the terms fall, so that nothing overflows; then divided by their sum. This takes one
+/// multiplication per x. A library's probability function evaluates factorials of N for each x, which takes
+/// seconds for large studies.
 std::vector<double> hypergeometric(std::int64_t n, const Successes& all) {
-  const boost::math::hypergeometric_distribution<double> law(
-      static_cast<unsigned>(all.successes), static_cast<unsigned>(n), static_cast<unsigned>(all.trials));
-  const auto [first, last] = boost::math::range(law);
+  const std::int64_t failures = all.trials - all.successes;
+  const std::int64_t first = std::max<std::int64_t>(0, n - failures);
+  const std::int64_t last = std::min(n, all.successes);
+  const auto ratio = [&](std::int64_t x) {
+    return static_cast<double>((all.successes - x) * (n - x)) /
+           static_cast<double>((x + 1) * (failures - n + x + 1));
+  };
+  const std::int64_t mode = std::clamp((n + 1) * (all.successes + 1) / (all.trials + 2), first, last);
   std::vector<double> probabilities(static_cast<std::size_t>(n) + 1, 0.0);
-  for (unsigned x = first; x <= last; ++x) probabilities[x] = boost::math::pdf(law, x);
+  const auto at = [&](std::int64_t x) -> double& { return probabilities[static_cast<std::size_t>(x)]; };
+  at(mode) = 1.0;
+  for (std::int64_t x = mode; x < last; ++x) at(x + 1) = at(x) * ratio(x);
+  for (std::int64_t x = mode; x > first; --x) at(x - 1) = at(x) / ratio(x - 1);
+  const double total = std::accumulate(probabilities.begin(), probabilities.end(), 0.0);
+  for (double& probability : probabilities) probability /= total;
   return probabilities;
 }
 

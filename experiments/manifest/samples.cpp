@@ -112,7 +112,7 @@ yaml::YamlPointer choice_of(const std::vector<std::vector<Cell>>& rows, std::siz
   return value;
 }
 
-/// Whether the column can have this name; reports an error if it cannot.
+/// True if the column can have this name; reports an error if it cannot.
 bool check_name(const Cell& name, const std::set<std::string_view>& earlier, const yaml::YamlPointer& root,
                 yaml::Problems& problems) {
   const char* const expected = "the dotted path of a parameter, such as friction.k1";
@@ -158,7 +158,7 @@ std::optional<std::string> read_table(const yaml::Field& file, const SamplesRead
   return std::nullopt;
 }
 
-/// Whether the values of the sampled slots are drawn equally often; reports an error if they are not.
+/// True if the values of the sampled slots are drawn equally often; reports an error if they are not.
 bool check_per(const SamplesTable& table, const std::vector<std::uint32_t>& slots, Reading& reading) {
   const auto per_of = [&](std::uint32_t slot) { return reading.plan.base[slot].per; };
   const auto other = std::find_if(slots.begin(), slots.end(),

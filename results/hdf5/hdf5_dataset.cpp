@@ -7,6 +7,41 @@
 #include "results/hdf5/hdf5_detail.hpp"
 
 namespace zerocount::hdf5 {
+namespace {
+
+/// An entry of the list in which a scale names the datasets that it is attached to.
+struct ScaleUse {
+  hobj_ref_t dataset;
+  int dimension;
+};
+
+/// The list of a scale; empty if it has none that can be read. H5DSis_attached opens every dataset of this
+/// list, for each dataset anew, which takes longer than a small study.
+std::vector<ScaleUse> uses_of_scale(Id scale) {
+  constexpr const char* name = "REFERENCE_LIST";
+  if (H5Aexists(scale, name) <= 0) return {};
+  const Id opened = H5Aopen(scale, name, H5P_DEFAULT);
+  if (opened < 0) return {};
+  const Handle attribute(opened, H5Aclose);
+  const Handle space = made(H5Aget_space(attribute.get()), H5Sclose);
+  const hssize_t size = H5Sget_simple_extent_npoints(space.get());
+  const Handle type = made(H5Tcreate(H5T_COMPOUND, sizeof(ScaleUse)), H5Tclose);
+  demand(H5Tinsert(type.get(), "dataset", HOFFSET(ScaleUse, dataset), H5T_STD_REF_OBJ));
+  demand(H5Tinsert(type.get(), "dimension", HOFFSET(ScaleUse, dimension), H5T_NATIVE_INT));
+  std::vector<ScaleUse> uses(static_cast<std::size_t>(std::max<hssize_t>(size, 0)));
+  if (H5Aread(attribute.get(), type.get(), uses.data()) < 0) return {};
+  return uses;
+}
+
+/// Ends H5DSiterate_scales() with 1 at the scale that `reference` refers to.
+herr_t is_scale_of_reference(Id, unsigned, Id scale, void* reference) {
+  hobj_ref_t found{};
+  if (H5Rcreate(&found, scale, ".", H5R_OBJECT, -1) < 0) return -1;
+  return found == *static_cast<const hobj_ref_t*>(reference) ? 1 : 0;
+}
+
+}  // namespace
+
 Dataset::Dataset(Handle handle, std::shared_ptr<Origin> origin, std::string path)
     : Object(std::move(handle), std::move(origin), std::move(path)), element_(stored_element()) {}
 
@@ -119,9 +154,17 @@ bool Dataset::is_scale() const {
 }
 
 bool Dataset::has_scale(const Dataset& scale, unsigned dimension) const {
-  const htri_t answer = H5DSis_attached(id(), scale.id(), dimension);
-  require(answer, "its axes cannot be read");
-  return answer > 0;
+  constexpr const char* problem = "its axes cannot be read";
+  hobj_ref_t own_reference{};
+  hobj_ref_t scale_reference{};
+  require(H5Rcreate(&own_reference, id(), ".", H5R_OBJECT, -1), problem);
+  require(H5Rcreate(&scale_reference, scale.id(), ".", H5R_OBJECT, -1), problem);
+  const int listed = H5DSiterate_scales(id(), dimension, nullptr, is_scale_of_reference, &scale_reference);
+  require(listed, problem);
+  const std::vector<ScaleUse> uses = uses_of_scale(scale.id());
+  return listed > 0 && std::any_of(uses.begin(), uses.end(), [&](const ScaleUse& use) {
+           return use.dataset == own_reference && use.dimension == static_cast<int>(dimension);
+         });
 }
 
 }  // namespace zerocount::hdf5

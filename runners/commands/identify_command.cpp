@@ -281,11 +281,14 @@ void refuse_picture_of_several(const command_line::Arguments& arguments, const I
       "option '--plot': a picture shows one record, and these are {}; write a page (.html)", records));
 }
 
-void write_draws(const identification::Identification& found, const std::filesystem::path& place) {
+void write_draws(const identification::Identification& found, std::size_t wanted,
+                 const std::filesystem::path& place) {
+  const std::string reason = identification::reason_of_missing_draws(found.draws, wanted);
   if (found.draws.rows.empty()) {
-    status::tell("zerocount identify: {} is not written: there is no parameter to draw\n", place.string());
+    status::tell("zerocount identify: {} is not written: {}\n", place.string(), reason);
     return;
   }
+  if (!reason.empty()) status::tell("zerocount identify: {}: {}\n", place.string(), reason);
   command_line::write_text(place, identification::posterior_table(found));
 }
 
@@ -298,6 +301,7 @@ ExitCode identify_records(const command_line::Arguments& arguments) {
     command_line::write_text(outputs.report, identify_sliding_axis(arguments, format));
     return ExitCode::success;
   }
+  const std::size_t wanted_draws = options.draws;
   std::vector<identification::TestRecord> records = read_records(arguments);
   refuse_picture_of_several(arguments, outputs, records.size());
   const identification::Identification found =
@@ -306,7 +310,7 @@ ExitCode identify_records(const command_line::Arguments& arguments) {
                              : format == "yaml" ? identification::manifest_fragment(found)
                                                 : identification::identification_text(found);
   command_line::write_text(outputs.report, report);
-  if (outputs.posterior) write_draws(found, *outputs.posterior);
+  if (outputs.posterior) write_draws(found, wanted_draws, *outputs.posterior);
   if (outputs.plot) {
     command_line::write_text(*outputs.plot, drawing(report::identification_page(found), outputs.plot_kind));
   }
@@ -324,40 +328,42 @@ ExitCode identify_records(const command_line::Arguments& arguments) {
   return ExitCode::inconclusive;
 }
 
+std::vector<command_line::OptionSpec> identify_options() {
+  std::vector<command_line::OptionSpec> options{
+      {"counts-per-revolution", "N", "resolution of the encoder of an angle in counts"}};
+  const auto append = [&](const std::vector<command_line::OptionSpec>& more) {
+    options.insert(options.end(), more.begin(), more.end());
+  };
+  append(column_options());
+  append({{"sliding", "", "identify inertia and sliding friction from motion records"},
+          {"angle", "COLUMN", "count or theta, if both exist (default count, if N is given)"},
+          {"torque", "COLUMN", "torque or drive_torque, if both exist (default the latter)"},
+          {"amplifier-bandwidth", "HZ", "of the amplifier (default 0: ideal amplifier)"},
+          {"delay", "SAMPLES",
+           "delay of the column torque, such as 1.5 (default 0); the time offset is fitted about it"},
+          {"dac-bits", "BITS", "word length of the converter of the column code, to detect clipping"},
+          {"preload", "TORQUE", "torque of a slow load and unload before the test, N m (default 0)"},
+          {"hardening", "XH", "work hardening before the test, rad (default 0)"},
+          {"fix", "KEY=VALUE", "a known parameter, such as friction.n=2 or time_offset=0; may be repeated",
+           true},
+          {"any-magnitude", "", "accept values that suggest other units"},
+          {"posterior", "FILE", "write joint draws of the parameters there, for the key samples"},
+          {"draws", "N", "number of joint draws (default 1000, up to 10000)"},
+          {"plot", "FILE", "draw the fit: a page of all records (*.html), or one record as *.svg or *.png"},
+          {"point", "P", "design point in a results file, by label or number (default 0); may be repeated",
+           true},
+          {"trial", "I", "trial of the point (default 0)"},
+          {"format", "FORMAT", "text (default), json or yaml"},
+          {"output,o", "FILE", "write there instead of to standard output"},
+          {"quiet,q", "", "print no progress"},
+          command_line::force_option()});
+  return options;
+}
+
 }  // namespace
 
 Command identify_command() {
-  return {{"identify",
-           "DATA.csv|FILE...",
-           {{"counts-per-revolution", "N", "resolution of the encoder of an angle in counts"},
-            column_options()[0],
-            column_options()[1],
-            column_options()[2],
-            column_options()[3],
-            {"sliding", "", "identify inertia and sliding friction from motion records"},
-            {"angle", "COLUMN", "count or theta, if both exist (default count, if N is given)"},
-            {"torque", "COLUMN", "torque or drive_torque, if both exist (default the latter)"},
-            {"amplifier-bandwidth", "HZ", "of the amplifier (default 0: ideal amplifier)"},
-            {"delay", "SAMPLES",
-             "delay of the column torque, such as 1.5 (default 0); the time offset is fitted about it"},
-            {"dac-bits", "BITS", "word length of the converter of the column code, to detect clipping"},
-            {"preload", "TORQUE", "torque of a slow load and unload before the test, N m (default 0)"},
-            {"hardening", "XH", "work hardening before the test, rad (default 0)"},
-            {"fix", "KEY=VALUE", "a known parameter, such as friction.n=2 or time_offset=0; may be repeated",
-             true},
-            {"any-magnitude", "", "accept values that suggest other units"},
-            {"posterior", "FILE", "write joint draws of the parameters there, for the key samples"},
-            {"draws", "N", "number of joint draws (default 1000, up to 10000)"},
-            {"plot", "FILE", "draw the fit: a page of all records (*.html), or one record as *.svg or *.png"},
-            {"point", "P", "design point in a results file, by label or number (default 0); may be repeated",
-             true},
-            {"trial", "I", "trial of the point (default 0)"},
-            {"format", "FORMAT", "text (default), json or yaml"},
-            {"output,o", "FILE", "write there instead of to standard output"},
-            {"quiet,q", "", "print no progress"},
-            command_line::force_option()},
-           1,
-           64},
+  return {{"identify", "DATA.csv|FILE...", identify_options(), 1, 64},
           "identify friction, damping and inertia from material tests",
           identify_help,
           identify_records};

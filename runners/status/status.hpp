@@ -8,8 +8,7 @@
 
 #include <fmt/format.h>
 
-/// What the program says on standard error while it works. A standard error that cannot be written stops
-/// nothing.
+/// Messages on standard error while the program works. A message that cannot be written stops nothing.
 namespace zerocount::status {
 
 /// Writes `text` as it is.

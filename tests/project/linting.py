@@ -1,24 +1,73 @@
 """clang-tidy, with the checks of .clang-tidy, has nothing to say of the sources.
 
-Lints what the compiler compiles: a unit (see cmake/ZerocountTarget.cmake) has the headers of up to twelve sources parsed once.
-A unit without findings is remembered in the build folder by a hash of all that it includes of this repository, and is linted
-again only when that, the checks or clang-tidy change. A fresh build folder, such as that of continuous integration, lints
-everything.
+Lints several of the compiler's units (see cmake/ZerocountTarget.cmake) as one source: most of the time goes into the headers,
+which a group of units has parsed and checked once. Units of a group belong to one layer and have the same options; each folder
+has a namespace of its own, so that names in anonymous namespaces do not collide. A group without findings is remembered in the
+build folder by a hash of all that it includes of this repository, and is linted again only when that, the checks or clang-tidy
+change. A fresh build folder, such as that of continuous integration, lints everything.
 """
 
 import concurrent.futures
 import hashlib
+import itertools
 import json
 import os
 import pathlib
 import re
+import shlex
 import subprocess
 import sys
 
 FOLDERS = ("core", "experiments", "results", "analysis", "runners")
 INCLUDE = re.compile(rb'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
-# A unit includes sources; GCC's warnings are not all known to clang.
+# A group includes sources; GCC's warnings are not all known to clang.
 OPTIONS = ["--quiet", "--checks=-bugprone-suspicious-include", "--extra-arg=-Wno-unknown-warning-option"]
+UNITS_OF_A_GROUP = 4  # more take more memory, and are all linted again after a change of one
+
+
+class Unit:
+    """A source that the compiler is given, and its options."""
+
+    def __init__(self, root, build, command):
+        self.path = pathlib.Path(command["file"])
+        home = build if self.path.is_relative_to(build) else root
+        self.layer = self.path.relative_to(home).parts[0] if self.path.is_relative_to(home) else ""
+        words = iter(shlex.split(command["command"]))
+        self.folders, self.options = [], []
+        for word in words:
+            if word in ("-o", "-c"):
+                next(words)
+            elif word.startswith(("-I", "-D")):
+                self.folders.append(word)
+            elif word == "-isystem":
+                self.folders += [word + next(words)]
+            elif word.startswith("-"):
+                self.options.append(word)
+
+
+def groups_of(units):
+    def kind(unit):
+        return unit.layer, unit.options
+
+    for _, alike in itertools.groupby(sorted(units, key=lambda unit: (kind(unit), unit.path)), key=kind):
+        alike = list(alike)
+        for first in range(0, len(alike), UNITS_OF_A_GROUP):
+            yield alike[first : first + UNITS_OF_A_GROUP]
+
+
+def write_groups(folder, groups):
+    """A source and the compile command of each group; returns the sources."""
+    folder.mkdir(exist_ok=True)
+    commands, sources = [], []
+    for number, group in enumerate(groups):
+        source = folder / f"{group[0].layer}_{number}.cpp"
+        source.write_text("".join(f'#include "{unit.path}"\n' for unit in group), encoding="utf-8")
+        options = list(dict.fromkeys(word for unit in group for word in unit.folders)) + group[0].options
+        commands.append({"directory": str(folder.parent), "file": str(source),
+                         "arguments": ["c++", *options, "-c", str(source)]})
+        sources.append(source)
+    (folder / "compile_commands.json").write_text(json.dumps(commands, indent=1), encoding="utf-8")
+    return sources
 
 
 def included(root, path, seen):
@@ -40,8 +89,9 @@ def fingerprint(root, path, settings):
     return digest.hexdigest()
 
 
-def lint(build, path):
-    done = subprocess.run(["clang-tidy", "-p", str(build), *OPTIONS, str(path)], capture_output=True, text=True, check=False)
+def lint(source):
+    done = subprocess.run(["clang-tidy", "-p", str(source.parent), *OPTIONS, str(source)], capture_output=True, text=True,
+                          check=False)
     return done.returncode, done.stdout
 
 
@@ -50,20 +100,19 @@ if __name__ == "__main__":
     version = subprocess.run(["clang-tidy", "--version"], capture_output=True, check=True).stdout
     settings = version + (root / ".clang-tidy").read_bytes() + " ".join(OPTIONS).encode()
     commands = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
-    units = sorted({pathlib.Path(command["file"]) for command in commands})
-    units = [unit for unit in units if unit.is_relative_to(build) or unit.is_relative_to(root)]
-    units = [unit for unit in units if unit.relative_to(build if unit.is_relative_to(build) else root).parts[0] in FOLDERS]
+    units = [unit for unit in (Unit(root, build, command) for command in commands) if unit.layer in FOLDERS]
+    sources = write_groups(build / "lint", list(groups_of(units)))
 
     memory = build / "linted.json"
     clean = set(json.loads(memory.read_text(encoding="utf-8"))) if memory.exists() else set()
-    marks = {unit: fingerprint(root, unit, settings) for unit in units}
-    todo = [unit for unit in units if marks[unit] not in clean]
+    marks = {source: fingerprint(root, source, settings) for source in sources}
+    todo = [source for source in sources if marks[source] not in clean]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        results = list(pool.map(lambda unit: lint(build, unit), todo))
-    failed = {unit for unit, (code, _) in zip(todo, results) if code}
-    memory.write_text(json.dumps(sorted(marks[unit] for unit in units if unit not in failed)), encoding="utf-8")
+        results = list(pool.map(lint, todo))
+    failed = {source for source, (code, _) in zip(todo, results) if code}
+    memory.write_text(json.dumps(sorted(marks[source] for source in sources if source not in failed)), encoding="utf-8")
     for code, output in results:
         if code:
             print(output)
-    print(f"{len(units)} units, {len(todo)} linted now, {len(failed)} with findings")
+    print(f"{len(units)} units in {len(sources)} groups, {len(todo)} linted now, {len(failed)} with findings")
     sys.exit(1 if failed or not units else 0)

@@ -216,8 +216,10 @@ TEST_F(Compare, TheAnswerNamesWhatIsBetterAndWhatIsWorse) {
   study("both", gains("1.0e-4", 200));
   const std::string forward = run({"compare", "both.h5", "--points", "low", "high"}).out;
   const std::string backward = run({"compare", "both.h5", "--points", "high", "low"}).out;
-  EXPECT_NE(forward.find("high against low; "), std::string::npos) << forward;
-  EXPECT_NE(backward.find("low against high; "), std::string::npos) << backward;
+  EXPECT_NE(forward.find("high against low; worse: success_rate"), std::string::npos) << forward;
+  EXPECT_EQ(forward.find("better: "), std::string::npos) << forward;
+  EXPECT_NE(backward.find("low against high; better: success_rate"), std::string::npos) << backward;
+  EXPECT_EQ(backward.find("worse: "), std::string::npos) << backward;
 }
 
 TEST_F(Compare, RefusesPointsThatAreNotTwoOfOneFile) {

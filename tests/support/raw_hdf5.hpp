@@ -28,6 +28,10 @@ void replace_attribute(const std::filesystem::path& path, const std::string& nam
 void replace_attribute(const std::filesystem::path& path, const std::string& name, const std::string& value);
 void remove_attribute(const std::filesystem::path& path, const std::string& name);
 
+/// Removes an attribute of a dataset from a file without a checksum trailer.
+void remove_dataset_attribute(const std::filesystem::path& path, const std::string& dataset,
+                              const std::string& name);
+
 /// A file of the HDF5 format with nothing in it.
 void write_empty_hdf5(const std::filesystem::path& path);
 

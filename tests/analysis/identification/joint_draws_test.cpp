@@ -101,6 +101,12 @@ TEST(JointDraws, AreValuesThatAManifestMayHave) {
       EXPECT_TRUE(numerics::contains(parameters::parameter_table()[*at].range, row[j]));
     }
   }
+  draws.keys = {"friction.n"};
+  EXPECT_NE(identification::reason_of_missing_draws(draws, 500)
+                .find(std::to_string(draws.rows.size()) + " of 500 draws are valid"),
+            std::string::npos);
+  EXPECT_EQ(identification::reason_of_missing_draws(draws, draws.rows.size()), "");
+  EXPECT_EQ(identification::reason_of_missing_draws({}, 500), "there is no parameter to draw");
   identification::JointDraws few;
   identification::append_draws(quantities, errors, 1.0, 7, few);
   EXPECT_EQ(few.rows, std::vector(draws.rows.begin(), draws.rows.begin() + 7));

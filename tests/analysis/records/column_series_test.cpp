@@ -141,6 +141,14 @@ TEST_F(ColumnSeries, WhatDoesNotFitIsNamed) {
   const std::string text = "t,i [A],x [mm],y [furlong],torque,theta\n0,1,2,3,4,5\n";
   EXPECT_EQ(refusal(text, columns({"torque=current"})),
             "has no column 'current'; its columns are t, i, x, y, torque, theta");
+  for (const std::string column : {"i*0.87", "i/10", "i * 2 / 3"}) {
+    EXPECT_EQ(refusal(text, columns({"torque=" + column})),
+              "has no column '" + column +
+                  "'; its columns are t, i, x, y, torque, theta; factors stand after a unit, as in "
+                  "current[A]*0.87");
+  }
+  EXPECT_EQ(refusal(text, columns({"torque=i/amplifier"})),
+            "has no column 'i/amplifier'; its columns are t, i, x, y, torque, theta");
   EXPECT_EQ(
       refusal(text, columns({"torque=i"})),
       "column 'i' is in A, which is no torque without a factor; expected --column 'torque=i[A]*FACTOR'");

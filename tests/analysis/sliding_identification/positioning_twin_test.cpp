@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/sliding_identification/sliding_fit.hpp"
 #include "analysis/sliding_identification/sliding_identification.hpp"
 #include "core/failure/failure.hpp"
 #include "tests/analysis/sliding_identification/motion_records.hpp"
@@ -94,6 +95,27 @@ TEST(PositioningTwin, AWrongSignIsSaid) {
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.code(), ExitCode::bad_data);
     EXPECT_NE(std::string(failure.what()).find("motion.csv: the axis accelerates against the torque"),
+              std::string::npos)
+        << failure.what();
+  }
+}
+
+// From an inertia of e⁻⁸⁰⁰, which underflows to 0, there is no motion to fit.
+TEST(PositioningTwin, AFitThatFailsIsSaid) {
+  std::mt19937_64 random(7);
+  const std::vector<sliding_identification::SlidingRecord> records{
+      sliding_identification::sliding_record(closed_loop_record({}, {}, emps_lap(), 1, random))};
+  sliding_identification::SlidingPoint start = sliding_identification::SlidingPoint::Zero();
+  start[sliding_identification::log_inertia] = -800.0;
+  start[sliding_identification::viscous_damping] = 1.0;
+  sliding_identification::FreeParameters free{};
+  free[sliding_identification::log_inertia] = true;
+  try {
+    sliding_identification::fit_sliding(records, start, free);
+    ADD_FAILURE();
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.code(), ExitCode::bad_data);
+    EXPECT_NE(std::string(failure.what()).find("motion.csv: the simulated motion cannot be fitted"),
               std::string::npos)
         << failure.what();
   }

@@ -46,6 +46,26 @@ TEST(ObservedTest, EqualsSciPys) {
   EXPECT_EQ(folder.read("out"), fmt::format("{} samples\n", rounds));
 }
 
+// Neither the order of the two samples nor the name of success matters. With up to 100 000 trials, terms that
+// each took a library's factorials would take minutes.
+TEST(ObservedTest, IsSymmetric) {
+  Random random(154);
+  for (int round = 0; round < 100; ++round) {
+    const auto up_to = [&](std::int64_t most) {
+      return static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(most + 1));
+    };
+    const std::int64_t n = 1 + up_to(round % 2 == 0 ? 50 : 2000);
+    const std::int64_t m = 1 + up_to(round % 4 < 2 ? 300 : 100'000);
+    const double rate = static_cast<double>(up_to(1000)) / 1000.0;
+    const std::int64_t k = std::binomial_distribution<std::int64_t>(n, rate)(random);
+    const std::int64_t successes = std::binomial_distribution<std::int64_t>(m, rate)(random);
+    const double p = fisher_test({k, n}, {successes, m}).p;
+    EXPECT_GT(p, 0.0);
+    EXPECT_NEAR(fisher_test({successes, m}, {k, n}).p / p, 1.0, 1e-9) << k << ' ' << n;
+    EXPECT_NEAR(fisher_test({n - k, n}, {m - successes, m}).p / p, 1.0, 1e-9) << successes << ' ' << m;
+  }
+}
+
 TEST(ObservedTest, RaisesFalseAlarmsNoMoreOftenThanItSays) {
   Random random(152);
   constexpr int rounds = 4000;

@@ -98,6 +98,21 @@ TEST(WrittenFile, IsRefusedWhereAnythingDiffers) {
   refused("/", [](auto& values) { values["/more"]; });
 }
 
+// A dataset names its axes, and an axis its datasets: both are read back.
+TEST(WrittenFile, IsRefusedWhereAnAxisIsNotNamed) {
+  const TemporaryFolder folder;
+  const fs::path path = folder / "file.h5";
+  for (const auto& [dataset, attribute] : std::vector<std::pair<std::string, std::string>>{
+           {"numbers/row", "REFERENCE_LIST"}, {"numbers/value", "DIMENSION_LIST"}}) {
+    const hdf5::WrittenValues written = write_file(path);
+    remove_dataset_attribute(path, dataset, attribute);
+    expect_failure(ExitCode::machine_failed,
+                   "file.h5: what was written is not what is read back: /numbers/value: its axis "
+                   "/numbers/row is missing",
+                   [&] { hdf5::require_written(path, written); });
+  }
+}
+
 TEST(WrittenFile, IsRefusedWhereAChunkIsZeros) {
   const TemporaryFolder folder;
   const fs::path path = folder / "file.h5";

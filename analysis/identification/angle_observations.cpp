@@ -91,7 +91,8 @@ void observe(const TestRecord& record, const Eigen::VectorXd& path, const Eigen:
   });
 }
 
-double counting_noise(const Eigen::VectorXd& path, const Eigen::VectorXd& readings) {
+double counting_noise(const TestRecord& record, const Eigen::VectorXd& path,
+                      const Eigen::VectorXd& readings) {
   std::vector<double> travels;
   double observed = 0.0;  // counts between neighbouring readings
   double modelled = 0.0;  // rotor travel between them
@@ -100,7 +101,10 @@ double counting_noise(const Eigen::VectorXd& path, const Eigen::VectorXd& readin
   double last_sign = 0.0;
   for (Eigen::Index k = 0; k + 1 < path.size(); ++k) {
     const double step = path[k + 1] - path[k];
+    const auto sample = static_cast<std::size_t>(k);
     if (std::abs(step) >= max_quiet_travel) continue;
+    // A straight line in place of masked readings does not follow the path's curve.
+    if (is_excluded(record, sample) || is_excluded(record, sample + 1)) continue;
     travels.push_back(std::abs(step));
     observed += std::abs(readings[k + 1] - readings[k]);
     modelled += std::abs(step);

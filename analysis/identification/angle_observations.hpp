@@ -50,7 +50,7 @@ auto mean_over(const AngleObservation& observation, const Values& values) {
 
 /// Noise of the readings (standard deviation in counts, before rounding), estimated from the differences of
 /// neighbouring readings beyond the rotor's travel; 0 if an encoder without noise explains them. Slow
-/// deviations from `path` have little influence.
-double counting_noise(const Eigen::VectorXd& path, const Eigen::VectorXd& readings);
+/// deviations from `path` have little influence. Masked readings are not used.
+double counting_noise(const TestRecord& record, const Eigen::VectorXd& path, const Eigen::VectorXd& readings);
 
 }  // namespace zerocount::identification

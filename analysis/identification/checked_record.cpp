@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/identification/gross_sliding.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::identification {
@@ -88,12 +89,38 @@ void bridge_masked(TestRecord& record) {
   }
 }
 
-/// The series up to the sample at which the hook begins to slide; all of it if it does not.
-RawSeries until_sliding(const RawSeries& series) {
-  const auto slides = std::find(series.sliding.begin(), series.sliding.end(), true);
-  const auto samples = static_cast<std::size_t>(slides - series.sliding.begin());
-  RawSeries part = series;
-  if (slides == series.sliding.end()) return part;
+/// The beginning of sliding in a series, and the note on the cut there.
+struct SlidingCut {
+  std::size_t sample{0};
+  std::string note;
+};
+
+/// Where the series begins to slide: by its own flag, or, without one, by torque and angle. Nothing if it
+/// does not.
+std::optional<SlidingCut> sliding_in(const RawSeries& series) {
+  if (!series.sliding.empty()) {
+    const auto slides = std::find(series.sliding.begin(), series.sliding.end(), true);
+    if (slides == series.sliding.end()) return std::nullopt;
+    const auto sample = static_cast<std::size_t>(slides - series.sliding.begin());
+    return SlidingCut{
+        sample, fmt::format("cut at {:.6g} s, where the rotor breaks away and slides", series.time[sample])};
+  }
+  const std::optional<GrossSliding> found = find_gross_sliding(series);
+  if (!found) return std::nullopt;
+  const double unit =
+      series.counts_per_revolution > 0.0 ? 2.0 * std::numbers::pi / series.counts_per_revolution : 1.0;
+  return SlidingCut{
+      found->first,
+      fmt::format(
+          "ends at sample {} ({:.6g} s), where the rotor begins to slide: it travels {:.3g} rad until "
+          "{:.6g} s, after {:.3g} rad in all before. The rest is not used, because the contact that "
+          "forms after a slide is another one",
+          found->first, series.time[found->first], found->travel * unit, series.time[found->seen],
+          found->travel_before * unit)};
+}
+
+/// The first samples of the series.
+RawSeries first_samples(RawSeries part, std::size_t samples) {
   part.time.resize(samples);
   part.torque.resize(samples);
   part.angle.resize(samples);
@@ -102,6 +129,27 @@ RawSeries until_sliding(const RawSeries& series) {
   if (!part.excluded.empty()) part.excluded.resize(samples);
   part.sliding.clear();
   return part;
+}
+
+/// @throws Failure (bad_data) if too little is left before the cut.
+void check_cut(const RawSeries& series, const SlidingCut& cut) {
+  if (cut.sample >= min_samples_before_sliding) return;
+  throw Failure(ExitCode::bad_data,
+                fmt::format("{}: the rotor breaks away and slides at {:.6g} s, after {} samples; expected {} "
+                            "before it at least. Test with less torque, or take --sliding for the slides",
+                            place_of(series, cut.sample), series.time[cut.sample], cut.sample,
+                            min_samples_before_sliding));
+}
+
+/// @throws Failure (bad_input) if the series is of a linear axis.
+void check_rotary(const RawSeries& series) {
+  if (!series.linear) return;
+  throw Failure(
+      ExitCode::bad_input,
+      fmt::format("{}: is of a linear axis; expected a rotary one, or the lever that makes torque and "
+                  "angle from force and position: --column 'torque=F[N]*0.01' --column "
+                  "'angle=x[m]/0.01'",
+                  series.name));
 }
 
 }  // namespace
@@ -129,29 +177,13 @@ std::vector<motion::TorqueCourse> courses_of(const RawSeries& series, const Test
 }
 
 TestRecord checked_record(const RawSeries& whole, bool any_magnitude) {
-  const RawSeries series = until_sliding(whole);
-  if (series.linear) {
-    throw Failure(
-        ExitCode::bad_input,
-        fmt::format("{}: is of a linear axis; expected a rotary one, or the lever that makes torque and "
-                    "angle from force and position: --column 'torque=F[N]*0.01' --column "
-                    "'angle=x[m]/0.01'",
-                    series.name));
-  }
+  check_rotary(whole);
+  const std::optional<SlidingCut> cut = sliding_in(whole);
+  if (cut) check_cut(whole, *cut);
+  const RawSeries series = cut ? first_samples(whole, cut->sample) : whole;
   TestRecord record;
   record.name = series.name;
-  if (series.time.size() < whole.time.size()) {
-    const double from = whole.time[series.time.size()];
-    if (series.time.size() < min_samples_before_sliding) {
-      throw Failure(
-          ExitCode::bad_data,
-          fmt::format("{}: the rotor breaks away and slides at {:.6g} s, after {} samples; expected {} "
-                      "before it at least. Test with less torque, or take --sliding for the slides",
-                      place_of(whole, series.time.size()), from, series.time.size(),
-                      min_samples_before_sliding));
-    }
-    record.note = fmt::format("cut at {:.6g} s, where the rotor breaks away and slides", from);
-  }
+  if (cut) record.note = cut->note;
   record.start = series.start;
   record.sample_time = checked_sample_time(series);
   record.first_time = series.time.front();

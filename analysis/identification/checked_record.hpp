@@ -11,8 +11,9 @@ using records::place_of;
 using records::RawSeries;
 using records::TorqueKind;
 
-/// Checks the series and converts it to a record for the fit. Where the series says that the hook slides, the
-/// record ends before that, and its note says so.
+/// Checks the series and converts it to a record for the fit. The record ends where the hook begins to slide,
+/// and its note says so: where the series flags it, or, in a series without flags, where find_gross_sliding()
+/// finds it.
 /// @param any_magnitude whether to accept values that suggest other units
 /// @throws Failure (bad_data) with the reason if one of the checks below fails.
 TestRecord checked_record(const RawSeries& series, bool any_magnitude);

@@ -135,19 +135,23 @@ std::vector<FittedQuantity> fitted_quantities(const FitPoint& point, double cree
           offset};
 }
 
-QuantityEstimate interval_by_replicates(const FittedQuantity& quantity, const ReadingReplicates& replicates,
-                                        double widening) {
-  const Eigen::VectorXd errors = replicates.errors.leftCols<contact_dimension>() * quantity.slope;
+QuantityEstimate interval_of_errors(double value, const Eigen::VectorXd& errors, double widening) {
   const double mean = errors.mean();
   const Eigen::VectorXd wide = (mean + widening * (errors.array() - mean)).matrix();
   std::vector<double> sorted(wide.data(), wide.data() + wide.size());
   QuantityEstimate estimate;
-  estimate.value = quantity.value - mean;
+  estimate.value = value - mean;
   estimate.standard_error =
       std::sqrt((wide.array() - mean).square().sum() / static_cast<double>(wide.size() - 1));
-  estimate.low = quantity.value - quantile_of(sorted, 0.975);
-  estimate.high = quantity.value - quantile_of(sorted, 0.025);
+  estimate.low = value - quantile_of(sorted, 0.975);
+  estimate.high = value - quantile_of(sorted, 0.025);
   return estimate;
+}
+
+QuantityEstimate interval_by_replicates(const FittedQuantity& quantity, const ReadingReplicates& replicates,
+                                        double widening) {
+  return interval_of_errors(quantity.value, replicates.errors.leftCols<contact_dimension>() * quantity.slope,
+                            widening);
 }
 
 QuantityEstimate interval_by_profile(std::span<const TestRecord> records, const ContactFit& fit,

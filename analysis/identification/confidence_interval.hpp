@@ -31,6 +31,10 @@ struct QuantityEstimate {
   double high{0.0};
 };
 
+/// The interval of a quantity with the value `value` in a fit, from the errors of replicates of the fit,
+/// multiplied by `widening` about their mean.
+QuantityEstimate interval_of_errors(double value, const Eigen::VectorXd& errors, double widening);
+
 /// The interval from the errors of the replicates, multiplied by `widening` about their mean.
 QuantityEstimate interval_by_replicates(const FittedQuantity& quantity, const ReadingReplicates& replicates,
                                         double widening);

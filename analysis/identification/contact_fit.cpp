@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
@@ -66,14 +67,19 @@ FitSetting setting_for(std::span<const TestRecord> records, const std::vector<Kn
   return setting;
 }
 
+/// Readings less the path; 0 where they are masked.
+Eigen::VectorXd residuals_along(const TestRecord& record, const Eigen::VectorXd& path) {
+  Eigen::VectorXd left = readings_of(record).array() + middle_of_reading(record) - path.array();
+  for (std::size_t k = 0; k < record.excluded.size(); ++k) {
+    if (record.excluded[k]) left[static_cast<Eigen::Index>(k)] = 0.0;
+  }
+  return left;
+}
+
 void update_misfit(std::span<const TestRecord> records, ContactFit& fit) {
   fit.misfit.clear();
   for (std::size_t r = 0; r < records.size(); ++r) {
-    Eigen::VectorXd left =
-        readings_of(records[r]).array() + middle_of_reading(records[r]) - fit.model.motions[r].path.array();
-    for (std::size_t k = 0; k < records[r].excluded.size(); ++k) {
-      if (records[r].excluded[k]) left[static_cast<Eigen::Index>(k)] = 0.0;
-    }
+    const Eigen::VectorXd left = residuals_along(records[r], fit.model.motions[r].path);
     fit.misfit.push_back(std::sqrt(left.squaredNorm() / static_cast<double>(used_samples(records[r]))));
   }
 }
@@ -84,7 +90,7 @@ void observe_again(std::span<const TestRecord> records, ContactFit& fit) {
   for (std::size_t r = 0; r < records.size(); ++r) {
     const Eigen::VectorXd& path = fit.model.motions[r].path;
     const Eigen::VectorXd readings = readings_of(records[r]);
-    fit.noise.push_back(records[r].counted ? counting_noise(path, readings)
+    fit.noise.push_back(records[r].counted ? counting_noise(records[r], path, readings)
                                            : std::max(fit.misfit[r], min_noise));
     observe(records[r], path, readings, fit.noise[r], fit.observations[r]);
   }
@@ -95,14 +101,14 @@ void observe_again(std::span<const TestRecord> records, ContactFit& fit) {
 bool is_explained(const TestRecord& record, const Eigen::VectorXd& path) {
   const Eigen::VectorXd readings = readings_of(record);
   const auto rms = [](const Eigen::ArrayXd& values) { return std::sqrt(values.square().mean()); };
-  const Eigen::ArrayXd left = readings - path;
+  const Eigen::ArrayXd left = residuals_along(record, path);
   const Eigen::Index steps = left.size() - 1;
   const double change = rms(left.tail(steps) - left.head(steps)) / std::numbers::sqrt2;
   if (record.counted) {
     constexpr double tolerated = 0.05;  // of a count: the accuracy of the rough fit
     // Along a path with large errors, counting_noise() overestimates.
-    const double noise = std::min(counting_noise(path, readings), change);
-    return rms(((left + 0.5).abs() - 0.5).max(0.0)) < tolerated + noise;
+    const double noise = std::min(counting_noise(record, path, readings), change);
+    return rms((left.abs() - 0.5).max(0.0)) < tolerated + noise;
   }
   constexpr double arithmetic = 1e-3;
   return rms(left) < 1.5 * change || rms(left) < arithmetic;
@@ -162,57 +168,84 @@ FitSetting with_told_coordinates(const FittedModel& model, const Observations& o
   return told;
 }
 
+/// A contact with the offsets for which the residuals have the mean 0.
+FitPoint with_mean_offsets(std::span<const TestRecord> records, const ContactPoint& contact,
+                           const FitSetting& setting) {
+  FitPoint point{contact, Eigen::VectorXd(records.size())};
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const double mean =
+        (readings_of(records[r]) - angle_path(records[r], contact, setting.creep_torque)).mean();
+    point.offset[static_cast<Eigen::Index>(r)] =
+        (std::isfinite(mean) ? mean : records[r].reading.front()) + middle_of_reading(records[r]);
+  }
+  return point;
+}
+
 /// The fit from the starting point. If the slow parts are the whole test, that is already their best fit, and
 /// only what the readings determine beside it is left free.
-FitResult first_fit(std::span<const TestRecord> records, const Observations& observations, FitPoint start,
-                    const FitSetting& setting) {
+FitResult first_fit(std::span<const TestRecord> records, const Observations& observations,
+                    const FitPoint& start, const FitSetting& setting) {
   if (!are_slow_alone(records)) return fit_jointly(records, observations, start, setting);
-  FittedModel model = model_at(records, start, setting);
+  const FittedModel model = model_at(records, start, setting);
   if (!can_be_followed(model)) return fit_jointly(records, observations, start, setting);
-  for (std::size_t r = 0; r < records.size(); ++r) {
-    Eigen::VectorXd& path = model.motions[r].path;
-    const double off = (readings_of(records[r]) - path).mean() + middle_of_reading(records[r]);
-    path.array() += off;
-    start.offset[static_cast<Eigen::Index>(r)] += off;
-  }
   return fit_jointly(records, observations, start, with_told_coordinates(model, observations, setting));
 }
 
 /// The rough fit, to all readings with equal weights: from the starting point, or from others if that
-/// explains too little.
+/// explains too little. The time offset is left free at its end only: far from a minimum it would make up for
+/// a wrong inertia.
 FitPoint fit_roughly(std::span<const TestRecord> records, const FitSetting& setting) {
   const Observations observations = all_readings(records);
-  FitPoint start{setting.prior, Eigen::VectorXd(records.size())};
-  for (std::size_t r = 0; r < records.size(); ++r) {
-    start.offset[static_cast<Eigen::Index>(r)] = records[r].reading.front() + middle_of_reading(records[r]);
-  }
+  const FitPoint start = with_mean_offsets(records, setting.prior, setting);
   FitSetting rough = setting;
   rough.tolerance = 1e-3;
-  FitResult best = first_fit(records, observations, start, rough);
+  rough.free[time_offset] = false;
+  const auto with_offset = [&](const FitResult& from) {
+    if (!setting.free[time_offset]) return from;
+    FitSetting last = rough;
+    last.free[time_offset] = true;
+    last.max_steps = 15;
+    const FitResult found = fit_jointly(records, observations, from.point, last);
+    return found.squares < from.squares ? found : from;
+  };
+  FitResult best = with_offset(first_fit(records, observations, start, rough));
   refuse_glitches(records, best.point, setting);
   if (are_explained(records, best.point, setting)) return best.point;
 
-  // A few steps from each of the other starting points; then the best of them are continued.
-  std::vector<FitResult> tried;
-  rough.max_steps = 4;
+  // A few steps from the best of the other starting points; then the best of them are continued.
+  constexpr std::size_t tried = 6;
+  constexpr std::size_t continued = 3;
+  std::vector<FitResult> others;
   for (const ContactPoint& other : other_starting_points(records, setting.prior, setting.creep_torque)) {
+    ContactPoint contact = setting.prior;
     for (std::size_t j = 0; j < coordinate_count; ++j) {
-      if (setting.free[j]) start.contact[j] = rough.prior[j] = other[j];
+      if (rough.free[j]) contact[j] = other[j];
     }
-    tried.push_back(fit_jointly(records, observations, start, rough));
+    others.push_back({with_mean_offsets(records, contact, setting), 0.0});
   }
-  std::stable_sort(tried.begin(), tried.end(),
-                   [](const FitResult& one, const FitResult& other) { return one.squares < other.squares; });
-  constexpr std::size_t continued = 2;
-  rough.max_steps = 15;
-  for (std::size_t i = 0; i < continued && !are_explained(records, best.point, setting); ++i) {
-    rough.prior = tried[i].point.contact;
-    const FitResult found = fit_jointly(records, observations, tried[i].point, rough);
+  const auto fit_from = [&](const FitResult& from, int steps) {
+    rough.max_steps = steps;
+    rough.prior = from.point.contact;
+    return fit_jointly(records, observations, from.point, rough);
+  };
+  for (const auto& [most, steps] : {std::pair{others.size(), 0}, std::pair{tried, 10}}) {
+    others.resize(std::min(others.size(), most));
+    for (FitResult& other : others) other = fit_from(other, steps);
+    std::stable_sort(others.begin(), others.end(), [](const FitResult& one, const FitResult& other) {
+      return one.squares < other.squares;
+    });
+  }
+  others.resize(std::min(others.size(), continued));
+  for (const FitResult& other : others) {
+    if (are_explained(records, best.point, setting)) break;
+    rough.tolerance = setting.tolerance;
+    const FitResult found = with_offset(fit_from(other, 60));
     if (found.squares < best.squares) best = found;
   }
   if (are_explained(records, best.point, setting)) return best.point;
   rough.max_steps = 50;
   rough.prior = best.point.contact;
+  rough.free = setting.free;
   return fit_jointly(records, observations, best.point, rough).point;
 }
 
@@ -238,13 +271,21 @@ double remaining_step(const ContactFit& fit, const FitSetting& setting) {
   return (step.array().abs() / covariance.diagonal().array().sqrt()).maxCoeff();
 }
 
+/// The coordinates that a fit leaves free: those of its setting, or of them what the readings tell.
+enum class Freedom { all, told };
+
+Freedom usual_freedom(std::span<const TestRecord> records) {
+  return are_slow_alone(records) ? Freedom::told : Freedom::all;
+}
+
 /// Alternates observe() and fit, starting at `from`.
-void refine(std::span<const TestRecord> records, const FitPoint& from, int rounds, ContactFit& fit) {
+void refine(std::span<const TestRecord> records, const FitPoint& from, int rounds, Freedom freedom,
+            ContactFit& fit) {
   fit.model = followed_model(records, from, fit.setting);
   update_misfit(records, fit);
   for (int round = 0; round < rounds; ++round) {
     observe_again(records, fit);
-    const FitSetting told = are_slow_alone(records)
+    const FitSetting told = freedom == Freedom::told
                                 ? with_told_coordinates(fit.model, fit.observations, fit.setting)
                                 : fit.setting;
     if (remaining_step(fit, told) < small_change) break;
@@ -288,7 +329,7 @@ ContactFit fit_contact(std::span<const TestRecord> records, const std::vector<Kn
   constexpr double rough_tolerance = 1.5;
   refuse_unexplained(records, fit, rough_tolerance);
   if (report) report("fit");
-  refine(records, point, max_rounds, fit);
+  refine(records, point, max_rounds, usual_freedom(records), fit);
   refuse_glitches(records, fit.model.point, fit.setting);
   refuse_unexplained(records, fit, 1.0);
   return fit;
@@ -298,7 +339,17 @@ void keep_time_offset(std::span<const TestRecord> records, ContactFit& fit) {
   FitPoint point = fit.model.point;
   point.contact[time_offset] = fit.setting.prior[time_offset] = 0.0;
   fit.setting.free[time_offset] = false;
-  refine(records, point, max_rounds, fit);
+  refine(records, point, max_rounds, usual_freedom(records), fit);
+}
+
+bool free_untold_coordinates(std::span<const TestRecord> records, ContactFit& fit) {
+  if (!are_slow_alone(records)) return false;
+  ContactFit other = fit;
+  refine(records, fit.model.point, max_rounds, Freedom::all, other);
+  observe_again(records, other);
+  if (spread(other) >= spread(fit)) return false;
+  fit = std::move(other);
+  return true;
 }
 
 bool improve_softening(std::span<const TestRecord> records, ContactFit& fit) {
@@ -313,7 +364,7 @@ bool improve_softening(std::span<const TestRecord> records, ContactFit& fit) {
       other.setting.prior[coordinate] = point.contact[coordinate] += shift;
     }
     other.setting.max_steps = 10;
-    refine(records, point, 3, other);
+    refine(records, point, 3, Freedom::all, other);
     observe_again(records, other);
     if (spread(other) >= spread(fit)) continue;
     fit = other;
@@ -321,7 +372,7 @@ bool improve_softening(std::span<const TestRecord> records, ContactFit& fit) {
   }
   if (!improved) return false;
   fit.setting.max_steps = first.setting.max_steps;
-  refine(records, fit.model.point, max_rounds, fit);
+  refine(records, fit.model.point, max_rounds, Freedom::all, fit);
   return true;
 }
 

@@ -13,6 +13,24 @@ constexpr int rates = 14;  // number of values of α tried, by factors of 2 from
 /// Time (s) at the beginning of a hold in which the rotor may oscillate; at most a quarter of the hold.
 constexpr double oscillation_time = 0.05;
 
+/// Samples at the beginning of a hold that may be those of an oscillation.
+std::size_t oscillating_samples(const TorqueHold& hold, double sample_time) {
+  return std::min((hold.last - hold.first + 1) / 4, static_cast<std::size_t>(oscillation_time / sample_time));
+}
+
+/// The longest such time of all holds, s. Creep is told from an oscillation only if it is slower, and where
+/// there are longer holds the shorter ones are left out.
+double longest_oscillation(std::span<const TestRecord> records) {
+  double longest = 0.0;
+  for (const TestRecord& record : records) {
+    for (const TorqueHold& hold : record.parts.holds) {
+      const auto samples = static_cast<double>(oscillating_samples(hold, record.sample_time));
+      longest = std::max(longest, samples * record.sample_time);
+    }
+  }
+  return longest;
+}
+
 /// Sums over the samples of the holds, each about its own mean. x: the law with a limit of 1 rad; y:
 /// measured.
 struct HoldSums {
@@ -24,7 +42,7 @@ struct HoldSums {
 void add_hold(const TorqueHold& hold, double sample_time, const Eigen::VectorXd& law,
               const Eigen::VectorXd& angle, HoldSums& sums) {
   const auto samples = static_cast<Eigen::Index>(hold.last - hold.first + 1);
-  const auto skipped = std::min(samples / 4, static_cast<Eigen::Index>(oscillation_time / sample_time));
+  const auto skipped = static_cast<Eigen::Index>(oscillating_samples(hold, sample_time));
   const auto x = law.segment(static_cast<Eigen::Index>(hold.first) + skipped, samples - skipped).array();
   const auto y = angle.segment(static_cast<Eigen::Index>(hold.first) + skipped, samples - skipped).array();
   const double x_mean = x.mean();
@@ -68,16 +86,22 @@ CreepEstimate estimate_creep(std::span<const TestRecord> records, double creep_t
     angles.push_back(measured_angle(record));
     longest = std::max(longest, record.sample_time * static_cast<double>(sample_count(record)));
   }
+  const double oscillation = longest_oscillation(records);
+  const auto is_long = [&](const TestRecord& record, const TorqueHold& hold) {
+    constexpr double nearly = 0.9;
+    return static_cast<double>(oscillating_samples(hold, record.sample_time)) * record.sample_time >=
+           nearly * oscillation;
+  };
   CreepEstimate best;
   double explained = 0.0;
-  for (int i = 0; i < rates; ++i) {
+  for (int i = 0; i < rates && 0.2 / longest * std::pow(2.0, i) * oscillation <= 1.0; ++i) {
     for (const double exponent : exponents) {
       CreepEstimate tried{0.2 / longest * std::pow(2.0, i), exponent, 1.0};
       HoldSums sums;
       for (std::size_t r = 0; r < records.size(); ++r) {
         const Eigen::VectorXd law = creep_extension(records[r], tried, creep_torque);
         for (const TorqueHold& hold : records[r].parts.holds) {
-          add_hold(hold, records[r].sample_time, law, angles[r], sums);
+          if (is_long(records[r], hold)) add_hold(hold, records[r].sample_time, law, angles[r], sums);
         }
       }
       if (!(sums.xx > 0.0) || sums.xy <= 0.0 || sums.xy * sums.xy / sums.xx <= explained) continue;

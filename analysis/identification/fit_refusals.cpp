@@ -52,7 +52,8 @@ void refuse_unexplained(std::span<const TestRecord> records, const ContactFit& f
         fmt::format(
             "{}: the pre-sliding model does not explain this record: what it leaves is {:.3g} rad (root "
             "mean square) of a travel of {:.3g} rad, and it parts from the record most at {:.4g} s. Did the "
-            "rotor slide, was the torque clipped, is the contact not as it was said to be at the start?",
+            "rotor slide, was the torque clipped, is the contact not as it was said to be at the start? "
+            "--model all compares other friction laws",
             records[r].name, fit.misfit[r] * records[r].unit, (*high - *low) * records[r].unit,
             static_cast<double>(sample) * records[r].sample_time));
   }
@@ -69,7 +70,7 @@ void refuse_gross_misfit(std::span<const TestRecord> records, const ContactFit& 
       fmt::format("{}: the pre-sliding model does not explain the records: what it leaves is {:.0f} "
                   "times what the encoder's steps and noise would, and it parts from this record "
                   "most at {:.4g} s. Does a record begin under load, is the torque of another time "
-                  "than the angle, did the rotor slide?",
+                  "than the angle, did the rotor slide? --model all compares other friction laws",
                   records[worst].name, checks.spread / checks.expected_spread,
                   static_cast<double>(sample) * records[worst].sample_time));
 }

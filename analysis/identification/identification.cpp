@@ -256,6 +256,22 @@ Identification identify(std::vector<TestRecord> records, const IdentificationOpt
     enter("fit with other values of beta");
     if (improve_softening(records, fit)) check();
   }
+  if (!result.checks.passed) {
+    // Coordinates that the records do not tell stay held if that does not explain the records either.
+    const ContactFit held = fit;
+    const ResidualChecks checks = result.checks;
+    const ReadingReplicates of_held = replicates;
+    enter("fit with all coordinates free");
+    if (free_untold_coordinates(records, fit)) {
+      refuse_glitches(records, fit.model.point, fit.setting);
+      check();
+    }
+    if (!result.checks.passed) {
+      fit = held;
+      result.checks = checks;
+      replicates = of_held;
+    }
+  }
   refuse_gross_misfit(records, fit, result.checks);
   for (std::size_t r = 0; r < records.size(); ++r) {
     result.records.push_back(summary_of(records[r], fit, r));

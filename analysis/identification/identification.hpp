@@ -104,6 +104,17 @@ std::string manifest_fragment(const Identification& identification);
 /// `value` with one digit more than the half-width of the parameter's interval justifies.
 std::string with_digits(double value, const ParameterEstimate& parameter);
 
+/// Cells of a table for people: name, value, unit, 95 % interval, relative half-width (of the time offset the
+/// half-width in samples), status.
+std::vector<std::string> estimate_row(const ParameterEstimate& parameter);
+
+/// Heads of the columns of estimate_row().
+std::vector<std::string> estimate_heads();
+
+/// The line `name`: of a parameter in its map of a manifest, a comment if it is not identifiable. Ends with a
+/// newline.
+std::string manifest_line(const ParameterEstimate& parameter, const std::string& name);
+
 /// A number for a manifest, with two digits more than its relative uncertainty justifies; all digits if that
 /// is 0. It has a decimal point and a sign of the exponent, because some YAML readers take 2e5 and 2.0e5 for
 /// texts.

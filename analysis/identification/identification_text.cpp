@@ -8,26 +8,6 @@
 namespace zerocount::identification {
 namespace {
 
-std::vector<std::string> row_of(const ParameterEstimate& parameter) {
-  const std::string& name = parameter.name;
-  if (parameter.status == EstimateStatus::not_identifiable) {
-    return {name, "–", parameter.unit, "–", "–", "not identifiable"};
-  }
-  const std::string value = with_digits(parameter.value, parameter);
-  if (parameter.status == EstimateStatus::known) return {name, value, parameter.unit, "–", "–", "given"};
-  if (parameter.status == EstimateStatus::kept) return {name, value, parameter.unit, "–", "–", "kept"};
-  const double half_width = 0.5 * (parameter.high - parameter.low);
-  const bool relative = parameter.name != "time_offset";
-  return {
-      name,
-      value,
-      parameter.unit,
-      fmt::format("{} to {}", with_digits(parameter.low, parameter), with_digits(parameter.high, parameter)),
-      relative ? fmt::format("{:.2g} %", 100.0 * half_width / parameter.value)
-               : fmt::format("{:.2g}", half_width),
-      "estimated"};
-}
-
 std::string left_out_text(const RecordSummary& record) {
   std::string text;
   if (!record.note.empty()) text += fmt::format("    {}\n", record.note);
@@ -96,9 +76,34 @@ std::string checks_text(const ResidualChecks& checks) {
 
 }  // namespace
 
+std::vector<std::string> estimate_heads() {
+  return {"parameter", "value", "unit", "95 % interval", "±", "status"};
+}
+
+std::vector<std::string> estimate_row(const ParameterEstimate& parameter) {
+  const std::string& name = parameter.name;
+  if (parameter.status == EstimateStatus::not_identifiable) {
+    return {name, "–", parameter.unit, "–", "–", "not identifiable"};
+  }
+  const std::string value = with_digits(parameter.value, parameter);
+  if (parameter.status == EstimateStatus::known) return {name, value, parameter.unit, "–", "–", "given"};
+  if (parameter.status == EstimateStatus::kept) return {name, value, parameter.unit, "–", "–", "kept"};
+  const double half_width = 0.5 * (parameter.high - parameter.low);
+  const bool relative = parameter.name != "time_offset";
+  return {
+      name,
+      value,
+      parameter.unit,
+      fmt::format("{} to {}", with_digits(parameter.low, parameter), with_digits(parameter.high, parameter)),
+      relative ? fmt::format("{:.2g} %", 100.0 * half_width / parameter.value)
+               : fmt::format("{:.2g}", half_width),
+      "estimated"};
+}
+
 std::string identification_text(const Identification& identification) {
-  std::vector<std::vector<std::string>> cells{{"parameter", "value", "unit", "95 % interval", "±", "status"}};
-  for (const ParameterEstimate& parameter : identification.parameters) cells.push_back(row_of(parameter));
+  std::vector<std::vector<std::string>> cells{estimate_heads()};
+  for (const ParameterEstimate& parameter : identification.parameters)
+    cells.push_back(estimate_row(parameter));
   std::string text = text::aligned_table(cells, {false, true, false, true, true, false});
   text += "\n";
   for (const ParameterEstimate& parameter : identification.parameters) {

@@ -10,22 +10,6 @@ namespace {
 
 constexpr double two_sided_95 = 1.959963984540054;  // Φ⁻¹(0.975)
 
-std::string line_of(const ParameterEstimate& parameter, const std::string& name) {
-  switch (parameter.status) {
-    case EstimateStatus::known:
-    case EstimateStatus::kept:
-      return fmt::format("  {}: {}   # {}, given\n", name, manifest_number(parameter.value, 0.0),
-                         parameter.unit);
-    case EstimateStatus::estimated:
-      return fmt::format("  {}: {}   # {}, 95 %: {} to {}\n", name, distribution_text(parameter),
-                         parameter.unit, with_digits(parameter.low, parameter),
-                         with_digits(parameter.high, parameter));
-    case EstimateStatus::not_identifiable:
-      break;
-  }
-  return fmt::format("  # {}: not identifiable, because {}\n", name, parameter.reason);
-}
-
 }  // namespace
 
 std::string manifest_number(double value, double relative_uncertainty) {
@@ -70,6 +54,22 @@ std::string distribution_text(const ParameterEstimate& parameter) {
                      manifest_number(cv, small_digits));
 }
 
+std::string manifest_line(const ParameterEstimate& parameter, const std::string& name) {
+  switch (parameter.status) {
+    case EstimateStatus::known:
+    case EstimateStatus::kept:
+      return fmt::format("  {}: {}   # {}, given\n", name, manifest_number(parameter.value, 0.0),
+                         parameter.unit);
+    case EstimateStatus::estimated:
+      return fmt::format("  {}: {}   # {}, 95 %: {} to {}\n", name, distribution_text(parameter),
+                         parameter.unit, with_digits(parameter.low, parameter),
+                         with_digits(parameter.high, parameter));
+    case EstimateStatus::not_identifiable:
+      break;
+  }
+  return fmt::format("  # {}: not identifiable, because {}\n", name, parameter.reason);
+}
+
 std::string manifest_fragment(const Identification& identification) {
   std::string text = "# Identified from";
   for (const RecordSummary& record : identification.records) {
@@ -92,7 +92,7 @@ std::string manifest_fragment(const Identification& identification) {
     bool any = false;
     for (const ParameterEstimate& parameter : identification.parameters) {
       if (!parameter.key.starts_with(group + ".")) continue;
-      lines += line_of(parameter, parameter.key.substr(group.size() + 1));
+      lines += manifest_line(parameter, parameter.key.substr(group.size() + 1));
       any = any || parameter.status != EstimateStatus::not_identifiable;
     }
     // A map that contains only comments would not be a map.

@@ -1,7 +1,6 @@
 #include "analysis/identification/reading_replicates.hpp"
 
 #include <cmath>
-#include <cstdint>
 
 #include <Eigen/Cholesky>
 #include <oneapi/tbb/parallel_for.h>
@@ -10,31 +9,18 @@
 #include "core/random/variates.hpp"
 
 namespace zerocount::identification {
-namespace {
+ReplicateNoise::ReplicateNoise(std::size_t replicate) : replicate_(replicate) {}
 
-/// Standard deviation of the replicates' true parameters, in textbook standard deviations.
-constexpr double truth_spread = 3.0;
+double ReplicateNoise::next() {
+  // An arbitrary but constant key, so that results are reproducible.
+  constexpr random::RandomStream stream{{0x1d3a71f1U, 0xca710bb5U}, 0};
+  return random::standard_normal(random::random_bits(stream, replicate_, draw_++));
+}
 
-/// Key of the replicates' random numbers: arbitrary but constant, so that results are reproducible.
-constexpr random::RandomStream replicate_stream{{0x1d3a71f1U, 0xca710bb5U}, 0};
+Eigen::VectorXd ReplicateNoise::next(Eigen::Index size) {
+  return Eigen::VectorXd::NullaryExpr(size, [this] { return next(); });
+}
 
-/// The standard normal numbers of one replicate.
-class ReplicateNoise {
- public:
-  explicit ReplicateNoise(std::size_t replicate) : replicate_(replicate) {}
-  double next() {
-    return random::standard_normal(random::random_bits(replicate_stream, replicate_, draw_++));
-  }
-  Eigen::VectorXd next(Eigen::Index size) {
-    return Eigen::VectorXd::NullaryExpr(size, [this] { return next(); });
-  }
-
- private:
-  std::uint64_t replicate_;
-  std::uint32_t draw_{0};
-};
-
-/// The readings of the record's encoder along `path`.
 Eigen::VectorXd read_path(const TestRecord& record, const Eigen::VectorXd& path, double noise,
                           ReplicateNoise& random) {
   Eigen::VectorXd readings = path;
@@ -42,8 +28,6 @@ Eigen::VectorXd read_path(const TestRecord& record, const Eigen::VectorXd& path,
   if (record.counted) readings = readings.array().floor();
   return readings;
 }
-
-}  // namespace
 
 ResidualStatistics residual_statistics(const std::vector<double>& residuals) {
   ResidualStatistics statistics;

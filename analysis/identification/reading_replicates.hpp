@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,26 @@ ResidualStatistics residual_statistics(const std::vector<double>& residuals);
 /// linearised model; an empty `step` is 0.
 std::vector<double> residuals_of(const FittedModel& model, const Observations& observations,
                                  const Eigen::VectorXd& step);
+
+/// Standard deviation of the replicates' true parameters, in textbook standard deviations.
+inline constexpr double truth_spread = 3.0;
+
+/// The standard normal numbers of one replicate, which depend on its number only.
+class ReplicateNoise {
+ public:
+  explicit ReplicateNoise(std::size_t replicate);
+  double next();
+  Eigen::VectorXd next(Eigen::Index size);
+
+ private:
+  std::uint64_t replicate_;
+  std::uint32_t draw_{0};
+};
+
+/// The readings of the record's encoder along `path`. `noise` is their standard deviation before they are
+/// rounded. All in the record's unit.
+Eigen::VectorXd read_path(const TestRecord& record, const Eigen::VectorXd& path, double noise,
+                          ReplicateNoise& random);
 
 /// Results of fits to simulated replicates of the records.
 struct ReadingReplicates {

@@ -7,16 +7,8 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
-#include "core/plant/plant.hpp"
-
 namespace zerocount::identification {
 namespace {
-
-/// Truncation error allowed per Taylor step, in units of the readings.
-constexpr double motion_tolerance = 1e-9;
-
-/// Step of the finite differences: small enough for a smooth path, far above the integration error.
-constexpr double difference_step = 1e-6;
 
 /// Decay rate (1/s) of the slowest oscillation about a point of the spring.
 double decay_rate(const ContactParameters& contact) {
@@ -27,12 +19,6 @@ double decay_rate(const ContactParameters& contact) {
   if (discriminant <= 0.0) return damping / (2.0 * inertia);
   return 2.0 * stiffness / (damping + std::sqrt(discriminant));
 }
-
-/// The path of a record and its velocity, per sample.
-struct SampledPath {
-  Eigen::VectorXd angle;     ///< [sample] in the record's unit
-  Eigen::VectorXd velocity;  ///< [sample] in units per sample
-};
 
 /// Fills the samples inside a step of `m` samples by cubic Hermite interpolation.
 void fill_between(SampledPath& path, Eigen::Index first, std::size_t m) {
@@ -58,11 +44,11 @@ void fill_between(SampledPath& path, Eigen::Index first, std::size_t m) {
 /// delay d the reading k is at the time k − d on this axis: in interval k − ⌈d⌉, at the fraction ⌈d⌉ − d.
 class RecordRun {
  public:
-  RecordRun(const TestRecord& record, const ContactParameters& contact, double offset)
+  RecordRun(const TestRecord& record, plant::Plant plant, double offset, const LongSteps& steps)
       : record_(record),
-        plant_(contact.plant, {contact.friction, {}}, record.start, {motion_tolerance * record.unit}),
-        settled_after_(samples_of(40.0 / decay_rate(contact))),
-        creep_stride_(samples_of(0.03 / contact.friction.alpha)),
+        plant_(std::move(plant)),
+        settled_after_(samples_of(steps.settled_after)),
+        creep_stride_(samples_of(steps.longest)),
         delay_(record.delay_fraction + offset) {
     lag_ = static_cast<std::ptrdiff_t>(std::ceil(delay_));
     fraction_ = std::ceil(delay_) - delay_;
@@ -186,10 +172,23 @@ class RecordRun {
   double fraction_{0.0};
 };
 
+SampledPath contact_path(const TestRecord& record, const ContactParameters& contact, double offset) {
+  constexpr double settled = 40.0;     // exp(−40) of an oscillation is below rounding
+  constexpr double creep_step = 0.03;  // of the time constant of creep
+  plant::Plant plant(contact.plant, {contact.friction, {}}, record.start, {motion_tolerance * record.unit});
+  return sampled_path(record, std::move(plant), offset,
+                      {settled / decay_rate(contact), creep_step / contact.friction.alpha});
+}
+
 }  // namespace
 
+SampledPath sampled_path(const TestRecord& record, plant::Plant plant, double offset,
+                         const LongSteps& steps) {
+  return RecordRun(record, std::move(plant), offset, steps).run();
+}
+
 Eigen::VectorXd angle_path(const TestRecord& record, const ContactParameters& contact, double offset) {
-  return RecordRun(record, contact, offset).run().angle;
+  return contact_path(record, contact, offset).angle;
 }
 
 Eigen::VectorXd angle_path(const TestRecord& record, const ContactPoint& point, double creep_torque) {
@@ -198,7 +197,7 @@ Eigen::VectorXd angle_path(const TestRecord& record, const ContactPoint& point, 
 
 RecordMotion motion_with_sensitivity(const TestRecord& record, const ContactPoint& point, double creep_torque,
                                      const FreeCoordinates& free) {
-  SampledPath path = RecordRun(record, contact_at(point, creep_torque), point[time_offset]).run();
+  SampledPath path = contact_path(record, contact_at(point, creep_torque), point[time_offset]);
   RecordMotion motion;
   motion.sensitivity.setZero(path.angle.size(), coordinate_count);
   if (free[time_offset]) motion.sensitivity.col(time_offset) = -path.velocity;

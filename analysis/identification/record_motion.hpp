@@ -4,6 +4,7 @@
 
 #include "analysis/identification/contact_coordinates.hpp"
 #include "analysis/identification/test_record.hpp"
+#include "core/plant/plant.hpp"
 
 namespace zerocount::identification {
 
@@ -15,6 +16,31 @@ struct RecordMotion {
   Eigen::VectorXd path;  ///< [sample] rotor angle since the first sample, in the record's unit
   PathSensitivity sensitivity;
 };
+
+/// Truncation error allowed per step of a motion along a record, in units of the readings.
+inline constexpr double motion_tolerance = 1e-9;
+
+/// Step of the finite differences with respect to coordinates: small enough for a smooth path, far above the
+/// error of the integration.
+inline constexpr double difference_step = 1e-6;
+
+/// The path of a record and its velocity.
+struct SampledPath {
+  Eigen::VectorXd angle;     ///< [sample] in the record's unit
+  Eigen::VectorXd velocity;  ///< [sample] in units per sample
+};
+
+/// Steps of several samples in a long hold of an evenly sampled record, where only creep moves the rotor. By
+/// default there are none.
+struct LongSteps {
+  double settled_after{1e9};  ///< time after the last change of the torque from which they are taken, s
+  double longest{0.0};        ///< s
+};
+
+/// The motion of a plant along a record. The torque acts `offset` samples later than recorded, as in
+/// angle_path().
+SampledPath sampled_path(const TestRecord& record, plant::Plant plant, double offset,
+                         const LongSteps& steps = {});
 
 /// One row of a PathSensitivity.
 using PathSlope = Eigen::Matrix<double, 1, coordinate_count>;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -72,18 +73,44 @@ std::string reason_of_misfit(const ResidualChecks& checks) {
                    checks.runs, checks.expected_runs);
 }
 
+namespace {
+
+/// Standard deviation of normal residuals, from the median of their magnitudes.
+double robust_deviation(const std::vector<double>& magnitudes) {
+  constexpr double deviation_over_median = 1.4826;
+  return deviation_over_median * statistics::upper_median(magnitudes);
+}
+
+/// Standard deviation of the noise of counts before they are rounded, from the differences of neighbouring
+/// residuals, on which slow deviations of the path have little influence. The largest hundredth is left out.
+double noise_of_counts(const std::vector<double>& residuals) {
+  std::vector<double> squares;
+  for (std::size_t k = 1; k < residuals.size(); ++k) {
+    squares.push_back((residuals[k] - residuals[k - 1]) * (residuals[k] - residuals[k - 1]));
+  }
+  const auto kept = static_cast<std::ptrdiff_t>(squares.size() - squares.size() / 100);
+  std::nth_element(squares.begin(), squares.begin() + kept - 1, squares.end());
+  const double mean =
+      std::accumulate(squares.begin(), squares.begin() + kept, 0.0) / static_cast<double>(kept);
+  constexpr double rounding = 1.0 / 12.0;  // variance
+  return std::sqrt(std::max(0.5 * mean - rounding, 0.0));
+}
+
+}  // namespace
+
 std::optional<std::size_t> find_glitch(const TestRecord& record, const Eigen::VectorXd& path) {
   const std::size_t samples = record.reading.size();
-  std::vector<double> off(samples);
+  std::vector<double> residual(samples);
+  std::vector<double> off(samples);  // beyond the rounding of a count
   for (std::size_t k = 0; k < samples; ++k) {
-    const double left = record.reading[k] - path[static_cast<Eigen::Index>(k)];
-    off[k] = record.counted ? std::max(std::abs(left + 0.5) - 0.5, 0.0) : std::abs(left);
+    residual[k] = record.reading[k] + middle_of_reading(record) - path[static_cast<Eigen::Index>(k)];
+    off[k] = std::max(std::abs(residual[k]) - middle_of_reading(record), 0.0);
   }
+  constexpr double counted_deviations = 6.0;
   constexpr double deviations = 12.0;
-  constexpr double deviation_over_median = 1.4826;  // of a normal distribution
   constexpr double arithmetic = 1e-3;
-  const double least = (record.counted ? 1.5 : arithmetic) +
-                       deviations * deviation_over_median * statistics::upper_median(off);
+  const double least = record.counted ? 1.5 + counted_deviations * noise_of_counts(residual)
+                                      : arithmetic + deviations * robust_deviation(off);
   constexpr std::size_t near = 3;
   constexpr std::size_t far = 6;
   for (std::size_t k = far; k + far < samples; ++k) {

@@ -39,8 +39,9 @@ ResidualChecks check_residuals(const ResidualStatistics& residuals,
 /// passed.
 std::string reason_of_misfit(const ResidualChecks& checks);
 
-/// A sample whose reading is an outlier: its residual is at least 1.5 counts (for counts) and 12 times the
-/// usual one, and the readings a few samples away are not. Nothing if there is none.
+/// A sample whose reading is an outlier: its residual is above 12 standard deviations of all (for counts,
+/// 1.5 counts beyond rounding and 6 standard deviations of their noise), and the readings a few samples
+/// away are not. Nothing if there is none.
 std::optional<std::size_t> find_glitch(const TestRecord& record, const Eigen::VectorXd& path);
 
 /// The sample at which the residuals change most over 20 samples.

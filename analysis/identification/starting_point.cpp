@@ -108,16 +108,18 @@ ChosenRecords ringing_records(std::span<const TestRecord> records) {
   return ringing;
 }
 
-/// Searches J and c around those of the point, with the records that have a ring-down. Without a ring-down it
-/// searches a wider range with all records, because the response to DAC steps may show the inertia.
+/// Searches J and c around those of the point, far and then near, with the records that have a ring-down.
+/// Without a ring-down it searches a wider range with all records, because the response to DAC steps may show
+/// the inertia.
 ContactPoint with_best_ringing(std::span<const TestRecord> records, const ContactPoint& point,
                                double creep_torque) {
+  constexpr double much = 0.8;
   const ChosenRecords ringing = ringing_records(records);
   if (!ringing.empty()) {
-    return best_of(ringing, point, creep_torque,
-                   changes_of({0.4, 0.63, 1.0, 1.6, 2.5}, {0.2, 0.45, 1.0, 2.2}));
+    const ContactPoint far = best_of(ringing, point, creep_torque,
+                                     changes_of({0.01, 0.1, 1.0, 10.0, 100.0}, {0.15, 1.0, 7.0}), much);
+    return best_of(ringing, far, creep_torque, changes_of({0.4, 0.63, 1.0, 1.6, 2.5}, {0.2, 0.45, 1.0, 2.2}));
   }
-  constexpr double much = 0.8;
   return best_of(all_of(records), point, creep_torque,
                  changes_of({1.0, 10.0, 100.0, 1e3, 1e4}, {0.5, 2.0, 8.0}), much);
 }
@@ -156,28 +158,36 @@ FirstOvershoot first_overshoot(const TestRecord& record, const TorqueHold& ring_
   while (peak + 1 < motion.size() && motion[peak + 1] >= motion[peak]) ++peak;
   const Eigen::Index settled = std::min(6 * (peak + 1), motion.size() - 1);
   const double travel = motion[settled];
-  return {static_cast<std::size_t>(peak + 1), travel, travel > 0.0 ? motion[peak] / travel - 1.0 : 0.0};
+  constexpr double risen = 0.632;  // 1 − 1/e
+  Eigen::Index rise = 0;
+  while (rise < settled && motion[rise] < risen * travel) ++rise;
+  return {static_cast<std::size_t>(peak + 1), static_cast<std::size_t>(rise + 1), travel,
+          travel > 0.0 ? motion[peak] / travel - 1.0 : 0.0};
 }
 
 motion::PlantParameters estimate_ring_down(std::span<const TestRecord> records, double k1) {
   const RingDown ring = largest_ring_down(records);
   const double sample_time = records.front().sample_time;
   // Without a ring-down: an oscillation too fast for the sampling, with a third of the critical damping.
-  double period = 4.0 * sample_time;
+  double frequency = 0.5 * std::numbers::pi / sample_time;  // of the undamped rotor, rad/s
   double damping_ratio = 0.33;
   if (ring.record != nullptr) {
     const FirstOvershoot motion = first_overshoot(*ring.record, ring.hold);
-    period = 2.0 * ring.record->sample_time * static_cast<double>(motion.peak);
-    if (motion.overshoot > 0.0 && motion.overshoot < 1.0) {
+    constexpr double visible = 0.01;
+    if (motion.overshoot > visible && motion.overshoot < 1.0) {
       const double decay = -std::log(motion.overshoot);
-      damping_ratio = decay / std::hypot(std::numbers::pi, decay);
+      damping_ratio = std::clamp(decay / std::hypot(std::numbers::pi, decay), 0.05, 0.9);
+      const double to_peak = ring.record->sample_time * static_cast<double>(motion.peak);
+      frequency = std::numbers::pi / to_peak / std::sqrt(1.0 - damping_ratio * damping_ratio);
+    } else {
+      // A critically damped rotor has risen to 1 − 1/e at ω0·t = 2.15. What follows is creep.
+      damping_ratio = 1.0;
+      frequency = 2.15 / (ring.record->sample_time * static_cast<double>(motion.rise));
     }
   }
-  const double ratio = std::clamp(damping_ratio, 0.05, 0.9);
-  const double frequency = 2.0 * std::numbers::pi / period / std::sqrt(1.0 - ratio * ratio);
   motion::PlantParameters plant;
   plant.inertia = k1 / (frequency * frequency);
-  plant.presliding_damping = 2.0 * ratio * std::sqrt(k1 * plant.inertia);
+  plant.presliding_damping = 2.0 * damping_ratio * std::sqrt(k1 * plant.inertia);
   return plant;
 }
 

@@ -39,7 +39,8 @@ SpringEstimate estimate_spring(std::span<const TestRecord> records, const CreepE
 
 /// The first oscillation after a step of the torque.
 struct FirstOvershoot {
-  std::size_t peak{0};    ///< samples from the step to the first peak
+  std::size_t peak{0};    ///< samples from the step to the first peak; of a rotor that creeps, to the end
+  std::size_t rise{0};    ///< samples from the step to 63 % of the travel
   double travel{0.0};     ///< from the start to the settled position, in the direction of the step, rad
   double overshoot{0.0};  ///< as a fraction of the travel
 };

@@ -19,6 +19,7 @@
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
 #include "runners/commands/figure_picture.hpp"
+#include "runners/commands/identify_laws.hpp"
 #include "runners/commands/record_options.hpp"
 #include "runners/commands/stage_progress.hpp"
 #include "runners/status/status.hpp"
@@ -28,11 +29,12 @@ namespace {
 
 constexpr const char* identify_help =
     "Identifies the rotor and its friction from material tests: records of torque, angle and\n"
-    "time without sliding. k1, k2 and beta come from slow loading and unloading, the damping\n"
-    "and the inertia from the ringing after a step of the torque, alpha, lambda and n from\n"
-    "creep at constant torque; all are fitted together, with 95 % confidence intervals. A record\n"
-    "may have only some of these tests: parameters that it does not determine are listed with\n"
-    "the reason. Several records must be tests of the same contact, of a rotary axis.\n"
+    "time before sliding, where a record ends. k1, k2 and beta come from slow loading and\n"
+    "unloading, the damping and the inertia from the ringing after a step of the torque, alpha,\n"
+    "lambda and n from creep at constant torque; all are fitted together, with 95 % confidence\n"
+    "intervals. A record may have only some of these tests: parameters that it does not determine\n"
+    "are listed with the reason. Several records must be tests of the same contact, of a rotary\n"
+    "axis.\n"
     "\n"
     "A table (CSV) has the columns t (s), torque or drive_torque (N m), and theta (rad) or\n"
     "count, for which --counts-per-revolution is needed; 'zerocount trace' writes such tables.\n"
@@ -48,6 +50,11 @@ constexpr const char* identify_help =
     "--sliding takes motion records instead, in which the axis slides to and fro, under open or\n"
     "closed loop, and finds the inertia, the viscous damping, the Coulomb level and, if it shows,\n"
     "the Stribeck curve; also of a linear axis, with '--column force=…' and '--column position=…'.\n"
+    "\n"
+    "--model fits another friction law to the same tests (lugre, dahl, gms, spring), and --model all\n"
+    "compares them: what each leaves, and Schwarz's information criterion BIC, by which 10 less is\n"
+    "strong evidence. The parameters are those of the law with the least BIC. --series-compliance\n"
+    "fits a fixture that gives way under the torque beside the law.\n"
     "\n"
     "The output ends with the result as a fragment of a manifest; --format yaml prints only\n"
     "that. It draws the parameters independently; --posterior writes joint draws, for the key\n"
@@ -208,8 +215,8 @@ std::vector<records::RawSeries> read_all_series(const command_line::Arguments& a
 
 /// The options that a sliding axis has no use for. Its windows begin at samples, and so does their torque.
 void refuse_material_options(const command_line::Arguments& arguments) {
-  for (const char* option :
-       {"fix", "preload", "hardening", "dac-bits", "any-magnitude", "posterior", "plot"}) {
+  for (const char* option : {"fix", "model", "series-compliance", "preload", "hardening", "dac-bits",
+                             "any-magnitude", "posterior", "plot"}) {
     if (arguments.has(option)) {
       arguments.refuse(fmt::format("options '--{}' and '--sliding' exclude each other", option));
     }
@@ -292,24 +299,12 @@ void write_draws(const identification::Identification& found, std::size_t wanted
   command_line::write_text(place, identification::posterior_table(found));
 }
 
-ExitCode identify_records(const command_line::Arguments& arguments) {
-  const std::string format = arguments.one_of("format", {"text", "json", "yaml"});
-  identification::IdentificationOptions options = identification_options(arguments);
-  const IdentifyOutputs outputs = identify_outputs(arguments);
-  if (arguments.has("sliding")) {
-    refuse_material_options(arguments);
-    command_line::write_text(outputs.report, identify_sliding_axis(arguments, format));
-    return ExitCode::success;
-  }
-  const std::size_t wanted_draws = options.draws;
-  std::vector<identification::TestRecord> records = read_records(arguments);
-  refuse_picture_of_several(arguments, outputs, records.size());
-  const identification::Identification found =
-      identify_with_progress(arguments, std::move(records), std::move(options));
-  const std::string report = format == "json"   ? identification::identification_json(found)
-                             : format == "yaml" ? identification::manifest_fragment(found)
-                                                : identification::identification_text(found);
-  command_line::write_text(outputs.report, report);
+/// Writes what was identified, and tells if it is not to be trusted.
+ExitCode write_identification(const identification::Identification& found, const std::string& format,
+                              const IdentifyOutputs& outputs, std::size_t wanted_draws) {
+  command_line::write_text(outputs.report, format == "json"   ? identification::identification_json(found)
+                                           : format == "yaml" ? identification::manifest_fragment(found)
+                                                              : identification::identification_text(found));
   if (outputs.posterior) write_draws(found, wanted_draws, *outputs.posterior);
   if (outputs.plot) {
     command_line::write_text(*outputs.plot, drawing(report::identification_page(found), outputs.plot_kind));
@@ -328,6 +323,29 @@ ExitCode identify_records(const command_line::Arguments& arguments) {
   return ExitCode::inconclusive;
 }
 
+ExitCode identify_records(const command_line::Arguments& arguments) {
+  const std::string format = arguments.one_of("format", {"text", "json", "yaml"});
+  identification::IdentificationOptions options = identification_options(arguments);
+  const IdentifyOutputs outputs = identify_outputs(arguments);
+  if (arguments.has("sliding")) {
+    refuse_material_options(arguments);
+    command_line::write_text(outputs.report, identify_sliding_axis(arguments, format));
+    return ExitCode::success;
+  }
+  const law_identification::LawChoice choice = chosen_laws(arguments);
+  if (!choice.laws.empty()) {
+    refuse_options_beside_laws(arguments);
+    const LawsReport compared = identify_laws(arguments, choice, read_records(arguments), format);
+    command_line::write_text(outputs.report, compared.text);
+    return compared.code;
+  }
+  const std::size_t wanted_draws = options.draws;
+  std::vector<identification::TestRecord> records = read_records(arguments);
+  refuse_picture_of_several(arguments, outputs, records.size());
+  return write_identification(identify_with_progress(arguments, std::move(records), std::move(options)),
+                              format, outputs, wanted_draws);
+}
+
 std::vector<command_line::OptionSpec> identify_options() {
   std::vector<command_line::OptionSpec> options{
       {"counts-per-revolution", "N", "resolution of the encoder of an angle in counts"}};
@@ -335,6 +353,7 @@ std::vector<command_line::OptionSpec> identify_options() {
     options.insert(options.end(), more.begin(), more.end());
   };
   append(column_options());
+  append(law_options());
   append({{"sliding", "", "identify inertia and sliding friction from motion records"},
           {"angle", "COLUMN", "count or theta, if both exist (default count, if N is given)"},
           {"torque", "COLUMN", "torque or drive_torque, if both exist (default the latter)"},

@@ -137,6 +137,37 @@ TEST_F(Identify, DrawsTheFit) {
   EXPECT_EQ(folder_.read("fit.svg").find("<svg"), 0U);
 }
 
+// From a rotor on a bristle to the law that its record follows, and to a manifest with it.
+TEST_F(Identify, TellsWhichLawARecordFollows) {
+  std::string bristle = material_tests;
+  bristle.replace(bristle.find("{k1: 130}"), 9, "{model: lugre, sigma0: 300, coulomb_ratio: 1}");
+  folder_.write("tests.yaml", bristle);
+  trace("loops.csv", "0");
+  const auto identify = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"identify", "loops.csv", "--counts-per-revolution", "1620000", "--quiet"});
+    return run(words);
+  };
+  const ProgramResult text = identify({"--model", "dahl", "--model", "lugre"});
+  ASSERT_EQ(text.code, 0) << text.err;
+  EXPECT_EQ(text.err, "");
+  EXPECT_NE(text.out.find("lugre is the nearest of these laws; dahl is next"), std::string::npos) << text.out;
+  const auto json =
+      nlohmann::json::parse(identify({"--model", "dahl", "--model", "lugre", "--format", "json"}).out);
+  EXPECT_EQ(json["laws"][0]["law"], "lugre");
+  EXPECT_TRUE(json["laws"][0]["explained"].get<bool>());
+  EXPECT_EQ(json["laws"][0]["bic_above_least"], 0.0);
+  EXPECT_GT(json["laws"][1]["bic_above_least"].get<double>(), 10.0);
+  EXPECT_NEAR(parameter(json["laws"][0], "sigma0")["value"].get<double>(), 300.0, 1.0);
+  const ProgramResult fragment = identify({"--model", "lugre", "--format", "yaml"});
+  folder_.write(
+      "study.yaml",
+      "zerocount: 1\nname: bristle\nseed: 1\ntrials: 2\ncommand: {targets: [3], hold: 0.1}\n" + fragment.out);
+  EXPECT_EQ(run({"check", "study.yaml"}).code, 0) << fragment.out;
+  const ProgramResult dahl = identify({"--model", "dahl"});
+  EXPECT_EQ(dahl.code, 3) << "it does not explain the record";
+  EXPECT_NE(dahl.err.find("not to be trusted"), std::string::npos) << dahl.err;
+}
+
 // Records of two contacts: the answer is printed, and is not to be trusted.
 TEST_F(Identify, ALackOfFitIsAnExitCode) {
   trace("one.csv", "1");
@@ -296,6 +327,10 @@ TEST_F(Identify, BadUsageIsRefused) {
            {"data.csv", "--counts-per-revolution", "1000", "--plot", "-"},
            {"data.csv", "--counts-per-revolution", "1000", "--plot", "fit.html", "-o", "fit.html"},
            {"data.csv", "--sliding", "--plot", "fit.html"},
+           {"data.csv", "--sliding", "--model", "lugre"},
+           {"data.csv", "--counts-per-revolution", "1000", "--model", "coulomb"},
+           {"data.csv", "--counts-per-revolution", "1000", "--model", "all", "--fix", "friction.n=2"},
+           {"data.csv", "--counts-per-revolution", "1000", "--series-compliance", "--plot", "fit.html"},
            {"data.csv", "--counts-per-revolution", "1000", "--dac-bits", "1"},
            {"data.csv", "--format", "xml"}}) {
     std::vector<std::string> all{"identify"};
@@ -441,6 +476,18 @@ retain: {trials: [0]}
   const auto json = nlohmann::json::parse(result.out);
   EXPECT_NE(json["records"][0]["note"].get<std::string>().find("breaks away"), std::string::npos);
   EXPECT_NEAR(parameter(json, "k1")["value"].get<double>(), 110.0, 1.0);
+
+  // A table that does not say when the hook slides.
+  std::string table = run({"trace", "slide.h5"}).out;
+  const std::size_t mode = table.find(",mode");
+  ASSERT_NE(mode, std::string::npos) << table.substr(0, 200);
+  folder_.write("slide.csv", table.replace(mode, 5, ",text"));
+  const ProgramResult unflagged =
+      run({"identify", "slide.csv", "--counts-per-revolution", "1.62e6", "--format", "json"});
+  EXPECT_EQ(unflagged.code, 0) << unflagged.err;
+  const auto found = nlohmann::json::parse(unflagged.out);
+  EXPECT_NE(found["records"][0]["note"].get<std::string>().find("begins to slide"), std::string::npos);
+  EXPECT_NEAR(parameter(found, "k1")["value"].get<double>(), 110.0, 1.0);
 }
 
 }  // namespace

@@ -132,7 +132,7 @@ TEST(CountingNoise, IsFoundFromNeighbours) {
   std::mt19937_64 random(34);
   for (const double noise : {0.03, 0.1, 0.3, 1.0, 3.0}) {
     const Eigen::VectorXd path = wandering_path(20000, 0.1, random);
-    EXPECT_NEAR(identification::counting_noise(path, read(path, noise, random)) / noise, 1.0,
+    EXPECT_NEAR(identification::counting_noise(counted(), path, read(path, noise, random)) / noise, 1.0,
                 noise < 0.1 ? 0.3 : 0.1)
         << noise;
   }
@@ -142,7 +142,7 @@ TEST(CountingNoise, IsNoneWhereThereIsNone) {
   std::mt19937_64 random(35);
   for (int round = 0; round < 200; ++round) {
     const Eigen::VectorXd path = wandering_path(5000, 0.15, random);
-    EXPECT_EQ(identification::counting_noise(path, read(path, 0.0, random)), 0.0);
+    EXPECT_EQ(identification::counting_noise(counted(), path, read(path, 0.0, random)), 0.0);
   }
 }
 
@@ -151,7 +151,26 @@ TEST(CountingNoise, IsNotWhatTheModelFailsToFollow) {
   const Eigen::VectorXd path = wandering_path(20000, 0.1, random);
   Eigen::VectorXd off = path;
   for (Eigen::Index k = 0; k < off.size(); ++k) off[k] += 5.0 * std::sin(1e-3 * static_cast<double>(k));
-  EXPECT_NEAR(identification::counting_noise(off, read(path, 0.1, random)), 0.1, 0.02);
+  EXPECT_NEAR(identification::counting_noise(counted(), off, read(path, 0.1, random)), 0.1, 0.02);
+}
+
+// A straight line bridges masked readings. Over a step it is far from the path, and so are its edges.
+TEST(CountingNoise, IgnoresTheLinesInPlaceOfMaskedReadings) {
+  std::mt19937_64 random(37);
+  for (int round = 0; round < 100; ++round) {
+    Eigen::VectorXd path = wandering_path(2000, 0.15, random);
+    path.tail(1000).array() += 300.0;
+    identification::TestRecord record = counted();
+    record.excluded.assign(2000, false);
+    Eigen::VectorXd readings = read(path, 0.0, random);
+    const double height = readings[1060] - readings[979];
+    for (Eigen::Index k = 980; k < 1060; ++k) {
+      record.excluded[static_cast<std::size_t>(k)] = true;
+      readings[k] = std::round(readings[979] + height * static_cast<double>(k - 979) / 81.0);
+    }
+    EXPECT_GT(identification::counting_noise(counted(), path, readings), 0.0);
+    EXPECT_EQ(identification::counting_noise(record, path, readings), 0.0);
+  }
 }
 
 }  // namespace

@@ -59,7 +59,8 @@ void advance_skewed(const identification::TestRecord& record, std::size_t k, dou
 
 }  // namespace
 
-identification::TestRecord simulated_test(const identification::ContactParameters& contact,
+identification::TestRecord simulated_test(const motion::PlantParameters& rotor,
+                                          const friction::FrictionAlongRotor& friction,
                                           const TorqueProgramme& programme, const TestInstrument& instrument,
                                           std::mt19937_64& random) {
   identification::TestRecord record;
@@ -75,13 +76,20 @@ identification::TestRecord simulated_test(const identification::ContactParameter
     }
     record.torque.push_back(motion::constant_torque(torque));
   }
-  plant::Plant plant(contact.plant, {contact.friction, {}}, {}, {1e-11 * record.unit});
+  plant::Plant plant(rotor, friction, {}, {1e-11 * record.unit});
   for (std::size_t k = 0; k < record.torque.size(); ++k) {
     const double shaken = instrument.noise > 0.0 ? instrument.noise * noise(random) : 0.0;
-    record.reading.push_back(std::floor(plant.theta() / record.unit + phase + shaken));
+    const double twist = k > 0 ? instrument.compliance * record.torque[k - 1].now : 0.0;
+    record.reading.push_back(std::floor((plant.theta() + twist) / record.unit + phase + shaken));
     advance_skewed(record, k, instrument.skew, plant);
   }
   return record;
+}
+
+identification::TestRecord simulated_test(const identification::ContactParameters& contact,
+                                          const TorqueProgramme& programme, const TestInstrument& instrument,
+                                          std::mt19937_64& random) {
+  return simulated_test(contact.plant, {contact.friction, {}}, programme, instrument, random);
 }
 
 std::vector<TorqueProgramme> three_tests() {

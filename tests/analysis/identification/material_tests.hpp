@@ -34,12 +34,19 @@ struct TestInstrument {
   double torque_step{2.4e-4};  ///< Δu, N m; 0: the torque is exact
   double noise{0.0};           ///< of the readings before rounding, counts
   double skew{0.0};            ///< the torque acts so much later than its sample, samples
+  double compliance{0.0};      ///< of a fixture that gives way under the torque, rad/(N m)
 };
 
 /// A rig of the paper's kind: its numbers, each times a random factor of 0.5 to 2, and n between 1.5 and 2.5.
 identification::ContactParameters random_contact(std::mt19937_64& random);
 
-/// A test of the contact, simulated by core's Plant sample by sample, and read by an encoder of random phase.
+/// A test of a rotor, simulated by core's Plant sample by sample, and read by an encoder of random phase.
+identification::TestRecord simulated_test(const motion::PlantParameters& plant,
+                                          const friction::FrictionAlongRotor& friction,
+                                          const TorqueProgramme& programme, const TestInstrument& instrument,
+                                          std::mt19937_64& random);
+
+/// The same of a contact of the pre-sliding model.
 identification::TestRecord simulated_test(const identification::ContactParameters& contact,
                                           const TorqueProgramme& programme, const TestInstrument& instrument,
                                           std::mt19937_64& random);

@@ -1,0 +1,177 @@
+#include "analysis/law_identification/law_identification.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "analysis/identification/confidence_interval.hpp"
+#include "analysis/law_identification/law_fit.hpp"
+#include "analysis/law_identification/law_report.hpp"
+#include "analysis/statistics/unknown.hpp"
+#include "core/friction/law.hpp"
+
+namespace zerocount::law_identification {
+namespace {
+
+using identification::EstimateStatus;
+using identification::ParameterEstimate;
+using identification::TestRecord;
+
+/// Largest half-widths of the interval of an identifiable parameter (of a logarithm, of n and the offset).
+constexpr double max_log_halfwidth = 0.7;
+constexpr double max_halfwidth = 1.0;
+
+/// Largest half-widths of an interval that was widened because the law does not fit.
+constexpr double max_widened_log_halfwidth = 2.3;  // a factor of 10 to each side
+constexpr double max_widened_halfwidth = 2.0;
+
+ParameterEstimate estimate_of(const LawQuantity& quantity, const LawErrors& errors) {
+  identification::QuantityEstimate found = identification::interval_of_errors(
+      quantity.value, errors.errors * quantity.slope, errors.checks.widening);
+  ParameterEstimate estimate{found, quantity.name, quantity.key, quantity.unit, EstimateStatus::estimated};
+  // What the records determine does not depend on how well the model fits.
+  const double widened = 0.5 * (found.high - found.low);
+  const double half_width = widened / errors.checks.widening;
+  const bool open = !(half_width <= (quantity.logarithmic ? max_log_halfwidth : max_halfwidth));
+  const bool vague = !(widened <= (quantity.logarithmic ? max_widened_log_halfwidth : max_widened_halfwidth));
+  if (open || vague) {
+    estimate.value = estimate.standard_error = estimate.low = estimate.high = statistics::unknown;
+    estimate.status = EstimateStatus::not_identifiable;
+    estimate.reason =
+        open ? "the records hardly depend on it" : "the law departs too far from the records to tell it";
+    return estimate;
+  }
+  if (!quantity.logarithmic) return estimate;
+  estimate.value = std::exp(found.value);
+  estimate.standard_error *= estimate.value;
+  estimate.low = std::exp(found.low);
+  estimate.high = std::exp(found.high);
+  return estimate;
+}
+
+/// Root mean square of the residuals over all records, rad, and the same over the travel.
+void set_misfit(Records records, const LawFit& fit, IdentifiedLaw& law) {
+  double squares = 0.0;
+  double relative = 0.0;
+  double readings = 0.0;
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const auto [low, high] = std::minmax_element(records[r].reading.begin(), records[r].reading.end());
+    for (const double residual : fit.residuals[r]) {
+      squares += residual * residual * records[r].unit * records[r].unit;
+      relative += residual * residual / ((*high - *low) * (*high - *low));
+    }
+    readings += static_cast<double>(fit.residuals[r].size());
+  }
+  law.misfit = std::sqrt(squares / readings);
+  law.misfit_over_travel = std::sqrt(relative / readings);
+}
+
+double mean_square(const std::vector<double>& residuals) {
+  double squares = 0.0;
+  for (const double residual : residuals) squares += residual * residual;
+  return squares / static_cast<double>(residuals.size());
+}
+
+/// A fit with its law.
+struct FittedLaw {
+  LawModel model;
+  LawFit fit;
+  IdentifiedLaw law;
+};
+
+/// The number of independent residuals of each record, from those of the law with the least squares.
+std::vector<double> effective_readings(Records records, const std::vector<FittedLaw>& fitted) {
+  std::vector<double> effective;
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const auto best =
+        std::min_element(fitted.begin(), fitted.end(), [&](const FittedLaw& one, const FittedLaw& other) {
+          return mean_square(one.fit.residuals[r]) < mean_square(other.fit.residuals[r]);
+        });
+    const std::vector<double>& residuals = best->fit.residuals[r];
+    effective.push_back(static_cast<double>(residuals.size()) /
+                        identification::residual_statistics(residuals).correlation_length);
+  }
+  return effective;
+}
+
+double information_criterion(const FittedLaw& fitted, const std::vector<double>& effective) {
+  double criterion = 0.0;
+  double all = 0.0;
+  for (std::size_t r = 0; r < effective.size(); ++r) {
+    criterion += effective[r] * std::log(mean_square(fitted.fit.residuals[r]));
+    all += effective[r];
+  }
+  const auto parameters = static_cast<double>(fitted.law.fitted + effective.size());
+  return criterion + parameters * std::log(all);
+}
+
+FittedLaw fitted_law(Records records, friction::FrictionModel law, bool series_compliance,
+                     const RecordScales& scales) {
+  FittedLaw result;
+  result.model = law_model(law, scales, records);
+  if (series_compliance) result.model = with_series_compliance(result.model, scales);
+  result.fit = fit_law(records, result.model);
+  const LawErrors errors = errors_of(records, result.model, result.fit);
+  IdentifiedLaw& found = result.law;
+  found.law = law;
+  found.fitted =
+      static_cast<std::size_t>(std::count(result.model.free.begin(), result.model.free.end(), true));
+  found.checks = errors.checks;
+  found.converged = result.fit.converged;
+  set_misfit(records, result.fit, found);
+  for (const LawQuantity& quantity : result.model.quantities_at(result.fit.at.point)) {
+    found.parameters.push_back(estimate_of(quantity, errors));
+  }
+  found.fragment = law_fragment(records, result.model, result.fit.at.point, found);
+  return result;
+}
+
+}  // namespace
+
+std::vector<std::string> law_words() {
+  std::vector<std::string> words;
+  for (const friction::FrictionModel law : fitted_laws()) words.emplace_back(friction::traits_of(law).word);
+  return words;
+}
+
+friction::FrictionModel law_of(const std::string& word) {
+  const auto laws = fitted_laws();
+  return *std::find_if(laws.begin(), laws.end(),
+                       [&](friction::FrictionModel law) { return friction::traits_of(law).word == word; });
+}
+
+LawComparison compare_laws(std::vector<TestRecord> records, const LawChoice& choice,
+                           const identification::StageReport& report) {
+  for (TestRecord& record : records) record.parts = parts_of(record);
+  const auto enter = [&](std::string_view stage) {
+    if (report) report(stage);
+  };
+  enter("starting values");
+  const RecordScales scales = scales_of(records);
+  std::vector<FittedLaw> fitted;
+  for (const friction::FrictionModel law : choice.laws) {
+    enter(fmt::format("fit of {}", friction::traits_of(law).word));
+    fitted.push_back(fitted_law(records, law, choice.series_compliance, scales));
+  }
+  const std::vector<double> effective = effective_readings(records, fitted);
+  LawComparison comparison;
+  comparison.sample_time = records.front().sample_time;
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    comparison.effective_readings += effective[r];
+    comparison.readings += used_samples(records[r]);
+  }
+  for (FittedLaw& one : fitted) {
+    one.law.information_criterion = information_criterion(one, effective);
+    comparison.laws.push_back(std::move(one.law));
+  }
+  std::stable_sort(comparison.laws.begin(), comparison.laws.end(),
+                   [](const IdentifiedLaw& one, const IdentifiedLaw& other) {
+                     return one.information_criterion < other.information_criterion;
+                   });
+  const double least = comparison.laws.front().information_criterion;
+  for (IdentifiedLaw& law : comparison.laws) law.information_criterion -= least;
+  return comparison;
+}
+
+}  // namespace zerocount::law_identification

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "analysis/identification/contact_fit.hpp"
+#include "analysis/identification/identification.hpp"
+#include "analysis/identification/residual_checks.hpp"
+#include "analysis/identification/test_record.hpp"
+#include "core/friction/friction_model.hpp"
+
+namespace zerocount::law_identification {
+
+/// A friction law identified from records.
+struct IdentifiedLaw {
+  friction::FrictionModel law{friction::FrictionModel::presliding};
+  std::vector<identification::ParameterEstimate> parameters;
+  std::size_t fitted{0};              ///< coordinates of the fit, with the time offset
+  double misfit{0.0};                 ///< root mean square of the residuals of all readings, rad
+  double misfit_over_travel{0.0};     ///< the same over the travel of the records, dimensionless
+  double information_criterion{0.0};  ///< BIC above that of the best law, 0 or more
+  identification::ResidualChecks checks;
+  bool converged{true};
+  std::string fragment;  ///< the maps `plant` and `friction` of a manifest
+};
+
+/// The laws that were fitted to the same records.
+struct LawComparison {
+  std::vector<IdentifiedLaw> laws;  ///< by information criterion, the best one first
+  double effective_readings{0.0};   ///< number of independent residuals
+  std::size_t readings{0};
+  double sample_time{0.0};  ///< of the time offsets, s
+};
+
+/// The words of the laws that compare_laws() takes: those that move before they slide.
+std::vector<std::string> law_words();
+
+/// The law of one of these words.
+friction::FrictionModel law_of(const std::string& word);
+
+/// The laws that are fitted.
+struct LawChoice {
+  std::vector<friction::FrictionModel> laws;
+  bool series_compliance{false};  ///< fits the compliance of a fixture beside each law
+};
+
+/// Fits friction laws to material tests, all of the same contact, and compares them by Schwarz's information
+/// criterion (Ann. Statist. 6, 1978, 461) on the same readings:
+///
+///   BIC = Σ_r m_r·ln(S_r/N_r) + p·ln Σ m_r,
+///
+/// with the sum of squares S_r of the N_r readings of record r and p fitted parameters. Residuals of
+/// neighbouring readings are alike, so that m_r is the number of independent ones, N_r over the correlation
+/// length of the residuals of the law with the least squares (Thiébaux & Zwiers, J. Climate Appl. Meteor. 23,
+/// 1984, 800).
+/// @throws Failure (bad_data) if a law cannot be simulated along the records
+LawComparison compare_laws(std::vector<identification::TestRecord> records, const LawChoice& choice,
+                           const identification::StageReport& report = {});
+
+/// The comparison, the parameters of the best law and its fragment of a manifest as text.
+std::string comparison_text(const LawComparison& comparison);
+
+/// The same with the parameters of every law as one JSON object. Missing values are null.
+std::string comparison_json(const LawComparison& comparison);
+
+}  // namespace zerocount::law_identification

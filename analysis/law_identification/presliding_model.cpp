@@ -1,0 +1,55 @@
+#include "analysis/identification/confidence_interval.hpp"
+#include "analysis/identification/starting_point.hpp"
+#include "analysis/law_identification/law_model.hpp"
+
+namespace zerocount::law_identification {
+namespace {
+
+namespace id = identification;
+
+/// The pre-sliding model in the coordinates of identification::contact_at().
+LawModel spring_based_model(const RecordScales& scales, Records records, friction::FrictionModel law,
+                            bool creeps) {
+  const double creep_torque = scales.creep_torque;
+  LawModel model;
+  model.law = law;
+  model.free.assign(id::coordinate_count, true);
+  if (!creeps) {
+    for (const id::Coordinate j : {id::log_alpha, id::log_limit, id::creep_exponent}) model.free[j] = false;
+  }
+  model.parameters_at = [=](const LawPoint& point) {
+    const id::ContactParameters contact = id::contact_at(point, creep_torque);
+    return LawParameters{contact.plant, {.uniform = contact.friction, .profiled = {}, .model = law}};
+  };
+  model.quantities_at = [=](const LawPoint& point) {
+    std::vector<LawQuantity> quantities;
+    const id::FitPoint at{point, {}};
+    for (const id::FittedQuantity& fitted : id::fitted_quantities(at, creep_torque)) {
+      const id::Coordinate coordinate = fitted.coordinates.front();
+      if (fitted.key.empty() || coordinate == id::time_offset) continue;
+      if (!creeps && coordinate >= id::log_alpha) continue;
+      quantities.push_back({std::string(fitted.name), std::string(fitted.key), std::string(fitted.unit),
+                            fitted.value, fitted.slope, fitted.logarithmic});
+    }
+    quantities.push_back(time_offset_quantity(point));
+    return quantities;
+  };
+  model.starts.push_back(scales.contact);
+  for (const id::ContactPoint& other : id::other_starting_points(records, scales.contact, creep_torque)) {
+    model.starts.push_back(other);
+  }
+  model.fixed_lines = [](const LawPoint&) { return std::string(); };
+  return model;
+}
+
+}  // namespace
+
+LawModel presliding_model(const RecordScales& scales, Records records) {
+  return spring_based_model(scales, records, friction::FrictionModel::presliding, true);
+}
+
+LawModel spring_model(const RecordScales& scales, Records records) {
+  return spring_based_model(scales, records, friction::FrictionModel::spring, false);
+}
+
+}  // namespace zerocount::law_identification

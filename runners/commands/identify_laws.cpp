@@ -1,0 +1,77 @@
+#include "runners/commands/identify_laws.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/law_identification/law_identification.hpp"
+#include "runners/commands/stage_progress.hpp"
+#include "runners/status/status.hpp"
+
+namespace zerocount::commands {
+
+std::vector<command_line::OptionSpec> law_options() {
+  return {
+      {"model", "LAW",
+       fmt::format("friction law to fit, {} (default presliding), or all; may be repeated, and compares them",
+                   fmt::join(law_identification::law_words(), ", ")),
+       true},
+      {"series-compliance", "", "fit the compliance of a fixture in series with the contact, too"}};
+}
+
+law_identification::LawChoice chosen_laws(const command_line::Arguments& arguments) {
+  const std::vector<std::string> words = law_identification::law_words();
+  std::vector<std::string> wanted;
+  for (const std::string& word : arguments.values("model")) {
+    if (word == "all") {
+      wanted = words;
+    } else if (std::find(words.begin(), words.end(), word) != words.end()) {
+      wanted.push_back(word);
+    } else {
+      arguments.refuse(
+          fmt::format("option '--model': '{}' is not one of {}, all", word, fmt::join(words, ", ")));
+    }
+  }
+  law_identification::LawChoice choice{{}, arguments.has("series-compliance")};
+  const std::string& usual = words.front();
+  if (wanted.empty() && choice.series_compliance) wanted.push_back(usual);
+  for (const std::string& word : words) {
+    if (std::find(wanted.begin(), wanted.end(), word) != wanted.end())
+      choice.laws.push_back(law_identification::law_of(word));
+  }
+  if (wanted == std::vector{usual} && !choice.series_compliance) choice.laws.clear();
+  return choice;
+}
+
+void refuse_options_beside_laws(const command_line::Arguments& arguments) {
+  for (const char* option : {"fix", "posterior", "plot"}) {
+    if (!arguments.has(option)) continue;
+    arguments.refuse(fmt::format(
+        "option '--{}' goes with the pre-sliding model alone, not with '--model' or '--series-compliance'",
+        option));
+  }
+}
+
+LawsReport identify_laws(const command_line::Arguments& arguments,
+                         const law_identification::LawChoice& choice,
+                         std::vector<identification::TestRecord> records, const std::string& format) {
+  law_identification::LawComparison comparison;
+  {
+    StageProgress progress("zerocount identify", arguments.has("quiet"));
+    comparison = law_identification::compare_laws(std::move(records), choice,
+                                                  [&](std::string_view stage) { progress.enter(stage); });
+  }
+  const law_identification::IdentifiedLaw& best = comparison.laws.front();
+  LawsReport report;
+  report.text = format == "json"   ? law_identification::comparison_json(comparison)
+                : format == "yaml" ? best.fragment
+                                   : law_identification::comparison_text(comparison);
+  if (best.checks.passed) return report;
+  status::tell("zerocount identify: the answer is not to be trusted: {}\n",
+               identification::reason_of_misfit(best.checks));
+  report.code = ExitCode::inconclusive;
+  return report;
+}
+
+}  // namespace zerocount::commands

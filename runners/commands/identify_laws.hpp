@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/identification/test_record.hpp"
+#include "analysis/law_identification/law_identification.hpp"
+#include "core/failure/failure.hpp"
+#include "runners/command_line/command_line.hpp"
+
+namespace zerocount::commands {
+
+/// The options `--model` and `--series-compliance`.
+std::vector<command_line::OptionSpec> law_options();
+
+/// The laws to compare. None without these options, and for the pre-sliding model alone, which has a fit of
+/// its own.
+law_identification::LawChoice chosen_laws(const command_line::Arguments& arguments);
+
+/// Refuses options that the comparison of laws does not have.
+void refuse_options_beside_laws(const command_line::Arguments& arguments);
+
+/// The report of a comparison, and the exit code: inconclusive if the best law does not explain the records.
+struct LawsReport {
+  std::string text;
+  ExitCode code{ExitCode::success};
+};
+
+LawsReport identify_laws(const command_line::Arguments& arguments,
+                         const law_identification::LawChoice& choice,
+                         std::vector<identification::TestRecord> records, const std::string& format);
+
+}  // namespace zerocount::commands

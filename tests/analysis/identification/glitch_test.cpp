@@ -1,0 +1,59 @@
+// A single wrong reading is told from the noise of all.
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "analysis/identification/residual_checks.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+struct NoisyRecord {
+  identification::TestRecord record;
+  Eigen::VectorXd path;
+};
+
+/// Readings of a rotor that oscillates by 20 counts. `noise` is a standard deviation in counts.
+NoisyRecord noisy_record(double noise, bool counted, std::mt19937_64& random) {
+  constexpr Eigen::Index samples = 20'000;
+  std::normal_distribution<double> normal(0.0, 1.0);
+  NoisyRecord result;
+  result.record.counted = counted;
+  result.path.resize(samples);
+  for (Eigen::Index k = 0; k < samples; ++k) {
+    result.path[k] = 20.0 * std::sin(1e-2 * static_cast<double>(k));
+    const double angle = result.path[k] + noise * normal(random);
+    result.record.reading.push_back(counted ? std::floor(angle) : angle);
+  }
+  return result;
+}
+
+TEST(Glitch, NoiseIsNone) {
+  std::mt19937_64 random(1);
+  for (int set = 0; set < 40; ++set) {
+    const double noise = std::uniform_real_distribution<double>(0.0, 3.0)(random);
+    for (const bool counted : {true, false}) {
+      const NoisyRecord noisy = noisy_record(noise, counted, random);
+      EXPECT_FALSE(identification::find_glitch(noisy.record, noisy.path)) << noise << counted;
+    }
+  }
+}
+
+TEST(Glitch, AReadingFarBeyondTheNoiseIsOne) {
+  std::mt19937_64 random(2);
+  for (int set = 0; set < 40; ++set) {
+    const double noise = std::uniform_real_distribution<double>(0.0, 1.0)(random);
+    for (const bool counted : {true, false}) {
+      NoisyRecord noisy = noisy_record(noise, counted, random);
+      const std::size_t at = std::uniform_int_distribution<std::size_t>(10, 19'900)(random);
+      noisy.record.reading[at] += std::ceil(20.0 * noise + 4.0);
+      const auto found = identification::find_glitch(noisy.record, noisy.path);
+      ASSERT_TRUE(found) << noise << counted;
+      EXPECT_EQ(*found, at);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -50,7 +50,18 @@ struct Course {
   std::vector<double> travel;        ///< [sample] range of the angle up to it
   std::vector<double> torque_range;  ///< [sample] range of the torque up to it, N m
   double min_travel{0.0};            ///< before sliding can be told from pre-sliding
+  std::size_t lag{0};                ///< samples until a torque has acted on the rotor
 };
+
+/// Samples from a torque in the series until the amplifier has reached it to exp(−3).
+std::size_t lag_of(const records::RawSeries& series) {
+  const double duration = series.time.back() - series.time.front();
+  const double rate = duration > 0.0 ? static_cast<double>(series.time.size() - 1) / duration : 0.0;
+  constexpr double three_time_constants = 0.5;  // 3/2π
+  const double settling = series.bandwidth > 0.0 ? three_time_constants / series.bandwidth * rate : 0.0;
+  return static_cast<std::size_t>(
+      std::min(std::ceil(series.delay + settling), static_cast<double>(series.time.size())));
+}
 
 Course course_of(const records::RawSeries& series) {
   Course course;
@@ -58,6 +69,7 @@ Course course_of(const records::RawSeries& series) {
   course.travel = growing_ranges(course.angle, course.angle.front());
   course.torque_range = growing_ranges(series.torque, series.torque.front());
   course.min_travel = series.counts_per_revolution > 0.0 ? min_counts_before : 0.0;
+  course.lag = lag_of(series);
   return course;
 }
 
@@ -66,7 +78,9 @@ bool is_sliding(const Course& course, std::size_t from, std::size_t to) {
   const double travel = std::abs(course.angle[to] - course.angle[from]);
   const double before = std::max(course.travel[from], course.min_travel);
   if (!(before > 0.0) || travel < gross * before) return false;
-  const double range_before = course.torque_range[from - 2 * (to - from)];
+  const std::size_t earlier = from - 2 * (to - from);
+  if (earlier < course.lag) return false;
+  const double range_before = course.torque_range[earlier - course.lag];
   if (!(range_before > 0.0)) return false;
   const double growth = course.torque_range[to] / range_before;
   if (travel < gross * before * std::pow(growth, torque_exponent)) return false;

@@ -48,24 +48,6 @@ bool is_same(const motion::TorqueCourse& one, const motion::TorqueCourse& other)
   return one.now == other.now && one.settled == other.settled && one.rate == other.rate;
 }
 
-/// Refuses a record that is given twice: it would have twice its weight.
-void check_different(std::span<const TestRecord> records) {
-  for (std::size_t i = 0; i < records.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const TestRecord& one = records[j];
-      const TestRecord& other = records[i];
-      if (one.reading != other.reading ||
-          !std::equal(one.torque.begin(), one.torque.end(), other.torque.begin(), is_same)) {
-        continue;
-      }
-      throw Failure(ExitCode::bad_data,
-                    fmt::format("{}: is {} once more, equal in every sample; expected records of different "
-                                "tests",
-                                other.name, one.name));
-    }
-  }
-}
-
 RecordSummary summary_of(const TestRecord& record, const ContactFit& fit, std::size_t number) {
   RecordSummary summary;
   summary.name = record.name;
@@ -229,6 +211,23 @@ JointDraws draw_jointly(const Estimation& from, std::vector<EstimatedQuantity> e
 }
 
 }  // namespace
+
+void check_different(std::span<const TestRecord> records) {
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const TestRecord& one = records[j];
+      const TestRecord& other = records[i];
+      if (one.reading != other.reading ||
+          !std::equal(one.torque.begin(), one.torque.end(), other.torque.begin(), is_same)) {
+        continue;
+      }
+      throw Failure(ExitCode::bad_data,
+                    fmt::format("{}: is {} once more, equal in every sample; expected records of different "
+                                "tests",
+                                other.name, one.name));
+    }
+  }
+}
 
 Identification identify(std::vector<TestRecord> records, const IdentificationOptions& options) {
   check_different(records);

@@ -72,6 +72,10 @@ struct IdentificationOptions {
   StageReport report{};
 };
 
+/// Refuses a record that is given twice: it would have twice its weight.
+/// @throws Failure (bad_data)
+void check_different(std::span<const TestRecord> records);
+
 /// Identifies a rotor and its contact from material tests, all of the same contact.
 ///
 /// The value is the fit minus its mean error in the replicates. The 95 % interval is the fit minus the 97.5 %

@@ -67,8 +67,11 @@ std::vector<LawMinimum> smallest(std::vector<LawMinimum> minima, std::size_t mos
 constexpr int first_steps = 12;
 constexpr int last_steps = 60;
 
-/// True if the residuals are about those of whole counts.
-bool is_explained(const LawMinimum& minimum, const Observations& readings) {
+/// True if the readings are counts and the residuals are about those of their rounding.
+bool is_explained(Records records, const LawMinimum& minimum, const Observations& readings) {
+  if (!std::all_of(records.begin(), records.end(), [](const TestRecord& record) { return record.counted; })) {
+    return false;
+  }
   constexpr double tolerated = 1.2;
   std::size_t count = 0;
   for (const std::vector<AngleObservation>& of_record : readings) count += of_record.size();
@@ -81,7 +84,7 @@ LawMinimum with_neighbours(Records records, const LawModel& model, const Observa
   if (!model.neighbours) return best;
   constexpr int rounds = 4;
   constexpr double better = 0.98;
-  for (int round = 0; round < rounds && !is_explained(best, readings); ++round) {
+  for (int round = 0; round < rounds && !is_explained(records, best, readings); ++round) {
     std::vector<LawMinimum> tried;
     for (const LawPoint& other : model.neighbours(best.at.point)) {
       const LawMinimum start = evaluated(records, model, other);
@@ -113,10 +116,11 @@ LawMinimum fit_all_readings(Records records, const LawModel& model) {
   }
   minima = smallest(std::move(minima), continued);
   if (minima.empty() || !std::isfinite(minima.front().squares)) {
-    throw Failure(ExitCode::bad_data,
-                  fmt::format("{}: a rotor with the friction model {} cannot be simulated along this record; "
-                              "are the units right?",
-                              records.front().name, friction::traits_of(model.law).word));
+    throw Failure(
+        ExitCode::bad_data,
+        fmt::format("{}: no starting point of the friction model {} can be simulated along the records, "
+                    "the rotor is too fast for their sampling; are the units right?",
+                    records.front().name, friction::traits_of(model.law).word));
   }
   constexpr double hopeless = 4.0;
   const double least = minima.front().squares;

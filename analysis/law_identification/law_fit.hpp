@@ -22,7 +22,7 @@ struct LawFit {
 
 /// Fits a law by non-linear least squares: first to all readings with equal weights, a few steps from the
 /// best of the starting points and to the end from the best of these; then to the observations
-/// (identification::observe()), until the fit no longer changes.
+/// (identification::observe()), in three rounds.
 /// @throws Failure (bad_data) if the law cannot be simulated from any of its starting points.
 LawFit fit_law(Records records, const LawModel& model);
 

@@ -9,6 +9,7 @@
 #include "analysis/law_identification/law_fit.hpp"
 #include "analysis/law_identification/law_report.hpp"
 #include "analysis/statistics/unknown.hpp"
+#include "core/failure/failure.hpp"
 #include "core/friction/law.hpp"
 
 namespace zerocount::law_identification {
@@ -41,6 +42,12 @@ ParameterEstimate estimate_of(const LawQuantity& quantity, const LawErrors& erro
     estimate.reason =
         open ? "the records hardly depend on it" : "the law departs too far from the records to tell it";
     return estimate;
+  }
+  if (quantity.name == "n") {
+    constexpr double least_exponent = 1.0;
+    for (double* number : {&estimate.value, &estimate.low, &estimate.high}) {
+      *number = std::max(*number, least_exponent);
+    }
   }
   if (!quantity.logarithmic) return estimate;
   estimate.value = std::exp(found.value);
@@ -106,6 +113,21 @@ double information_criterion(const FittedLaw& fitted, const std::vector<double>&
   return criterion + parameters * std::log(all);
 }
 
+/// Refuses a state at the start of a record that the law does not have.
+void require_start(Records records, friction::FrictionModel law) {
+  const friction::LawTraits& traits = friction::traits_of(law);
+  for (const TestRecord& record : records) {
+    const bool loaded = record.start.preload != 0.0 || !record.start.history.empty();
+    const bool hardened = record.start.hardening != 0.0;
+    if (!(loaded && !traits.remembers_loading) && !(hardened && !friction::has_creep(law))) continue;
+    throw Failure(
+        ExitCode::bad_data,
+        fmt::format("{}: the record begins {}, which the friction model {} does not remember; leave "
+                    "that model out",
+                    record.name, hardened ? "work-hardened" : "after a preload", traits.word));
+  }
+}
+
 FittedLaw fitted_law(Records records, friction::FrictionModel law, bool series_compliance,
                      const RecordScales& scales) {
   FittedLaw result;
@@ -143,6 +165,8 @@ friction::FrictionModel law_of(const std::string& word) {
 
 LawComparison compare_laws(std::vector<TestRecord> records, const LawChoice& choice,
                            const identification::StageReport& report) {
+  identification::check_different(records);
+  for (const friction::FrictionModel law : choice.laws) require_start(records, law);
   for (TestRecord& record : records) record.parts = parts_of(record);
   const auto enter = [&](std::string_view stage) {
     if (report) report(stage);
@@ -160,6 +184,8 @@ LawComparison compare_laws(std::vector<TestRecord> records, const LawChoice& cho
   for (std::size_t r = 0; r < records.size(); ++r) {
     comparison.effective_readings += effective[r];
     comparison.readings += used_samples(records[r]);
+    comparison.records.push_back({records[r].name, sample_count(records[r]),
+                                  sample_count(records[r]) - used_samples(records[r]), records[r].note});
   }
   for (FittedLaw& one : fitted) {
     one.law.information_criterion = information_criterion(one, effective);

@@ -25,10 +25,19 @@ struct IdentifiedLaw {
   std::string fragment;  ///< the maps `plant` and `friction` of a manifest
 };
 
+/// A record of a comparison, and what was left out of it.
+struct ComparedRecord {
+  std::string name;
+  std::size_t samples{0};
+  std::size_t excluded{0};  ///< masked samples
+  std::string note;         ///< what was cut out of it; empty: nothing
+};
+
 /// The laws that were fitted to the same records.
 struct LawComparison {
   std::vector<IdentifiedLaw> laws;  ///< by information criterion, the best one first
-  double effective_readings{0.0};   ///< number of independent residuals
+  std::vector<ComparedRecord> records;
+  double effective_readings{0.0};  ///< number of independent residuals
   std::size_t readings{0};
   double sample_time{0.0};  ///< of the time offsets, s
 };
@@ -50,11 +59,13 @@ struct LawChoice {
 ///
 ///   BIC = Σ_r m_r·ln(S_r/N_r) + p·ln Σ m_r,
 ///
-/// with the sum of squares S_r of the N_r readings of record r and p fitted parameters. Residuals of
+/// with the sum of squares S_r of the N_r readings of record r and p fitted parameters, the
+/// phase of each record among them. Residuals of
 /// neighbouring readings are alike, so that m_r is the number of independent ones, N_r over the correlation
-/// length of the residuals of the law with the least squares (Thiébaux & Zwiers, J. Climate Appl. Meteor. 23,
-/// 1984, 800).
-/// @throws Failure (bad_data) if a law cannot be simulated along the records
+/// length of the residuals of the law with the least squares of this record (Thiébaux & Zwiers, J. Climate
+/// Appl. Meteor. 23, 1984, 800).
+/// @throws Failure (bad_data) if a record is given twice, begins in a state that a law does not have, or a
+/// law cannot be simulated along the records
 LawComparison compare_laws(std::vector<identification::TestRecord> records, const LawChoice& choice,
                            const identification::StageReport& report = {});
 

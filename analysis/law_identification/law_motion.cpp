@@ -29,7 +29,8 @@ void add_twist(const TestRecord& record, double compliance, double offset, Eigen
   for (Eigen::Index k = 0; k < path.size(); ++k) {
     const double interval = std::ceil(static_cast<double>(k) - delay) - 1.0;
     if (interval < 0.0) continue;  // the torque is 0 before the first sample
-    path[k] += compliance * record.torque[static_cast<std::size_t>(std::min(interval, last))].now;
+    const motion::TorqueCourse& torque = record.torque[static_cast<std::size_t>(std::min(interval, last))];
+    path[k] += compliance * motion::course_after(torque, record.sample_time).now;
   }
 }
 
@@ -96,8 +97,8 @@ class LawResiduals : public ceres::CostFunction {
 
 bool can_be_sampled(Records records, const LawModel& model, const LawPoint& point) {
   constexpr double max_rate = 20.0;  // in 1/sampling interval
-  double interval = 0.0;
-  for (const TestRecord& record : records) interval = std::max(interval, record.sample_time);
+  double interval = std::numeric_limits<double>::infinity();
+  for (const TestRecord& record : records) interval = std::min(interval, record.sample_time);
   return fastest_rate(model.parameters_at(point)) * interval <= max_rate;
 }
 

@@ -23,8 +23,8 @@ inline Eigen::Index dimension_of(const LawModel& model) {
   return static_cast<Eigen::Index>(model.free.size());
 }
 
-/// True if the rotor's motion before it slides is not much faster than the sampling. What is faster cannot be
-/// told from the records, and takes long to simulate.
+/// True if the rotor's motion before it slides is not much faster than the sampling of the fastest
+/// record. What is faster cannot be told from the records, and takes long to simulate.
 bool can_be_sampled(Records records, const LawModel& model, const LawPoint& point);
 
 /// The rotor angle at every sample of a record since the first one, in the record's unit.

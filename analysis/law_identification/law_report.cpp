@@ -45,8 +45,9 @@ std::string verdict_of(const LawComparison& comparison) {
     text = next.information_criterion > strong_evidence
                ? fmt::format("{} is the nearest of these laws; {} is next, {:.0f} higher in BIC.\n",
                              word_of(best), word_of(next), next.information_criterion)
-               : fmt::format("The records do not tell {} from {}: their BIC differ by {:.1f} only.\n",
-                             word_of(best), word_of(next), next.information_criterion);
+               : fmt::format(
+                     "The BIC of {} and {} differ by {:.1f} only: the records do not distinguish them.\n",
+                     word_of(best), word_of(next), next.information_criterion);
   }
   if (best.checks.passed) return text;
   return text + fmt::format("LACK OF FIT: {} does not explain the records: {}.\n", word_of(best),
@@ -126,6 +127,13 @@ std::string comparison_text(const LawComparison& comparison) {
   std::string text = table_of(comparison);
   text += fmt::format("{} readings, of which {:.0f} count as independent in BIC.\n", comparison.readings,
                       comparison.effective_readings);
+  for (const ComparedRecord& record : comparison.records) {
+    if (!record.note.empty()) text += fmt::format("{}: {}\n", text::printable(record.name), record.note);
+    if (record.excluded > 0) {
+      text +=
+          fmt::format("{}: {} samples masked by --exclude\n", text::printable(record.name), record.excluded);
+    }
+  }
   text += verdict_of(comparison);
   text += fmt::format("\nParameters of {}\n\n", word_of(best)) + parameters_of(best);
   return text + "\nTo paste into a manifest:\n\n" + best.fragment;
@@ -137,6 +145,13 @@ std::string comparison_json(const LawComparison& comparison) {
   json["readings"] = comparison.readings;
   json["effective_readings"] = comparison.effective_readings;
   json["sample_time"] = comparison.sample_time;
+  json["records"] = Json::array();
+  for (const ComparedRecord& record : comparison.records) {
+    json["records"].push_back({{"name", text::printable(record.name)},
+                               {"samples", record.samples},
+                               {"excluded", record.excluded},
+                               {"note", text::printable(record.note)}});
+  }
   json["laws"] = Json::array();
   for (const IdentifiedLaw& law : comparison.laws) json["laws"].push_back(law_json(law));
   json["manifest"] = comparison.laws.front().fragment;

@@ -59,8 +59,8 @@ double virgin_torque(const LawPoint& point, double u) {
   return torque;
 }
 
-/// Stiffness of an element where the curve has no corner, as a part of the sticking one's: hardly any, and so
-/// much that a fit can see what it does.
+/// Stiffness of an element where the curve has no corner, as a part of the sticking one's: almost none, or
+/// enough for a slope of the sum of squares.
 constexpr double faint = 1e-3;
 constexpr double visible = 0.2;
 
@@ -148,7 +148,7 @@ std::string list_lines(const LawPoint& point, double largest_torque) {
   return fmt::format(
       "  breakaway: {:.6g}   # N m, given: the last element sticks throughout\n"
       "  coulomb_ratio: 1.0   # given: records without sliding show one level only\n"
-      "  gms:\n"
+      "  gms:   # fitted values, without distributions\n"
       "    stiffness: [{}]   # N m/rad\n"
       "    weight: [{}]\n",
       all, fmt::join(stiffnesses, ", "), fmt::join(weights, ", "));

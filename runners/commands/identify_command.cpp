@@ -53,7 +53,7 @@ constexpr const char* identify_help =
     "\n"
     "--model fits another friction law to the same tests (lugre, dahl, gms, spring), and --model all\n"
     "compares them: what each leaves, and Schwarz's information criterion BIC, by which 10 less is\n"
-    "strong evidence. The parameters are those of the law with the least BIC. --series-compliance\n"
+    "very strong evidence. The parameters are those of the law with the least BIC. --series-compliance\n"
     "fits a fixture that gives way under the torque beside the law.\n"
     "\n"
     "The output ends with the result as a fragment of a manifest; --format yaml prints only\n"

@@ -40,7 +40,8 @@ law_identification::LawChoice chosen_laws(const command_line::Arguments& argumen
     if (std::find(wanted.begin(), wanted.end(), word) != wanted.end())
       choice.laws.push_back(law_identification::law_of(word));
   }
-  if (wanted == std::vector{usual} && !choice.series_compliance) choice.laws.clear();
+  const bool presliding_alone = choice.laws.size() == 1 && wanted.front() == usual;
+  if (presliding_alone && !choice.series_compliance) choice.laws.clear();
   return choice;
 }
 
@@ -67,6 +68,13 @@ LawsReport identify_laws(const command_line::Arguments& arguments,
   report.text = format == "json"   ? law_identification::comparison_json(comparison)
                 : format == "yaml" ? best.fragment
                                    : law_identification::comparison_text(comparison);
+  const bool any = std::any_of(best.parameters.begin(), best.parameters.end(), [](const auto& one) {
+    return one.status == identification::EstimateStatus::estimated;
+  });
+  if (!any) {
+    status::tell("zerocount identify: nothing is identifiable from this\n");
+    report.code = ExitCode::inconclusive;
+  }
   if (best.checks.passed) return report;
   status::tell("zerocount identify: the answer is not to be trusted: {}\n",
                identification::reason_of_misfit(best.checks));

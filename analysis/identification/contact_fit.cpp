@@ -236,10 +236,13 @@ FitPoint fit_roughly(std::span<const TestRecord> records, const FitSetting& sett
     });
   }
   others.resize(std::min(others.size(), continued));
+  constexpr double hopeless = 4.0;
+  const double least = others.front().squares;
+  std::erase_if(others, [&](const FitResult& other) { return other.squares > hopeless * least; });
   for (const FitResult& other : others) {
     if (are_explained(records, best.point, setting)) break;
     rough.tolerance = setting.tolerance;
-    const FitResult found = with_offset(fit_from(other, 60));
+    const FitResult found = with_offset(fit_from(other, 30));
     if (found.squares < best.squares) best = found;
   }
   if (are_explained(records, best.point, setting)) return best.point;

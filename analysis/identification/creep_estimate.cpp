@@ -12,10 +12,12 @@ constexpr int rates = 14;  // number of values of α tried, by factors of 2 from
 
 /// Time (s) at the beginning of a hold in which the rotor may oscillate; at most a quarter of the hold.
 constexpr double oscillation_time = 0.05;
+constexpr double oscillation_samples = 100.0;  // at least
 
 /// Samples at the beginning of a hold that may be those of an oscillation.
 std::size_t oscillating_samples(const TorqueHold& hold, double sample_time) {
-  return std::min((hold.last - hold.first + 1) / 4, static_cast<std::size_t>(oscillation_time / sample_time));
+  const double samples = std::max(oscillation_time / sample_time, oscillation_samples);
+  return std::min((hold.last - hold.first + 1) / 4, static_cast<std::size_t>(samples));
 }
 
 /// The longest such time of all holds, s. Creep is told from an oscillation only if it is slower, and where

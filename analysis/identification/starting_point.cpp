@@ -108,6 +108,16 @@ ChosenRecords ringing_records(std::span<const TestRecord> records) {
   return ringing;
 }
 
+/// True if the rotor's motion is not much faster than the sampling; a faster one takes long to simulate.
+bool is_sampled(const ChosenRecords& records, const ContactPoint& point, double creep_torque) {
+  constexpr double max_rate = 20.0;  // in 1/sampling interval
+  const ContactParameters contact = contact_at(point, creep_torque);
+  const double oscillation = std::sqrt((contact.friction.k1 + contact.friction.k2) / contact.plant.inertia);
+  const double rate = std::max(oscillation, contact.plant.presliding_damping / contact.plant.inertia);
+  return std::all_of(records.begin(), records.end(),
+                     [&](const TestRecord* record) { return rate * record->sample_time <= max_rate; });
+}
+
 /// Searches J and c around those of the point, far and then near, with the records that have a ring-down.
 /// Without a ring-down it searches a wider range with all records, because the response to DAC steps may show
 /// the inertia.
@@ -116,8 +126,11 @@ ContactPoint with_best_ringing(std::span<const TestRecord> records, const Contac
   constexpr double much = 0.8;
   const ChosenRecords ringing = ringing_records(records);
   if (!ringing.empty()) {
-    const ContactPoint far = best_of(ringing, point, creep_torque,
-                                     changes_of({0.01, 0.1, 1.0, 10.0, 100.0}, {0.15, 1.0, 7.0}), much);
+    std::vector<ContactPoint> changes = changes_of({0.01, 0.1, 1.0, 10.0, 100.0}, {0.15, 1.0, 7.0});
+    std::erase_if(changes, [&](const ContactPoint& change) {
+      return !is_sampled(ringing, point + change, creep_torque);
+    });
+    const ContactPoint far = best_of(ringing, point, creep_torque, changes, much);
     return best_of(ringing, far, creep_torque, changes_of({0.4, 0.63, 1.0, 1.6, 2.5}, {0.2, 0.45, 1.0, 2.2}));
   }
   return best_of(all_of(records), point, creep_torque,

@@ -100,9 +100,10 @@ double noise_of_counts(const std::vector<double>& residuals) {
 
 std::optional<std::size_t> find_glitch(const TestRecord& record, const Eigen::VectorXd& path) {
   const std::size_t samples = record.reading.size();
-  std::vector<double> residual(samples);
-  std::vector<double> off(samples);  // beyond the rounding of a count
+  std::vector<double> residual(samples);  // 0 where masked
+  std::vector<double> off(samples);       // beyond the rounding of a count
   for (std::size_t k = 0; k < samples; ++k) {
+    if (is_excluded(record, k)) continue;
     residual[k] = record.reading[k] + middle_of_reading(record) - path[static_cast<Eigen::Index>(k)];
     off[k] = std::max(std::abs(residual[k]) - middle_of_reading(record), 0.0);
   }

@@ -55,5 +55,15 @@ TEST(Glitch, AReadingFarBeyondTheNoiseIsOne) {
   }
 }
 
+TEST(Glitch, AMaskedReadingIsNone) {
+  std::mt19937_64 random(3);
+  NoisyRecord noisy = noisy_record(0.2, true, random);
+  noisy.record.reading[700] += 50.0;
+  EXPECT_TRUE(identification::find_glitch(noisy.record, noisy.path));
+  noisy.record.excluded.assign(noisy.record.reading.size(), false);
+  noisy.record.excluded[700] = true;
+  EXPECT_FALSE(identification::find_glitch(noisy.record, noisy.path));
+}
+
 }  // namespace
 }  // namespace zerocount::testing

@@ -67,7 +67,7 @@ FitSetting setting_for(std::span<const TestRecord> records, const std::vector<Kn
   return setting;
 }
 
-/// Readings less the path; 0 where they are masked.
+/// Measured − modelled angle, for counts that of the middle of the count; 0 where readings are masked.
 Eigen::VectorXd residuals_along(const TestRecord& record, const Eigen::VectorXd& path) {
   Eigen::VectorXd left = readings_of(record).array() + middle_of_reading(record) - path.array();
   for (std::size_t k = 0; k < record.excluded.size(); ++k) {
@@ -173,10 +173,11 @@ FitPoint with_mean_offsets(std::span<const TestRecord> records, const ContactPoi
                            const FitSetting& setting) {
   FitPoint point{contact, Eigen::VectorXd(records.size())};
   for (std::size_t r = 0; r < records.size(); ++r) {
+    const Eigen::VectorXd path = angle_path(records[r], contact, setting.creep_torque);
     const double mean =
-        (readings_of(records[r]) - angle_path(records[r], contact, setting.creep_torque)).mean();
+        residuals_along(records[r], path).sum() / static_cast<double>(used_samples(records[r]));
     point.offset[static_cast<Eigen::Index>(r)] =
-        (std::isfinite(mean) ? mean : records[r].reading.front()) + middle_of_reading(records[r]);
+        std::isfinite(mean) ? mean : records[r].reading.front() + middle_of_reading(records[r]);
   }
   return point;
 }
@@ -191,65 +192,77 @@ FitResult first_fit(std::span<const TestRecord> records, const Observations& obs
   return fit_jointly(records, observations, start, with_told_coordinates(model, observations, setting));
 }
 
-/// The rough fit, to all readings with equal weights: from the starting point, or from others if that
-/// explains too little. The time offset is left free at its end only: far from a minimum it would make up for
-/// a wrong inertia.
-FitPoint fit_roughly(std::span<const TestRecord> records, const FitSetting& setting) {
-  const Observations observations = all_readings(records);
-  const FitPoint start = with_mean_offsets(records, setting.prior, setting);
-  FitSetting rough = setting;
-  rough.tolerance = 1e-3;
-  rough.free[time_offset] = false;
-  const auto with_offset = [&](const FitResult& from) {
-    if (!setting.free[time_offset]) return from;
-    FitSetting last = rough;
-    last.free[time_offset] = true;
-    last.max_steps = 15;
-    const FitResult found = fit_jointly(records, observations, from.point, last);
-    return found.squares < from.squares ? found : from;
-  };
-  FitResult best = with_offset(first_fit(records, observations, start, rough));
-  refuse_glitches(records, best.point, setting);
-  if (are_explained(records, best.point, setting)) return best.point;
+/// The fit from a point, to the end of its setting's steps; the point is the mean of the prior.
+FitResult fit_from(std::span<const TestRecord> records, const Observations& observations,
+                   const FitPoint& start, FitSetting setting) {
+  setting.prior = start.contact;
+  return fit_jointly(records, observations, start, setting);
+}
 
-  // A few steps from the best of the other starting points; then the best of them are continued.
-  constexpr std::size_t tried = 6;
-  constexpr std::size_t continued = 3;
-  std::vector<FitResult> others;
+/// Frees the time offset, if `setting` does, after the other coordinates. Far from a minimum the offset would
+/// make up for a wrong inertia.
+FitResult with_time_offset(std::span<const TestRecord> records, const Observations& observations,
+                           const FitResult& from, FitSetting setting) {
+  if (!setting.free[time_offset]) return from;
+  setting.max_steps = 15;
+  const FitResult found = fit_jointly(records, observations, from.point, setting);
+  return found.squares < from.squares ? found : from;
+}
+
+/// A few steps from the best of the other starting points; at most three of them, in the order of their sums
+/// of squares.
+std::vector<FitResult> other_fits(std::span<const TestRecord> records, const Observations& observations,
+                                  FitSetting setting) {
+  std::vector<FitResult> fits;
   for (const ContactPoint& other : other_starting_points(records, setting.prior, setting.creep_torque)) {
     ContactPoint contact = setting.prior;
     for (std::size_t j = 0; j < coordinate_count; ++j) {
-      if (rough.free[j]) contact[j] = other[j];
+      if (setting.free[j]) contact[j] = other[j];
     }
-    others.push_back({with_mean_offsets(records, contact, setting), 0.0});
+    fits.push_back({with_mean_offsets(records, contact, setting), 0.0});
   }
-  const auto fit_from = [&](const FitResult& from, int steps) {
-    rough.max_steps = steps;
-    rough.prior = from.point.contact;
-    return fit_jointly(records, observations, from.point, rough);
-  };
-  for (const auto& [most, steps] : {std::pair{others.size(), 0}, std::pair{tried, 10}}) {
-    others.resize(std::min(others.size(), most));
-    for (FitResult& other : others) other = fit_from(other, steps);
-    std::stable_sort(others.begin(), others.end(), [](const FitResult& one, const FitResult& other) {
+  constexpr std::size_t tried = 6;
+  constexpr std::size_t continued = 3;
+  constexpr double hopeless = 4.0;
+  for (const auto& [most, steps] : {std::pair{fits.size(), 0}, std::pair{tried, 10}}) {
+    fits.resize(std::min(fits.size(), most));
+    setting.max_steps = steps;
+    for (FitResult& fit : fits) fit = fit_from(records, observations, fit.point, setting);
+    std::stable_sort(fits.begin(), fits.end(), [](const FitResult& one, const FitResult& other) {
       return one.squares < other.squares;
     });
   }
-  others.resize(std::min(others.size(), continued));
-  constexpr double hopeless = 4.0;
-  const double least = others.front().squares;
-  std::erase_if(others, [&](const FitResult& other) { return other.squares > hopeless * least; });
-  for (const FitResult& other : others) {
-    if (are_explained(records, best.point, setting)) break;
-    rough.tolerance = setting.tolerance;
-    const FitResult found = with_offset(fit_from(other, 30));
-    if (found.squares < best.squares) best = found;
-  }
+  fits.resize(std::min(fits.size(), continued));
+  const double least = fits.front().squares;
+  std::erase_if(fits, [&](const FitResult& fit) { return fit.squares > hopeless * least; });
+  return fits;
+}
+
+/// The rough fit, to all readings with equal weights: from the starting point, or from others if that
+/// explains too little.
+FitPoint fit_roughly(std::span<const TestRecord> records, const FitSetting& setting) {
+  const Observations observations = all_readings(records);
+  FitSetting rough = setting;
+  rough.tolerance = 1e-3;
+  FitSetting undelayed = rough;
+  undelayed.free[time_offset] = false;
+  const FitPoint start = with_mean_offsets(records, setting.prior, setting);
+  FitResult best =
+      with_time_offset(records, observations, first_fit(records, observations, start, undelayed), rough);
+  refuse_glitches(records, best.point, setting);
   if (are_explained(records, best.point, setting)) return best.point;
+  const std::vector<FitResult> others = other_fits(records, observations, undelayed);
+  undelayed.tolerance = rough.tolerance = setting.tolerance;
+  undelayed.max_steps = 30;
+  for (const FitResult& other : others) {
+    rough.prior = other.point.contact;
+    const FitResult found = with_time_offset(records, observations,
+                                             fit_from(records, observations, other.point, undelayed), rough);
+    if (found.squares < best.squares) best = found;
+    if (are_explained(records, best.point, setting)) return best.point;
+  }
   rough.max_steps = 50;
-  rough.prior = best.point.contact;
-  rough.free = setting.free;
-  return fit_jointly(records, observations, best.point, rough).point;
+  return fit_from(records, observations, best.point, rough).point;
 }
 
 FittedModel followed_model(std::span<const TestRecord> records, const FitPoint& point,

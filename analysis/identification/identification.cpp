@@ -210,6 +210,50 @@ JointDraws draw_jointly(const Estimation& from, std::vector<EstimatedQuantity> e
   return draws;
 }
 
+/// A fit with its replicates and the checks of its residuals.
+struct CheckedFit {
+  ContactFit fit;
+  ReadingReplicates replicates;
+  ResidualChecks checks;
+};
+
+CheckedFit checked_fit(std::span<const TestRecord> records, ContactFit fit,
+                       const IdentificationOptions& options) {
+  if (options.report) options.report("replicates of the readings");
+  CheckedFit checked{std::move(fit), {}, {}};
+  const ContactFit& found = checked.fit;
+  checked.replicates =
+      replicate_readings(records, found.model, found.setting, found.noise, options.replicates);
+  checked.checks = check_residuals(residual_statistics(residuals_of(found.model, found.observations, {})),
+                                   checked.replicates.residuals);
+  return checked;
+}
+
+/// The fit, repeated in other ways while encoder and noise do not explain its residuals.
+CheckedFit explained_fit(std::span<const TestRecord> records, const IdentificationOptions& options) {
+  const auto enter = [&](std::string_view stage) {
+    if (options.report) options.report(stage);
+  };
+  CheckedFit best = checked_fit(records, fit_contact(records, options.known, options.report), options);
+  if (best.fit.setting.free[time_offset] && shows_no_time_offset(best.fit, best.replicates)) {
+    enter("fit with the given delay");
+    keep_time_offset(records, best.fit);
+    best = checked_fit(records, std::move(best.fit), options);
+  }
+  if (best.checks.passed) return best;
+  enter("fit with other values of beta");
+  if (improve_softening(records, best.fit)) best = checked_fit(records, std::move(best.fit), options);
+  if (best.checks.passed) return best;
+  enter("fit with all coordinates free");
+  ContactFit all_free = best.fit;
+  if (!free_untold_coordinates(records, all_free)) return best;
+  // A wrong reading that a worse fit hides may be all that is left to explain.
+  refuse_glitches(records, all_free.model.point, all_free.setting);
+  CheckedFit freed = checked_fit(records, std::move(all_free), options);
+  // Coordinates that the records do not tell stay held if that does not explain the records either.
+  return freed.checks.passed ? freed : best;
+}
+
 }  // namespace
 
 void check_different(std::span<const TestRecord> records) {
@@ -233,51 +277,19 @@ Identification identify(std::vector<TestRecord> records, const IdentificationOpt
   check_different(records);
   for (TestRecord& record : records) record.parts = parts_of(record);
   check_reversals(records, options);
-  ContactFit fit = fit_contact(records, options.known, options.report);
-  ReadingReplicates replicates;
-  Identification result;
   const auto enter = [&](std::string_view stage) {
     if (options.report) options.report(stage);
   };
-  const auto check = [&] {
-    enter("replicates of the readings");
-    replicates = replicate_readings(records, fit.model, fit.setting, fit.noise, options.replicates);
-    result.checks = check_residuals(residual_statistics(residuals_of(fit.model, fit.observations, {})),
-                                    replicates.residuals);
-  };
-  check();
-  if (fit.setting.free[time_offset] && shows_no_time_offset(fit, replicates)) {
-    enter("fit with the given delay");
-    keep_time_offset(records, fit);
-    check();
-  }
-  if (!result.checks.passed) {
-    enter("fit with other values of beta");
-    if (improve_softening(records, fit)) check();
-  }
-  if (!result.checks.passed) {
-    // Coordinates that the records do not tell stay held if that does not explain the records either.
-    const ContactFit held = fit;
-    const ResidualChecks checks = result.checks;
-    const ReadingReplicates of_held = replicates;
-    enter("fit with all coordinates free");
-    if (free_untold_coordinates(records, fit)) {
-      refuse_glitches(records, fit.model.point, fit.setting);
-      check();
-    }
-    if (!result.checks.passed) {
-      fit = held;
-      result.checks = checks;
-      replicates = of_held;
-    }
-  }
-  refuse_gross_misfit(records, fit, result.checks);
+  Identification result;
+  const auto& [fit, replicates, checks] = explained_fit(records, options);
+  result.checks = checks;
+  refuse_gross_misfit(records, fit, checks);
   for (std::size_t r = 0; r < records.size(); ++r) {
     result.records.push_back(summary_of(records[r], fit, r));
     result.fitted.push_back(fitted_record(records[r], fit.model.motions[r].path));
   }
   const std::vector<FittedQuantity> quantities = fitted_quantities(fit.model.point, fit.setting.creep_torque);
-  const Estimation estimation{records, fit, replicates, options, result.checks.widening};
+  const Estimation estimation{records, fit, replicates, options, checks.widening};
   std::vector<EstimatedQuantity> estimated;
   for (const FittedQuantity& quantity : quantities) {
     enter(fmt::format("interval of {}", quantity.name));
@@ -287,7 +299,7 @@ Identification identify(std::vector<TestRecord> records, const IdentificationOpt
   constexpr std::size_t of_k1 = 0, of_inertia = 5;  // among the fitted quantities
   refuse_implausible_frequency(records, value(of_k1), value(of_inertia));
   result.sample_time = records.front().sample_time;
-  result.errors = joint_errors(estimated, replicates.errors, result.checks.widening);
+  result.errors = joint_errors(estimated, replicates.errors, checks.widening);
   result.correlations = strong_correlations(result.errors);
   if (options.draws > 0) {
     enter("joint draws");

@@ -95,8 +95,7 @@ struct SlidingCut {
   std::string note;
 };
 
-/// Where the series begins to slide: by its own flag, or, without one, by torque and angle. Nothing if it
-/// does not.
+/// The cut of a series that slides, by its own flag or, without one, by torque and angle.
 std::optional<SlidingCut> sliding_in(const RawSeries& series) {
   if (!series.sliding.empty()) {
     const auto slides = std::find(series.sliding.begin(), series.sliding.end(), true);

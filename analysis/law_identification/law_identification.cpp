@@ -31,7 +31,7 @@ ParameterEstimate estimate_of(const LawQuantity& quantity, const LawErrors& erro
   identification::QuantityEstimate found = identification::interval_of_errors(
       quantity.value, errors.errors * quantity.slope, errors.checks.widening);
   ParameterEstimate estimate{found, quantity.name, quantity.key, quantity.unit, EstimateStatus::estimated};
-  // What the records determine does not depend on how well the model fits.
+  // The fit of the law does not change which parameters the records determine.
   const double widened = 0.5 * (found.high - found.low);
   const double half_width = widened / errors.checks.widening;
   const bool open = !(half_width <= (quantity.logarithmic ? max_log_halfwidth : max_halfwidth));

@@ -31,6 +31,11 @@ void require_file(const fs::path& path, std::string_view expected) {
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: this is a directory; expected {}", path.string(), expected));
   }
+  if (!fs::is_regular_file(status)) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: this is no regular file; expected {} (- reads it from standard input)",
+                              path.string(), expected));
+  }
 }
 
 std::string read_stream(const fs::path& path, std::FILE* stream, std::size_t max_size) {

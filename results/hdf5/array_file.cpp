@@ -1,8 +1,10 @@
 #include "results/hdf5/array_file.hpp"
 
-#include <fstream>
+#include <algorithm>
+#include <array>
 
 #include "results/hdf5/hdf5_detail.hpp"
+#include "results/storage/file_contents.hpp"
 
 namespace zerocount::hdf5 {
 namespace {
@@ -17,15 +19,10 @@ bool is_number_type(Id dataset) {
 
 bool is_hdf5_with_user_block(const std::filesystem::path& path) {
   constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
-  std::ifstream file(path, std::ios::binary);
-  for (const std::streamoff start : {0, 512, 1024, 2048, 4096}) {  // the library's places
-    std::string beginning(signature.size(), '\0');
-    file.seekg(start);
-    file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
-    if (!file) return false;
-    if (beginning == signature) return true;
-  }
-  return false;
+  constexpr std::array<std::size_t, 5> places{0, 512, 1024, 2048, 4096};  // those of the library
+  return std::any_of(places.begin(), places.end(), [&](std::size_t place) {
+    return storage::bytes_at(path, place, signature.size()) == signature;
+  });
 }
 
 Handle ArrayFile::open(const std::string& path) const {

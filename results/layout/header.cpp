@@ -295,9 +295,10 @@ hdf5::File open_results(const std::filesystem::path& path, Checksum checksum) {
                                                        shards.string())
                                          : ""));
   }
-  if (std::filesystem::is_directory(path, ignored)) {
+  if (!std::filesystem::is_regular_file(path, ignored)) {
+    const char* const kind = std::filesystem::is_directory(path, ignored) ? "a directory" : "no regular file";
     throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: a directory; a results file was expected", path.string()));
+                  fmt::format("{}: {}; a results file was expected", path.string(), kind));
   }
   if (!storage::FileDescriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC)).valid())
     storage::fail_with(path, "read", errno);

@@ -5,23 +5,26 @@
 #include <utility>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 
+#include "core/failure/failure.hpp"
 #include "results/storage/durable_file.hpp"
 
 namespace zerocount::storage {
 namespace {
 
-int open_flags(ByteFile::Mode mode) {
+FileDescriptor open_file(const std::filesystem::path& path, ByteFile::Mode mode) {
   switch (mode) {
     case ByteFile::Mode::read:
-      return O_RDONLY | O_CLOEXEC;
+      return FileDescriptor(
+          ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));  // a pipe would be waited for
     case ByteFile::Mode::create:
-      return O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC;
+      return create_file(path);
     case ByteFile::Mode::change:
-      return O_RDWR | O_CLOEXEC;
+      return FileDescriptor(::open(path.c_str(), O_RDWR | O_CLOEXEC));
   }
-  return O_RDONLY;
+  return FileDescriptor();
 }
 
 /// Copies the bytes that both ranges have in common, from `source` (at `source_offset`) to `target` (at
@@ -38,11 +41,13 @@ void copy_overlap(std::uint64_t source_offset, std::span<const std::byte> source
 }  // namespace
 
 ByteFile::ByteFile(std::filesystem::path path, Mode mode)
-    : path_(std::move(path)), mode_(mode), file_(::open(path_.c_str(), open_flags(mode), 0666)) {
+    : path_(std::move(path)), mode_(mode), file_(open_file(path_, mode)) {
   const char* const action = writable() ? "open for writing" : "read";
   if (!file_.valid()) fail_with(path_, action, errno);
   struct stat status {};
   if (::fstat(file_.get(), &status) != 0) fail_with(path_, action, errno);
+  if (!writable() && !S_ISREG(status.st_mode))
+    throw Failure(ExitCode::bad_input, fmt::format("{}: this is no regular file", path_.string()));
   size_ = static_cast<std::uint64_t>(status.st_size);
 }
 

@@ -27,7 +27,7 @@ class ByteFile {
  public:
   enum class Mode {
     read,
-    create,  ///< a new, empty file; replaces an existing one
+    create,  ///< a new, empty file: see create_file()
     change   ///< reads and writes an existing file
   };
 

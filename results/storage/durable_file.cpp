@@ -27,7 +27,22 @@ void synchronise_name(const fs::path& path) {
     fail_with(path, "bring its name to the disk", errno);
 }
 
+void remove_leftover(const fs::path& path) {
+  struct stat status {};
+  if (::lstat(path.c_str(), &status) != 0) return;
+  if (!S_ISREG(status.st_mode)) fail_irregular(path);
+  if (::unlink(path.c_str()) != 0 && errno != ENOENT) fail_with(path, "remove", errno);
+}
+
 }  // namespace
+
+void fail_irregular(const fs::path& path) {
+  throw Failure(
+      ExitCode::machine_failed,
+      fmt::format(
+          "{}: cannot be written: it exists and is no regular file; remove it, or name another output",
+          path.string()));
+}
 
 void fail_read_back(const fs::path& path, std::string_view what) {
   throw Failure(ExitCode::machine_failed,
@@ -43,6 +58,17 @@ fs::path part_of(const fs::path& path) {
   fs::path part = path;
   part += ".part";
   return part;
+}
+
+FileDescriptor create_file(const fs::path& path) {
+  remove_leftover(path);
+  FileDescriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
+  if (!file.valid()) fail_with(path, "open for writing", errno);
+  return file;
+}
+
+UnfinishedFile::UnfinishedFile(const fs::path& path) : part_(part_of(path)) {
+  remove_leftover(part_);
 }
 
 UnfinishedFile::~UnfinishedFile() {

@@ -11,11 +11,17 @@ namespace zerocount::storage {
 /// process that wrote it was killed.
 std::filesystem::path part_of(const std::filesystem::path& path);
 
-/// Its destructor removes part_of(path) if the file still exists, so that a failed write leaves nothing on
-/// the disk.
+/// Creates an empty file to read and write. A regular file of that name, which an interrupted process left,
+/// is removed before. A link is not followed, and neither it nor a pipe, a device or a directory is replaced.
+/// @throws Failure (machine_failed) with the path and the reason.
+FileDescriptor create_file(const std::filesystem::path& path);
+
+/// The place of part_of(path), made free as by create_file(). The destructor removes the file there if it
+/// still exists, so that a failed write leaves nothing on the disk.
 class UnfinishedFile {
  public:
-  explicit UnfinishedFile(const std::filesystem::path& path) : part_(part_of(path)) {}
+  /// @throws Failure (machine_failed) if something other than a regular file has that name.
+  explicit UnfinishedFile(const std::filesystem::path& path);
   UnfinishedFile(const UnfinishedFile&) = delete;
   UnfinishedFile& operator=(const UnfinishedFile&) = delete;
   ~UnfinishedFile();
@@ -48,6 +54,10 @@ void replace_file(const std::filesystem::path& path, std::string_view bytes);
 /// Creates the directory and its parents, and flushes their entries to the disk.
 /// @throws Failure (machine_failed) with the path and the system's reason.
 void make_directory(const std::filesystem::path& path);
+
+/// @throws Failure (machine_failed): `path`, which is to be created, names something other than a regular
+/// file.
+[[noreturn]] void fail_irregular(const std::filesystem::path& path);
 
 /// @throws Failure (machine_failed): the contents read back differ from the contents written.
 [[noreturn]] void fail_read_back(const std::filesystem::path& path, std::string_view what);

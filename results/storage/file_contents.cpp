@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <fstream>
+#include <system_error>
 #include <vector>
 
 #include <sys/stat.h>
@@ -10,6 +12,17 @@
 #include "results/storage/durable_file.hpp"
 
 namespace zerocount::storage {
+
+std::string bytes_at(const std::filesystem::path& path, std::size_t offset, std::size_t size) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return {};
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(static_cast<std::streamoff>(offset));
+  std::string bytes(size, '\0');
+  file.read(bytes.data(), static_cast<std::streamsize>(size));
+  bytes.resize(static_cast<std::size_t>(file.gcount()));
+  return bytes;
+}
 
 std::size_t size_of_file(const std::filesystem::path& path, const FileDescriptor& file) {
   struct stat status {};

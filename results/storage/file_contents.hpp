@@ -3,13 +3,18 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
 
 #include "core/hash/sha256.hpp"
 #include "results/storage/file_descriptor.hpp"
 
-/// Functions that read an open file. All throw Failure (machine_failed) with the path and the system's
-/// reason.
+/// Functions that read a file. Those that read an open one throw Failure (machine_failed) with the path and
+/// the system's reason.
 namespace zerocount::storage {
+
+/// Up to `size` bytes of a file from `offset` on, fewer at its end. Empty if it cannot be read or is no
+/// regular file; a pipe, say, is not waited for.
+std::string bytes_at(const std::filesystem::path& path, std::size_t offset, std::size_t size);
 
 std::size_t size_of_file(const std::filesystem::path& path, const FileDescriptor& file);
 

@@ -17,11 +17,7 @@ constexpr std::size_t buffer_size = std::size_t{1} << 16;
 }  // namespace
 
 OutputFile::OutputFile(const std::filesystem::path& path)
-    : path_(path),
-      part_(path),
-      file_(::open(part_.path().c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
-  if (!file_.valid()) fail_with(part_.path(), "open for writing", errno);
-}
+    : path_(path), part_(path), file_(create_file(part_.path())) {}
 
 void OutputFile::write(std::string_view text) {
   buffer_ += text;

@@ -22,13 +22,23 @@ bool still_named(const std::filesystem::path& path, const FileDescriptor& file) 
          named.st_ino == held.st_ino && named.st_dev == held.st_dev;
 }
 
+/// Follows no link, and does not wait for the other end of a pipe.
+FileDescriptor open_lock(const std::filesystem::path& path) {
+  FileDescriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666));
+  if (!file.valid() && (errno == ELOOP || errno == EISDIR || errno == ENXIO)) fail_irregular(path);
+  if (!file.valid()) fail_with(path, "make the lock file", errno);
+  struct stat status {};
+  if (::fstat(file.get(), &status) != 0) fail_with(path, "make the lock file", errno);
+  if (!S_ISREG(status.st_mode)) fail_irregular(path);
+  return file;
+}
+
 }  // namespace
 
 OutputLock::OutputLock(const std::filesystem::path& output) : path_(output) {
   path_ += ".lock";
   do {
-    file_ = FileDescriptor(::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
-    if (!file_.valid()) fail_with(path_, "make the lock file", errno);
+    file_ = open_lock(path_);
     if (::flock(file_.get(), LOCK_EX | LOCK_NB) != 0) {
       if (errno != EWOULDBLOCK) fail_with(path_, "lock", errno);
       throw Failure(

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 
 #include <fmt/format.h>
@@ -12,6 +11,7 @@
 #include "analysis/records/text_table.hpp"
 #include "core/failure/failure.hpp"
 #include "results/hdf5/array_file.hpp"
+#include "results/storage/file_contents.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -19,10 +19,7 @@ namespace {
 /// MAT files of versions 5 to 7 begin with a text.
 bool is_old_mat_file(const std::string& path) {
   constexpr std::string_view beginning = "MATLAB 5.0 MAT-file";
-  std::string text(beginning.size(), '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  return text == beginning;
+  return storage::bytes_at(path, 0, beginning.size()) == beginning;
 }
 
 }  // namespace

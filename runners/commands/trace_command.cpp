@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <string_view>
 
@@ -11,6 +10,7 @@
 #include "experiments/yaml/text_file.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/study_file.hpp"
+#include "results/storage/file_contents.hpp"
 #include "results/storage/output_file.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
@@ -41,11 +41,9 @@ constexpr const char* trace_help =
 
 /// Whether `path` is a results file, by its signature or by its name (the signature may be damaged).
 bool is_results_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  char signature[8] = {};
-  file.read(signature, sizeof signature);
-  const bool signed_as_hdf5 = std::string_view(signature, 8) == std::string_view("\x89HDF\r\n\x1a\n", 8);
-  return signed_as_hdf5 || (file.gcount() > 0 && std::filesystem::path(path).extension() == ".h5");
+  constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
+  const std::string beginning = storage::bytes_at(path, 0, signature.size());
+  return beginning == signature || (!beginning.empty() && std::filesystem::path(path).extension() == ".h5");
 }
 
 std::int64_t trial_option(const command_line::Arguments& arguments, const study::Study& study) {

@@ -118,6 +118,39 @@ TEST_F(Places, ADashIsTheStandardOutput) {
   EXPECT_EQ(program({"run", "study.yaml", "-o", "-"}).code, 2);
 }
 
+// The system's `timeout` ends a program that waits for the other end with exit code 124.
+TEST_F(Places, APipeIsRefusedAndNotWaitedFor) {
+  ASSERT_EQ(shell("mkfifo pipe pipe.h5 pipe.csv pipe.svg new.h5.part new.h5.lock new.csv.part"), 0);
+  for (const char* line :
+       {"summary pipe.h5", "check pipe", "run pipe -o new.h5", "merge pipe.h5 -o other.h5", "trace pipe.h5",
+        "identify pipe.csv", "identify pipe.h5 --column angle=/angle", "compare pipe.h5 all.h5",
+        "compare all.h5 all.h5 --margins pipe", "history add pipe.h5", "trace all.h5 -o pipe.csv --force",
+        "plot all.h5 --figure success -o pipe.svg --force"}) {
+    EXPECT_EQ(shell(fmt::format("timeout 20 $Z {}", line)), 2) << line << ": " << folder_.read("err");
+    EXPECT_NE(folder_.read("err").find("no regular file"), std::string::npos) << folder_.read("err");
+  }
+  for (const char* line : {"run study.yaml -q -o new.h5", "trace all.h5 -o new.csv"}) {
+    EXPECT_EQ(shell(fmt::format("timeout 20 $Z {}", line)), 5) << line << ": " << folder_.read("err");
+    EXPECT_NE(folder_.read("err").find("no regular file"), std::string::npos) << folder_.read("err");
+  }
+  EXPECT_TRUE(fs::is_fifo(at("new.h5.part")) && fs::is_fifo(at("new.h5.lock")) &&
+              fs::is_fifo(at("new.csv.part")));
+}
+
+TEST_F(Places, ALinkInTheWayIsNotFollowed) {
+  folder_.write("notes", "my notes");
+  for (const char* link : {"new.h5.lock", "merged.h5.part", "new.csv.part"})
+    fs::create_symlink(at("notes"), at(link));
+  for (const char* line :
+       {"run study.yaml -q -o new.h5", "merge part1.h5 part2.h5 -o merged.h5", "trace all.h5 -o new.csv"}) {
+    EXPECT_EQ(shell(fmt::format("$Z {}", line)), 5) << line << ": " << folder_.read("err");
+    EXPECT_NE(folder_.read("err").find("no regular file"), std::string::npos) << folder_.read("err");
+  }
+  EXPECT_EQ(folder_.read("notes"), "my notes");
+  for (const char* link : {"new.h5.lock", "merged.h5.part", "new.csv.part"})
+    EXPECT_TRUE(fs::is_symlink(at(link))) << link;
+}
+
 TEST_F(Places, TheNameOfAnOutputIsTheKindOfItsContents) {
   for (const char* name : {"report.pdf", "report", "report.svg"}) {
     const ProgramResult result = program({"report", "all.h5", "-o", name});

@@ -125,14 +125,6 @@ TEST(WrittenFile, IsRefusedWhereAChunkIsZeros) {
                  [&] { hdf5::require_written(path, written); });
 }
 
-TEST(WrittenFile, FailsOnAFullDiskWithTheSystemsReason) {
-  expect_failure(ExitCode::machine_failed, "/dev/full: cannot write: No space left on device", [] {
-    hdf5::File file = hdf5::File::create("/dev/full");
-    fill(file);
-    file.close();
-  });
-}
-
 TEST(WrittenFile, IsClosedAfterWhatIsInIt) {
   const TemporaryFolder folder;
   hdf5::File file = hdf5::File::create(folder / "file.h5");

@@ -77,7 +77,9 @@ TEST(ByteFile, SaysWhyItCannotBeOpened) {
   expect_failure(ExitCode::machine_failed, "nowhere: cannot read: No such file",
                  [&] { storage::ByteFile(folder / "nowhere", storage::ByteFile::Mode::read); });
   expect_failure(ExitCode::machine_failed, "cannot open for writing: Is a directory",
-                 [&] { storage::ByteFile(folder.path(), storage::ByteFile::Mode::create); });
+                 [&] { storage::ByteFile(folder.path(), storage::ByteFile::Mode::change); });
+  expect_failure(ExitCode::bad_input, "this is no regular file",
+                 [&] { storage::ByteFile("/dev/full", storage::ByteFile::Mode::read); });
 }
 
 }  // namespace

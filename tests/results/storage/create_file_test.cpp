@@ -1,0 +1,47 @@
+#include <filesystem>
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "results/storage/durable_file.hpp"
+#include "tests/results/failures.hpp"
+#include "tests/results/samples.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(CreateFile, ReplacesARegularFileButNotItsOtherNames) {
+  const TemporaryFolder folder;
+  folder.write("notes", "my notes");
+  fs::create_hard_link(folder / "notes", folder / "all.h5.part");
+  EXPECT_TRUE(storage::create_file(folder / "all.h5.part").valid());
+  EXPECT_EQ(fs::file_size(folder / "all.h5.part"), 0U);
+  EXPECT_EQ(fs::file_size(folder / "notes"), 8U);
+}
+
+TEST(CreateFile, LeavesEverythingElseAsItIs) {
+  const TemporaryFolder folder;
+  folder.write("notes", "my notes");
+  fs::create_symlink(folder / "notes", folder / "link.part");
+  fs::create_symlink(folder / "nowhere", folder / "broken.part");
+  fs::create_directory(folder / "folder.part");
+  ASSERT_EQ(::mkfifo((folder / "pipe.part").c_str(), 0666), 0);
+  for (const char* name : {"link", "broken", "folder", "pipe"}) {
+    const fs::path part = folder / (std::string(name) + ".part");
+    const fs::file_type before = fs::symlink_status(part).type();
+    const auto refuses = [&](const auto& action) {
+      expect_failure(ExitCode::machine_failed, "it exists and is no regular file", action);
+    };
+    refuses([&] { storage::create_file(part); });
+    refuses([&] { storage::UnfinishedFile{folder / name}; });
+    refuses([&] { storage::replace_file(folder / name, "text"); });
+    EXPECT_EQ(fs::symlink_status(part).type(), before) << name;
+  }
+  EXPECT_EQ(fs::file_size(folder / "notes"), 8U);
+  EXPECT_FALSE(fs::exists(folder / "nowhere"));
+}
+
+}  // namespace
+}  // namespace zerocount::testing

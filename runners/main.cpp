@@ -10,6 +10,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
 #include "runners/commands/commands.hpp"
 
@@ -18,7 +19,9 @@ namespace {
 using zerocount::ExitCode;
 
 ExitCode say(ExitCode code, const std::string& message) {
-  std::fprintf(stderr, "%s%s", message.c_str(), message.ends_with('\n') ? "" : "\n");
+  // A name in the message may hold what a terminal would obey.
+  const std::string shown = zerocount::text::printable_lines(message);
+  std::fprintf(stderr, "%s%s", shown.c_str(), shown.ends_with('\n') ? "" : "\n");
   return code;
 }
 

@@ -15,19 +15,6 @@ std::string replaced(std::string text, std::string_view what, std::string_view b
   return text;
 }
 
-/// As printable(), but keeps tabs and line feeds.
-std::string cleaned(std::string_view text) {
-  std::string clean;
-  std::size_t begin = 0;
-  for (std::size_t at = text.find_first_of("\n\t"); at != std::string_view::npos;
-       at = text.find_first_of("\n\t", begin)) {
-    clean += text::printable(text.substr(begin, at - begin));
-    clean += text[at];
-    begin = at + 1;
-  }
-  return clean + text::printable(text.substr(begin));
-}
-
 }  // namespace
 
 void add_row(std::vector<HtmlColumn>& columns, std::vector<std::string> cells) {
@@ -76,7 +63,7 @@ std::string html_preformatted(const std::string& head, const std::string& text, 
 }
 
 std::string html_text(std::string_view text) {
-  return text::escaped_markup(cleaned(text));
+  return text::escaped_markup(text::printable_lines(text));
 }
 
 std::string html_prose(std::string_view text) {

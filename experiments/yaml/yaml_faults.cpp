@@ -1,7 +1,11 @@
 #include "experiments/yaml/yaml_faults.hpp"
 
-#include <boost/locale/utf.hpp>
+#include <cstdint>
+
+#include <fmt/format.h>
 #include <yaml-cpp/exceptions.h>
+
+#include "core/unicode/code_point.hpp"
 
 namespace zerocount::yaml {
 
@@ -31,21 +35,30 @@ std::string syntax_fault(const std::string& message) {
 
 Place first_bad_byte(const std::string& text, std::string_view source) {
   int line = 1;
-  const char* line_start = text.data();
-  const char* const end = text.data() + text.size();
-  for (const char* p = text.data(); p != end;) {
-    const char* const start = p;
-    const auto code = boost::locale::utf::utf_traits<char>::decode(p, end);
-    const bool control = code < 0x20 && code != '\n' && code != '\r' && code != '\t';
-    if (code == boost::locale::utf::illegal || code == boost::locale::utf::incomplete || control) {
-      return {source, line, static_cast<int>(start - line_start) + 1};
-    }
-    if (code == '\n') {
+  std::size_t line_start = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const unicode::CodePoint point = unicode::decode(std::string_view(text).substr(at));
+    const bool blank = point.value == '\n' || point.value == '\r' || point.value == '\t';
+    if (!point.valid || (unicode::is_control(point.value) && !blank))
+      return {source, line, static_cast<int>(at - line_start) + 1};
+    at += point.bytes;
+    if (point.value == '\n') {
       ++line;
-      line_start = p;
+      line_start = at;
     }
   }
   return {source};
+}
+
+std::optional<std::string> unprintable_character(std::string_view text) {
+  while (!text.empty()) {
+    const unicode::CodePoint point = unicode::decode(text);
+    const bool blank = point.value == '\n' || point.value == '\t';
+    if (unicode::is_control(point.value) && !blank)
+      return fmt::format("U+{:04X}", static_cast<std::uint32_t>(point.value));
+    text.remove_prefix(point.bytes);
+  }
+  return std::nullopt;
 }
 
 }  // namespace zerocount::yaml

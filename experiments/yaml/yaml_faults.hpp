@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,5 +13,9 @@ std::string syntax_fault(const std::string& message);
 
 /// The first place in `text` that is not UTF-8, or is a control character; line 0 if there is none.
 Place first_bad_byte(const std::string& text, std::string_view source);
+
+/// The first control character of a scalar, which an escape sequence can name, as "U+001B"; nothing if there
+/// is none. Line feeds and tabs are allowed.
+std::optional<std::string> unprintable_character(std::string_view text);
 
 }  // namespace zerocount::yaml

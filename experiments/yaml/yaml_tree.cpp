@@ -58,6 +58,9 @@ class TreeBuilder : public YAML::EventHandler {
                 const std::string& value) override {
     refuse_tag(mark, tag);
     if (tag != "?") refuse_unclosed_quotes(mark);
+    if (const auto character = unprintable_character(value))
+      refuse(place(mark), fmt::format("the control character {} stands in a text", *character),
+             "a text that can be shown");
     YamlNode node;
     node.kind = YamlNode::Kind::scalar;
     node.place = place(mark);

@@ -8,16 +8,18 @@
 
 #include <fmt/format.h>
 
+#include "analysis/text/text.hpp"
+
 /// Messages on standard error while the program works. A message that cannot be written stops nothing.
 namespace zerocount::status {
 
 /// Writes `text` as it is.
 void write(std::string_view text);
 
-/// Writes a formatted text.
+/// Writes a formatted text, whose control characters are replaced.
 template <class... Arguments>
 void tell(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-  write(fmt::format(format, std::forward<Arguments>(arguments)...));
+  write(text::printable_lines(fmt::format(format, std::forward<Arguments>(arguments)...)));
 }
 
 /// How far a long command is: on a terminal one line that is updated in place, otherwise a new line every few

@@ -112,6 +112,17 @@ TEST(YamlTree, RefusesBytesThatAreNotText) {
   EXPECT_EQ(problem_with("a: λ # θ\r\nb: ω\r\n"), "");
 }
 
+TEST(YamlTree, RefusesControlCharactersInTexts) {
+  for (const char* text : {"\\0", "\\e", "\\x7F", "\\u0085", "\\u202E", "\\u2067", "\\r"}) {
+    const std::string refused = problem_with(fmt::format("a: {{b: \"x{}y\"}}\n", text));
+    EXPECT_NE(refused.find("m.yaml:1:8: a.b: the control character U+"), std::string::npos) << refused;
+    EXPECT_NE(problem_with(fmt::format("\"x{}y\": 1\n", text)).find("the control character"),
+              std::string::npos);
+  }
+  EXPECT_NE(problem_with("a: \u202Eb\n").find("m.yaml:1:4"), std::string::npos);
+  EXPECT_EQ(problem_with("a: \"two\\nlines and\\ta tab\"\n"), "");
+}
+
 TEST(YamlTree, AnEmptyTextIsNoDocument) {
   Problems problems;
   EXPECT_EQ(parse("", problems), nullptr);

@@ -10,7 +10,15 @@ std::string number_text(double value) {
   return std::isnan(value) ? "nan" : fmt::format("{}", value);  // a NaN's sign means nothing
 }
 
+bool is_formula(std::string_view text) {
+  if (text.empty()) return false;
+  const bool is_signed = text.front() == '+' || text.front() == '-';
+  return text.front() == '=' || text.front() == '@' ||
+         (is_signed && text.find_first_of("(|!=@") != std::string_view::npos);
+}
+
 std::string csv_field(std::string_view text) {
+  if (is_formula(text)) return csv_field(fmt::format("'{}", text));
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
   std::string quoted = "\"";
   for (const char character : text) {

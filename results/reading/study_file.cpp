@@ -229,10 +229,15 @@ std::vector<layout::JerkRecord> StudyFile::jerks(layout::RowRange range) const {
 
 void StudyFile::require_valid_values() const {
   const std::int64_t at_once = layout::chunk_rows(moves());
-  for (std::int64_t first = rows().first; first < rows().end(); first += at_once)
-    outcomes({first, std::min(at_once, rows().end() - first)});
+  for (std::int64_t first = rows().first; first < rows().end(); first += at_once) {
+    const layout::RowRange block{first, std::min(at_once, rows().end() - first)};
+    outcomes(block);
+    for (std::size_t column = 0; column < inputs_.size(); ++column) input(column, block);
+  }
   for (std::int64_t first = 0; first < jerk_count(); first += layout::chunk_elements)
     jerks_at(first, std::min(layout::chunk_elements, jerk_count() - first));
+  for (std::int64_t first = 0; first < trace_count(); first += layout::chunk_elements)
+    trace_at(first, std::min(layout::chunk_elements, trace_count() - first));
 }
 
 std::vector<layout::TraceRecord> StudyFile::trace_at(std::int64_t first, std::int64_t count) const {

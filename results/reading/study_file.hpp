@@ -83,7 +83,7 @@ class StudyFile {
   /// NaN where it is not known.
   std::vector<double> measure(std::string_view name, layout::RowRange rows) const;
 
-  /// Reads all outcomes and jerks in blocks, for the checks that this makes of them: for a file that is kept
+  /// Reads all rows of all tables in blocks, for the checks that this makes of them: for a file that is kept
   /// without being used at once.
   void require_valid_values() const;
 

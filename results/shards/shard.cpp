@@ -96,6 +96,24 @@ std::vector<fs::path> files_in(const fs::path& directory, const char* extension)
   return files;
 }
 
+reading::StudyFile file_of_study(const fs::path& path, const study::Study& study) {
+  reading::StudyFile file(path, reading::Require::any_part);
+  layout::require_same_study(path, file.header(), study);
+  return file;
+}
+
+ShardInfo info_of(const reading::StudyFile& file) {
+  return {file.path(), file.rows()};
+}
+
+/// Reads all values, too: the checksum of a file that was damaged before it was closed agrees with the
+/// damage.
+ShardInfo inspect_whole_shard(const fs::path& path, const study::Study& study) {
+  const reading::StudyFile file = file_of_study(path, study);
+  file.require_valid_values();
+  return info_of(file);
+}
+
 }  // namespace
 
 fs::path shard_path(const fs::path& directory, layout::RowRange rows) {
@@ -144,9 +162,7 @@ void sort_by_rows(std::vector<ShardInfo>& shards) {
 }
 
 ShardInfo inspect_shard(const fs::path& path, const study::Study& study) {
-  const reading::StudyFile file(path, reading::Require::any_part);
-  layout::require_same_study(path, file.header(), study);
-  return {path, file.rows()};
+  return info_of(file_of_study(path, study));
 }
 
 ShardSurvey list_shards(const fs::path& directory, const study::Study& study) {
@@ -158,7 +174,7 @@ ShardSurvey list_shards(const fs::path& directory, const study::Study& study) {
   survey.unfinished = files_in(directory, ".part");
   for (const fs::path& path : shard_files(directory)) {
     try {
-      survey.shards.push_back(inspect_shard(path, study));
+      survey.shards.push_back(inspect_whole_shard(path, study));
     } catch (const layout::ForeignFile& foreign) {
       survey.problems.push_back({path, foreign.what(), ShardProblem::Kind::foreign});
     } catch (const Failure& failure) {

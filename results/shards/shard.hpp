@@ -85,7 +85,8 @@ std::vector<std::filesystem::path> shard_files(const std::filesystem::path& dire
 /// @throws ForeignFile or another Failure (bad_data) if it cannot be used; see also open_results.
 ShardInfo inspect_shard(const std::filesystem::path& path, const study::Study& study);
 
-/// Inspects shard_files(directory). A missing directory has no shards; other files are ignored.
+/// Inspects shard_files(directory), and reads all their values. A missing directory has no shards; other
+/// files are ignored.
 /// @throws Failure (machine_failed) if the directory or a file cannot be read. Such a file does not count as
 /// damaged.
 ShardSurvey list_shards(const std::filesystem::path& directory, const study::Study& study);

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <stop_token>
 #include <string>
 
 #include "core/batch/instruction_set.hpp"
@@ -31,6 +32,7 @@ struct BatchSample {
 struct BatchObservers {
   std::function<void(std::size_t trial, const trial::Jerk&)> jerk;  ///< at the end of every jerk
   std::function<void(const BatchSample&)> sample;                   ///< at every sampling instant
+  std::stop_token stop{};  ///< a request to stop ends the batch by trial::Interrupted
 };
 
 struct BatchSettings {
@@ -61,6 +63,7 @@ class BatchEngine {
   BatchEngine& operator=(BatchEngine&&) = delete;
 
   /// @param trials not changed while this runs. @param outcomes [trial], overwritten.
+  /// @throws trial::Interrupted if a stop is requested before the last trial ends.
   void run(std::span<const trial::TrialParameters* const> trials, std::span<trial::TrialOutcome> outcomes,
            const BatchObservers& observers = {});
 

@@ -41,6 +41,7 @@ void LaneWork::run(std::span<const trial::TrialParameters* const> trials,
   for (int lane = 0; lane < lane_count_; ++lane) refill(lane);
   used_lanes_ = lane_count_;
   while (!active_.empty()) {
+    if (observers.stop.stop_requested()) throw trial::Interrupted{};
     close_gaps();
     take_samples();
     move_sticking();
@@ -134,6 +135,7 @@ void LaneWork::move_lane(int from, int to) {
 void LaneWork::run_scalar(const LaneTrial& trial, std::int64_t reported_jerks,
                           std::int64_t reported_samples) {
   trial::TrialObservers single;
+  single.stop = observers_->stop;
   std::int64_t jerks = 0;
   if (observers_->jerk) {
     single.jerk = [&](const trial::Jerk& jerk) {

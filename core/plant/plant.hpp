@@ -49,7 +49,7 @@ class PlantWith : public Law {
  private:
   /// More steps than this within one torque step mean that the motion cannot be followed. A ringing trial of
   /// the paper's rig takes about three.
-  static constexpr int max_steps = 200000;
+  static constexpr int max_steps = 10000;
 
   /// A torque has settled when this many time constants have passed: exp(−37) is below the rounding of 1.
   static constexpr double time_constants_to_settle = 37.0;

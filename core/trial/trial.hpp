@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <functional>
+#include <stop_token>
 
 #include "core/trial/outcome.hpp"
 #include "core/trial/parameters.hpp"
@@ -37,6 +39,12 @@ struct SampleRecord {
 struct TrialObservers {
   std::function<void(const SampleRecord&)> sample;  ///< at every sampling instant, in order
   std::function<void(const Jerk&)> jerk;            ///< at the end of every jerk, in order of onset
+  std::stop_token stop{};                           ///< a request to stop ends the trial by Interrupted
+};
+
+/// A trial was not run to its end, because a stop was requested.
+struct Interrupted : std::exception {
+  const char* what() const noexcept override { return "interrupted"; }
 };
 
 /// Runs one trial: quantised DAC → plant with friction → encoder, from t = 0 to the end of the last move.
@@ -45,6 +53,7 @@ struct TrialObservers {
 ///
 /// A pure function: the same parameters give the same outcome and the same records, whatever ran before or
 /// runs beside it. The memory it uses does not grow with the number of samples.
+/// @throws Interrupted if a stop is requested before its last sample.
 TrialOutcome run_trial(const TrialParameters& parameters, const TrialObservers& observers = {});
 
 }  // namespace zerocount::trial

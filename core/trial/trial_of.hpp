@@ -40,6 +40,7 @@ MoveOutcome run_move(Rig<AnyPlant>& rig, const MoveTiming& timing, const Verdict
   bool sliding_at_instants = false;
   std::int64_t first_error = 0;
   for (std::int64_t i = 0; i < timing.samples && rig.readable(); ++i) {
+    if (observers.stop.stop_requested()) throw Interrupted{};
     SampleRecord record = rig.read(first + i);
     decide(i, record);
     sliding_at_instants = sliding_at_instants || record.mode == HookMode::slide;

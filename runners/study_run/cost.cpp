@@ -7,6 +7,7 @@
 #include <oneapi/tbb/info.h>
 
 #include "core/batch/batch.hpp"
+#include "core/trial/trial.hpp"
 #include "runners/study_run/study_runner.hpp"
 
 namespace zerocount::study_run {
@@ -33,30 +34,64 @@ trial::TrialParameters beginning_of(trial::TrialParameters trial, std::int64_t m
   return trial;
 }
 
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+trial::TrialParameters parameters_of(const study::Study& study, std::int64_t row) {
+  return study::study_trial(study, row / study.trials, row % study.trials).parameters;
+}
+
+constexpr double patience = 0.3;  // s
+
+/// A block of trials, each cut at a number of samples.
+struct BlockSize {
+  std::int64_t trials;
+  std::int64_t samples_of_trial;
+};
+
+/// The block that takes not much longer than `patience`, by the cost of the beginning of some trials; at most
+/// a million samples, which fill the lanes unless trials are long.
+BlockSize affordable_block(const study::Study& study, double samples_per_trial) {
+  constexpr std::int64_t tried = 4;
+  constexpr std::int64_t short_trial = 100;  // samples
+  constexpr double speed_of_lanes = 10.0;    // in proportion to trials that are run alone
+  const std::int64_t rows = study::trial_count(study);
+  double slowest = 0.0;
+  for (std::int64_t i = 0; i < std::min(tried, rows) && slowest < patience; ++i) {
+    const trial::TrialParameters trial = beginning_of(parameters_of(study, i * rows / tried), short_trial);
+    const Clock::time_point start = Clock::now();
+    trial::run_trial(trial);
+    slowest = std::max(slowest, seconds_since(start));
+  }
+  const double affordable = speed_of_lanes * patience * static_cast<double>(short_trial) / slowest;
+  const double samples = std::clamp(affordable, static_cast<double>(short_trial), 1e6);
+  return {static_cast<std::int64_t>(std::clamp(samples / samples_per_trial, 1.0, 512.0)),
+          static_cast<std::int64_t>(std::min(samples, 2e5))};
+}
+
 }  // namespace
 
 StudyCost measure_cost(const study::Study& study) {
-  constexpr double patience = 0.3;              // s
-  constexpr std::int64_t max_samples = 200000;  // of one trial
-  constexpr std::int64_t stride = 7919;    // a prime, so that the sample is spread over points and trials
-  constexpr double samples_at_once = 1e6;  // enough to fill the lanes, unless trials are long
+  constexpr std::int64_t stride = 7919;  // a prime, so that the sample is spread over points and trials
   StudyCost cost;
   const double per_trial = samples_per_trial(study);
   cost.samples = per_trial * static_cast<double>(study::trial_count(study));
   cost.cores = oneapi::tbb::info::default_concurrency();
   const std::int64_t rows = study::trial_count(study);
   const std::int64_t max_trials = std::min<std::int64_t>(rows, 4096);
-  const auto at_once = static_cast<std::int64_t>(std::clamp(samples_at_once / per_trial, 1.0, 512.0));
+  const BlockSize size = affordable_block(study, per_trial);
   batch::BatchEngine engine;
   const auto start = std::chrono::steady_clock::now();
   double elapsed = 0.0;
   double samples = 0.0;
   for (std::int64_t i = 0; i < max_trials && elapsed < patience;) {
     std::vector<trial::TrialParameters> trials;
-    for (const std::int64_t end = std::min(max_trials, i + at_once); i < end; ++i) {
+    for (const std::int64_t end = std::min(max_trials, i + size.trials); i < end; ++i) {
       const std::int64_t row = i * stride % rows;
-      trials.push_back(beginning_of(
-          study::study_trial(study, row / study.trials, row % study.trials).parameters, max_samples));
+      trials.push_back(beginning_of(parameters_of(study, row), size.samples_of_trial));
       samples += static_cast<double>(trial::samples_of_trial(trials.back()));
     }
     std::vector<const trial::TrialParameters*> places;
@@ -64,7 +99,7 @@ StudyCost measure_cost(const study::Study& study) {
     for (const trial::TrialParameters& trial : trials) places.push_back(&trial);
     std::vector<trial::TrialOutcome> outcomes(trials.size());
     engine.run(places, outcomes);
-    elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    elapsed = seconds_since(start);
   }
   cost.seconds_per_sample = elapsed / samples;
   return cost;

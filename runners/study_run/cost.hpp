@@ -13,8 +13,8 @@ struct StudyCost {
   double seconds() const { return samples * seconds_per_sample / cores; }  ///< with all cores
 };
 
-/// Measures the cost of the batch engine on trials spread over the study, for about a third of a second (or
-/// one block of a million samples; trials are cut at 200 000 samples).
+/// Measures the cost of the batch engine on trials spread over the study, for about a third of a second.
+/// Trials are cut at 200 000 samples, or less if those would take longer.
 StudyCost measure_cost(const study::Study& study);
 
 }  // namespace zerocount::study_run

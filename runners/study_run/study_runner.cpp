@@ -14,6 +14,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "analysis/summary/study_statistics.hpp"
+#include "core/trial/trial.hpp"
 #include "results/layout/table_io.hpp"
 #include "results/shards/merge.hpp"
 #include "runners/study_run/trial_runner.hpp"
@@ -33,6 +34,9 @@ struct BlockLimits {
 constexpr BlockLimits reference_block{1e5, 256};
 constexpr BlockLimits batch_block{1e7, 4096};
 
+/// Of the traces of the retained trials in a block, beyond that of the last one.
+constexpr std::size_t max_trace_bytes_per_block = std::size_t{8} << 20;
+
 constexpr std::size_t max_trials_per_shard = 1 << 16;
 constexpr std::size_t max_bytes_per_shard = std::size_t{64} << 20;
 /// A shard is written after a tenth of the elapsed time, within these bounds. A crash then loses little, and
@@ -40,11 +44,17 @@ constexpr std::size_t max_bytes_per_shard = std::size_t{64} << 20;
 constexpr std::chrono::duration<double> shortest_wait{0.5};
 constexpr std::chrono::duration<double> longest_wait{20.0};
 
-/// Divides the ranges into blocks of rows. A block belongs to one range.
+/// Bytes of the trace of a retained trial in memory.
+double bytes_of_trace(const study::Study& study) {
+  return study.retained_trials.empty() ? 0.0 : samples_per_trial(study) * sizeof(trial::SampleRecord);
+}
+
+/// Divides the ranges into blocks of rows. A block belongs to one range. It has fewer trials where many of
+/// them are retained with their traces.
 class BlockSource {
  public:
-  BlockSource(std::span<const layout::RowRange> ranges, std::int64_t block_size)
-      : ranges_(ranges), block_size_(block_size) {}
+  BlockSource(const study::Study& study, std::span<const layout::RowRange> ranges, std::int64_t block_size)
+      : study_(study), ranges_(ranges), block_size_(block_size), trace_bytes_(bytes_of_trace(study)) {}
 
   std::optional<layout::RowRange> next() {
     while (at_ < ranges_.size() && used_ == ranges_[at_].count) {
@@ -52,15 +62,26 @@ class BlockSource {
       used_ = 0;
     }
     if (at_ == ranges_.size()) return std::nullopt;
-    const layout::RowRange block{ranges_[at_].first + used_,
-                                 std::min(block_size_, ranges_[at_].count - used_)};
+    const layout::RowRange block =
+        with_few_traces({ranges_[at_].first + used_, std::min(block_size_, ranges_[at_].count - used_)});
     used_ += block.count;
     return block;
   }
 
  private:
+  layout::RowRange with_few_traces(layout::RowRange rows) const {
+    double bytes = 0.0;
+    for (std::int64_t i = 0; i < rows.count; ++i) {
+      if (is_retained(study_, (rows.first + i) % study_.trials)) bytes += trace_bytes_;
+      if (bytes > static_cast<double>(max_trace_bytes_per_block)) return {rows.first, i + 1};
+    }
+    return rows;
+  }
+
+  const study::Study& study_;
   std::span<const layout::RowRange> ranges_;
   std::int64_t block_size_;
+  double trace_bytes_;  ///< of one retained trial
   std::size_t at_{0};
   std::int64_t used_{0};
 };
@@ -177,7 +198,8 @@ double peak_memory(const study::Study& study, double bytes_of_trial, double reco
                                   static_cast<double>(max_bytes_per_shard) / bytes_of_trial);
   // Writing a shard copies its columns.
   const double records = std::min(record_bytes, static_cast<double>(max_bytes_per_shard));
-  return program + 3.0 * records +
+  const double block_traces = static_cast<double>(max_trace_bytes_per_block) + bytes_of_trace(study);
+  return program + 3.0 * records + std::min(record_bytes, 4.0 * workers * block_traces) +
          bytes_of_trial * std::min(in_work + 2.0 * waiting, 3.0 * static_cast<double>(rows));
 }
 
@@ -189,7 +211,7 @@ FinishedTrials run_trials(const study::Study& study, std::span<const layout::Row
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
 
-  BlockSource source(ranges, block_size_of(study, layout::total_rows(ranges), threads));
+  BlockSource source(study, ranges, block_size_of(study, layout::total_rows(ranges), threads));
   ShardWriter writer(study, directory);
 
   const auto next_block = [&](tbb::flow_control& control) -> layout::RowRange {
@@ -202,7 +224,11 @@ FinishedTrials run_trials(const study::Study& study, std::span<const layout::Row
   };
   tbb::enumerable_thread_specific<TrialRunner> runners([&study] { return TrialRunner(study); });
   const auto run_block = [&](layout::RowRange rows) {
-    return std::make_shared<std::vector<shards::TrialResult>>(runners.local().run(rows));
+    try {
+      return std::make_shared<std::vector<shards::TrialResult>>(runners.local().run(rows, stop));
+    } catch (const trial::Interrupted&) {
+      return std::make_shared<std::vector<shards::TrialResult>>();  // those of the block are run again
+    }
   };
   const auto write_block = [&](const Block& block) {
     const auto trials = static_cast<std::int64_t>(block->size());

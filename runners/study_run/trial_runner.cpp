@@ -9,21 +9,19 @@
 namespace zerocount::study_run {
 namespace {
 
-bool retained(const study::Study& study, std::int64_t index) {
-  return std::binary_search(study.retained_trials.begin(), study.retained_trials.end(), index);
-}
-
 study::StudyTrial trial_of_row(const study::Study& study, std::int64_t row) {
   return study::study_trial(study, row / study.trials, row % study.trials);
 }
 
-shards::TrialResult run_reference(const study::Study& study, std::int64_t row, study::StudyTrial trial) {
+shards::TrialResult run_reference(const study::Study& study, std::int64_t row, study::StudyTrial trial,
+                                  const std::stop_token& stop) {
   shards::TrialResult result;
   result.row = row;
   result.inputs = std::move(trial.inputs);
   trial::TrialObservers observers;
+  observers.stop = stop;
   observers.jerk = [&](const trial::Jerk& jerk) { result.jerks.push_back(jerk); };
-  if (retained(study, row % study.trials)) {
+  if (is_retained(study, row % study.trials)) {
     observers.sample = [&](const trial::SampleRecord& record) { result.trace.push_back(record); };
   }
   result.outcome = trial::run_trial(trial.parameters, observers);
@@ -32,8 +30,12 @@ shards::TrialResult run_reference(const study::Study& study, std::int64_t row, s
 
 }  // namespace
 
+bool is_retained(const study::Study& study, std::int64_t index) {
+  return std::binary_search(study.retained_trials.begin(), study.retained_trials.end(), index);
+}
+
 shards::TrialResult run_study_trial(const study::Study& study, std::int64_t row) {
-  return run_reference(study, row, trial_of_row(study, row));
+  return run_reference(study, row, trial_of_row(study, row), {});
 }
 
 TrialRunner::TrialRunner(const study::Study& study)
@@ -47,16 +49,17 @@ study::StudyTrial TrialRunner::next_trial(std::int64_t row) {
   return trial;
 }
 
-std::vector<shards::TrialResult> TrialRunner::run(layout::RowRange rows) {
-  if (engine_) return run_in_lanes(rows);
+std::vector<shards::TrialResult> TrialRunner::run(layout::RowRange rows, const std::stop_token& stop) {
+  if (engine_) return run_in_lanes(rows, stop);
   std::vector<shards::TrialResult> results;
   results.reserve(static_cast<std::size_t>(rows.count));
   for (std::int64_t row = rows.first; row < rows.end(); ++row)
-    results.push_back(run_reference(*study_, row, next_trial(row)));
+    results.push_back(run_reference(*study_, row, next_trial(row), stop));
   return results;
 }
 
-std::vector<shards::TrialResult> TrialRunner::run_in_lanes(layout::RowRange rows) {
+std::vector<shards::TrialResult> TrialRunner::run_in_lanes(layout::RowRange rows,
+                                                           const std::stop_token& stop) {
   std::vector<shards::TrialResult> results(static_cast<std::size_t>(rows.count));
   std::vector<study::StudyTrial> trials;
   std::vector<std::size_t> places;  // indices of the trials in the results
@@ -64,8 +67,8 @@ std::vector<shards::TrialResult> TrialRunner::run_in_lanes(layout::RowRange rows
   places.reserve(results.size());
   for (std::size_t i = 0; i < results.size(); ++i) {
     const std::int64_t row = rows.first + static_cast<std::int64_t>(i);
-    if (retained(*study_, row % study_->trials)) {
-      results[i] = run_reference(*study_, row, next_trial(row));
+    if (is_retained(*study_, row % study_->trials)) {
+      results[i] = run_reference(*study_, row, next_trial(row), stop);
       continue;
     }
     results[i].row = row;
@@ -78,6 +81,7 @@ std::vector<shards::TrialResult> TrialRunner::run_in_lanes(layout::RowRange rows
   for (const study::StudyTrial& trial : trials) parameters.push_back(&trial.parameters);
   std::vector<trial::TrialOutcome> outcomes(trials.size());
   batch::BatchObservers observers;
+  observers.stop = stop;
   observers.jerk = [&](std::size_t trial, const trial::Jerk& jerk) {
     results[places[trial]].jerks.push_back(jerk);
   };

@@ -1,12 +1,15 @@
 #include "analysis/report/page.hpp"
 
+#include <algorithm>
 #include <map>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "analysis/report/embedded_files.hpp"
 #include "analysis/report/html.hpp"
+#include "core/hash/sha256.hpp"
 
 namespace zerocount::report {
 namespace {
@@ -32,10 +35,27 @@ std::string css_colours() {
       css_variables(all["light"]), css_variables(all["dark"]));
 }
 
-std::string scripts() {
+/// The scripts of the page, in the order in which they run.
+std::vector<std::string> script_sources() {
+  std::vector<std::string_view> names(drawing_libraries.begin(), drawing_libraries.end());
+  names.emplace_back("page.js");
+  std::vector<std::string> sources(names.size());
+  std::transform(names.begin(), names.end(), sources.begin(),
+                 [](std::string_view name) { return script_source(embedded_file(name)); });
+  return sources;
+}
+
+std::string script_elements(const std::vector<std::string>& sources) {
   std::string text;
-  for (const std::string_view library : drawing_libraries)
-    text += fmt::format("<script>{}</script>\n", script_source(embedded_file(library)));
+  for (const std::string& source : sources) text += fmt::format("<script>{}</script>\n", source);
+  return text;
+}
+
+/// The hashes by which a Content-Security-Policy (level 2) allows these scripts and no others.
+std::string script_hashes(const std::vector<std::string>& sources) {
+  std::string text;
+  for (const std::string& source : sources)
+    text += fmt::format("{}'sha256-{}'", text.empty() ? "" : " ", hash::base64(hash::sha256(source)));
   return text;
 }
 
@@ -98,6 +118,7 @@ ordered_json light_colours() {
 std::string html_page(const ReportPage& page) {
   std::string sections;
   for (const PageSection& section : page.sections) sections += section_html(section);
+  const std::vector<std::string> sources = script_sources();
   return filled(embedded_file("page.html"), {{"title", html_text(page.title)},
                                              {"subtitle", html_text(page.subtitle)},
                                              {"footer", html_text(page.footer)},
@@ -106,8 +127,8 @@ std::string html_page(const ReportPage& page) {
                                              {"contents", contents_html(page)},
                                              {"sections", sections},
                                              {"figures", script_json(figures_json(page))},
-                                             {"libraries", scripts()},
-                                             {"program", script_source(embedded_file("page.js"))}});
+                                             {"scripts", script_elements(sources)},
+                                             {"script-hashes", script_hashes(sources)}});
 }
 
 }  // namespace zerocount::report

@@ -37,8 +37,9 @@
     figure.width = width;
     const specification = withWidth(figure.specification, width);
     specification.datasets = Object.fromEntries(figure.data.map(data => [data.name, objects(data)]));
+    // ast: expressions are interpreted, because the security policy of the page forbids eval.
     await vegaEmbed(place, specification, {
-      config: vega.mergeConfig({}, report.theme, {legend: legendFor(figure, width)}), renderer: "svg", actions: false, defaultStyle: true, logLevel: vega.Warn,
+      config: vega.mergeConfig({}, report.theme, {legend: legendFor(figure, width)}), renderer: "svg", actions: false, ast: true, defaultStyle: true, logLevel: vega.Warn,
     });
     place.dataset.drawn = "yes";
   }

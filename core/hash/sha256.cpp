@@ -42,6 +42,12 @@ std::string hexadecimal(const Sha256& digest) {
   return digits;
 }
 
+std::string base64(const Sha256& digest) {
+  std::array<unsigned char, 45> text{};  // with the zero that the library appends
+  const int size = EVP_EncodeBlock(text.data(), digest.data(), static_cast<int>(digest.size()));
+  return {text.begin(), text.begin() + size};
+}
+
 std::string sha256_hex(std::string_view text) {
   return hexadecimal(sha256(text));
 }

@@ -34,6 +34,9 @@ Sha256 sha256(std::string_view text);
 /// 64 lower-case hexadecimal digits.
 std::string hexadecimal(const Sha256& digest);
 
+/// 44 characters (RFC 4648, section 4).
+std::string base64(const Sha256& digest);
+
 /// hexadecimal(sha256(text)).
 std::string sha256_hex(std::string_view text);
 

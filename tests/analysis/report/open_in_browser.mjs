@@ -126,6 +126,27 @@ async function checkHover({page, name}, figure, words) {
   expect(false, `${name}: the pointer over ${figure} shows a value`);
 }
 
+/// The security policy stops scripts and texts of code that are not those of the page. The console tells of it: a last check.
+async function checkPolicy({page, name}) {
+  const ran = await page.evaluate(() => {
+    const script = document.createElement("script");
+    script.textContent = "window.injected = true";
+    document.body.append(script);
+    // The debugger's own evaluation may evaluate texts; what it leaves to a timer may not.
+    return new Promise(resolve => setTimeout(() => {
+      let evaluated = true;
+      try {
+        new Function("return 1")();
+      } catch {
+        evaluated = false;
+      }
+      resolve({injected: window.injected === true, evaluated});
+    }, 0));
+  });
+  expect(!ran.injected, `${name}: no other script is run`);
+  expect(!ran.evaluated, `${name}: no text is evaluated as code`);
+}
+
 const options = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
   "--disable-component-update", "--disable-sync"];
 let browser;
@@ -144,6 +165,7 @@ try {
       await checkTables(opened);
       await checkHover(opened, "stability-map", "success rate");
       await checkHover(opened, "settling-time", "settled within");
+      await checkPolicy(opened);
       await opened.page.pdf({path: join(screenshots, "printed.pdf"), format: "A4", printBackground: true});
     }
     await opened.context.close();

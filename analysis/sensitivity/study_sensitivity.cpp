@@ -47,13 +47,21 @@ void check_confidence(double confidence) {
                 fmt::format("a confidence of {}; expected one above 0 and at most {}", confidence, highest));
 }
 
-PointInputs point_inputs(const reading::StudyFile& file, const study::Study& study, std::int64_t point) {
+/// The number of trials of a point that are read, its first ones. A saltelli design is read as a whole: its
+/// rows are what was paid for.
+std::int64_t trials_read(const study::Study& study, const SensitivityQuestion& question) {
+  if (study.design == study::Design::saltelli) return study.trials;
+  return std::min(study.trials, std::max(question.max_trials, study.rigs));
+}
+
+PointInputs point_inputs(const reading::StudyFile& file, const study::Study& study, std::int64_t point,
+                         std::int64_t trials) {
   PointInputs inputs{.design = study.design,
                      .factors = study.factors,
                      .inputs = {},
                      .correlated = study::has_dependent_parameters(study),
                      .rigs = study.rigs};
-  const layout::RowRange rows{point * file.header().trials, file.header().trials};
+  const layout::RowRange rows{point * file.header().trials, trials};
   for (std::size_t column = 0; column < file.input_columns().size(); ++column) {
     inputs.inputs.push_back({file.input_columns()[column].name, file.input(column, rows)});
   }
@@ -76,14 +84,17 @@ StudySensitivity study_sensitivity(const reading::StudyFile& file, const Sensiti
                                .confidence = question.confidence,
                                .points = {}};
   const std::vector<std::int64_t> points = points_asked(file, question);
+  const std::int64_t trials = trials_read(study, question);
   const std::int64_t all = std::ssize(points) * std::ssize(outputs);
   std::int64_t done = 0;
   for (const std::int64_t point : points) {
     PointSensitivity at_point{point, labels.at(static_cast<std::size_t>(point)), {}};
-    const PointInputs inputs = point_inputs(file, study, point);
+    const PointInputs inputs = point_inputs(file, study, point, trials);
     for (const SensitivityOutput& output : outputs) {
-      OutputSensitivity result = output_sensitivity(inputs, output, trial_outputs(file, study, point, output),
-                                                    question.confidence, bootstrap);
+      OutputSensitivity result = output_sensitivity(
+          inputs, output, trial_outputs(file, study, point, trials, output), question.confidence, bootstrap);
+      if (trials < study.trials && study.rigs == 0)
+        result.notes.push_back(fmt::format("the first {} of {} trials are used", trials, study.trials));
       result.unit = parameters::unit_on(study.units.axis, result.unit);
       result.meaning = parameters::text_on(study.units.axis, result.meaning);
       at_point.outputs.push_back(std::move(result));

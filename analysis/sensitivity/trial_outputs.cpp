@@ -50,10 +50,10 @@ SensitivityOutput find_sensitivity_output(std::string_view name, const layout::M
 }
 
 TrialOutputs trial_outputs(const reading::StudyFile& file, const study::Study& study, std::int64_t point,
-                           const SensitivityOutput& output) {
+                           std::int64_t trials, const SensitivityOutput& output) {
   const layout::Measure& measure = *output.measure;
   const bool of_any_trial = layout::is_quality(measure) || measure.values.nan_is_late;
-  const layout::RowRange rows{point * file.header().trials, file.header().trials};
+  const layout::RowRange rows{point * file.header().trials, trials};
   TrialOutputs outputs;
   measures::visit_trials(file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
     double duration = statistics::unknown;

@@ -20,9 +20,10 @@ struct TrialOutputs {
 /// @throws Failure (bad_input) where there is none; the message lists them.
 SensitivityOutput find_sensitivity_output(std::string_view name, const layout::MeasureTable& measures);
 
-/// @param study of the file. @param output of sensitivity_outputs().
+/// @param study of the file. @param trials the first so many of the point. @param output of
+/// sensitivity_outputs().
 TrialOutputs trial_outputs(const reading::StudyFile& file, const study::Study& study, std::int64_t point,
-                           const SensitivityOutput& output);
+                           std::int64_t trials, const SensitivityOutput& output);
 
 /// Duration of a move of this trial, a whole number of samples, s; of a closed loop.
 double move_duration(const trial::TrialParameters& trial);

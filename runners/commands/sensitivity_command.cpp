@@ -43,6 +43,8 @@ ExitCode print_sensitivity(const command_line::Arguments& arguments) {
   question.outputs = arguments.values("output");
   question.confidence =
       command_line::probability_option(arguments, "confidence").value_or(question.confidence);
+  question.max_trials =
+      arguments.whole_number("max-trials", 100, std::int64_t{1} << 53).value_or(question.max_trials);
   status::StatusLine line;
   question.progress = [&](std::int64_t done, std::int64_t all) {
     line.show([&] { return fmt::format("sensitivity: {} of {} outputs", done, all); });
@@ -63,6 +65,8 @@ Command sensitivity_command() {
        {{"point,p", "P", "design point, by label or number; may be repeated (default: all)", true},
         {"output", "NAME", "output of the trials; may be repeated (default: success, settling_time)", true},
         {"confidence", "C", "confidence of the bounds, above 0 and up to 0.999 (default 0.95)"},
+        {"max-trials", "N",
+         "use the first N trials of each point (default 100000; of a saltelli design all are used)"},
         {"format", "FORMAT", "table (default), json or csv"}}},
       "print which random parameters influence the outputs of the trials",
       full_help(),

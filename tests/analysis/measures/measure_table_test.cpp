@@ -116,7 +116,7 @@ TEST_F(AddedMeasure, IsInEveryFormOfTheSummary) {
 TEST_F(AddedMeasure, IsAnOutputThatSensitivityExplains) {
   const reading::StudyFile file(path, reading::Require::complete, table);
   const sensitivity::TrialOutputs outputs = sensitivity::trial_outputs(
-      file, study, 0, sensitivity::find_sensitivity_output("torque_reserve", file.table()));
+      file, study, 0, study.trials, sensitivity::find_sensitivity_output("torque_reserve", file.table()));
   const auto known = std::find_if(outputs.values.begin(), outputs.values.end(),
                                   [](double value) { return !std::isnan(value); });
   ASSERT_NE(known, outputs.values.end());

@@ -296,6 +296,32 @@ TEST(StudySensitivity, EveryOutputOfEveryPointCanBeAsked) {
   EXPECT_EQ(usual.points[0].outputs[1].output, "settling_time");
 }
 
+TEST(StudySensitivity, OfALargeStudyTheFirstTrialsAreUsed) {
+  const auto text = [](int trials) {
+    return fmt::format(
+        "zerocount: 1\nname: made up\nseed: 5\ntrials: {}\n"
+        "friction: {{k1: {{uniform: [1, 2]}}, k2: {{uniform: [1, 2]}}}}\n"
+        "command: {{targets: [5, 0], hold: 0.1}}\n",
+        trials);
+  };
+  SensitivityQuestion question;
+  question.max_trials = 300;
+  const OutputSensitivity of_first =
+      MadeUpStudy(text(1000), both_in_upper_half).ask(question).points.at(0).outputs.at(0);
+  const OutputSensitivity of_all =
+      MadeUpStudy(text(300), both_in_upper_half).ask().points.at(0).outputs.at(0);
+  EXPECT_EQ(of_first.trials, 300);
+  EXPECT_EQ(of_first.notes.back(), "the first 300 of 1000 trials are used");
+  ASSERT_EQ(of_first.factors.size(), of_all.factors.size());
+  for (std::size_t j = 0; j < of_all.factors.size(); ++j) {
+    EXPECT_EQ(of_first.factors[j].rank_correlation.value, of_all.factors[j].rank_correlation.value);
+    EXPECT_EQ(of_first.factors[j].first_order.high, of_all.factors[j].first_order.high);
+  }
+  question.max_trials = 100;
+  EXPECT_EQ(MadeUpStudy(manifest(), both_in_upper_half).ask(question).points.at(0).outputs.at(0).trials, 2000)
+      << "a saltelli design is used whole";
+}
+
 TEST(StudySensitivity, QuestionsThatMakeNoSenseAreRefused) {
   const MadeUpStudy study(manifest(), both_in_upper_half);
   for (const SensitivityQuestion& question :

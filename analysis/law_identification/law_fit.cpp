@@ -199,8 +199,9 @@ std::vector<double> residuals_after(const std::vector<LawMotion>& motions,
 }
 
 std::vector<Eigen::VectorXd> paths_of(const std::vector<LawMotion>& motions) {
-  std::vector<Eigen::VectorXd> paths;
-  for (const LawMotion& motion : motions) paths.push_back(motion.path);
+  std::vector<Eigen::VectorXd> paths(motions.size());
+  std::transform(motions.begin(), motions.end(), paths.begin(),
+                 [](const LawMotion& motion) { return motion.path; });
   return paths;
 }
 

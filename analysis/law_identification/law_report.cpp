@@ -117,7 +117,7 @@ std::string law_fragment(Records records, const LawModel& model, const LawPoint&
         std::any_of(law.parameters.begin(), law.parameters.end(), [&](const auto& parameter) {
           return parameter.key.starts_with(group + ".") && parameter.status == EstimateStatus::estimated;
         });
-    text += (any ? "" : "# ") + group + ":\n" + lines;
+    text += fmt::format("{}{}:\n{}", any ? "" : "# ", group, lines);
   }
   return text;
 }

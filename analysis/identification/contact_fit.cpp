@@ -316,6 +316,35 @@ double spread(const ContactFit& fit) {
   return std::sqrt(statistics.squares / static_cast<double>(statistics.observations));
 }
 
+/// Fits with all coordinates free from the point of `fit` plus each of `changes`, and continues the best of
+/// them. False if none is better than `fit`, which then stays as it is.
+bool improve_from(std::span<const TestRecord> records, std::span<const ContactPoint> changes,
+                  ContactFit& fit) {
+  const ContactFit first = fit;
+  bool improved = false;
+  for (const ContactPoint& change : changes) {
+    ContactFit other = first;
+    FitPoint point = first.model.point;
+    for (std::size_t j = 0; j < coordinate_count; ++j) {
+      if (change[j] != 0.0 && first.setting.free[j]) other.setting.prior[j] = point.contact[j] += change[j];
+    }
+    other.setting.max_steps = 10;
+    try {
+      refine(records, point, 3, Freedom::all, other);
+    } catch (const Failure&) {
+      continue;  // a rotor that cannot be simulated
+    }
+    observe_again(records, other);
+    if (spread(other) >= spread(fit)) continue;
+    fit = other;
+    improved = true;
+  }
+  if (!improved) return false;
+  fit.setting.max_steps = first.setting.max_steps;
+  refine(records, fit.model.point, max_rounds, Freedom::all, fit);
+  return true;
+}
+
 }  // namespace
 
 double creep_torque_for(std::span<const TestRecord> records, const std::vector<KnownParameter>& known) {
@@ -360,36 +389,27 @@ void keep_time_offset(std::span<const TestRecord> records, ContactFit& fit) {
 
 bool free_untold_coordinates(std::span<const TestRecord> records, ContactFit& fit) {
   if (!are_slow_alone(records)) return false;
-  ContactFit other = fit;
-  refine(records, fit.model.point, max_rounds, Freedom::all, other);
-  observe_again(records, other);
-  if (spread(other) >= spread(fit)) return false;
-  fit = std::move(other);
-  return true;
+  std::vector<ContactPoint> changes;
+  // The held inertia and damping may be those of another minimum.
+  for (const double inertia : {0.0, -1.0, -2.0, 1.0, 2.0}) {
+    for (const double damping : {0.0, 2.0, -2.0}) {
+      ContactPoint& change = changes.emplace_back(ContactPoint::Zero());
+      change[log_inertia] = inertia;
+      change[log_damping] = damping;
+    }
+  }
+  return improve_from(records, changes, fit);
 }
 
 bool improve_softening(std::span<const TestRecord> records, ContactFit& fit) {
   if (!fit.setting.free[log_beta] || !fit.setting.free[log_k2]) return false;
   if (are_slow_alone(records)) return false;  // fit_slow_parts() has searched
-  const ContactFit first = fit;
-  bool improved = false;
+  std::vector<ContactPoint> changes;
   for (const double shift : {-2.0, -4.0, -6.0, -8.0, 2.0, 4.0}) {
-    ContactFit other = first;
-    FitPoint point = first.model.point;
-    for (const Coordinate coordinate : {log_beta, log_k2}) {
-      other.setting.prior[coordinate] = point.contact[coordinate] += shift;
-    }
-    other.setting.max_steps = 10;
-    refine(records, point, 3, Freedom::all, other);
-    observe_again(records, other);
-    if (spread(other) >= spread(fit)) continue;
-    fit = other;
-    improved = true;
+    ContactPoint& change = changes.emplace_back(ContactPoint::Zero());
+    change[log_beta] = change[log_k2] = shift;
   }
-  if (!improved) return false;
-  fit.setting.max_steps = first.setting.max_steps;
-  refine(records, fit.model.point, max_rounds, Freedom::all, fit);
-  return true;
+  return improve_from(records, changes, fit);
 }
 
 }  // namespace zerocount::identification

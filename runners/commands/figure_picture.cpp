@@ -19,12 +19,12 @@ std::string output_of(const std::vector<std::string>& words, std::string_view in
                       std::string_view package) {
   const std::optional<ChildResult> result = run_child(words, input);
   if (!result) {
-    throw Failure(ExitCode::machine_failed, fmt::format("zerocount plot: there is no {} here, which draws "
+    throw Failure(ExitCode::machine_failed, fmt::format("there is no {} here, which draws "
                                                         "the figure; install it (Debian: apt-get install {})",
                                                         words.front(), package));
   }
   if (result->code == 0 && !result->out.empty()) return result->out;
-  throw Failure(ExitCode::machine_failed, fmt::format("zerocount plot: {} failed with exit code {}; expected "
+  throw Failure(ExitCode::machine_failed, fmt::format("{} failed with exit code {}; expected "
                                                       "nodejs 18 or later and librsvg 2.50 or later",
                                                       words.front(), result->code));
 }

@@ -210,6 +210,21 @@ TEST_F(Run, RunsAgainWhatASealedShardWithWrongDataHeld) {
   }
 }
 
+// A trial of a million samples of a contact that creeps fast takes minutes; the signal does not wait for it.
+TEST_F(Run, ASignalEndsALongTrial) {
+  folder_.write("slow.yaml",
+                "zerocount: 1\nname: slow\nseed: 1\ntrials: 4\nfriction: {lambda: 1.0e-9}\n"
+                "command: {targets: [5], hold: 500}\n");
+  for (const char* engine : {"batch", "reference"}) {
+    RunningProgram program({"run", "slow.yaml", "-o", "slow.h5", "-q", "--engine", engine}, folder_.path());
+    std::this_thread::sleep_for(std::chrono::milliseconds(400));
+    const auto sent = std::chrono::steady_clock::now();
+    program.send(SIGTERM);
+    EXPECT_EQ(program.wait(), 130) << engine;
+    EXPECT_LT(std::chrono::steady_clock::now() - sent, std::chrono::seconds(20)) << engine;
+  }
+}
+
 TEST_F(Run, RefusesASecondRunOnTheSameOutput) {
   RunningProgram first = start_long_run("out.h5");
   const ProgramResult second = run({"run", "long.yaml", "-o", "out.h5"});

@@ -16,10 +16,10 @@
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
 #include "runners/commands/plugin_option.hpp"
-#include "runners/commands/replay.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/commands/trace_writer.hpp"
 #include "runners/status/status.hpp"
+#include "runners/verification/replay.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -122,7 +122,7 @@ ExitCode trace(const command_line::Arguments& arguments) {
     status::tell("the controller gave no finite torque at the last sample: the trial ends there\n");
   if (!file) return ExitCode::success;
 
-  const std::vector<std::string> different = differences_from_record(*file, replayed);
+  const std::vector<std::string> different = verification::differences_from_record(*file, replayed);
   if (different.empty()) return ExitCode::success;
   std::string message =
       fmt::format("{}: point {}, trial {}: the replay is not the recorded trial", input, point, index);

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <optional>
 #include <string_view>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -45,7 +46,9 @@ bool is_results_file(const std::string& path) {
   char signature[8] = {};
   file.read(signature, sizeof signature);
   const bool signed_as_hdf5 = std::string_view(signature, 8) == std::string_view("\x89HDF\r\n\x1a\n", 8);
-  return signed_as_hdf5 || (file.gcount() > 0 && std::filesystem::path(path).extension() == ".h5");
+  std::error_code unknown;  // ignored: what cannot be read is reported where it is opened
+  const bool named = std::filesystem::path(path).extension() == ".h5";
+  return signed_as_hdf5 || (named && std::filesystem::is_regular_file(path, unknown));
 }
 
 std::int64_t trial_option(const command_line::Arguments& arguments, const study::Study& study) {

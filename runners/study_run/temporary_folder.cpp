@@ -11,8 +11,10 @@ namespace zerocount::study_run {
 
 TemporaryFolder::TemporaryFolder() {
   std::error_code error;
-  std::string pattern = (std::filesystem::temp_directory_path(error) / "zerocount-XXXXXX").string();
-  if (error || ::mkdtemp(pattern.data()) == nullptr) storage::fail_with(pattern, "make the folder", errno);
+  const std::filesystem::path place = std::filesystem::temp_directory_path(error);
+  if (error) storage::fail_with("the folder for temporary files (TMPDIR)", "find it", error.value());
+  std::string pattern = (place / "zerocount-XXXXXX").string();
+  if (::mkdtemp(pattern.data()) == nullptr) storage::fail_with(pattern, "make the folder", errno);
   path_ = pattern;
 }
 

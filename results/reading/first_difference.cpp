@@ -1,8 +1,11 @@
 #include "results/reading/first_difference.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <functional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -13,21 +16,48 @@ namespace {
 /// Elements that are read at a time.
 constexpr std::int64_t block_elements = 1 << 20;
 
-std::optional<std::string> differs(const hdf5::Dataset& dataset, const std::string& how) {
-  return fmt::format("{}: {}", dataset.path(), how);
-}
+/// A comparison of two files.
+struct Comparison {
+  double tolerance{0.0};                               ///< relative, of real numbers
+  std::function<bool(const DatasetDifference&)> tell;  ///< false: the comparison ends
+};
 
-std::optional<std::string> text_difference(const hdf5::Dataset& one, const hdf5::Dataset& other) {
+using How = std::optional<std::string>;  ///< what differs; nothing if nothing does
+
+How text_difference(const hdf5::Dataset& one, const hdf5::Dataset& other) {
   const std::vector<std::string> before = one.read_texts();
   const std::vector<std::string> after = other.read_texts();
   const auto place = std::mismatch(before.begin(), before.end(), after.begin(), after.end()).first;
   if (place == before.end() && before.size() == after.size()) return std::nullopt;
-  return differs(one, fmt::format("differs from row {} on", place - before.begin()));
+  return fmt::format("differs from row {} on", place - before.begin());
 }
 
-std::optional<std::string> number_difference(const hdf5::Dataset& one, const hdf5::Dataset& other) {
+bool are_close(double one, double other, double tolerance) {
+  if (std::isnan(one) || std::isnan(other)) return std::isnan(one) && std::isnan(other);
+  return one == other || std::abs(one - other) <= tolerance * std::max(std::abs(one), std::abs(other));
+}
+
+/// The index of the first byte that differs, or that of the first real number that does beyond the
+/// tolerance; the size where none does.
+std::size_t first_mismatch(const std::vector<std::byte>& one, const std::vector<std::byte>& other,
+                           bool real_numbers, double tolerance) {
+  const auto from =
+      static_cast<std::size_t>(std::mismatch(one.begin(), one.end(), other.begin()).first - one.begin());
+  if (!real_numbers || tolerance <= 0.0) return from;
+  for (std::size_t at = from - from % sizeof(double); at < one.size(); at += sizeof(double)) {
+    double here = 0.0;
+    double there = 0.0;
+    std::memcpy(&here, one.data() + at, sizeof here);
+    std::memcpy(&there, other.data() + at, sizeof there);
+    if (!are_close(here, there, tolerance)) return at;
+  }
+  return one.size();
+}
+
+How number_difference(const hdf5::Dataset& one, const hdf5::Dataset& other, double tolerance) {
   const std::vector<hdf5::Size> extent = one.extent();
-  if (extent.empty()) return differs(one, "has no rows");
+  if (extent.empty()) return "has no rows";
+  const bool real_numbers = one.element() == hdf5::Element::float64;
   std::size_t width = hdf5::size_of(one.element());
   for (std::size_t dimension = 1; dimension < extent.size(); ++dimension) width *= extent[dimension];
   const auto rows = static_cast<std::int64_t>(extent[0]);
@@ -40,18 +70,18 @@ std::optional<std::string> number_difference(const hdf5::Dataset& one, const hdf
     after.resize(before.size());
     one.read(first, count, before.data());
     other.read(first, count, after.data());
-    const auto place = std::mismatch(before.begin(), before.end(), after.begin()).first;
-    if (place == before.end()) continue;
-    const std::int64_t row = first + (place - before.begin()) / static_cast<std::int64_t>(width);
-    return differs(one, fmt::format("differs from row {} on", row));
+    const std::size_t place = first_mismatch(before, after, real_numbers, tolerance);
+    if (place == before.size()) continue;
+    return fmt::format("differs from row {} on", first + static_cast<std::int64_t>(place / width));
   }
   return std::nullopt;
 }
 
-std::optional<std::string> dataset_difference(const hdf5::Dataset& one, const hdf5::Dataset& other) {
-  if (one.element() != other.element()) return differs(one, "has elements of another type");
-  if (one.extent() != other.extent()) return differs(one, "has another size");
-  return one.element() == hdf5::Element::text ? text_difference(one, other) : number_difference(one, other);
+How dataset_difference(const hdf5::Dataset& one, const hdf5::Dataset& other, double tolerance) {
+  if (one.element() != other.element()) return "has elements of another type";
+  if (one.extent() != other.extent()) return "has another size";
+  return one.element() == hdf5::Element::text ? text_difference(one, other)
+                                              : number_difference(one, other, tolerance);
 }
 
 /// Statistics of the trials: what they are made of is looked at before them.
@@ -59,26 +89,61 @@ bool is_derived(const std::string& name) {
   return name == "point" || name == "level" || name == "repeatability";
 }
 
-}  // namespace
+std::string path_in(const hdf5::Group& group, const std::string& name) {
+  return (group.path() == "/" ? "" : group.path()) + "/" + name;
+}
 
-std::optional<std::string> first_difference(const hdf5::Group& one, const hdf5::Group& other) {
+bool compare_groups(const hdf5::Group& one, const hdf5::Group& other, const Comparison& comparison);
+
+/// Compares the member `name` of the first group. False: the comparison ends.
+bool compare_member(const hdf5::Group& one, const hdf5::Group& other, const std::string& name,
+                    const Comparison& comparison) {
+  const std::string path = path_in(one, name);
+  if (!other.contains(name)) return comparison.tell({path, "missing in one of the files", true});
+  if (one.is_group(name) != other.is_group(name))
+    return comparison.tell({path, "a group in one of the files only"});
+  if (one.is_group(name)) return compare_groups(one.open_group(name), other.open_group(name), comparison);
+  const How how = dataset_difference(one.open_dataset(name), other.open_dataset(name), comparison.tolerance);
+  return !how || comparison.tell({path, *how});
+}
+
+bool compare_groups(const hdf5::Group& one, const hdf5::Group& other, const Comparison& comparison) {
   std::vector<std::string> names = one.children();
   std::stable_partition(names.begin(), names.end(),
                         [](const std::string& name) { return !is_derived(name); });
   for (const std::string& name : names) {
-    const std::string path = (one.path() == "/" ? "" : one.path()) + "/" + name;
-    if (!other.contains(name)) return path + ": missing in one of the files";
-    if (one.is_group(name) != other.is_group(name)) return path + ": a group in one of the files only";
-    std::optional<std::string> difference =
-        one.is_group(name) ? first_difference(one.open_group(name), other.open_group(name))
-                           : dataset_difference(one.open_dataset(name), other.open_dataset(name));
-    if (difference) return difference;
+    if (!compare_member(one, other, name, comparison)) return false;
   }
   for (const std::string& name : other.children()) {
-    if (!one.contains(name))
-      return (one.path() == "/" ? "" : one.path()) + "/" + name + ": missing in one of the files";
+    if (!one.contains(name) && !comparison.tell({path_in(one, name), "missing in one of the files", true}))
+      return false;
   }
-  return std::nullopt;
+  return true;
+}
+
+}  // namespace
+
+std::string text_of(const DatasetDifference& difference) {
+  return fmt::format("{}: {}", difference.path, difference.how);
+}
+
+std::optional<std::string> first_difference(const hdf5::Group& one, const hdf5::Group& other) {
+  std::optional<std::string> first;
+  compare_groups(one, other, {0.0, [&](const DatasetDifference& difference) {
+                                first = text_of(difference);
+                                return false;
+                              }});
+  return first;
+}
+
+std::vector<DatasetDifference> differences(const hdf5::Group& one, const hdf5::Group& other,
+                                           double tolerance) {
+  std::vector<DatasetDifference> all;
+  compare_groups(one, other, {tolerance, [&](const DatasetDifference& difference) {
+                                all.push_back(difference);
+                                return true;
+                              }});
+  return all;
 }
 
 }  // namespace zerocount::reading

@@ -2,16 +2,33 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "results/hdf5/hdf5.hpp"
 
 namespace zerocount::reading {
 
+/// A dataset that differs between two files.
+struct DatasetDifference {
+  std::string path;
+  std::string how;  ///< "differs from row 17 on"
+  bool in_one_file_only{false};
+};
+
+/// "/outcome/settling_time: differs from row 17 on"
+std::string text_of(const DatasetDifference& difference);
+
 /// Compares all datasets of two files to the bit, in the order of the first, but statistics last: sizes,
 /// types of elements and every value; NaN are equal where their bits are. Attributes, such as when the files
 /// were written, are not looked at.
-/// @return what differs first, "/outcome/settling_time: differs from row 17 on"; nothing where all is equal
+/// @return what differs first; nothing where all is equal
 /// @throws Failure (bad_data) where a dataset cannot be read
 std::optional<std::string> first_difference(const hdf5::Group& one, const hdf5::Group& other);
+
+/// All datasets that differ, in the same order.
+/// @param tolerance relative, of real numbers; any two NaN are then equal. 0: bits are compared
+/// @throws Failure (bad_data) where a dataset cannot be read
+std::vector<DatasetDifference> differences(const hdf5::Group& one, const hdf5::Group& other,
+                                           double tolerance = 0.0);
 
 }  // namespace zerocount::reading

@@ -23,6 +23,7 @@ Command run_command();
 Command summary_command();
 Command trace_command();
 Command merge_command();
+Command verify_command();
 Command export_command();
 Command compare_command();
 Command baseline_command();

@@ -19,8 +19,8 @@
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
 #include "runners/commands/figure_picture.hpp"
-#include "runners/commands/replay.hpp"
 #include "runners/status/status.hpp"
+#include "runners/verification/replay.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -69,7 +69,7 @@ report::StudyReport report_of(const command_line::Arguments& arguments, const re
   }
   if (const auto database = arguments.value("history")) options.history = history_of_study(*database, file);
   options.check = [&file](const report::ReplayedTrial& replayed) {
-    return differences_from_record(file, replayed.result);
+    return verification::differences_from_record(file, replayed.result);
   };
   report::StudyReport report = report::study_report(file, options);
   for (const std::string& warning : report.warnings) status::tell("zerocount: warning: {}\n", warning);

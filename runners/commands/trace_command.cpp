@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <optional>
 #include <string_view>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -16,10 +17,10 @@
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
 #include "runners/commands/plugin_option.hpp"
-#include "runners/commands/replay.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/commands/trace_writer.hpp"
 #include "runners/status/status.hpp"
+#include "runners/verification/replay.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -42,8 +43,9 @@ constexpr const char* trace_help =
 /// Whether `path` is a results file, by its signature or by its name (the signature may be damaged).
 bool is_results_file(const std::string& path) {
   constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
-  const std::string beginning = storage::bytes_at(path, 0, signature.size());
-  return beginning == signature || (!beginning.empty() && std::filesystem::path(path).extension() == ".h5");
+  std::error_code unknown;  // ignored: what cannot be read is reported where it is opened
+  const bool named = std::filesystem::path(path).extension() == ".h5";
+  return storage::bytes_at(path, 0, signature.size()) == signature || (named && std::filesystem::is_regular_file(path, unknown));
 }
 
 std::int64_t trial_option(const command_line::Arguments& arguments, const study::Study& study) {
@@ -120,7 +122,7 @@ ExitCode trace(const command_line::Arguments& arguments) {
     status::tell("the controller gave no finite torque at the last sample: the trial ends there\n");
   if (!file) return ExitCode::success;
 
-  const std::vector<std::string> different = differences_from_record(*file, replayed);
+  const std::vector<std::string> different = verification::differences_from_record(*file, replayed);
   if (different.empty()) return ExitCode::success;
   std::string message =
       fmt::format("{}: point {}, trial {}: the replay is not the recorded trial", input, point, index);

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstdlib>
 #include <iterator>
 #include <optional>
 #include <span>
@@ -19,6 +17,7 @@
 #include "results/shards/shard.hpp"
 #include "results/storage/durable_file.hpp"
 #include "runners/study_run/study_runner.hpp"
+#include "runners/study_run/temporary_folder.hpp"
 #include "runners/study_run/trial_runner.hpp"
 
 namespace zerocount::study_run {
@@ -31,28 +30,6 @@ constexpr double max_sampled_samples = 4e5;  // takes some hundredths of a secon
 /// Ratio of the memory or uncompressed storage of a trial to its values: chunks, and copies of columns.
 constexpr double storage_factor = 2.0;
 constexpr std::int64_t sampled_places = 8;
-
-/// A temporary folder; the destructor removes it with its contents.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::error_code error;
-    std::string pattern = (fs::temp_directory_path(error) / "zerocount-XXXXXX").string();
-    if (error || ::mkdtemp(pattern.data()) == nullptr) storage::fail_with(pattern, "make the folder", errno);
-    path_ = pattern;
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 /// Trials from several places of the study, numbered from 0.
 std::vector<shards::TrialResult> sampled_trials(const study::Study& study) {

@@ -141,6 +141,13 @@ TEST_F(Trace, ReportsAReplayThatIsNotTheRecordedTrial) {
   EXPECT_EQ(altered.err.find("creep"), std::string::npos) << altered.err;
 }
 
+TEST_F(Trace, OfAnEmptyResultsFileSaysThatItIsDamaged) {
+  folder_.write("empty.h5", "");
+  const ProgramResult result = run({"trace", "empty.h5"});
+  EXPECT_EQ(result.code, 4);
+  EXPECT_NE(result.err.find("empty.h5: not a results file of zerocount"), std::string::npos) << result.err;
+}
+
 TEST_F(Trace, LeavesNoHalfFile) {
   const std::string command = "cd " + folder_.path().string() +
                               " && bash -c \"trap '' XFSZ; ulimit -f 8; " ZEROCOUNT_PROGRAM

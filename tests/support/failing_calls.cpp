@@ -4,7 +4,9 @@
 //   FAIL_UNDER   folder: only calls on files in it are counted. Relative paths are taken to be in it.
 //   FAIL_CALLS   "writes" (and opening, truncating, synchronising, renaming, closing) or "reads"
 //   FAIL_AT      which of these calls fails, from 1; 0: none
-//   FAIL_ERROR   errno of the failure; "lost": a write that reports success and does nothing
+//   FAIL_ERROR   errno of the failure; "lost": a write that reports success and does nothing; "signal9":
+//   nothing
+//                fails, but the process gets this signal before the call
 //   FAIL_LASTING "1": all later calls fail too
 //   FAIL_COUNT   file to which the number of calls is written at the end
 //
@@ -34,6 +36,7 @@ struct Plan {
   bool lasting{std::getenv("FAIL_LASTING") != nullptr};
   long at{0};
   int error{0};
+  int signal{0};
 
   Plan() {
     const char* const which = std::getenv("FAIL_CALLS");
@@ -41,6 +44,10 @@ struct Plan {
     const char* const how = std::getenv("FAIL_ERROR");
     reads = which != nullptr && std::strcmp(which, "reads") == 0;
     if (where != nullptr) at = std::atol(where);
+    if (how != nullptr && std::strncmp(how, "signal", 6) == 0) {
+      signal = std::atoi(how + 6);
+      return;
+    }
     if (how != nullptr) error = std::strcmp(how, "lost") == 0 ? lost : std::atoi(how);
   }
 };
@@ -59,6 +66,7 @@ int failure_of(Kind kind) {
   if ((kind == Kind::read) != plan().reads) return 0;
   const long number = ++calls;
   const bool hit = plan().at > 0 && (plan().lasting ? number >= plan().at : number == plan().at);
+  if (hit && plan().signal > 0) syscall(SYS_kill, getpid(), plan().signal);
   if (!hit || (plan().error == lost && kind != Kind::write)) return 0;
   return plan().error;
 }

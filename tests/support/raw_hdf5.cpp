@@ -1,5 +1,7 @@
 #include "tests/support/raw_hdf5.hpp"
 
+#include <cmath>
+#include <cstring>
 #include <stdexcept>
 #include <vector>
 
@@ -79,6 +81,33 @@ herr_t visit(hid_t file, const char* name, const H5O_info_t* info, void* found) 
   return 0;
 }
 
+herr_t visit_numbers(hid_t file, const char* name, const H5O_info_t* info, void* found) {
+  if (info->type != H5O_TYPE_DATASET) return 0;
+  const hid_t dataset = checked(H5Dopen2(file, name, H5P_DEFAULT));
+  const hid_t type = H5Dget_type(dataset);
+  const hid_t space = H5Dget_space(dataset);
+  const hssize_t size = H5Sget_simple_extent_npoints(space);
+  if (H5Tget_class(type) == H5T_INTEGER || H5Tget_class(type) == H5T_FLOAT)
+    (*static_cast<std::map<std::string, std::size_t>*>(found))[std::string("/") + name] =
+        static_cast<std::size_t>(size);
+  H5Sclose(space);
+  H5Tclose(type);
+  H5Dclose(dataset);
+  return 0;
+}
+
+/// Flips the last bit of an element; a NaN becomes 0.5.
+void change_bytes(char* element, std::size_t size, bool real) {
+  double number = 0.0;
+  if (real) std::memcpy(&number, element, sizeof number);
+  if (!std::isnan(number)) {
+    element[0] = static_cast<char>(element[0] ^ 1);
+    return;
+  }
+  number = 0.5;
+  std::memcpy(element, &number, size);
+}
+
 void replace(const std::filesystem::path& path, const std::string& name, hid_t type, const void* value) {
   unseal(path);
   const hid_t file = open_file(path, H5F_ACC_RDWR);
@@ -123,6 +152,29 @@ std::optional<std::string> elements_of(const std::filesystem::path& path, const 
   H5Sclose(space);
   H5Fclose(file);
   return readable ? std::optional(elements) : std::nullopt;
+}
+
+std::map<std::string, std::size_t> sizes_of_numbers(const std::filesystem::path& path) {
+  const hid_t file = open_file(path, H5F_ACC_RDONLY);
+  std::map<std::string, std::size_t> sizes;
+  H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC, visit_numbers, &sizes, H5O_INFO_BASIC);
+  H5Fclose(file);
+  return sizes;
+}
+
+void change_element(const std::filesystem::path& path, const std::string& name, std::size_t index) {
+  std::string elements = elements_of(path, name).value();
+  unseal(path);
+  const hid_t file = open_file(path, H5F_ACC_RDWR);
+  const hid_t dataset = checked(H5Dopen2(file, name.c_str(), H5P_DEFAULT));
+  const hid_t type = H5Dget_type(dataset);
+  const std::size_t size = H5Tget_size(type);
+  change_bytes(elements.data() + index * size, size, H5Tget_class(type) == H5T_FLOAT);
+  checked(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, elements.data()));
+  H5Tclose(type);
+  H5Dclose(dataset);
+  H5Fclose(file);
+  storage::append_checksum(path);
 }
 
 std::set<std::string> attribute_names(const std::filesystem::path& path) {

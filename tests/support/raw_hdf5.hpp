@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -19,6 +20,13 @@ void expect_same_datasets(const std::filesystem::path& one, const std::filesyste
 
 /// The elements of a dataset of numbers, read with the library alone; none if it refuses.
 std::optional<std::string> elements_of(const std::filesystem::path& path, const std::string& dataset);
+
+/// The number of elements of every dataset of numbers, by path.
+std::map<std::string, std::size_t> sizes_of_numbers(const std::filesystem::path& path);
+
+/// Changes one element of a dataset of numbers in its last bit (a NaN to 0.5), and writes the checksum
+/// trailer anew.
+void change_element(const std::filesystem::path& path, const std::string& dataset, std::size_t index);
 
 /// Names of the attributes of the root group.
 std::set<std::string> attribute_names(const std::filesystem::path& path);

@@ -88,6 +88,17 @@ TEST_F(PluginStudy, AReplayNeedsTheSameLibrary) {
   EXPECT_NE(other.err.find("its trials were run with the plugin pi 1.0 with SHA-256"), std::string::npos);
 }
 
+TEST_F(PluginStudy, VerifyNeedsTheSameLibraryToRunTrialsAgain) {
+  ASSERT_EQ(run_study().code, 0);
+  EXPECT_EQ(run({"verify", "out.h5"}).code, 2);
+  EXPECT_EQ(run({"verify", "out.h5", "--trials", "0"}).code, 0);
+  const ProgramResult result = run({"verify", "out.h5", "--plugin", "own.so"});
+  EXPECT_EQ(result.code, 0) << result.out << result.err;
+  EXPECT_NE(result.out.find("trials run again: 20 of 32"), std::string::npos) << result.out;
+  use("pi_cpp");
+  EXPECT_EQ(run({"verify", "out.h5", "--plugin", "own.so"}).code, 4);
+}
+
 TEST_F(PluginStudy, ResumingWithAnotherLibraryIsRefused) {
   ASSERT_EQ(run_study().code, 0);
   EXPECT_EQ(run_study().code, 0);  // complete already

@@ -1,18 +1,21 @@
-#include "runners/commands/replay.hpp"
+#include "runners/verification/replay.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include <fmt/format.h>
 
 #include "results/layout/fields.hpp"
 #include "results/layout/layout.hpp"
 
-namespace zerocount::commands {
+namespace zerocount::verification {
 namespace {
 
-bool same(double a, double b, double allowed = 0.0) {
+bool same(double a, double b, Equality equality, double allowed = 0.0) {
   if (std::isnan(a) || std::isnan(b)) return std::isnan(a) && std::isnan(b);
+  if (equality == Equality::bits) return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
   return std::abs(a - b) <= std::max(allowed, 1e-9 * std::max(std::abs(a), std::abs(b)));
 }
 
@@ -24,10 +27,18 @@ double allowed_in(const layout::Column& column) {
   return column.unit == "count" ? 1e-3 : 0.0;
 }
 
-/// Compares two lists of records field by field; `what` names one record in messages.
+/// How records are compared: `what` names one in messages.
+struct Comparison {
+  std::string_view what;
+  Equality equality;
+};
+
+/// Compares two lists of records field by field.
 template <class Record>
 void compare(const std::vector<layout::RecordField<Record>>& fields, const std::vector<Record>& recorded,
-             const std::vector<Record>& replayed, std::string_view what, std::vector<std::string>& lines) {
+             const std::vector<Record>& replayed, const Comparison& comparison,
+             std::vector<std::string>& lines) {
+  const std::string_view what = comparison.what;
   if (recorded.size() != replayed.size()) {
     lines.push_back(fmt::format("{}s: recorded {}, replayed {}", what, recorded.size(), replayed.size()));
     return;
@@ -37,7 +48,7 @@ void compare(const std::vector<layout::RecordField<Record>>& fields, const std::
       const double before = layout::value_of(field, recorded[i]);
       const double now = layout::value_of(field, replayed[i]);
       const bool real = field.column.element == hdf5::Element::float64;
-      if (real ? same(before, now, allowed_in(field.column)) : before == now) continue;
+      if (real ? same(before, now, comparison.equality, allowed_in(field.column)) : before == now) continue;
       lines.push_back(
           fmt::format("{} {}: {}: recorded {}, replayed {}", what, i, field.column.name, before, now));
     }
@@ -57,20 +68,35 @@ std::vector<layout::JerkRecord> jerk_records(const shards::TrialResult& result) 
   return records;
 }
 
+std::vector<layout::TraceRecord> trace_records(const shards::TrialResult& result) {
+  std::vector<layout::TraceRecord> records;
+  for (const trial::SampleRecord& record : result.trace) records.push_back({record, result.row});
+  return records;
+}
+
 }  // namespace
 
 std::vector<std::string> differences(const std::vector<study::InputColumn>& inputs,
                                      const shards::TrialResult& recorded, const shards::TrialResult& replayed,
                                      const std::vector<layout::RecordField<trial::MoveOutcome>>& measures,
-                                     std::int64_t version) {
+                                     std::int64_t version, Equality equality) {
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    if (same(recorded.inputs.at(i), replayed.inputs.at(i))) continue;
+    if (same(recorded.inputs.at(i), replayed.inputs.at(i), equality)) continue;
     lines.push_back(fmt::format("input {}: recorded {}, replayed {}", inputs[i].name, recorded.inputs[i],
                                 replayed.inputs[i]));
   }
-  compare(measures, recorded.outcome.moves, moves_in_version(version, replayed.outcome.moves), "move", lines);
-  compare(layout::jerk_fields(), jerk_records(recorded), jerk_records(replayed), "jerk", lines);
+  compare(measures, recorded.outcome.moves, moves_in_version(version, replayed.outcome.moves),
+          {"move", equality}, lines);
+  compare(layout::jerk_fields(), jerk_records(recorded), jerk_records(replayed), {"jerk", equality}, lines);
+  return lines;
+}
+
+std::vector<std::string> trace_differences(
+    const std::vector<layout::RecordField<layout::TraceRecord>>& fields, const shards::TrialResult& recorded,
+    const shards::TrialResult& replayed, Equality equality) {
+  std::vector<std::string> lines;
+  compare(fields, trace_records(recorded), trace_records(replayed), {"record", equality}, lines);
   return lines;
 }
 
@@ -85,4 +111,4 @@ std::vector<std::string> differences_from_record(const reading::StudyFile& file,
   return differences(file.input_columns(), recorded, replayed, file.measures(), file.header().version);
 }
 
-}  // namespace zerocount::commands
+}  // namespace zerocount::verification

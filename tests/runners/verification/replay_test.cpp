@@ -1,5 +1,5 @@
 // A replayed trial is held against the recorded one: inputs, measures, jerks.
-#include "runners/commands/replay.hpp"
+#include "runners/verification/replay.hpp"
 
 #include <limits>
 
@@ -24,14 +24,14 @@ shards::TrialResult settled() {
 }
 
 TEST(Replay, OfTheSameTrialHasNoDifferences) {
-  EXPECT_TRUE(commands::differences(columns, settled(), settled()).empty());
+  EXPECT_TRUE(verification::differences(columns, settled(), settled()).empty());
 }
 
 TEST(Replay, ForgivesTheLastDigitOfAnotherMachine) {
   shards::TrialResult other = settled();
   other.outcome.moves[0].holding_torque *= 1.0 + 1e-12;
   other.inputs[0] *= 1.0 - 1e-13;
-  EXPECT_TRUE(commands::differences(columns, settled(), other).empty());
+  EXPECT_TRUE(verification::differences(columns, settled(), other).empty());
 }
 
 TEST(Replay, NamesEveryMeasureThatDiffers) {
@@ -39,7 +39,7 @@ TEST(Replay, NamesEveryMeasureThatDiffers) {
   other.outcome.moves[1].outcome = trial::Outcome::one_count;
   other.outcome.moves[1].jerk_count = 3;
   other.outcome.moves[0].holding_torque = 0.0124;
-  const std::vector<std::string> lines = commands::differences(columns, settled(), other);
+  const std::vector<std::string> lines = verification::differences(columns, settled(), other);
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_EQ(lines[0].rfind("move 0: holding_torque: recorded 0.0123456789, replayed 0.0124", 0), 0u)
       << lines[0];
@@ -49,27 +49,27 @@ TEST(Replay, NamesEveryMeasureThatDiffers) {
 TEST(Replay, TellsNeverFromAValue) {
   shards::TrialResult other = settled();
   other.outcome.moves[0].settling_time = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(commands::differences(columns, settled(), other).size(), 1u);
+  EXPECT_EQ(verification::differences(columns, settled(), other).size(), 1u);
 }
 
 TEST(Replay, ComparesTheMeasuresThatWereRecorded) {
   shards::TrialResult other = settled();
   other.outcome.moves[0].final_error = 3;
   other.outcome.moves[0].travel_time = 0.5;
-  EXPECT_EQ(commands::differences(columns, settled(), other).size(), 2u);
-  EXPECT_TRUE(commands::differences(columns, settled(), other, layout::outcome_fields(1)).empty());
+  EXPECT_EQ(verification::differences(columns, settled(), other).size(), 2u);
+  EXPECT_TRUE(verification::differences(columns, settled(), other, layout::outcome_fields(1)).empty());
 }
 
 TEST(Replay, LooksAtInputsAndJerksToo) {
   shards::TrialResult other = settled();
   other.inputs[0] = 111.0;
   other.jerks[0].onset = 0.3;
-  const std::vector<std::string> lines = commands::differences(columns, settled(), other);
+  const std::vector<std::string> lines = verification::differences(columns, settled(), other);
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_EQ(lines[0], "input friction.k1: recorded 110, replayed 111");
   EXPECT_EQ(lines[1].rfind("jerk 0: onset", 0), 0u) << lines[1];
   other.jerks.clear();
-  EXPECT_EQ(commands::differences(columns, settled(), other)[1], "jerks: recorded 1, replayed 0");
+  EXPECT_EQ(verification::differences(columns, settled(), other)[1], "jerks: recorded 1, replayed 0");
 }
 
 }  // namespace

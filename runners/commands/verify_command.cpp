@@ -1,0 +1,113 @@
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "analysis/text/report_field.hpp"
+#include "analysis/text/text.hpp"
+#include "runners/commands/commands.hpp"
+#include "runners/commands/plugin_option.hpp"
+#include "runners/verification/verification.hpp"
+
+namespace zerocount::commands {
+namespace {
+
+constexpr const char* verify_help =
+    "Checks that results files are whole and true. FILE is a results file, a part of a study or a\n"
+    "shard; of a folder, all its files *.h5 are checked. One line per check, ok or FAILED:\n"
+    "checksum: the bytes are those that were written;\n"
+    "header: the file was finished, and its attributes and the hash of the study are those that\n"
+    "its manifest gives;\n"
+    "datasets: all are there, with their types, sizes, units and numbers of rows;\n"
+    "values: inputs are in the ranges of their parameters, measures and jerks in theirs, and no\n"
+    "time is longer than its move;\n"
+    "statistics: design points, profiles, rigs and statistics, made again from the manifest and\n"
+    "the trials, are those of the file (not of a shard); this needs room for a copy of the file in\n"
+    "the folder for temporary files;\n"
+    "trials run again: a random sample of the trials gives the recorded inputs, measures, jerks and\n"
+    "sample records, to the bit if this program on this kind of processor made the file;\n"
+    "shards: those of a folder are of one study, and hold each of its trials once.\n"
+    "The exit code is 4 if a check fails, and 5 if a file cannot be read.\n"
+    "\n"
+    "Examples:\n"
+    "  zerocount verify gains.h5 --trials 1000\n"
+    "  zerocount verify gains.h5.shards --format json\n";
+
+constexpr std::int64_t default_trials = 20;
+constexpr std::int64_t default_seed = 1;
+
+std::string line_of(const verification::CheckReport& report, const verification::Check& check) {
+  const std::string subject = fmt::format("{}: {}", text::printable(report.path.string()), check.name);
+  if (check.skipped) return fmt::format("skipped {}: {}\n", subject, check.detail);
+  if (check.problems.empty())
+    return fmt::format("ok      {}{}{}\n", subject, check.detail.empty() ? "" : ": ",
+                       text::printable(check.detail));
+  std::string lines;
+  for (const std::string& problem : check.problems)
+    lines += fmt::format("FAILED  {}: {}\n", subject, text::printable(problem));
+  return lines;
+}
+
+nlohmann::ordered_json json_of(const verification::CheckReport& report) {
+  nlohmann::ordered_json json{{"path", report.path.string()},
+                              {"ok", verification::holds(report)},
+                              {"checks", nlohmann::ordered_json::array()}};
+  for (const verification::Check& check : report.checks) {
+    json["checks"].push_back({{"check", check.name},
+                              {"ok", check.problems.empty()},
+                              {"skipped", check.skipped},
+                              {"detail", check.detail},
+                              {"problems", check.problems}});
+  }
+  return json;
+}
+
+ExitCode code_of(const std::vector<verification::CheckReport>& reports) {
+  if (std::any_of(reports.begin(), reports.end(), [](const auto& report) { return report.unreadable; }))
+    return ExitCode::machine_failed;
+  const bool all = std::all_of(reports.begin(), reports.end(), verification::holds);
+  return all ? ExitCode::success : ExitCode::bad_data;
+}
+
+ExitCode verify(const command_line::Arguments& arguments) {
+  const std::string format = arguments.one_of("format", {"table", "json"});
+  verification::VerifySettings settings;
+  settings.trials = arguments.whole_number("trials", 0, std::int64_t{1} << 53).value_or(default_trials);
+  settings.seed = static_cast<std::uint64_t>(
+      arguments.whole_number("seed", 0, std::int64_t{1} << 53).value_or(default_seed));
+  settings.plugin = plugin_option(arguments);
+  const std::vector<std::filesystem::path> operands(arguments.operands().begin(), arguments.operands().end());
+  const std::vector<verification::CheckReport> reports = verification::verify(operands, settings);
+  const ExitCode code = code_of(reports);
+  if (format == "json") {
+    nlohmann::ordered_json json{{"ok", code == ExitCode::success},
+                                {"files", nlohmann::ordered_json::array()}};
+    for (const verification::CheckReport& report : reports) json["files"].push_back(json_of(report));
+    fmt::print("{}", text::json_text(json));
+    return code;
+  }
+  for (const verification::CheckReport& report : reports) {
+    for (const verification::Check& check : report.checks) fmt::print("{}", line_of(report, check));
+  }
+  return code;
+}
+
+}  // namespace
+
+Command verify_command() {
+  return {{"verify",
+           "FILE|FOLDER...",
+           {{"trials", "N", "trials to run again, of each file or of all shards of a folder (default 20)"},
+            {"seed", "S", "of the choice of these trials (default 1)"},
+            {"plugin", "LIBRARY", "the controller of a study that has one of its own"},
+            {"format", "FORMAT", "table (default) or json"}},
+           1,
+           100000},
+          "prove that results files are whole and true",
+          verify_help,
+          verify};
+}
+
+}  // namespace zerocount::commands

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "experiments/study/study.hpp"
+#include "results/layout/header.hpp"
+#include "results/reading/study_file.hpp"
+#include "runners/verification/check.hpp"
+
+namespace zerocount::verification {
+
+/// Checks that the bytes are those that were written: the checksum trailer.
+/// @return the check holds, and the file may be opened
+bool check_bytes(CheckReport& report);
+
+/// A header, and the study that it describes.
+struct Described {
+  layout::FileHeader header;
+  study::Study study;
+};
+
+/// Checks that the file was finished, and that its attributes are those of the study of its manifest.
+/// @param plugin as recorded_study
+/// @return nothing if the study cannot be made
+std::optional<Described> check_header(CheckReport& report,
+                                      const std::shared_ptr<const plugin::ControllerPlugin>& plugin);
+
+/// Checks that all datasets of the trials are there, with their types, sizes and units, and that all rows
+/// have their numbers.
+/// @return the opened file, unless it cannot be read
+std::optional<reading::StudyFile> check_tables(CheckReport& report, const study::Study& study);
+
+}  // namespace zerocount::verification

@@ -1,0 +1,110 @@
+#include "runners/verification/rerun.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <random>
+#include <set>
+#include <string>
+
+#include <fmt/format.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "results/layout/layout.hpp"
+#include "runners/study_run/recorded_trials.hpp"
+#include "runners/study_run/trial_runner.hpp"
+
+namespace zerocount::verification {
+namespace {
+
+constexpr std::int64_t max_rows_of_task = 256;
+constexpr std::size_t tasks_at_once = 64;  // bounds the memory
+
+using Results = std::vector<shards::TrialResult>;
+
+/// A file whose trials are compared with those that are run again.
+struct RecordedFile {
+  const reading::StudyFile& file;
+  const study::Study& study;
+  study_run::RecordPlaces records;
+  Equality equality;
+};
+
+void compare_trial(const RecordedFile& recorded, const shards::TrialResult& before,
+                   const shards::TrialResult& now, ProblemList& problems) {
+  const study::Study& study = recorded.study;
+  std::vector<std::string> lines = differences(study.input_columns, before, now, recorded.file.measures(),
+                                               recorded.file.header().version, recorded.equality);
+  if (recorded.file.has_trace()) {
+    const std::vector<std::string> of_trace =
+        trace_differences(layout::trace_fields(recorded.file.features()), before, now, recorded.equality);
+    lines.insert(lines.end(), of_trace.begin(), of_trace.end());
+  }
+  for (const std::string& line : lines)
+    problems.add(
+        fmt::format("point {}, trial {}: {}", before.row / study.trials, before.row % study.trials, line));
+}
+
+void compare_range(const RecordedFile& recorded, layout::RowRange rows, const Results& now,
+                   ProblemList& problems) {
+  try {
+    const Results before = study_run::read_trials(recorded.file, rows, rows.first, recorded.records);
+    for (std::size_t i = 0; i < before.size(); ++i) compare_trial(recorded, before[i], now[i], problems);
+  } catch (const Failure& failure) {  // damaged values; the other trials are still compared
+    if (failure.code() == ExitCode::machine_failed) throw;
+    problems.add(problem_of(failure, recorded.file.path()));
+  }
+}
+
+}  // namespace
+
+std::vector<std::int64_t> sample_below(std::int64_t size, std::int64_t count, std::uint64_t seed) {
+  if (count >= size) {
+    std::vector<std::int64_t> all(static_cast<std::size_t>(size));
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+  // Floyd's algorithm (Bentley & Floyd 1987): every subset of this size is equally likely.
+  std::mt19937_64 random(seed);
+  std::set<std::int64_t> chosen;
+  for (std::int64_t limit = size - count; limit < size; ++limit) {
+    const auto drawn = static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(limit + 1));
+    if (!chosen.insert(drawn).second) chosen.insert(limit);
+  }
+  return {chosen.begin(), chosen.end()};
+}
+
+std::vector<layout::RowRange> ranges_of(std::span<const std::int64_t> rows) {
+  std::vector<layout::RowRange> ranges;
+  for (const std::int64_t row : rows) {
+    if (ranges.empty() || ranges.back().end() != row || ranges.back().count == max_rows_of_task)
+      ranges.push_back({row, 0});
+    ++ranges.back().count;
+  }
+  return ranges;
+}
+
+void check_trials(CheckReport& report, const reading::StudyFile& file, const study::Study& study,
+                  std::span<const std::int64_t> rows, Equality equality) {
+  add_check(report, "trials run again", [&](Check& check, ProblemList& problems) {
+    const RecordedFile recorded{file, study, study_run::places_of_records(file), equality};
+    const std::vector<layout::RowRange> ranges = ranges_of(rows);
+    oneapi::tbb::enumerable_thread_specific<study_run::TrialRunner> runners(
+        [&study] { return study_run::TrialRunner(study); });
+    for (std::size_t first = 0; first < ranges.size(); first += tasks_at_once) {
+      const std::size_t count = std::min(tasks_at_once, ranges.size() - first);
+      std::vector<Results> results(count);
+      oneapi::tbb::parallel_for(std::size_t{0}, count,
+                                [&](std::size_t i) { results[i] = runners.local().run(ranges[first + i]); });
+      for (std::size_t i = 0; i < count; ++i)
+        compare_range(recorded, ranges[first + i], results[i], problems);
+    }
+    check.detail = fmt::format("{} of {}, equal {}", rows.size(), file.rows().count,
+                               equality == Equality::bits ? "to the bit"
+                                                          : "to a relative 1e-9 (run by another build or on "
+                                                            "another processor)");
+  });
+}
+
+}  // namespace zerocount::verification

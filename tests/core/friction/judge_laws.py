@@ -199,7 +199,7 @@ def judge(case):
 
 
 def main():
-    cases = json.loads(subprocess.check_output([sys.argv[1]]))
+    cases = json.loads(subprocess.check_output(sys.argv[1:3]))
     for model in LAWS:
         for loaded in (False, True):
             results = [judge(case) for case in cases if case["model"] == model and (case["load_inertia"] > 0) == loaded]

@@ -81,8 +81,9 @@ void expect_bounds_of_one_move(std::int64_t repetitions) {
                {.trials = 200, .moves = 1}, repetitions);
 }
 
+// Few studies do not show that plain bounds fail here.
 TEST(Coverage, BoundsHoldWhereRigsDiffer) {
-  expect_bounds_where_rigs_differ(few);
+  expect_bounds_where_rigs_differ(many);
 }
 
 TEST(Coverage, BoundsHoldWhereRigsAndTrialsOfSeveralMovesDiffer) {
@@ -98,7 +99,6 @@ TEST(Coverage, BoundsHoldForTrialsOfOneMove) {
 }
 
 TEST(Coverage, DISABLED_BoundsHoldInManyStudies) {
-  expect_bounds_where_rigs_differ(many);
   expect_bounds_where_rigs_and_moves_differ(many);
   expect_bounds_where_moves_differ(many);
   expect_bounds_of_one_move(many);

@@ -105,7 +105,8 @@ function(zerocount_layer)
   endforeach()
 endfunction()
 
-# zerocount_test(<name> SOURCES ... [ALONE ...] LINKS ...): one GoogleTest executable; each of its tests is a CTest test.
+# zerocount_test(<name> SOURCES ... [ALONE ...] LINKS ...): one GoogleTest executable; each of its tests is a CTest test. Those
+# named DISABLED_, the long versions of others, are together the long test Long.<name>.
 function(zerocount_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;LINKS" ${ARGN})
   zerocount_units(${name}_units 6 ${ARG_SOURCES})
@@ -114,4 +115,17 @@ function(zerocount_test name)
   zerocount_target(${name})
   target_compile_options(${name} PRIVATE -Wno-shadow)  # for constants of test files in the same unit
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+  foreach(source IN LISTS ARG_SOURCES ARG_ALONE)
+    file(STRINGS "${source}" disabled REGEX "DISABLED_" LIMIT_COUNT 1)
+    if(disabled)
+      zerocount_long_test(${name} COMMAND ${name} --gtest_also_run_disabled_tests --gtest_filter=*DISABLED_*)
+      break()
+    endif()
+  endforeach()
+endfunction()
+
+# zerocount_long_test(<name> COMMAND ...): the CTest test Long.<name>, which only `ctest -C long -L long` runs.
+function(zerocount_long_test name)
+  add_test(NAME Long.${name} ${ARGN} CONFIGURATIONS long)
+  set_tests_properties(Long.${name} PROPERTIES LABELS long TIMEOUT 7200)
 endfunction()

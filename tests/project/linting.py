@@ -1,9 +1,12 @@
 """clang-tidy, with the checks of .clang-tidy, has nothing to say of the sources.
 
+usage: linting.py ROOT BUILD NAME [CHECKS]
+NAME is that of the test, CHECKS what it leaves out of .clang-tidy or adds to it, as in the option --checks.
+
 Lints several of the compiler's units (see cmake/ZerocountTarget.cmake) as one source: most of the time goes into the headers,
 which a group of units has parsed and checked once. Units of a group belong to one layer and have the same options; each folder
 has a namespace of its own, so that names in anonymous namespaces do not collide. A group without findings is remembered in the
-build folder by a hash of all that it includes of this repository, and is linted again only when that, the checks or clang-tidy
+build folder, for each test, by a hash of all that it includes of this repository, and is linted again only when that, the checks or clang-tidy
 change. A fresh build folder, such as that of continuous integration, lints everything.
 """
 
@@ -21,8 +24,8 @@ import sys
 FOLDERS = ("core", "experiments", "results", "analysis", "runners")
 INCLUDE = re.compile(rb'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 # A group includes sources; GCC's warnings are not all known to clang.
-OPTIONS = ["--quiet", "--checks=-bugprone-suspicious-include", "--extra-arg=-Wno-unknown-warning-option"]
-UNITS_OF_A_GROUP = 4  # more take more memory, and are all linted again after a change of one
+OPTIONS = ["--quiet", "--extra-arg=-Wno-unknown-warning-option"]
+UNITS_OF_A_GROUP = 12  # more take more memory (1 GB), and are all linted again after a change of one
 
 
 class Unit:
@@ -89,26 +92,28 @@ def fingerprint(root, path, settings):
     return digest.hexdigest()
 
 
-def lint(source):
-    done = subprocess.run(["clang-tidy", "-p", str(source.parent), *OPTIONS, str(source)], capture_output=True, text=True,
+def lint(source, options):
+    done = subprocess.run(["clang-tidy", "-p", str(source.parent), *options, str(source)], capture_output=True, text=True,
                           check=False)
     return done.returncode, done.stdout
 
 
 if __name__ == "__main__":
     root, build = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
+    name, checks = sys.argv[3], ",".join(["-bugprone-suspicious-include", *sys.argv[4:]])
+    options = [f"--checks={checks}", *OPTIONS]
     version = subprocess.run(["clang-tidy", "--version"], capture_output=True, check=True).stdout
-    settings = version + (root / ".clang-tidy").read_bytes() + " ".join(OPTIONS).encode()
+    settings = version + (root / ".clang-tidy").read_bytes() + " ".join(options).encode()
     commands = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
     units = [unit for unit in (Unit(root, build, command) for command in commands) if unit.layer in FOLDERS]
-    sources = write_groups(build / "lint", list(groups_of(units)))
+    sources = write_groups(build / name, list(groups_of(units)))
 
-    memory = build / "linted.json"
+    memory = build / f"{name}.json"
     clean = set(json.loads(memory.read_text(encoding="utf-8"))) if memory.exists() else set()
     marks = {source: fingerprint(root, source, settings) for source in sources}
     todo = [source for source in sources if marks[source] not in clean]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        results = list(pool.map(lint, todo))
+        results = list(pool.map(lint, todo, itertools.repeat(options)))
     failed = {source for source, (code, _) in zip(todo, results) if code}
     memory.write_text(json.dumps(sorted(marks[source] for source in sources if source not in failed)), encoding="utf-8")
     for code, output in results:

@@ -175,8 +175,8 @@ TEST_F(Identify, ALackOfFitIsAnExitCode) {
   softer.replace(softer.find("k1: 130"), 7, "k1: 129");
   folder_.write("tests.yaml", softer);
   trace("other.csv", "1");
-  const ProgramResult result =
-      run({"identify", "one.csv", "other.csv", "--counts-per-revolution", "1620000", "--posterior", "p.csv"});
+  const ProgramResult result = run({"identify", "one.csv", "other.csv", "--counts-per-revolution", "1620000",
+                                    "--fix", "friction.n=2", "--posterior", "p.csv"});
   EXPECT_EQ(result.code, 3) << result.err;
   EXPECT_NE(result.err.find("not to be trusted"), std::string::npos) << result.err;
   EXPECT_NE(result.out.find("LACK OF FIT"), std::string::npos) << result.out;
@@ -228,7 +228,7 @@ TEST_F(Identify, JointDrawsHaveTheNamesOfAManifest) {
 
 // The records of a closed loop have no drive_torque where the drive does nothing but wait.
 TEST_F(Identify, TheDelayOfAClosedLoopIsThatOfItsTorque) {
-  for (const std::string delay : {"0", "1", "3"}) {
+  for (const std::string delay : {"0", "3"}) {
     folder_.write("loop.yaml", R"(
 zerocount: 1
 name: loop
@@ -237,12 +237,12 @@ trials: 1
 friction: {k1: 130, breakaway: 1}
 controller: {ki: 1.0e-5, delay: )" +
                                    delay + R"(}
-command: {targets: [60, -60, 60, -60, 0], hold: 0.4}
+command: {targets: [60, -60, 60, -60, 0], hold: 0.2}
 retain: {trials: [0]}
 )");
     const std::string results = "loop" + delay + ".h5";
     ASSERT_EQ(run({"run", "loop.yaml", "-o", results}).code, 0);
-    const ProgramResult result = run({"identify", results, "--format", "json"});
+    const ProgramResult result = run({"identify", results, "--fix", "friction.n=2", "--format", "json"});
     ASSERT_EQ(result.code, 0) << "delay " << delay << ": " << result.err;
     const auto k1 = parameter(nlohmann::json::parse(result.out), "k1");
     EXPECT_NEAR(k1["value"].get<double>(), 130.0, 3.0) << "delay " << delay;
@@ -471,7 +471,7 @@ command: {torque: {levels: [0.1, -0.1, 0.12, 0.0], rate: 0.4}, hold: 0.1}
 retain: {trials: [0]}
 )");
   ASSERT_EQ(run({"run", "slide.yaml", "-o", "slide.h5"}).code, 0);
-  const ProgramResult result = run({"identify", "slide.h5", "--format", "json"});
+  const ProgramResult result = run({"identify", "slide.h5", "--fix", "friction.n=2", "--format", "json"});
   EXPECT_EQ(result.code, 0) << result.err;
   const auto json = nlohmann::json::parse(result.out);
   EXPECT_NE(json["records"][0]["note"].get<std::string>().find("breaks away"), std::string::npos);
@@ -482,8 +482,8 @@ retain: {trials: [0]}
   const std::size_t mode = table.find(",mode");
   ASSERT_NE(mode, std::string::npos) << table.substr(0, 200);
   folder_.write("slide.csv", table.replace(mode, 5, ",text"));
-  const ProgramResult unflagged =
-      run({"identify", "slide.csv", "--counts-per-revolution", "1.62e6", "--format", "json"});
+  const ProgramResult unflagged = run({"identify", "slide.csv", "--counts-per-revolution", "1.62e6", "--fix",
+                                       "friction.n=2", "--format", "json"});
   EXPECT_EQ(unflagged.code, 0) << unflagged.err;
   const auto found = nlohmann::json::parse(unflagged.out);
   EXPECT_NE(found["records"][0]["note"].get<std::string>().find("begins to slide"), std::string::npos);

@@ -16,8 +16,11 @@
 namespace zerocount::testing {
 namespace {
 
-constexpr int study_trials = 4000;
-constexpr int judge_trials = 500;
+/// Numbers of trials.
+struct Numbers {
+  int study;
+  int judge;
+};
 
 struct Histogram {
   int trials{0};
@@ -27,8 +30,8 @@ struct Histogram {
   std::vector<double> settling_times;  // s
 };
 
-std::string manifest(double ki) {
-  return "zerocount: 1\nname: rates\nseed: 77\ntrials: " + std::to_string(study_trials) +
+std::string manifest(double ki, int trials) {
+  return "zerocount: 1\nname: rates\nseed: 77\ntrials: " + std::to_string(trials) +
          "\nfriction: {k1: {uniform: [80, 140]}, k2: {uniform: [600, 900]}, alpha: {log_uniform: [0.2, 2]}}\n"
          "controller: {ki: " +
          fmt::format("{}", ki) +
@@ -36,8 +39,8 @@ std::string manifest(double ki) {
          "initial: {encoder_phase: {uniform: [0, 1]}}\nverdict: {dwell: 0.02, window: 0.02}\n";
 }
 
-Histogram tally_of_study(double ki) {
-  const study::Study study = manifest::parse_study(manifest(ki), "rates.yaml");
+Histogram tally_of_study(double ki, int trials) {
+  const study::Study study = manifest::parse_study(manifest(ki, trials), "rates.yaml");
   EXPECT_EQ(study::study_trial(study, 0, 0).parameters.controller.ki, ki);
   Histogram histogram;
   for (std::int64_t row = 0; row < study.trials; ++row) {
@@ -65,10 +68,10 @@ trial::TrialParameters random_rig(std::mt19937_64& random, double ki) {
   return p;
 }
 
-Histogram tally_of_judge(double ki) {
+Histogram tally_of_judge(double ki, int trials) {
   std::mt19937_64 random(20021);
   Histogram histogram;
-  for (int i = 0; i < judge_trials; ++i) {
+  for (int i = 0; i < trials; ++i) {
     EventCounts events;
     const std::vector<trial::SampleRecord> samples = odeint_trial(random_rig(random, ki), &events);
     const auto zero = [](const trial::SampleRecord& s) { return s.error == 0; };
@@ -118,9 +121,9 @@ class IndependentRates : public ::testing::TestWithParam<double> {};
 
 INSTANTIATE_TEST_SUITE_P(Gains, IndependentRates, ::testing::Values(3.85e-5, 9.45e-5));
 
-TEST_P(IndependentRates, AgreeWithinSamplingError) {
-  const Histogram study = tally_of_study(GetParam());
-  const Histogram judge = tally_of_judge(GetParam());
+void expect_agreement_of_rates(double ki, const Numbers& trials) {
+  const Histogram study = tally_of_study(ki, trials.study);
+  const Histogram judge = tally_of_judge(ki, trials.judge);
   const auto z = [&](int Histogram::*count) {
     return distance(study.*count, study.trials, judge.*count, judge.trials);
   };
@@ -134,6 +137,14 @@ TEST_P(IndependentRates, AgreeWithinSamplingError) {
       static_cast<double>(judge.zero_count) / judge.trials, static_cast<double>(study.stable) / study.trials,
       static_cast<double>(judge.stable) / judge.trials, static_cast<double>(study.broke_away) / study.trials,
       static_cast<double>(judge.broke_away) / judge.trials);
+}
+
+TEST_P(IndependentRates, AgreeWithinSamplingError) {
+  expect_agreement_of_rates(GetParam(), {1000, 150});
+}
+
+TEST_P(IndependentRates, DISABLED_AgreeWithinTheSamplingErrorOfManyTrials) {
+  expect_agreement_of_rates(GetParam(), {4000, 500});
 }
 
 }  // namespace

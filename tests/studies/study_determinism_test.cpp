@@ -72,7 +72,7 @@ std::string open_loop(int trials) {
 struct RandomStudy {
   const char* name;
   std::string (*manifest)(int trials);
-  int trials;  ///< for a run of a second or so
+  int trials;  ///< for a run of half a second or so
 };
 
 void PrintTo(const RandomStudy& study, std::ostream* out) {
@@ -95,18 +95,18 @@ class StudyDeterminism : public ::testing::TestWithParam<RandomStudy> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Random, StudyDeterminism,
-                         ::testing::Values(RandomStudy{"closed loop", closed_loop, 150},
-                                           RandomStudy{"open loop", open_loop, 250}));
+                         ::testing::Values(RandomStudy{"closed loop", closed_loop, 60},
+                                           RandomStudy{"open loop", open_loop, 100}));
 
 TEST_P(StudyDeterminism, DatasetsDoNotDependOnTheNumberOfThreads) {
-  write(60);
+  write(24);
   complete("one.h5", {"--threads", "1"});
   complete("three.h5", {"--threads", "3"});
   expect_same_datasets(folder_ / "one.h5", folder_ / "three.h5");
 }
 
 TEST_P(StudyDeterminism, DatasetsDoNotDependOnPartsOrTheirOrder) {
-  write(31);
+  write(16);
   complete("whole.h5");
   for (const char* part : {"1/3", "2/3", "3/3"}) {
     complete(std::string("part") + part[0] + ".h5", {"--shard", part});
@@ -119,10 +119,10 @@ TEST_P(StudyDeterminism, InterruptedAndKilledRunsGoOnToTheSameDatasets) {
   write(GetParam().trials);
   complete("whole.h5");
   std::mt19937 random(8);
-  std::uniform_int_distribution<int> moment(30, 300);
+  std::uniform_int_distribution<int> moment(30, 250);
   for (const int signal : {SIGINT, SIGKILL}) {
     const std::string name = "hit" + std::to_string(signal) + ".h5";
-    for (int time = 0; time < 3; ++time) {
+    for (int time = 0; time < 2; ++time) {
       RunningProgram program({"run", "study.yaml", "-o", name, "--threads", "2"}, folder_.path());
       std::this_thread::sleep_for(std::chrono::milliseconds(moment(random)));
       program.send(signal);

@@ -61,56 +61,64 @@ comparison::GateRules without_margins(double rate) {
 
 class NullComparisons : public ::testing::TestWithParam<bool> {};
 
-TEST_P(NullComparisons, RaiseFalseAlarmsNoMoreOftenThanStated) {
+void expect_false_alarms_as_stated(bool paired, int comparisons) {
   std::mt19937_64 random(41);
   const comparison::GateRules rules = without_margins(0.2);  // so that there is something to count
-  constexpr int comparisons = 600;
   int alarms = 0;
   int improvements = 0;
   for (int i = 0; i < comparisons; ++i) {
-    const auto compared = compare_once(random, GetParam(), rules, unchanged);
+    const auto compared = compare_once(random, paired, rules, unchanged);
     alarms += any(compared, failed);
     improvements += any(compared, [](const comparison::MeasureComparison& m) {
       return m.change == comparison::ChangeVerdict::better;
     });
   }
-  RecordProperty("alarms", alarms);
+  ::testing::Test::RecordProperty("alarms", alarms);
   EXPECT_LE(alarms, comparisons * 0.2);
   EXPECT_LE(improvements, comparisons * 0.2);
   EXPECT_GT(alarms, 0);  // the level is used, not only kept
 }
 
-TEST_P(NullComparisons, RaiseHardlyAnyAtTheDefaults) {
+TEST_P(NullComparisons, RaiseFalseAlarmsNoMoreOftenThanStated) {
+  expect_false_alarms_as_stated(GetParam(), 150);
+}
+
+void expect_hardly_any_at_the_defaults(bool paired, int comparisons) {
   std::mt19937_64 random(43);
-  constexpr int comparisons = 600;
   int alarms = 0;
-  for (int i = 0; i < comparisons; ++i)
-    alarms += any(compare_once(random, GetParam(), {}, unchanged), failed);
-  RecordProperty("alarms", alarms);
+  for (int i = 0; i < comparisons; ++i) alarms += any(compare_once(random, paired, {}, unchanged), failed);
+  ::testing::Test::RecordProperty("alarms", alarms);
   EXPECT_LE(alarms, comparisons * 0.05);
 }
 
+TEST_P(NullComparisons, RaiseHardlyAnyAtTheDefaults) {
+  expect_hardly_any_at_the_defaults(GetParam(), 150);
+}
+
 // A change of exactly the margin must not pass as none more often than the bounds allow.
-TEST_P(NullComparisons, PassAChangeOfTheMarginNoMoreOftenThanStated) {
+void expect_a_change_of_the_margin_to_fail(bool paired, int comparisons) {
   std::mt19937_64 random(47);
-  constexpr int comparisons = 400;
   comparison::GateRules rules;
   rules.margins["success_rate"] = {0.05, 0.0, false};
   rules.margins["settling_time"] = {0.2 * points[1].settling, 0.0, false};
   rules.margins["jerk_count"] = {0.0, 0.0, false};
   std::array<int, 2> passed{};  // of success and settling time, at the second point
   for (int i = 0; i < comparisons; ++i) {
-    const auto compared = compare_once(random, GetParam(), rules, [](SyntheticPoint point) {
+    const auto compared = compare_once(random, paired, rules, [](SyntheticPoint point) {
       return SyntheticPoint{point.success - 0.05, 1.2 * point.settling, point.jerks};
     });
     passed[0] += compared[1].measures[0].verdict == comparison::GateVerdict::passed;
     passed[1] += compared[1].measures[3].verdict == comparison::GateVerdict::passed;
   }
   const double allowed = 0.05 + 2.5 * std::sqrt(0.05 * 0.95 / comparisons);
-  RecordProperty("passed_success", passed[0]);
-  RecordProperty("passed_settling", passed[1]);
+  ::testing::Test::RecordProperty("passed_success", passed[0]);
+  ::testing::Test::RecordProperty("passed_settling", passed[1]);
   EXPECT_LE(passed[0], comparisons * allowed);
   EXPECT_LE(passed[1], comparisons * allowed);
+}
+
+TEST_P(NullComparisons, PassAChangeOfTheMarginNoMoreOftenThanStated) {
+  expect_a_change_of_the_margin_to_fail(GetParam(), 100);
 }
 
 TEST_P(NullComparisons, FailWhereAllIsMuchWorse) {
@@ -142,19 +150,17 @@ TEST_P(NullComparisons, AnImprovementIsReportedAndNoFailure) {
 }
 
 // The second point alone changes, and only in its rates.
-TEST_P(NullComparisons, AChangeOfTheDetectableSizeIsFoundAsOftenAsStated) {
+void expect_the_detectable_to_be_found(bool paired, int comparisons) {
   std::mt19937_64 random(67);
   constexpr std::int64_t count = 400;
-  constexpr int comparisons = 200;
   double detectable = 0.0;
   for (int i = 0; i < 20; ++i)
-    detectable +=
-        compare_once(random, GetParam(), {}, unchanged, count)[1].measures[0].detectable_change / 20.0;
+    detectable += compare_once(random, paired, {}, unchanged, count)[1].measures[0].detectable_change / 20.0;
   EXPECT_GT(detectable, 0.02);
   int found = 0;
   for (int i = 0; i < comparisons; ++i) {
     const auto compared = compare_once(
-        random, GetParam(), {},
+        random, paired, {},
         [&](SyntheticPoint point) {
           if (point.success == points[1].success) point.success -= detectable;
           return point;
@@ -162,9 +168,20 @@ TEST_P(NullComparisons, AChangeOfTheDetectableSizeIsFoundAsOftenAsStated) {
         count);
     found += failed(compared[1].measures[0]);
   }
-  RecordProperty("found", found);
+  ::testing::Test::RecordProperty("found", found);
   EXPECT_GE(found, comparisons * 0.7);
   EXPECT_LE(found, comparisons * 0.95);
+}
+
+TEST_P(NullComparisons, AChangeOfTheDetectableSizeIsFoundAsOftenAsStated) {
+  expect_the_detectable_to_be_found(GetParam(), 60);
+}
+
+TEST_P(NullComparisons, DISABLED_ErrAsOftenAsStatedInMany) {
+  expect_false_alarms_as_stated(GetParam(), 600);
+  expect_hardly_any_at_the_defaults(GetParam(), 600);
+  expect_a_change_of_the_margin_to_fail(GetParam(), 400);
+  expect_the_detectable_to_be_found(GetParam(), 200);
 }
 
 INSTANTIATE_TEST_SUITE_P(Layers, NullComparisons, ::testing::Bool(),

@@ -125,13 +125,8 @@ Kept try_pairs(Change change, bool paired, bool changed_fails, int wanted, std::
   return kept;
 }
 
-int pairs_wanted(int by_default) {
-  const char* const wanted = std::getenv("ZEROCOUNT_FORECAST_PAIRS");
-  return wanted == nullptr ? by_default : std::atoi(wanted);
-}
-
-TEST(Forecast, TheStatedNumberOfTrialsDecidesAsOftenAsPromised) {
-  const int wanted = pairs_wanted(2);
+/// @param wanted pairs of each kind.
+void expect_stated_number_to_decide(int wanted) {
   Kept all;
   std::uint64_t seed = 1;
   for (const Change change : {Change::none, Change::some, Change::all}) {
@@ -148,12 +143,20 @@ TEST(Forecast, TheStatedNumberOfTrialsDecidesAsOftenAsPromised) {
       }
     }
   }
-  RecordProperty("stated", all.stated);
-  RecordProperty("decided", all.decided);
-  RecordProperty("afresh", all.afresh);
+  std::printf("of %d stated, %d decided, afresh %d\n", all.stated, all.decided, all.afresh);
   const double stated = all.stated;
   EXPECT_GE(all.decided, 0.65 * stated);
   EXPECT_LT(all.decided, stated);
+}
+
+TEST(Forecast, TheStatedNumberOfTrialsDecidesAsOftenAsPromised) {
+  expect_stated_number_to_decide(1);
+}
+
+// ZEROCOUNT_FORECAST_PAIRS: how many pairs of each kind.
+TEST(Forecast, DISABLED_TheStatedNumberOfTrialsDecidesManyAsOftenAsPromised) {
+  const char* const wanted = std::getenv("ZEROCOUNT_FORECAST_PAIRS");
+  expect_stated_number_to_decide(wanted == nullptr ? 4 : std::atoi(wanted));
 }
 
 /// An undecided pair of two points.

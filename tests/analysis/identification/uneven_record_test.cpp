@@ -36,7 +36,7 @@ records::RawSeries uneven_series(const identification::ContactParameters& contac
 TEST(UnevenRecords, GiveTheTruth) {
   std::mt19937_64 random(77);
   identification::ContactParameters truth;
-  const records::RawSeries series = uneven_series(truth, one_test().front(), random);
+  const records::RawSeries series = uneven_series(truth, short_test().front(), random);
   const identification::TestRecord record = identification::checked_record(series, false);
   ASSERT_FALSE(record.intervals.empty());
   const identification::Identification found = identification::identify({record});
@@ -55,7 +55,7 @@ TEST(UnevenRecords, GiveTheTruth) {
 TEST(MaskedRecords, GiveTheTruth) {
   std::mt19937_64 random(78);
   identification::ContactParameters truth;
-  records::RawSeries series = uneven_series(truth, one_test().front(), random);
+  records::RawSeries series = uneven_series(truth, short_test().front(), random);
   for (std::size_t k = 3000; k < 3100; ++k) series.angle[k] += 200.0;
   EXPECT_TRUE(records::exclude(series, {series.time[2999], series.time[3100]}));
   const identification::Identification found =

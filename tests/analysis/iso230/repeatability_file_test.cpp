@@ -61,7 +61,7 @@ void expect_judged_right(const study::Study& study, const std::vector<shards::Tr
 }
 
 TEST(RepeatabilityFile, AgreesWithAPythonJudgeOfTheWholeFile) {
-  const study::Study study = testing::sequence_study();
+  const study::Study study = testing::sequence_study("cycles: 3", 40);
   std::vector<shards::TrialResult> results = testing::sequence_results(study);
   results[5].outcome.moves[9].outcome = trial::Outcome::nonfinite;
   results[5].outcome.moves[9].final_position = std::numeric_limits<double>::quiet_NaN();
@@ -72,13 +72,13 @@ TEST(RepeatabilityFile, AgreesWithAPythonJudgeOfTheWholeFile) {
 
 TEST(RepeatabilityFile, OfOneSideAgreesWithThePythonJudge) {
   for (const char* approach : {"positive", "negative"}) {
-    const study::Study study = testing::sequence_study(fmt::format("cycles: 5, approach: {}", approach));
+    const study::Study study = testing::sequence_study(fmt::format("cycles: 3, approach: {}", approach), 30);
     expect_judged_right(study, testing::sequence_results(study));
   }
 }
 
 TEST(RepeatabilityFile, OfOneCycleAndOfOneTrialAgreesWithThePythonJudge) {
-  const study::Study one_cycle = testing::sequence_study("cycles: 1");
+  const study::Study one_cycle = testing::sequence_study("cycles: 1", 30);
   expect_judged_right(one_cycle, testing::sequence_results(one_cycle));
   const study::Study one_trial = testing::sequence_study("cycles: 2", 1);
   expect_judged_right(one_trial, testing::sequence_results(one_trial));

@@ -19,7 +19,9 @@ using law_identification::LawPoint;
 identification::TestRecord short_record() {
   std::mt19937_64 random(3);
   const identification::ContactParameters contact = random_contact(random);
-  identification::TestRecord record = simulated_test(contact, short_test().front(), {}, random);
+  TorqueProgramme test;
+  test.step(0.08).hold(0.05).step(0.0).hold(0.05).ramp(0.1, 0.8).hold(0.2).ramp(-0.1, 0.8);
+  identification::TestRecord record = simulated_test(contact, test, {}, random);
   record.parts = parts_of(record);
   return record;
 }

@@ -388,11 +388,11 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(ReportPage, DoesNotGrowWithTheTrials) {
   const TemporaryFolder folder;
   study::Study study = manifest::parse_study(
-      "zerocount: 1\nname: many\nseed: 1\ntrials: 20000\ncommand: {targets: [3], hold: 5.0}\n"
+      "zerocount: 1\nname: many\nseed: 1\ntrials: 5000\ncommand: {targets: [3], hold: 5.0}\n"
       "initial: {encoder_phase: {uniform: [0, 1]}}\n",
       "test");
   std::vector<testing::TrialRecord> trials;
-  for (std::int64_t row = 0; row < 20000; ++row) {
+  for (std::int64_t row = 0; row < 5000; ++row) {
     trials.push_back(testing::random_trial(row, 1));
     // A jerk ends before the next one begins.
     std::vector<trial::Jerk>& jerks = trials.back().jerks;

@@ -1,7 +1,7 @@
 // How often bounds of 95 % cover what they are to cover, by simulation with fixed seeds. Of 400 samples, 92
-// to 98 % are within three standard deviations of that; of Sobol' indices that are small, bounds may cover
-// more. With 50 trials the normal distribution behind most bounds is rough, and so much is let pass; what is
-// lost must then not be more than 13 %.
+// to 98 % are within three standard deviations of that, of 100 samples 88 % and more; of Sobol' indices that
+// are small, bounds may cover more. With 50 trials the normal distribution behind most bounds is rough, and
+// so much is let pass; what is lost must then not be more than 13 %.
 
 #include <algorithm>
 #include <array>
@@ -74,11 +74,11 @@ SaltelliSample saltelli_of(const testing::UnitFunction& function, std::size_t fa
 }
 
 void expect_saltelli_coverage(const testing::UnitFunction& function, const std::vector<double>& first_orders,
-                              const std::vector<double>& totals) {
+                              const std::vector<double>& totals, std::uint64_t samples) {
   const std::size_t factors = totals.size();
   std::vector<Coverage> of_first(factors);
   std::vector<Coverage> of_total(factors);
-  for (std::uint64_t sample = 0; sample < 400; ++sample) {
+  for (std::uint64_t sample = 0; sample < samples; ++sample) {
     const auto indices = saltelli_indices(saltelli_of(function, factors, 300, sample), 0.95,
                                           {designs::random_key(sample, "bootstrap"), 0});
     for (std::size_t j = 0; j < factors; ++j) {
@@ -86,28 +86,39 @@ void expect_saltelli_coverage(const testing::UnitFunction& function, const std::
       of_total[j].add(indices[j].total, totals[j]);
     }
   }
+  const double least = samples < 400 ? 0.88 : 0.92;
+  const double most = samples < 400 ? 1.0 : 0.98;
   for (std::size_t j = 0; j < factors; ++j) {
-    EXPECT_GE(of_first[j].proportion(), 0.92) << "first order of factor " << j;
-    EXPECT_GE(of_total[j].proportion(), 0.92) << "total of factor " << j;
-    EXPECT_LE(of_first[j].proportion(), first_orders[j] < 0.1 ? 1.0 : 0.98) << "first order of factor " << j;
-    EXPECT_LE(of_total[j].proportion(), totals[j] < 0.1 ? 1.0 : 0.98) << "total of factor " << j;
+    EXPECT_GE(of_first[j].proportion(), least) << "first order of factor " << j;
+    EXPECT_GE(of_total[j].proportion(), least) << "total of factor " << j;
+    EXPECT_LE(of_first[j].proportion(), first_orders[j] < 0.1 ? 1.0 : most) << "first order of factor " << j;
+    EXPECT_LE(of_total[j].proportion(), totals[j] < 0.1 ? 1.0 : most) << "total of factor " << j;
   }
 }
 
-TEST(SensitivityCoverage, BootstrapBoundsOfSobolIndices) {
-  expect_saltelli_coverage(g_function, testing::g_first_orders(3), testing::g_totals(3));
+// Yes where both exceed ½: p = ¼, V = 3/16, E[y|u] is 0 or ½: first order 1/16/V = 1/3, total 2/3.
+double both_exceed_half(std::span<const double> u) {
+  return u[0] > 0.5 && u[1] > 0.5 ? 1.0 : 0.0;
 }
 
-// Yes where both exceed ½: p = ¼, V = 3/16, E[y|u] is 0 or ½: first order 1/16/V = 1/3, total 2/3.
+TEST(SensitivityCoverage, BootstrapBoundsOfSobolIndices) {
+  expect_saltelli_coverage(g_function, testing::g_first_orders(3), testing::g_totals(3), 100);
+}
+
 TEST(SensitivityCoverage, BootstrapBoundsOfSobolIndicesOfAYesOrNo) {
-  expect_saltelli_coverage([](std::span<const double> u) { return u[0] > 0.5 && u[1] > 0.5 ? 1.0 : 0.0; },
-                           {1.0 / 3.0, 1.0 / 3.0}, {2.0 / 3.0, 2.0 / 3.0});
+  expect_saltelli_coverage(both_exceed_half, {1.0 / 3.0, 1.0 / 3.0}, {2.0 / 3.0, 2.0 / 3.0}, 100);
+}
+
+TEST(SensitivityCoverage, DISABLED_BootstrapBoundsOfSobolIndicesInManySamples) {
+  expect_saltelli_coverage(g_function, testing::g_first_orders(3), testing::g_totals(3), 400);
+  expect_saltelli_coverage(both_exceed_half, {1.0 / 3.0, 1.0 / 3.0}, {2.0 / 3.0, 2.0 / 3.0}, 400);
 }
 
 // Yes where u₁ < p, but where u₂ < q it is no. P(yes) = p(1 − q); the indices of u₂ are small with q:
 // with P = p(1 − q) and V = P(1 − P), S₁ = (p(1 − q)² − P²)/V, S₂ = (p²(1 − q) − P²)/V, T₁ = 1 − S₂, T₂ = 1 −
 // S₁.
-TEST(SensitivityCoverage, BoundsOfSobolIndicesOfARareYesOrNo) {
+void expect_bounds_of_a_rare_yes(std::uint64_t samples) {
+  const double least = samples < 200 ? 0.88 : 0.93;
   for (const double p : {0.05, 0.2}) {
     for (const double q : {0.01, 0.1}) {
       const double yes = p * (1.0 - q);
@@ -119,7 +130,7 @@ TEST(SensitivityCoverage, BoundsOfSobolIndicesOfARareYesOrNo) {
       for (const std::size_t rows : {50UL, 300UL}) {
         std::array<Coverage, 3> of_first;
         std::array<Coverage, 3> of_total;
-        for (std::uint64_t sample = 0; sample < 200; ++sample) {
+        for (std::uint64_t sample = 0; sample < samples; ++sample) {
           const auto function = [&](std::span<const double> u) { return u[0] < p && u[1] > q ? 1.0 : 0.0; };
           const auto found = saltelli_indices(saltelli_of(function, 3, rows, sample), 0.95,
                                               {designs::random_key(sample, "rare"), 0});
@@ -137,17 +148,26 @@ TEST(SensitivityCoverage, BoundsOfSobolIndicesOfARareYesOrNo) {
         }
         for (std::size_t j = 0; j < 3; ++j) {
           const std::string place = fmt::format("factor {}, {} rows, p = {}, q = {}", j, rows, p, q);
-          EXPECT_GE(of_first[j].proportion(), 0.93) << place;
-          EXPECT_GE(of_total[j].proportion(), 0.93) << place;
+          EXPECT_GE(of_first[j].proportion(), least) << place;
+          EXPECT_GE(of_total[j].proportion(), least) << place;
         }
       }
     }
   }
 }
 
+TEST(SensitivityCoverage, BoundsOfSobolIndicesOfARareYesOrNo) {
+  expect_bounds_of_a_rare_yes(100);
+}
+
+TEST(SensitivityCoverage, DISABLED_BoundsOfSobolIndicesOfARareYesOrNoInManySamples) {
+  expect_bounds_of_a_rare_yes(200);
+}
+
 // Mostly one value, else a smooth number; u₂ leaves that value rarely: 50 rows hardly show it. With z the
 // indicator that u₂ < q, y = z + u₁/10·(1 − z), whose variances given one factor are written out.
-TEST(SensitivityCoverage, BoundsOfSobolIndicesOfANumberThatJumpsRarely) {
+void expect_bounds_of_a_rare_jump(std::uint64_t samples) {
+  const double least = samples < 200 ? 0.88 : 0.93;
   for (const double q : {0.02, 0.1}) {
     constexpr double mean_u = 0.05;
     constexpr double variance_u = 0.01 / 12.0;
@@ -159,7 +179,7 @@ TEST(SensitivityCoverage, BoundsOfSobolIndicesOfANumberThatJumpsRarely) {
     for (const std::size_t rows : {50UL, 300UL}) {
       std::array<Coverage, 2> of_first;
       std::array<Coverage, 2> of_total;
-      for (std::uint64_t sample = 0; sample < 200; ++sample) {
+      for (std::uint64_t sample = 0; sample < samples; ++sample) {
         const auto function = [&](std::span<const double> u) { return u[1] < q ? 1.0 : 0.1 * u[0]; };
         const SaltelliSample columns = saltelli_of(function, 2, rows, sample);
         const auto jumps = std::count(columns.a.begin(), columns.a.end(), 1.0) +
@@ -174,13 +194,21 @@ TEST(SensitivityCoverage, BoundsOfSobolIndicesOfANumberThatJumpsRarely) {
           of_total[j].add(found[j].total, totals[j]);
         }
       }
-      for (std::size_t j = 0; j < 2 && of_first[j].samples >= 100; ++j) {
+      for (std::size_t j = 0; j < 2 && of_first[j].samples >= 50; ++j) {
         const std::string place = fmt::format("factor {}, {} rows, q = {}", j, rows, q);
-        EXPECT_GE(of_first[j].proportion(), 0.93) << place;
-        EXPECT_GE(of_total[j].proportion(), 0.93) << place;
+        EXPECT_GE(of_first[j].proportion(), least) << place;
+        EXPECT_GE(of_total[j].proportion(), least) << place;
       }
     }
   }
+}
+
+TEST(SensitivityCoverage, BoundsOfSobolIndicesOfANumberThatJumpsRarely) {
+  expect_bounds_of_a_rare_jump(100);
+}
+
+TEST(SensitivityCoverage, DISABLED_BoundsOfSobolIndicesOfANumberThatJumpsRarelyInManySamples) {
+  expect_bounds_of_a_rare_jump(200);
 }
 
 using ColumnFunction = std::function<double(double, double)>;  // of a factor and noise, both in (0, 1)

@@ -81,8 +81,7 @@ void expect_coverage(const CoverageOf& coverage, int axes, const std::string& wh
   EXPECT_GE(held, least_expected(estimated)) << what;
 }
 
-TEST(SlidingCoverage, OfClosedLoopRecords) {
-  constexpr int axes = 60;
+void expect_coverage_in_closed_loops(int axes) {
   expect_coverage(
       coverage(axes, [](std::mt19937_64& random,
                         SlidingAxis& axis) { return closed_loop_record(axis, {}, emps_lap(), 1, random); }),
@@ -99,17 +98,7 @@ void expect_coverage_with_unknown_forces(int axes) {
                   axes, "unknown forces");
 }
 
-TEST(SlidingCoverage, OfClosedLoopRecordsWithUnknownForces) {
-  expect_coverage_with_unknown_forces(12);
-}
-
-// Takes minutes: --gtest_also_run_disabled_tests.
-TEST(SlidingCoverage, DISABLED_OfManyClosedLoopRecordsWithUnknownForces) {
-  expect_coverage_with_unknown_forces(50);
-}
-
-TEST(SlidingCoverage, OfCoarselyReadRecordsWithNoise) {
-  constexpr int axes = 60;
+void expect_coverage_of_coarse_readings(int axes) {
   expect_coverage(coverage(axes,
                            [](std::mt19937_64& random, SlidingAxis& axis) {
                              AxisLoop loop;
@@ -121,11 +110,33 @@ TEST(SlidingCoverage, OfCoarselyReadRecordsWithNoise) {
                   axes, "coarse");
 }
 
-TEST(SlidingCoverage, OfOpenLoopRecords) {
-  constexpr int axes = 60;
+void expect_coverage_in_open_loops(int axes) {
   expect_coverage(coverage(axes, [](std::mt19937_64& random,
                                     SlidingAxis& axis) { return open_loop_record(axis, {}, 6.0, random); }),
                   axes, "open loop");
+}
+
+TEST(SlidingCoverage, OfClosedLoopRecords) {
+  expect_coverage_in_closed_loops(12);
+}
+
+TEST(SlidingCoverage, OfClosedLoopRecordsWithUnknownForces) {
+  expect_coverage_with_unknown_forces(4);
+}
+
+TEST(SlidingCoverage, OfCoarselyReadRecordsWithNoise) {
+  expect_coverage_of_coarse_readings(12);
+}
+
+TEST(SlidingCoverage, OfOpenLoopRecords) {
+  expect_coverage_in_open_loops(12);
+}
+
+TEST(SlidingCoverage, DISABLED_OfManyRecords) {
+  expect_coverage_in_closed_loops(60);
+  expect_coverage_with_unknown_forces(50);
+  expect_coverage_of_coarse_readings(60);
+  expect_coverage_in_open_loops(60);
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 // How rotors with each friction law move under random torques, for an independent integrator to judge: JSON
-// on standard output.
+// on standard output. The argument is the number of motions of each law.
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <iostream>
 #include <random>
 #include <string>
@@ -133,12 +134,13 @@ class Answers {
 }  // namespace
 }  // namespace zerocount
 
-int main() {
+int main(int, char** arguments) {
   using namespace zerocount;
   Answers answers;
   Json cases = Json::array();
   using Model = friction::FrictionModel;
-  for (int i = 0; i < 32; ++i) {
+  const int motions = std::atoi(arguments[1]);
+  for (int i = 0; i < motions; ++i) {
     const bool loaded = i % 2 == 1;
     cases.push_back(answers.motion<friction::DahlFriction>(Model::dahl, loaded));
     cases.push_back(answers.motion<friction::LuGreFriction>(Model::lugre, loaded));

@@ -199,16 +199,20 @@ def judge(case):
 
 
 def main():
-    cases = json.loads(subprocess.check_output([sys.argv[1]]))
+    cases = json.loads(subprocess.check_output(sys.argv[1:3]))
     for model in LAWS:
+        all_slid = 0
         for loaded in (False, True):
             results = [judge(case) for case in cases if case["model"] == model and (case["load_inertia"] > 0) == loaded]
             worst = max(r[0] for r in results)
             slid = sum(r[1] for r in results)
             print(f"{model}{' with a second mass' if loaded else ''}: {len(results)} motions, {slid} samples sliding; θ within "
                   f"{worst:.3g} of 1e-6 count + 1e-9 of the travel")
-            if worst > 1 or slid == 0:
+            if worst > 1:
                 sys.exit(1)
+            all_slid += slid
+        if all_slid == 0:
+            sys.exit(f"no motion of {model} slides")
 
 
 main()

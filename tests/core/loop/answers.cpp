@@ -1,7 +1,8 @@
 // What the encoders, the drive and the random histories give for random parameters, for an independent
-// implementation to judge: JSON on standard output.
+// implementation to judge: JSON on standard output. The argument is the number of histories.
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <initializer_list>
 #include <iostream>
 #include <random>
@@ -153,18 +154,18 @@ class Answers {
   std::mt19937_64 random_{2002};
 };
 
-void print() {
+void print(int histories) {
   Answers answers;
   Json all{{"measurement", Json::array()}, {"drive", Json::array()}, {"history", Json::array()}};
-  for (int i = 0; i < 80; ++i) all["measurement"].push_back(answers.measurement());
-  for (int i = 0; i < 60; ++i) all["drive"].push_back(answers.drive());
-  for (int i = 0; i < 40; ++i) all["history"].push_back(answers.history());
+  for (int i = 0; i < 2 * histories; ++i) all["measurement"].push_back(answers.measurement());
+  for (int i = 0; i < 3 * histories / 2; ++i) all["drive"].push_back(answers.drive());
+  for (int i = 0; i < histories; ++i) all["history"].push_back(answers.history());
   std::cout << all << "\n";
 }
 
 }  // namespace
 }  // namespace zerocount
 
-int main() {
-  zerocount::print();
+int main(int, char** arguments) {
+  zerocount::print(std::atoi(arguments[1]));
 }

@@ -116,7 +116,7 @@ def judge_history(case):
 
 
 def main():
-    answers = json.loads(subprocess.check_output([sys.argv[1]]))
+    answers = json.loads(subprocess.check_output(sys.argv[1:3]))
     disagreements = [judge_measurement(case) for case in answers["measurement"]]
     for case in answers["drive"]:
         judge_drive(case)

@@ -29,6 +29,7 @@ struct Family {
   const char* name;
   TrialKind kind;
   std::uint64_t trials;
+  std::uint64_t many;  ///< trials of the long test
 };
 
 // The name of the family names the test.
@@ -38,44 +39,60 @@ void PrintTo(const Family& family, std::ostream* out) {
 
 class RandomTrialAgreement : public ::testing::TestWithParam<Family> {};
 
-TEST_P(RandomTrialAgreement, EqualsBoostOdeintSampleBySample) {
+void expect_odeint(const Family& family, std::uint64_t trials) {
   Agreement total;
-  for (std::uint64_t index = 0; index < GetParam().trials; ++index) {
-    const trial::TrialParameters parameters = random_trial(GetParam().kind, index);
-    const std::string name = std::string(GetParam().name) + " trial " + std::to_string(index);
+  for (std::uint64_t index = 0; index < trials; ++index) {
+    const trial::TrialParameters parameters = random_trial(family.kind, index);
+    const std::string name = std::string(family.name) + " trial " + std::to_string(index);
     total.add(compare(parameters, records_of_trial(parameters), odeint_trial(parameters), name));
   }
-  std::cout << GetParam().name << ": " << total.figures() << "\n";
+  std::cout << family.name << ": " << total.figures() << "\n";
   for (const std::string& failure : total.failures) ADD_FAILURE() << failure;
-  EXPECT_LE(total.edge_trials, static_cast<std::int64_t>(GetParam().trials / 50));
+  EXPECT_LE(total.edge_trials, static_cast<std::int64_t>(trials / 50));
   // Promised are 1e-6 count and a proportion of 1; an integrator that lost an order would show here first.
   EXPECT_LT(total.before_breakaway, 1e-7);
   EXPECT_LT(total.after_breakaway_share, 0.1);
 }
 
-TEST_P(RandomTrialAgreement, EqualsHighPrecisionCollocation) {
+void expect_collocation(const Family& family, std::uint64_t trials) {
   Agreement total;
-  for (std::uint64_t index = 2000; index < 2004; ++index) {
-    trial::TrialParameters parameters = random_trial(GetParam().kind, index);
+  for (std::uint64_t index = 2000; index < 2000 + trials; ++index) {
+    trial::TrialParameters parameters = random_trial(family.kind, index);
     parameters.command.hold = std::min(parameters.command.hold, 0.1);
-    const std::string name = std::string(GetParam().name) + " trial " + std::to_string(index);
+    const std::string name = std::string(family.name) + " trial " + std::to_string(index);
     total.add(compare(parameters, records_of_trial(parameters), python_trial(parameters), name));
   }
-  std::cout << GetParam().name << ": " << total.figures() << "\n";
+  std::cout << family.name << ": " << total.figures() << "\n";
   for (const std::string& failure : total.failures) ADD_FAILURE() << failure;
   EXPECT_EQ(total.edge_trials, 0);
 }
 
+TEST_P(RandomTrialAgreement, EqualsBoostOdeintSampleBySample) {
+  expect_odeint(GetParam(), GetParam().trials);
+}
+
+TEST_P(RandomTrialAgreement, EqualsHighPrecisionCollocation) {
+  expect_collocation(GetParam(), 1);
+}
+
+TEST_P(RandomTrialAgreement, DISABLED_EqualsBoostOdeintInManyTrials) {
+  expect_odeint(GetParam(), GetParam().many);
+}
+
+TEST_P(RandomTrialAgreement, DISABLED_EqualsHighPrecisionCollocationInMoreTrials) {
+  expect_collocation(GetParam(), 4);
+}
+
 INSTANTIATE_TEST_SUITE_P(Seeded, RandomTrialAgreement,
-                         ::testing::Values(Family{"calm", TrialKind::calm, 200},
-                                           Family{"ringing", TrialKind::ringing, 200},
-                                           Family{"breaking_away", TrialKind::breaking_away, 200},
-                                           Family{"unlike_the_paper", TrialKind::unlike_the_paper, 200},
-                                           Family{"spring_alone", TrialKind::spring_alone, 60},
-                                           Family{"coulomb", TrialKind::coulomb, 60},
-                                           Family{"amplified", TrialKind::amplified, 60},
-                                           Family{"arriving", TrialKind::arriving, 60},
-                                           Family{"remembering", TrialKind::remembering, 60}));
+                         ::testing::Values(Family{"calm", TrialKind::calm, 50, 200},
+                                           Family{"ringing", TrialKind::ringing, 50, 200},
+                                           Family{"breaking_away", TrialKind::breaking_away, 50, 200},
+                                           Family{"unlike_the_paper", TrialKind::unlike_the_paper, 50, 200},
+                                           Family{"spring_alone", TrialKind::spring_alone, 30, 60},
+                                           Family{"coulomb", TrialKind::coulomb, 30, 60},
+                                           Family{"amplified", TrialKind::amplified, 30, 60},
+                                           Family{"arriving", TrialKind::arriving, 30, 60},
+                                           Family{"remembering", TrialKind::remembering, 30, 60}));
 
 void expect_agreement(const trial::TrialParameters& parameters, const std::string& name) {
   const Agreement agreement =

@@ -34,11 +34,11 @@ void expect_about(double estimate, double measured, const char* of) {
 }
 
 std::vector<std::string> manifests() {
-  std::vector<std::string> all{small_manifest(50), small_manifest(6000)};
+  std::vector<std::string> all{small_manifest(50), small_manifest(1500)};
   std::string records = "retain: {trials: [0";
-  for (int trial = 1; trial < 200; ++trial) records += ", " + std::to_string(trial);
-  all.push_back(small_manifest(2000, records + "]}\n"));
-  all.push_back(small_manifest(3000, "rigs: 100\n"));
+  for (int trial = 1; trial < 60; ++trial) records += ", " + std::to_string(trial);
+  all.push_back(small_manifest(500, records + "]}\n"));
+  all.push_back(small_manifest(800, "rigs: 50\n"));
   return all;
 }
 
@@ -64,7 +64,7 @@ TEST(StudySize, IsAboutTheMemoryThatARunTakes) {
   GTEST_SKIP() << "sanitizers take memory of their own";
 #endif
   const TemporaryFolder folder;
-  folder.write("study.yaml", small_manifest(30000));
+  folder.write("study.yaml", small_manifest(12000));
   const ProgramResult run = zerocount_program({"run", "study.yaml", "-o", "out.h5"}, folder.path());
   ASSERT_EQ(run.code, 0) << run.err;
   rusage children{};

@@ -11,13 +11,15 @@
 #include <unistd.h>
 
 #include "core/failure/failure.hpp"
+#include "core/text/utf8.hpp"
 #include "runners/commands/commands.hpp"
 
 namespace {
 
 using zerocount::ExitCode;
 
-ExitCode say(ExitCode code, const std::string& message) {
+ExitCode say(ExitCode code, const std::string& what) {
+  const std::string message = zerocount::text::printable_lines(what);
   std::fprintf(stderr, "%s%s", message.c_str(), message.ends_with('\n') ? "" : "\n");
   return code;
 }

@@ -6,35 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "core/text/utf8.hpp"
+
 namespace zerocount::text {
 namespace {
-
-constexpr char32_t replacement = 0xFFFD;
-constexpr std::string_view replacement_utf8 = "\xEF\xBF\xBD";
-
-struct CodePoint {
-  char32_t value{replacement};
-  std::size_t bytes{1};
-  bool valid{false};
-};
-
-/// The code point at the start of `text` (not empty); an invalid one takes one byte. Overlong forms,
-/// surrogates and values beyond U+10FFFF are invalid (RFC 3629).
-CodePoint decode(std::string_view text) {
-  const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char lead = byte(0);
-  if (lead < 0x80) return {lead, 1, true};
-  const std::size_t bytes = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-  if (lead < 0xC2 || lead > 0xF4 || text.size() < bytes) return {};
-  char32_t value = lead & (0xFFU >> (bytes + 1));
-  for (std::size_t i = 1; i < bytes; ++i) {
-    if ((byte(i) & 0xC0U) != 0x80U) return {};
-    value = (value << 6U) | (byte(i) & 0x3FU);
-  }
-  constexpr std::array<char32_t, 5> least{0, 0, 0x80, 0x800, 0x10000};
-  if (value < least[bytes] || (value >= 0xD800 && value <= 0xDFFF) || value > 0x10FFFF) return {};
-  return {value, bytes, true};
-}
 
 struct CodeRange {
   char32_t first, last;
@@ -67,10 +42,6 @@ std::size_t columns(char32_t value) {
                                            {0x20000, 0x3FFFD}}};
   if (in_any(value, combining)) return 0;
   return in_any(value, wide) ? 2 : 1;
-}
-
-bool is_control(char32_t value) {
-  return value < 0x20 || (value >= 0x7F && value < 0xA0) || value == 0x2028 || value == 0x2029;
 }
 
 void append_padded(std::string& line, std::string_view cell, std::size_t width, bool to_the_right) {

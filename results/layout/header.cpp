@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/hash/sha256.hpp"
+#include "core/text/utf8.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "results/layout/plugin_record.hpp"
 #include "results/storage/checksum_trailer.hpp"
@@ -127,7 +128,7 @@ void check_numbers(const hdf5::File& file, const FileHeader& header) {
 }  // namespace
 
 ForeignFile::ForeignFile(const std::filesystem::path& path, const std::string& what_it_is)
-    : Failure(ExitCode::bad_data, fmt::format("{}: {}", path.string(), what_it_is)) {}
+    : Failure(ExitCode::bad_data, text::printable_lines(fmt::format("{}: {}", path.string(), what_it_is))) {}
 
 std::string_view name_of(study::Engine engine) {
   return engine == study::Engine::batch ? "batch" : "reference";

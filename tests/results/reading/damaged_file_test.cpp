@@ -79,6 +79,13 @@ TEST_F(DamagedFile, WhoseAttributesContradictTheContentsIsFound) {
   expect_bad(directory / "missing.h5", "the attribute 'seed' is missing");
 }
 
+TEST_F(DamagedFile, IsToldWithoutItsControlCharacters) {
+  replace_attribute(copy("engine.h5"), "engine", std::string("\x1b[31m"));
+  expect_bad(directory / "engine.h5", "its engine is '\uFFFD[31m'");
+  replace_attribute(copy("format.h5"), "format", std::string("\xff"));
+  expect_bad(directory / "format.h5", "its format is '\uFFFD'");
+}
+
 TEST_F(DamagedFile, ThatAnotherProgramChangedIsRefused) {
   const fs::path path = copy("changed.h5");
   replace_attribute(path, "name", std::string("changed"));

@@ -113,11 +113,13 @@ study::Engine read_engine(const hdf5::File& file) {
 }
 
 void check_numbers(const hdf5::File& file, const FileHeader& header) {
-  const bool possible = header.trials > 0 && header.points > 0 && header.rows.first >= 0 &&
-                        header.rows.count > 0 && header.rows.end() <= header.trials * header.points;
+  constexpr std::int64_t max_rows = std::int64_t{1} << 53;
+  const bool possible = header.trials > 0 && header.points > 0 && header.trials <= max_rows / header.points &&
+                        header.rows.first >= 0 && header.rows.first < max_rows && header.rows.count > 0 &&
+                        header.rows.count <= max_rows && header.rows.end() <= header.trials * header.points;
   if (!possible) {
-    file.fail(fmt::format("trials {} to {} cannot be of {} design points with {} trials each",
-                          header.rows.first, header.rows.end() - 1, header.points, header.trials));
+    file.fail(fmt::format("{} trials from trial {} on cannot be of {} design points with {} trials each",
+                          header.rows.count, header.rows.first, header.points, header.trials));
   }
   const bool all = header.rows.count == header.trials * header.points;
   if (header.complete != (all && header.kind == FileKind::study)) {

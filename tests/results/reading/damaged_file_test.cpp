@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <random>
 
 #include <fmt/format.h>
@@ -77,6 +78,13 @@ TEST_F(DamagedFile, WhoseAttributesContradictTheContentsIsFound) {
   expect_bad(directory / "trials.h5", "cannot be of");
   remove_attribute(copy("missing.h5"), "seed");
   expect_bad(directory / "missing.h5", "the attribute 'seed' is missing");
+}
+
+TEST_F(DamagedFile, WithNumbersOfTrialsWhoseProductOverflowsIsFound) {
+  replace_attribute(copy("trials.h5"), "trials", std::int64_t{1} << 62);
+  expect_bad(directory / "trials.h5", "cannot be of 2 design points with 4611686018427387904 trials each");
+  replace_attribute(copy("first.h5"), "first_trial", std::numeric_limits<std::int64_t>::max());
+  expect_bad(directory / "first.h5", "cannot be of");
 }
 
 TEST_F(DamagedFile, IsToldWithoutItsControlCharacters) {

@@ -94,6 +94,13 @@ TEST_F(DamagedFile, IsToldWithoutItsControlCharacters) {
   expect_bad(directory / "format.h5", "its format is '\uFFFD'");
 }
 
+// Without this check the summary read beyond the end of the list of labels.
+TEST_F(DamagedFile, WithoutALabelOfEachPointIsFound) {
+  replace_by_texts(copy("few.h5"), "/point/label", 1);
+  expect_failure(ExitCode::bad_data, "/point/label: it should have one value for each of the 2 design points",
+                 [&] { reading::StudyFile(directory / "few.h5").point_labels(); });
+}
+
 TEST_F(DamagedFile, ThatAnotherProgramChangedIsRefused) {
   const fs::path path = copy("changed.h5");
   replace_attribute(path, "name", std::string("changed"));

@@ -101,6 +101,13 @@ TEST_F(DamagedFile, WithoutALabelOfEachPointIsFound) {
                  [&] { reading::StudyFile(directory / "few.h5").point_labels(); });
 }
 
+TEST_F(DamagedFile, WithADatasetThatNoFileCouldHoldIsFound) {
+  for (const int bits : {40, 62}) {
+    replace_by_texts(copy(fmt::format("{}.h5", bits)), "/overrides", std::uint64_t{1} << bits);
+    expect_bad(directory / fmt::format("{}.h5", bits), "/overrides: its size is more than the file can hold");
+  }
+}
+
 TEST_F(DamagedFile, ThatAnotherProgramChangedIsRefused) {
   const fs::path path = copy("changed.h5");
   replace_attribute(path, "name", std::string("changed"));

@@ -225,6 +225,13 @@ study::Study recorded_study(const FileHeader& header, const std::filesystem::pat
       manifest::parse_study(header.manifest, path.string() + ":/manifest", header.overrides, header.version,
                             manifest::known_companions(std::move(plugin), header.samples));
   study.engine = header.engine;
+  if (study.trials != header.trials || study::point_count(study) != header.points) {
+    throw Failure(
+        ExitCode::bad_data,
+        fmt::format("{}: damaged: it has {} design points with {} trials each; its manifest and "
+                    "overrides have {} with {}",
+                    path.string(), header.points, header.trials, study::point_count(study), study.trials));
+  }
   return study;
 }
 

@@ -19,7 +19,7 @@ fi
 
 # The leak sanitizer needs ptrace, and address sanitizers of that age fail where addresses are too random.
 without_randomness=()
-starts() { "${without_randomness[@]}" "$here/fuzz_margins" -runs=1 "$here/corpus/margins" >"$output/start.log" 2>&1; }
+starts() { "${without_randomness[@]}" "$here/fuzz_manifest" -runs=1 >"$output/start.log" 2>&1; }
 export ASAN_OPTIONS=detect_leaks=1
 if ! starts; then without_randomness=(setarch -R); fi
 if ! starts; then export ASAN_OPTIONS=detect_leaks=0; fi

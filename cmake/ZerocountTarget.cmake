@@ -6,7 +6,9 @@
 function(zerocount_target target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion)
+  # Clang also warns of a local name that a constant of another file in the same unity build has.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wshadow>)
   target_compile_options(${target} PRIVATE -ffp-contract=off)
   if(ZEROCOUNT_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
@@ -20,13 +22,21 @@ function(zerocount_target target)
   endif()
   if(ZEROCOUNT_NATIVE)
     # GCC 12 warns about its own AVX-512 intrinsics (GCC bug 105593); the option depends on the optimisation level.
-    target_compile_options(${target} PRIVATE -march=native -Wno-maybe-uninitialized -Wno-uninitialized)
+    target_compile_options(${target} PRIVATE -march=native $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
+                                             -Wno-uninitialized)
   endif()
   if(ZEROCOUNT_SANITIZE)
     # GCC 12 warns about its own <regex> if it is instrumented (GCC bug 105562).
     target_compile_options(${target} PRIVATE -fsanitize=${ZEROCOUNT_SANITIZE} -fno-omit-frame-pointer
-                                             -Wno-maybe-uninitialized)
+                                             $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
     target_link_options(${target} PUBLIC -fsanitize=${ZEROCOUNT_SANITIZE})
+  endif()
+  if(ZEROCOUNT_FUZZ)
+    set(sanitizers -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined)
+    # Beyond -O1 the build takes several times longer, and the targets gain little.
+    target_compile_options(${target} PRIVATE ${sanitizers} -fno-omit-frame-pointer -O1 -gline-tables-only)
+    target_compile_definitions(${target} PRIVATE _GLIBCXX_ASSERTIONS)
+    target_link_options(${target} PUBLIC ${sanitizers})
   endif()
 endfunction()
 

@@ -10,8 +10,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
+#include "core/text/utf8.hpp"
 #include "runners/commands/commands.hpp"
 
 namespace {

@@ -104,6 +104,7 @@ const char* const requirement_form = "a text such as 'success_rate ≥ 0.995' (o
 std::optional<Requirement> read_requirement(const yaml::Field& field, yaml::Problems& problems) {
   const std::optional<std::string> text = yaml::read_text(field, problems);
   if (!text) return std::nullopt;
+  constexpr std::size_t max_length = 200;  // std::regex_match takes a stack frame per character
   static const std::regex form(R"(\s*([a-z_.0-9]+)\s*(≥|>=|≤|<=)\s*(\S+)\s*)");
   std::smatch match;
   Requirement requirement{*text, nullptr, true, 0.0};
@@ -111,7 +112,7 @@ std::optional<Requirement> read_requirement(const yaml::Field& field, yaml::Prob
     problems.add(field.node->place, field.path, what, expected);
     return std::nullopt;
   };
-  if (!std::regex_match(*text, match, form)) {
+  if (text->size() > max_length || !std::regex_match(*text, match, form)) {
     return refuse(fmt::format("{} cannot be understood", yaml::in_quotes(*text)), requirement_form);
   }
   requirement.quantity = find_requirable(match[1].str());

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "analysis/text/text.hpp"
+#include "core/text/utf8.hpp"
 
 namespace zerocount::report {
 namespace {

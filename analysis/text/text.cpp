@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/unicode/code_point.hpp"
+#include "core/text/utf8.hpp"
 
 namespace zerocount::text {
 namespace {
@@ -74,7 +74,7 @@ std::string short_number(double value) {
 std::size_t display_width(std::string_view text) {
   std::size_t width = 0;
   while (!text.empty()) {
-    const unicode::CodePoint point = unicode::decode(text);
+    const CodePoint point = decode(text);
     width += columns(point.value);
     text.remove_prefix(point.bytes);
   }
@@ -84,23 +84,12 @@ std::size_t display_width(std::string_view text) {
 std::string printable(std::string_view text) {
   std::string result;
   while (!text.empty()) {
-    const unicode::CodePoint point = unicode::decode(text);
-    const bool shown = point.valid && !unicode::is_control(point.value);
-    result += shown ? text.substr(0, point.bytes) : unicode::replacement_utf8;
+    const CodePoint point = decode(text);
+    const bool shown = point.valid && !is_control(point.value);
+    result += shown ? text.substr(0, point.bytes) : replacement_utf8;
     text.remove_prefix(point.bytes);
   }
   return result;
-}
-
-std::string printable_lines(std::string_view text) {
-  std::string result;
-  while (true) {
-    const std::size_t at = text.find_first_of("\t\n");
-    result += printable(text.substr(0, at));
-    if (at == std::string_view::npos) return result;
-    result += text[at];
-    text.remove_prefix(at + 1);
-  }
 }
 
 std::string aligned_table(const std::vector<TextColumn>& columns) {

@@ -19,12 +19,9 @@ std::string short_number(double value);
 /// emoji 2.
 std::size_t display_width(std::string_view text);
 
-/// `text` on one line: each control character (unicode::is_control), and each byte that is not UTF-8,
+/// `text` on one line: each control character (is_control), and each byte that is not UTF-8,
 /// replaced by U+FFFD.
 std::string printable(std::string_view text);
-
-/// As printable(), but keeps tabs and line feeds.
-std::string printable_lines(std::string_view text);
 
 /// A column of a table.
 struct TextColumn {

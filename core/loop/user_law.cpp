@@ -11,6 +11,7 @@
 #include "core/failure/failure.hpp"
 #include "core/plugin/arithmetic_mode.hpp"
 #include "core/plugin/controller_plugin.hpp"
+#include "core/text/utf8.hpp"
 
 namespace zerocount::loop {
 namespace {
@@ -71,9 +72,10 @@ UserLaw::UserLaw(const ControllerParameters& p, const ControlStart& start) {
   running.mode.restore();
   if (refused == 0) return;
   message.back() = '\0';
-  throw Failure(ExitCode::bad_input,
-                fmt::format("the controller {} cannot start: {}", plugin.description.name,
-                            message[0] != '\0' ? message.data() : "it does not say why"));
+  throw Failure(
+      ExitCode::bad_input,
+      fmt::format("the controller {} cannot start: {}", plugin.description.name,
+                  message[0] != '\0' ? text::printable_lines(message.data()) : "it does not say why"));
 }
 
 UserLaw::UserLaw(UserLaw&&) noexcept = default;

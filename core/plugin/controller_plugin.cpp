@@ -6,13 +6,15 @@
 
 #include <fmt/format.h>
 
+#include "core/text/utf8.hpp"
+
 namespace zerocount::plugin {
 namespace {
 
 using Fault = std::optional<PluginFault>;
 
 bool is_text(const char* text) {
-  return text != nullptr && *text != '\0';
+  return text != nullptr && *text != '\0' && text::is_printable(text);
 }
 
 bool is_name(std::string_view text) {
@@ -36,9 +38,9 @@ Fault fault_of_layout(const zerocount_controller& entry) {
 }
 
 Fault fault_of_controller(const zerocount_controller& entry) {
-  if (!is_text(entry.name)) return PluginFault{"it has no name", "a text in zerocount_controller.name"};
-  if (!is_text(entry.version))
-    return PluginFault{"it has no version", "a text in zerocount_controller.version"};
+  const std::string expected = "a text in UTF-8, without control characters, in zerocount_controller.";
+  if (!is_text(entry.name)) return PluginFault{"it has no name", expected + "name"};
+  if (!is_text(entry.version)) return PluginFault{"it has no version", expected + "version"};
   if (entry.start == nullptr || entry.step == nullptr)
     return PluginFault{"it lacks a function", "start and step in zerocount_controller"};
   if (entry.state_size > max_plugin_state) {
@@ -60,7 +62,8 @@ Fault fault_of_parameter(const zerocount_parameter& p, std::size_t index) {
                        "lower-case letters, digits and _, a letter first"};
   }
   if (!is_text(p.unit) || !is_text(p.meaning))
-    return PluginFault{fmt::format("its parameter {} lacks a unit or a meaning", p.name), "both, as texts"};
+    return PluginFault{fmt::format("its parameter {} lacks a unit or a meaning", p.name),
+                       "both, as texts in UTF-8, without control characters"};
   if (!(p.lowest <= p.highest)) {
     return PluginFault{
         fmt::format("the range of its parameter {} is from {} to {}", p.name, p.lowest, p.highest),

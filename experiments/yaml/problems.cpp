@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
+#include "core/text/utf8.hpp"
 
 namespace zerocount::yaml {
 
@@ -37,7 +38,7 @@ void Problems::raise_if_any() const {
     message += entry.text;
     last = entry.text;
   }
-  throw Failure(ExitCode::bad_input, message);
+  throw Failure(ExitCode::bad_input, text::printable_lines(message));
 }
 
 std::string in_quotes(std::string_view text) {

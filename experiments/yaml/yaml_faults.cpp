@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <yaml-cpp/exceptions.h>
 
-#include "core/unicode/code_point.hpp"
+#include "core/text/utf8.hpp"
 
 namespace zerocount::yaml {
 
@@ -37,9 +37,9 @@ Place first_bad_byte(const std::string& text, std::string_view source) {
   int line = 1;
   std::size_t line_start = 0;
   for (std::size_t at = 0; at < text.size();) {
-    const unicode::CodePoint point = unicode::decode(std::string_view(text).substr(at));
+    const text::CodePoint point = text::decode(std::string_view(text).substr(at));
     const bool blank = point.value == '\n' || point.value == '\r' || point.value == '\t';
-    if (!point.valid || (unicode::is_control(point.value) && !blank))
+    if (!point.valid || (text::is_control(point.value) && !blank))
       return {source, line, static_cast<int>(at - line_start) + 1};
     at += point.bytes;
     if (point.value == '\n') {
@@ -52,9 +52,9 @@ Place first_bad_byte(const std::string& text, std::string_view source) {
 
 std::optional<std::string> unprintable_character(std::string_view text) {
   while (!text.empty()) {
-    const unicode::CodePoint point = unicode::decode(text);
+    const text::CodePoint point = text::decode(text);
     const bool blank = point.value == '\n' || point.value == '\t';
-    if (unicode::is_control(point.value) && !blank)
+    if (text::is_control(point.value) && !blank)
       return fmt::format("U+{:04X}", static_cast<std::uint32_t>(point.value));
     text.remove_prefix(point.bytes);
   }

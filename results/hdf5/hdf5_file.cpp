@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <stdexcept>
@@ -31,6 +32,20 @@ storage::ByteFile::Mode mode_of(Purpose purpose, bool create) {
 std::shared_ptr<Origin> origin_of(const std::filesystem::path& path, Purpose purpose, bool create = false) {
   auto bytes = std::make_shared<storage::ByteFile>(path, mode_of(purpose, create));
   return std::make_shared<Origin>(Origin{purpose, std::move(bytes), {}, false});
+}
+
+/// Whether a file of `bytes` bytes can hold all elements. A reader that trusts a size beyond that runs out of
+/// memory.
+bool fits(const Dataset& dataset, std::uint64_t bytes) {
+  constexpr Size max_ratio = 1100;     // deflate makes at most 1032 bytes of one
+  constexpr Size text_reference = 16;  // of a text, which is elsewhere in the file
+  const bool is_text = dataset.element() == Element::text;
+  Size room = bytes * max_ratio / (is_text ? text_reference : size_of(dataset.element()));
+  for (const Size length : dataset.extent()) {
+    if (length > room) return false;
+    room /= std::max<Size>(length, 1);
+  }
+  return true;
 }
 
 }  // namespace
@@ -85,9 +100,12 @@ Dataset Group::create_dataset(const std::string& name, const Storage& storage) {
 }
 
 Dataset Group::open_dataset(const std::string& name) const {
-  return Dataset(own(H5Dopen2(id(), name.c_str(), H5P_DEFAULT), H5Dclose,
-                     fmt::format("the dataset '{}' is missing", name)),
-                 origin(), path_to(name));
+  Dataset dataset(own(H5Dopen2(id(), name.c_str(), H5P_DEFAULT), H5Dclose,
+                      fmt::format("the dataset '{}' is missing", name)),
+                  origin(), path_to(name));
+  if (origin()->purpose == Purpose::read && !fits(dataset, origin()->bytes->size()))
+    dataset.fail("its size is more than the file can hold");
+  return dataset;
 }
 
 bool Group::contains(const std::string& name) const {

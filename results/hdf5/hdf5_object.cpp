@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/text/utf8.hpp"
 #include "results/hdf5/hdf5_detail.hpp"
 #include "results/storage/durable_file.hpp"
 
@@ -29,8 +30,9 @@ void fail_on(Origin& origin, const std::string& path, std::string_view problem) 
   }
   switch (origin.purpose) {
     case Purpose::read:
-      throw Failure(ExitCode::bad_data, fmt::format("{}: damaged:{}{} {}", file, place(path),
-                                                    place(path).empty() ? "" : ":", problem));
+      throw Failure(ExitCode::bad_data,
+                    text::printable_lines(fmt::format("{}: damaged:{}{} {}", file, place(path),
+                                                      place(path).empty() ? "" : ":", problem)));
     case Purpose::write:
       origin.incomplete = true;
       throw Failure(ExitCode::machine_failed,

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/hash/sha256.hpp"
+#include "core/text/utf8.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "results/layout/plugin_record.hpp"
 #include "results/storage/checksum_trailer.hpp"
@@ -112,11 +113,13 @@ study::Engine read_engine(const hdf5::File& file) {
 }
 
 void check_numbers(const hdf5::File& file, const FileHeader& header) {
-  const bool possible = header.trials > 0 && header.points > 0 && header.rows.first >= 0 &&
-                        header.rows.count > 0 && header.rows.end() <= header.trials * header.points;
+  constexpr std::int64_t max_rows = std::int64_t{1} << 53;
+  const bool possible = header.trials > 0 && header.points > 0 && header.trials <= max_rows / header.points &&
+                        header.rows.first >= 0 && header.rows.first < max_rows && header.rows.count > 0 &&
+                        header.rows.count <= max_rows && header.rows.end() <= header.trials * header.points;
   if (!possible) {
-    file.fail(fmt::format("trials {} to {} cannot be of {} design points with {} trials each",
-                          header.rows.first, header.rows.end() - 1, header.points, header.trials));
+    file.fail(fmt::format("{} trials from trial {} on cannot be of {} design points with {} trials each",
+                          header.rows.count, header.rows.first, header.points, header.trials));
   }
   const bool all = header.rows.count == header.trials * header.points;
   if (header.complete != (all && header.kind == FileKind::study)) {
@@ -127,7 +130,7 @@ void check_numbers(const hdf5::File& file, const FileHeader& header) {
 }  // namespace
 
 ForeignFile::ForeignFile(const std::filesystem::path& path, const std::string& what_it_is)
-    : Failure(ExitCode::bad_data, fmt::format("{}: {}", path.string(), what_it_is)) {}
+    : Failure(ExitCode::bad_data, text::printable_lines(fmt::format("{}: {}", path.string(), what_it_is))) {}
 
 std::string_view name_of(study::Engine engine) {
   return engine == study::Engine::batch ? "batch" : "reference";
@@ -222,6 +225,13 @@ study::Study recorded_study(const FileHeader& header, const std::filesystem::pat
       manifest::parse_study(header.manifest, path.string() + ":/manifest", header.overrides, header.version,
                             manifest::known_companions(std::move(plugin), header.samples));
   study.engine = header.engine;
+  if (study.trials != header.trials || study::point_count(study) != header.points) {
+    throw Failure(
+        ExitCode::bad_data,
+        fmt::format("{}: damaged: it has {} design points with {} trials each; its manifest and "
+                    "overrides have {} with {}",
+                    path.string(), header.points, header.trials, study::point_count(study), study.trials));
+  }
   return study;
 }
 

@@ -83,7 +83,8 @@ FileHeader read_header(const hdf5::File& file);
 /// The study whose trials the file `path` holds: its manifest with its overrides, the defaults of its format
 /// version and its engine. Whoever needs the study of a results file takes it from here.
 /// @param plugin the user's controller; null: as recorded, so that no trials can be run
-/// @throws Failure (bad_input) as parse_study does; see also require_same_plugin.
+/// @throws Failure (bad_input) as parse_study does, (bad_data) if the file has other numbers of design points
+/// or trials than its manifest; see also require_same_plugin.
 study::Study recorded_study(const FileHeader& header, const std::filesystem::path& path,
                             std::shared_ptr<const plugin::ControllerPlugin> plugin = nullptr);
 

@@ -1,9 +1,12 @@
 #include "results/layout/plugin_record.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <nlohmann/json.hpp>
+
+#include "core/text/utf8.hpp"
 
 namespace zerocount::layout {
 namespace {
@@ -16,6 +19,16 @@ Json limit_as_json(double limit) {
 
 double limit_from_json(const Json& limit, double none) {
   return limit.is_null() ? none : limit.get<double>();
+}
+
+/// The texts stand in messages and tables.
+bool is_printable(const plugin::PluginDescription& plugin) {
+  const auto printable = [](const plugin::PluginParameter& p) {
+    return text::is_printable(p.name) && text::is_printable(p.unit) && text::is_printable(p.meaning);
+  };
+  return text::is_printable(plugin.name) && text::is_printable(plugin.version) &&
+         text::is_printable(plugin.sha256) &&
+         std::all_of(plugin.parameters.begin(), plugin.parameters.end(), printable);
 }
 
 }  // namespace
@@ -51,7 +64,8 @@ std::optional<plugin::PluginDescription> plugin_from_json(const std::string& tex
                                    limit_from_json(p.at("lowest"), -unlimited),
                                    limit_from_json(p.at("highest"), unlimited)});
     }
-    if (plugin.parameters.size() > plugin::max_plugin_parameters) return std::nullopt;
+    if (plugin.parameters.size() > plugin::max_plugin_parameters || !is_printable(plugin))
+      return std::nullopt;
     return plugin;
   } catch (const Json::exception&) {
     return std::nullopt;

@@ -75,16 +75,23 @@ std::vector<double> read_doubles(const hdf5::Dataset& dataset) {
   return values;
 }
 
+/// Requires one value per design point.
+void require_points(const hdf5::Dataset& dataset, std::int64_t points) {
+  if (dataset.extent() == std::vector<hdf5::Size>{static_cast<hdf5::Size>(points)}) return;
+  dataset.fail(fmt::format("it should have one value for each of the {} design points", points));
+}
+
 /// The columns of /point with this role, and their names; none in a shard.
-std::vector<std::pair<std::string, hdf5::Dataset>> point_columns(const hdf5::File& file,
+std::vector<std::pair<std::string, hdf5::Dataset>> point_columns(const hdf5::File& file, std::int64_t points,
                                                                  std::string_view role) {
   std::vector<std::pair<std::string, hdf5::Dataset>> columns;
   if (!file.contains("point")) return columns;
   const hdf5::Group group = file.open_group("point");
   for (const std::string& name : group.children()) {
     hdf5::Dataset dataset = group.open_dataset(name);
-    if (dataset.has_attribute("role") && dataset.text("role") == role)
-      columns.emplace_back(name, std::move(dataset));
+    if (!dataset.has_attribute("role") || dataset.text("role") != role) continue;
+    require_points(dataset, points);
+    columns.emplace_back(name, std::move(dataset));
   }
   return columns;
 }
@@ -122,12 +129,14 @@ std::int64_t StudyFile::local(layout::RowRange range) const {
 
 std::vector<std::string> StudyFile::point_labels() const {
   if (!file_.contains("point")) return {};
-  return file_.open_group("point").open_dataset("label").read_texts();
+  const hdf5::Dataset labels = file_.open_group("point").open_dataset("label");
+  require_points(labels, header_.points);
+  return labels.read_texts();
 }
 
 std::vector<study::SweepAxis> StudyFile::axes() const {
   std::vector<study::SweepAxis> axes;
-  for (const auto& [name, dataset] : point_columns(file_, "axis")) {
+  for (const auto& [name, dataset] : point_columns(file_, header_.points, "axis")) {
     study::SweepAxis axis{
         name, dataset.text("units"), dataset.text("long_name"), study::SweepAxis::Kind::number, {}, {}};
     if (dataset.element() == hdf5::Element::text) {
@@ -144,7 +153,7 @@ std::vector<study::SweepAxis> StudyFile::axes() const {
 
 std::vector<layout::PointColumn> StudyFile::statistics() const {
   std::vector<layout::PointColumn> statistics;
-  for (const auto& [name, dataset] : point_columns(file_, "statistic"))
+  for (const auto& [name, dataset] : point_columns(file_, header_.points, "statistic"))
     statistics.push_back({name, dataset.text("units"), dataset.text("long_name"), read_doubles(dataset)});
   return statistics;
 }

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/text/text.hpp"
+#include "core/text/utf8.hpp"
 
 /// Messages on standard error while the program works. A message that cannot be written stops nothing.
 namespace zerocount::status {

@@ -47,6 +47,7 @@ study::Study fresh_study(const reading::StudyFile& file, std::int64_t trials,
     set("stop.max_trials", trials);
   }
   if (!recorded.retained_trials.empty()) set("retain", "{trials: []}");
+  header.trials = trials;
   return layout::recorded_study(header, file.path(), std::move(plugin));
 }
 

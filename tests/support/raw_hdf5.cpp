@@ -122,6 +122,25 @@ void replace(const std::filesystem::path& path, const std::string& name, hid_t t
 
 }  // namespace
 
+void replace_by_texts(const std::filesystem::path& path, const std::string& dataset, std::uint64_t rows) {
+  unseal(path);
+  const hid_t file = open_file(path, H5F_ACC_RDWR);
+  H5Ldelete(file, dataset.c_str(), H5P_DEFAULT);
+  const hid_t type = H5Tcopy(H5T_C_S1);
+  H5Tset_size(type, H5T_VARIABLE);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  const hsize_t extent = rows, limit = H5S_UNLIMITED, chunk = 16;
+  const hid_t space = H5Screate_simple(1, &extent, &limit);
+  const hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
+  H5Pset_chunk(properties, 1, &chunk);
+  checked(H5Dcreate2(file, dataset.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT));
+  H5Pclose(properties);
+  H5Sclose(space);
+  H5Tclose(type);
+  H5Fclose(file);
+  storage::append_checksum(path);
+}
+
 std::map<std::string, std::string> stored_datasets(const std::filesystem::path& path) {
   const hid_t file = open_file(path, H5F_ACC_RDONLY);
   std::map<std::string, std::string> datasets;

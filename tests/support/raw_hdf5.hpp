@@ -40,6 +40,9 @@ void remove_attribute(const std::filesystem::path& path, const std::string& name
 void remove_dataset_attribute(const std::filesystem::path& path, const std::string& dataset,
                               const std::string& name);
 
+/// Replaces a dataset by one of `rows` texts, none of which is written, and writes the checksum trailer anew.
+void replace_by_texts(const std::filesystem::path& path, const std::string& dataset, std::uint64_t rows);
+
 /// A file of the HDF5 format with nothing in it.
 void write_empty_hdf5(const std::filesystem::path& path);
 

@@ -113,6 +113,12 @@ TEST(MarginsFile, TellsEveryMistakeWithItsPlace) {
             std::string::npos);
 }
 
+TEST(MarginsFile, RefusesARequirementTooLongForARegularExpression) {
+  const std::string long_name = fault("require: " + std::string(200'000, 'a') + " ≥ 1\n");
+  EXPECT_NE(long_name.find("gate.yaml:1:10: require: 'aaa"), std::string::npos) << long_name;
+  EXPECT_NE(long_name.find("' cannot be understood; expected a text such as"), std::string::npos);
+}
+
 TEST(MarginsFile, MustBeThereAndHoldSomething) {
   EXPECT_NE(fault("").find("the file is empty"), std::string::npos);
   const TemporaryFolder folder;

@@ -83,6 +83,9 @@ TEST(Overrides, MistakesNameTheOverride) {
   EXPECT_EQ(
       override_failure({"trials"}),
       "--set trials: manifest: this is no override; expected --set key=value with the key's dotted path");
+  EXPECT_EQ(override_failure({"\xff\x1b[m"}),
+            "--set \uFFFD\uFFFD[m: manifest: this is no override; expected --set key=value with the key's "
+            "dotted path");
   EXPECT_EQ(override_failure({"plant..inertia=1"}),
             "--set plant..inertia=1: manifest: this is no override; expected --set key=value with the key's "
             "dotted path");

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <random>
 
 #include <fmt/format.h>
@@ -77,6 +78,34 @@ TEST_F(DamagedFile, WhoseAttributesContradictTheContentsIsFound) {
   expect_bad(directory / "trials.h5", "cannot be of");
   remove_attribute(copy("missing.h5"), "seed");
   expect_bad(directory / "missing.h5", "the attribute 'seed' is missing");
+}
+
+TEST_F(DamagedFile, WithNumbersOfTrialsWhoseProductOverflowsIsFound) {
+  replace_attribute(copy("trials.h5"), "trials", std::int64_t{1} << 62);
+  expect_bad(directory / "trials.h5", "cannot be of 2 design points with 4611686018427387904 trials each");
+  replace_attribute(copy("first.h5"), "first_trial", std::numeric_limits<std::int64_t>::max());
+  expect_bad(directory / "first.h5", "cannot be of");
+}
+
+TEST_F(DamagedFile, IsToldWithoutItsControlCharacters) {
+  replace_attribute(copy("engine.h5"), "engine", std::string("\x1b[31m"));
+  expect_bad(directory / "engine.h5", "its engine is '\uFFFD[31m'");
+  replace_attribute(copy("format.h5"), "format", std::string("\xff"));
+  expect_bad(directory / "format.h5", "its format is '\uFFFD'");
+}
+
+// Without this check the summary read beyond the end of the list of labels.
+TEST_F(DamagedFile, WithoutALabelOfEachPointIsFound) {
+  replace_by_texts(copy("few.h5"), "/point/label", 1);
+  expect_failure(ExitCode::bad_data, "/point/label: it should have one value for each of the 2 design points",
+                 [&] { reading::StudyFile(directory / "few.h5").point_labels(); });
+}
+
+TEST_F(DamagedFile, WithADatasetThatNoFileCouldHoldIsFound) {
+  for (const int bits : {40, 62}) {
+    replace_by_texts(copy(fmt::format("{}.h5", bits)), "/overrides", std::uint64_t{1} << bits);
+    expect_bad(directory / fmt::format("{}.h5", bits), "/overrides: its size is more than the file can hold");
+  }
 }
 
 TEST_F(DamagedFile, ThatAnotherProgramChangedIsRefused) {

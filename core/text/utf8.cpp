@@ -1,8 +1,8 @@
-#include "core/unicode/code_point.hpp"
+#include "core/text/utf8.hpp"
 
 #include <array>
 
-namespace zerocount::unicode {
+namespace zerocount::text {
 
 CodePoint decode(std::string_view text) {
   const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
@@ -25,4 +25,24 @@ bool is_control(char32_t value) {
   return value < 0x20 || (value >= 0x7F && value < 0xA0) || value == 0x2028 || value == 0x2029 || directs;
 }
 
-}  // namespace zerocount::unicode
+bool is_printable(std::string_view text) {
+  while (!text.empty()) {
+    const CodePoint point = decode(text);
+    if (!point.valid || is_control(point.value)) return false;
+    text.remove_prefix(point.bytes);
+  }
+  return true;
+}
+
+std::string printable_lines(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const CodePoint point = decode(text);
+    const bool shown = point.valid && (point.value == U'\n' || point.value == U'\t' || !is_control(point.value));
+    result += shown ? text.substr(0, point.bytes) : replacement_utf8;
+    text.remove_prefix(point.bytes);
+  }
+  return result;
+}
+
+}  // namespace zerocount::text

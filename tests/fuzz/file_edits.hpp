@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tests/fuzz/memory_file.hpp"
+
+namespace zerocount::fuzz {
+
+/// An attribute of a group or dataset.
+struct AttributePlace {
+  std::string object;  ///< path
+  std::string name;
+};
+
+/// A valid results file without its checksum trailer, and what can be changed in it.
+struct SampleFile {
+  std::string bytes;
+  std::vector<std::string> objects;  ///< paths of groups and datasets
+  std::vector<AttributePlace> attributes;
+  std::vector<std::size_t> used;  ///< offsets of the bytes that are not 0
+};
+
+/// One change. The fuzzer finds useful changes faster in this form than in a file, most of whose bytes are
+/// padding or protected by checksums of HDF5.
+struct Edit {
+  std::uint8_t kind{0};     ///< modulo edit_kinds; see file_edits.cpp
+  std::uint8_t choice{0};   ///< of a value or type
+  std::uint16_t object{0};  ///< modulo the number of objects or attributes
+  std::uint32_t place{0};   ///< of an element or byte
+  std::uint64_t value{0};
+};
+
+/// The files of sample_files(target).
+std::vector<SampleFile> editable_files(const std::string& target);
+
+/// The edits that these bytes encode, 16 bytes each; at most 32.
+std::vector<Edit> edits_of(std::span<const std::uint8_t> bytes);
+
+/// Writes the sample with the edits, and a valid checksum trailer, to `file`. An edit that HDF5 refuses is
+/// left out.
+void write_edited(const SampleFile& sample, std::span<const Edit> edits, MemoryFile& file);
+
+/// Chooses a sample by the first byte of an input of the fuzzer, and writes it with the edits of the others.
+void write_input(const std::vector<SampleFile>& samples, std::span<const std::uint8_t> input,
+                 MemoryFile& file);
+
+}  // namespace zerocount::fuzz

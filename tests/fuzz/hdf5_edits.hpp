@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "tests/fuzz/file_edits.hpp"
+
+namespace zerocount::fuzz {
+
+/// An HDF5 file that is changed with the library alone. Every function ignores what the library refuses.
+class EditedHdf5 {
+ public:
+  explicit EditedHdf5(const std::filesystem::path& path);
+  EditedHdf5(const EditedHdf5&) = delete;
+  EditedHdf5& operator=(const EditedHdf5&) = delete;
+  ~EditedHdf5();
+
+  void set_integer(const AttributePlace& attribute, std::int64_t value) const;
+  void set_text(const AttributePlace& attribute, const std::string& value) const;
+  void remove(const AttributePlace& attribute) const;
+
+  /// Element `place`, modulo the size, of a dataset of numbers or of texts.
+  void set_element(const std::string& dataset, std::uint64_t place, std::uint64_t bits) const;
+  void set_element(const std::string& dataset, std::uint64_t place, const std::string& text) const;
+  void resize(const std::string& dataset, std::uint64_t rows) const;
+
+  void remove(const std::string& path) const;
+  void rename(const std::string& path, const std::string& other) const;
+  void replace_by_group(const std::string& path) const;
+  /// Replaces it by a dataset of another type and rank; it keeps its attributes.
+  void replace_by_dataset(const std::string& path, std::uint8_t type, unsigned rank,
+                          std::uint64_t size) const;
+
+  /// Adds the paths of all objects and their attributes to `sample`.
+  void list(SampleFile& sample) const;
+
+ private:
+  std::int64_t file_;
+};
+
+}  // namespace zerocount::fuzz

@@ -1,0 +1,44 @@
+// Feeds a results file with changes (see file_edits.hpp) to what `export` and `summary` read.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "analysis/iso230/repeatability_file.hpp"
+#include "analysis/summary/summary.hpp"
+#include "results/reading/export.hpp"
+#include "results/reading/study_file.hpp"
+#include "tests/fuzz/expectation.hpp"
+#include "tests/fuzz/file_edits.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace {
+
+using namespace zerocount;
+
+void export_tables(const std::filesystem::path& path, const std::filesystem::path& folder) {
+  const reading::StudyFile file(path);
+  reading::export_csv(file, folder, iso230::repeatability_exports(file), reading::ExistingFiles::replace);
+}
+
+void print_summary(const std::filesystem::path& path) {
+  const summary::StudySummary found = summary::summarise(reading::StudyFile(path));
+  fuzz::require_text(summary::summary_table(found));
+  fuzz::require_text(summary::summary_json_text(found));
+  summary::summary_csv(found);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const std::vector<fuzz::SampleFile> samples = fuzz::editable_files("results");
+  static fuzz::MemoryFile file;
+  static const testing::TemporaryFolder folder;
+  if (size == 0) return 0;
+  fuzz::write_input(samples, {data, size}, file);
+  fuzz::require_clear_refusal([] { print_summary(file.path()); });
+  fuzz::require_clear_refusal([] { export_tables(file.path(), folder.path()); });
+  return 0;
+}

@@ -1,0 +1,55 @@
+// Feeds a shard with changes (see file_edits.hpp) to what resuming, `status` and `merge` read of shards.
+
+#include "results/shards/shard.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "analysis/summary/summary.hpp"
+#include "results/layout/header.hpp"
+#include "results/reading/study_file.hpp"
+#include "results/shards/merge.hpp"
+#include "tests/fuzz/expectation.hpp"
+#include "tests/fuzz/file_edits.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace {
+
+using namespace zerocount;
+
+void read_shard(const std::filesystem::path& path) {
+  const reading::StudyFile file(path, reading::Require::any_part);
+  file.require_valid_values();
+  for (std::int64_t first = 0; first < file.trace_count(); first += 1000)
+    file.trace_at(first, std::min<std::int64_t>(1000, file.trace_count() - first));
+}
+
+void merge_shard(const std::filesystem::path& path, const std::filesystem::path& output) {
+  const std::vector<std::filesystem::path> inputs{path};
+  const study::Study study = layout::recorded_study(shards::first_header(inputs), path);
+  const std::vector<shards::ShardInfo> found = shards::merge_inputs(inputs, study);
+  shards::merge_shards(found, study, output, found.front().rows,
+                       [](const reading::StudyFile&) { return layout::StoredStatistics{}; });
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const std::vector<fuzz::SampleFile> samples = fuzz::editable_files("shard");
+  static fuzz::MemoryFile file;
+  static const testing::TemporaryFolder folder;
+  static const std::filesystem::path shards = folder.path() / "run.h5.shards";
+  if (size == 0) return 0;
+  if (!std::filesystem::exists(shards)) {
+    std::filesystem::create_directory(shards);
+    std::filesystem::create_symlink(file.path(), shards / "trials.h5");
+  }
+  fuzz::write_input(samples, {data, size}, file);
+  fuzz::require_clear_refusal([] { read_shard(file.path()); });
+  fuzz::require_clear_refusal(
+      [] { fuzz::require_text(summary::summary_table(summary::summarise_unfinished(shards, 0.95, false))); });
+  fuzz::require_clear_refusal([] { merge_shard(file.path(), folder.path() / "merged.h5"); });
+  return 0;
+}

@@ -1,0 +1,31 @@
+#include "tests/fuzz/study_use.hpp"
+
+#include <set>
+#include <string>
+
+#include "experiments/manifest/parameter_listing.hpp"
+#include "tests/fuzz/expectation.hpp"
+
+namespace zerocount::fuzz {
+namespace {
+
+/// The first of a range of `count` and the last.
+std::set<std::int64_t> ends_of(std::int64_t count) {
+  return {0, count - 1};
+}
+
+}  // namespace
+
+void use_study(const study::Study& study) {
+  for (const std::string& warning : study.warnings) require_text(warning);
+  for (const study::InputColumn& column : study.input_columns) require_text(column.name);
+  require_text(manifest::parameters_as_text(study));
+  for (const std::int64_t point : ends_of(study::point_count(study))) {
+    require_text(study.point_labels[static_cast<std::size_t>(point)]);
+    for (const std::int64_t index : ends_of(study.trials)) study::study_trial(study, point, index);
+  }
+  if (study.rigs == 0) return;
+  for (const std::int64_t rig : ends_of(study.rigs)) study::rig_inputs(study, rig);
+}
+
+}  // namespace zerocount::fuzz

@@ -155,7 +155,8 @@ bool advance_by_reference(BatchState& batch, int lane, LaneTrial& trial) {
   load_motion(batch, lane, trial);
   const std::int64_t before = trial.plant->breakaways();
   trial.plant->forget_deepest();
-  trial.plant->advance(motion::constant_torque(batch.motion.torque[lane]), batch.time.time_to_stop[lane]);
+  trial.plant->advance(motion::constant_torque(batch.motion.torque[lane]), batch.time.time_to_stop[lane],
+                       plant::max_steps_of_sample);
   trial.breakaways += trial.plant->breakaways() - before;
   trial.deepest = std::max(trial.deepest, trial.plant->deepest());
   store_contact(batch, lane, trial);

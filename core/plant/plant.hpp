@@ -11,6 +11,12 @@
 
 namespace zerocount::plant {
 
+/// More steps than this within one torque step of any length mean that the motion cannot be followed.
+inline constexpr int max_steps = 200000;
+/// The same within a sample of a trial. A ringing trial of the paper's rig takes about three; one that takes
+/// ten thousand in each sample would run for hours.
+inline constexpr int max_steps_of_sample = 10000;
+
 /// A rotor under a motor's torque with a friction law, which the plant takes on from step to step.
 template <friction::FrictionLaw Law>
 class PlantWith : public Law {
@@ -21,14 +27,14 @@ class PlantWith : public Law {
     if (motion::has_load(plant)) load_ = motion::Load{plant.load, 0.0, start.velocity};
   }
 
-  /// Applies the torque for `duration` (s).
-  void advance(const motion::TorqueCourse& torque, double duration) {
+  /// Applies the torque for `duration` (s). The motion is lost if that takes more than `most_steps` steps.
+  void advance(const motion::TorqueCourse& torque, double duration, int most_steps = max_steps) {
     motion::TorqueCourse ahead = torque;
     ahead.load = load_ ? &*load_ : nullptr;
     bool moves = !motion::motor_is_constant(ahead);
     double remaining = duration;
     for (int step = 0; remaining > 0.0 && finite_; ++step) {
-      if (step == max_steps) finite_ = false;
+      if (step == most_steps) finite_ = false;
       const double used = step_on(ahead, remaining);
       remaining = used < remaining ? remaining - used : 0.0;
       if (moves) {
@@ -47,10 +53,6 @@ class PlantWith : public Law {
   const std::optional<motion::Load>& load() const { return load_; }
 
  private:
-  /// More steps than this within one torque step mean that the motion cannot be followed. A ringing trial of
-  /// the paper's rig takes about three.
-  static constexpr int max_steps = 10000;
-
   /// A torque has settled when this many time constants have passed: exp(−37) is below the rounding of 1.
   static constexpr double time_constants_to_settle = 37.0;
 
@@ -89,9 +91,9 @@ class PlantOf {
       : plant_(makers.at(static_cast<std::size_t>(friction.model))(plant, friction, start, tolerance)),
         breakaway_(Laws::traits.at(static_cast<std::size_t>(friction.model)).breakaway) {}
 
-  /// Applies the torque for `duration` (s).
-  void advance(const motion::TorqueCourse& torque, double duration) {
-    std::visit([&](auto& plant) { plant.advance(torque, duration); }, plant_);
+  /// Applies the torque for `duration` (s). The motion is lost if that takes more than `most_steps` steps.
+  void advance(const motion::TorqueCourse& torque, double duration, int most_steps = max_steps) {
+    std::visit([&](auto& plant) { plant.advance(torque, duration, most_steps); }, plant_);
   }
 
   PlantReading read() const {

@@ -38,7 +38,8 @@ std::string printable_lines(std::string_view text) {
   std::string result;
   while (!text.empty()) {
     const CodePoint point = decode(text);
-    const bool shown = point.valid && (point.value == U'\n' || point.value == U'\t' || !is_control(point.value));
+    const bool shown =
+        point.valid && (point.value == U'\n' || point.value == U'\t' || !is_control(point.value));
     result += shown ? text.substr(0, point.bytes) : replacement_utf8;
     text.remove_prefix(point.bytes);
   }

@@ -21,14 +21,15 @@ CodePoint decode(std::string_view text);
 
 /// True for characters that do not show and change what a terminal or an editor does: the control characters
 /// C0, DEL and C1, the line and paragraph separators, and those that change the direction of the text after
-/// them (Unicode Standard Annex 9: embeddings, overrides and isolates), which can make a text read as another.
+/// them (Unicode Standard Annex 9: embeddings, overrides and isolates), which can make a text read as
+/// another.
 bool is_control(char32_t value);
 
 /// True if `text` is UTF-8 without control characters.
 bool is_printable(std::string_view text);
 
-/// `text` with each control character but line feeds and tabs, and each byte that is not UTF-8, replaced by U+FFFD.
-/// For messages that repeat what a file or the user says.
+/// `text` with each control character but line feeds and tabs, and each byte that is not UTF-8, replaced by
+/// U+FFFD. For messages that repeat what a file or the user says.
 std::string printable_lines(std::string_view text);
 
 }  // namespace zerocount::text

@@ -83,7 +83,7 @@ class Rig {
   }
 
   /// Lets the plant move until t_{k+1}.
-  void hold() { plant_.advance(course_, sample_time_); }
+  void hold() { plant_.advance(course_, sample_time_, plant::max_steps_of_sample); }
 
   /// Whether the controller's torque and the motion are still finite, the motion within what the counters can
   /// count.

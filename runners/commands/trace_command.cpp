@@ -45,7 +45,8 @@ bool is_results_file(const std::string& path) {
   constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
   std::error_code unknown;  // ignored: what cannot be read is reported where it is opened
   const bool named = std::filesystem::path(path).extension() == ".h5";
-  return storage::bytes_at(path, 0, signature.size()) == signature || (named && std::filesystem::is_regular_file(path, unknown));
+  return storage::bytes_at(path, 0, signature.size()) == signature ||
+         (named && std::filesystem::is_regular_file(path, unknown));
 }
 
 std::int64_t trial_option(const command_line::Arguments& arguments, const study::Study& study) {

@@ -17,7 +17,9 @@ namespace zerocount::study_run {
 
 /// Runs one trial of the study, given by its global row, with the reference engine. Returns the data of the
 /// results file.
-shards::TrialResult run_study_trial(const study::Study& study, std::int64_t row);
+/// @throws trial::Interrupted if a stop is requested before its last sample
+shards::TrialResult run_study_trial(const study::Study& study, std::int64_t row,
+                                    const std::stop_token& stop = {});
 
 /// Number of samples of a trial: the mean over the first trials of up to 64 points.
 double samples_per_trial(const study::Study& study);

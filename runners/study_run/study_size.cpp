@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <iterator>
 #include <optional>
 #include <span>
@@ -13,9 +14,11 @@
 #include <oneapi/tbb/info.h>
 
 #include "core/failure/failure.hpp"
+#include "core/trial/trial.hpp"
 #include "results/layout/layout.hpp"
 #include "results/shards/shard.hpp"
 #include "results/storage/durable_file.hpp"
+#include "runners/study_run/deadline.hpp"
 #include "runners/study_run/study_runner.hpp"
 #include "runners/study_run/temporary_folder.hpp"
 #include "runners/study_run/trial_runner.hpp"
@@ -31,18 +34,34 @@ constexpr double max_sampled_samples = 4e5;  // takes some hundredths of a secon
 constexpr double storage_factor = 2.0;
 constexpr std::int64_t sampled_places = 8;
 
+/// For the sampled trials, and for those with traces. Where none ends in time, a trial without jerks stands
+/// for them.
+constexpr std::chrono::seconds patience{2};
+
+shards::TrialResult trial_without_jerks(const study::Study& study) {
+  shards::TrialResult trial;
+  trial.inputs.resize(study.input_columns.size());
+  trial.outcome.moves.resize(static_cast<std::size_t>(study.moves));
+  return trial;
+}
+
 /// Trials from several places of the study, numbered from 0.
 std::vector<shards::TrialResult> sampled_trials(const study::Study& study) {
+  const Deadline deadline(patience);
   const std::int64_t rows = study::trial_count(study);
   const auto wanted = std::clamp(static_cast<std::int64_t>(max_sampled_samples / samples_per_trial(study)),
                                  std::int64_t{1}, std::min(max_sampled_trials, rows));
   const std::int64_t places = std::min(sampled_places, wanted);
   TrialRunner runner(study);
   std::vector<shards::TrialResult> trials;
-  for (std::int64_t place = 0; place < places; ++place) {
-    const std::int64_t first = rows / places * place;
-    std::vector<shards::TrialResult> here = runner.run({first, wanted / places});
-    trials.insert(trials.end(), std::make_move_iterator(here.begin()), std::make_move_iterator(here.end()));
+  try {
+    for (std::int64_t place = 0; place < places; ++place) {
+      const std::int64_t first = rows / places * place;
+      std::vector<shards::TrialResult> here = runner.run({first, wanted / places}, deadline.token());
+      trials.insert(trials.end(), std::make_move_iterator(here.begin()), std::make_move_iterator(here.end()));
+    }
+  } catch (const trial::Interrupted&) {
+    if (trials.empty()) trials.push_back(trial_without_jerks(study));
   }
   for (std::size_t i = 0; i < trials.size(); ++i) trials[i].row = static_cast<std::int64_t>(i);
   return trials;
@@ -83,9 +102,15 @@ Growth growth_of(const TemporaryFolder& folder, const study::Study& study,
 std::vector<shards::TrialResult> sampled_records(const study::Study& study) {
   constexpr std::int64_t max_records = 8;
   const auto retained = std::ssize(study.retained_trials);
+  const Deadline deadline(patience);
   std::vector<shards::TrialResult> trials;
   for (std::int64_t i = 0; i < std::min(retained, max_records); ++i) {
-    trials.push_back(run_study_trial(study, study.retained_trials[static_cast<std::size_t>(i)]));
+    try {
+      trials.push_back(
+          run_study_trial(study, study.retained_trials[static_cast<std::size_t>(i)], deadline.token()));
+    } catch (const trial::Interrupted&) {
+      break;
+    }
     trials.back().row = i;
   }
   return trials;

@@ -34,8 +34,9 @@ bool is_retained(const study::Study& study, std::int64_t index) {
   return std::binary_search(study.retained_trials.begin(), study.retained_trials.end(), index);
 }
 
-shards::TrialResult run_study_trial(const study::Study& study, std::int64_t row) {
-  return run_reference(study, row, trial_of_row(study, row), {});
+shards::TrialResult run_study_trial(const study::Study& study, std::int64_t row,
+                                    const std::stop_token& stop) {
+  return run_reference(study, row, trial_of_row(study, row), stop);
 }
 
 TrialRunner::TrialRunner(const study::Study& study)

@@ -36,7 +36,7 @@ constexpr std::int64_t sampled_places = 8;
 
 /// For the sampled trials, and for those with traces. Where none ends in time, a trial without jerks stands
 /// for them.
-constexpr std::chrono::seconds patience{2};
+constexpr std::chrono::seconds sampling_limit{2};
 
 shards::TrialResult trial_without_jerks(const study::Study& study) {
   shards::TrialResult trial;
@@ -47,7 +47,7 @@ shards::TrialResult trial_without_jerks(const study::Study& study) {
 
 /// Trials from several places of the study, numbered from 0.
 std::vector<shards::TrialResult> sampled_trials(const study::Study& study) {
-  const Deadline deadline(patience);
+  const Deadline deadline(sampling_limit);
   const std::int64_t rows = study::trial_count(study);
   const auto wanted = std::clamp(static_cast<std::int64_t>(max_sampled_samples / samples_per_trial(study)),
                                  std::int64_t{1}, std::min(max_sampled_trials, rows));
@@ -102,7 +102,7 @@ Growth growth_of(const TemporaryFolder& folder, const study::Study& study,
 std::vector<shards::TrialResult> sampled_records(const study::Study& study) {
   constexpr std::int64_t max_records = 8;
   const auto retained = std::ssize(study.retained_trials);
-  const Deadline deadline(patience);
+  const Deadline deadline(sampling_limit);
   std::vector<shards::TrialResult> trials;
   for (std::int64_t i = 0; i < std::min(retained, max_records); ++i) {
     try {

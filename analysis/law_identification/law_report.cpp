@@ -36,7 +36,7 @@ std::string table_of(const LawComparison& comparison) {
   return text::aligned_table(cells, {false, true, true, true, true, false});
 }
 
-/// What the comparison says: which law is nearest, how clearly, and if it explains the records.
+/// A sentence: the law with the least criterion, its lead over the next, and if it explains the records.
 std::string verdict_of(const LawComparison& comparison) {
   const IdentifiedLaw& best = comparison.laws.front();
   std::string text;

@@ -33,8 +33,7 @@ void require_file(const fs::path& path, std::string_view expected) {
   }
   if (!fs::is_regular_file(status)) {
     throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: this is no regular file; expected {} (- reads it from standard input)",
-                              path.string(), expected));
+                  fmt::format("{}: this is no regular file; expected {}", path.string(), expected));
   }
 }
 

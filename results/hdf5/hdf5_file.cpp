@@ -34,7 +34,7 @@ std::shared_ptr<Origin> origin_of(const std::filesystem::path& path, Purpose pur
   return std::make_shared<Origin>(Origin{purpose, std::move(bytes), {}, false});
 }
 
-/// Whether a file of `bytes` bytes can hold all elements. A reader that trusts a size beyond that runs out of
+/// True if a file of `bytes` bytes can hold all elements. A reader that trusts a size beyond that runs out of
 /// memory.
 bool fits(const Dataset& dataset, std::uint64_t bytes) {
   constexpr Size max_ratio = 1100;     // deflate makes at most 1032 bytes of one

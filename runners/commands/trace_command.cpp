@@ -9,9 +9,9 @@
 #include "core/trial/trial.hpp"
 #include "experiments/study/study.hpp"
 #include "experiments/yaml/text_file.hpp"
+#include "results/hdf5/array_file.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/study_file.hpp"
-#include "results/storage/file_contents.hpp"
 #include "results/storage/output_file.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
@@ -40,13 +40,11 @@ constexpr const char* trace_help =
     "\n"
     "Example: zerocount trace gains.h5 --point 2 --trial 17 -o trial.csv\n";
 
-/// Whether `path` is a results file, by its signature or by its name (the signature may be damaged).
+/// True if `path` is a results file, by its signature or by its name (the signature may be damaged).
 bool is_results_file(const std::string& path) {
-  constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
   std::error_code unknown;  // ignored: what cannot be read is reported where it is opened
   const bool named = std::filesystem::path(path).extension() == ".h5";
-  return storage::bytes_at(path, 0, signature.size()) == signature ||
-         (named && std::filesystem::is_regular_file(path, unknown));
+  return hdf5::is_hdf5_with_user_block(path) || (named && std::filesystem::is_regular_file(path, unknown));
 }
 
 std::int64_t trial_option(const command_line::Arguments& arguments, const study::Study& study) {

@@ -34,7 +34,7 @@ struct BlockLimits {
 constexpr BlockLimits reference_block{1e5, 256};
 constexpr BlockLimits batch_block{1e7, 4096};
 
-/// Of the traces of the retained trials in a block, beyond that of the last one.
+/// A block ends with the trial whose trace takes the traces of its retained trials beyond this size.
 constexpr std::size_t max_trace_bytes_per_block = std::size_t{8} << 20;
 
 constexpr std::size_t max_trials_per_shard = 1 << 16;

@@ -77,7 +77,7 @@ void run_again(OpenedFile& opened, std::vector<std::int64_t> chosen) {
   check_trials(opened.report, *file, study, chosen, equality_of(header));
 }
 
-/// Whether the file is a piece of the study of its folder: a shard, or in a folder of shards a part.
+/// True if the file is a piece of the study of its folder: a shard, or a part in a folder of shards.
 bool is_piece(const OpenedFile& opened) {
   if (!opened.described || opened.described->header.complete) return false;
   return opened.described->header.kind == layout::FileKind::shard ||

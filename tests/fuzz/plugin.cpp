@@ -25,7 +25,7 @@ namespace {
 
 using namespace zerocount;
 
-/// What the controller writes when it is started; it has no other way to know.
+/// The message that the controller writes at its start. The C function has no argument to pass it.
 std::string& message_of_start() {
   static std::string message;
   return message;

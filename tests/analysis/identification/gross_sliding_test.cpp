@@ -174,7 +174,7 @@ TEST(GrossSliding, MaskedReadingsShowNoSlide) {
   EXPECT_FALSE(identification::find_gross_sliding(series));
 }
 
-// What is left of the record is as good as one that was never overloaded.
+// The samples before the breakaway give k1.
 TEST(GrossSliding, TheRestOfTheRecordIsIdentified) {
   for (std::uint64_t set = 0; set < 2; ++set) {
     std::mt19937_64 random(set);

@@ -34,7 +34,7 @@ std::map<std::string, Coverage> expect_cover(const std::vector<Population>& popu
   return all;
 }
 
-/// Of each population, in the normal and in the long tests.
+/// Number of studies of each population, in the normal and in the long tests.
 constexpr std::int64_t few = 40;
 constexpr std::int64_t many = 120;
 

@@ -1,4 +1,4 @@
-// What is repeated in a message can be shown, whatever a file or the user says.
+// A message can be shown whatever text of a file or of the user it repeats.
 #include "core/text/utf8.hpp"
 
 #include <gtest/gtest.h>

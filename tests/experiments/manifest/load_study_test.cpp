@@ -230,7 +230,7 @@ TEST_F(StudyFile, OfAHundredMegabytesIsRefusedUnread) {
 
 TEST_F(StudyFile, ThatIsADeviceIsRefused) {
   EXPECT_EQ(failure_of("/dev/zero", ExitCode::bad_input),
-            "/dev/zero: this is no regular file; expected a manifest (- reads it from standard input)");
+            "/dev/zero: this is no regular file; expected a manifest");
 }
 
 }  // namespace

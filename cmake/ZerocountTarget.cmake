@@ -26,17 +26,22 @@ function(zerocount_target target)
                                              -Wno-uninitialized)
   endif()
   if(ZEROCOUNT_SANITIZE)
-    # GCC 12 warns about its own <regex> if it is instrumented (GCC bug 105562).
-    target_compile_options(${target} PRIVATE -fsanitize=${ZEROCOUNT_SANITIZE} -fno-omit-frame-pointer
+    set(sanitizers -fsanitize=${ZEROCOUNT_SANITIZE} -fno-sanitize-recover=all)
+    set(optimisation -O1)
+    if(target MATCHES "tests?$")
+      set(optimisation -O0)
+    endif()
+    # Beyond this a sanitized build takes several times longer, and finds no more. GCC 12 warns about its own <regex> if it is
+    # instrumented (GCC bug 105562).
+    target_compile_options(${target} PRIVATE ${sanitizers} -fno-omit-frame-pointer ${optimisation} -g1
                                              $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
-    target_link_options(${target} PUBLIC -fsanitize=${ZEROCOUNT_SANITIZE})
-  endif()
-  if(ZEROCOUNT_FUZZ)
-    set(sanitizers -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined)
-    # Beyond -O1 the build takes several times longer, and the targets gain little.
-    target_compile_options(${target} PRIVATE ${sanitizers} -fno-omit-frame-pointer -O1 -gline-tables-only)
     target_compile_definitions(${target} PRIVATE _GLIBCXX_ASSERTIONS)
     target_link_options(${target} PUBLIC ${sanitizers})
+  endif()
+  if(ZEROCOUNT_COVERAGE)
+    # Threads may lose counts of one another. With atomic counts, or without optimisation, the tests take hours.
+    target_compile_options(${target} PRIVATE --coverage -O1)
+    target_link_options(${target} PUBLIC --coverage)
   endif()
 endfunction()
 
@@ -115,16 +120,25 @@ function(zerocount_layer)
   endforeach()
 endfunction()
 
-# zerocount_test(<name> SOURCES ... [ALONE ...] LINKS ...): one GoogleTest executable; each of its tests is a CTest test. Those
-# named DISABLED_, the long versions of others, are together the long test Long.<name>.
+# zerocount_test(<name> [THREADED] SOURCES ... [ALONE ...] LINKS ...): one GoogleTest executable; each of its tests is a CTest test.
+# Those named DISABLED_, the long versions of others, are together the long test Long.<name>. THREADED: the thread sanitizer runs
+# them too; the target threaded_tests builds them.
 function(zerocount_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "THREADED" "" "SOURCES;ALONE;LINKS" ${ARGN})
   zerocount_units(${name}_units 6 ${ARG_SOURCES})
   add_executable(${name} ${${name}_units} ${ARG_ALONE})
   target_link_libraries(${name} PRIVATE ${ARG_LINKS} GTest::gtest_main)
   zerocount_target(${name})
   target_compile_options(${name} PRIVATE -Wno-shadow)  # for constants of test files in the same unit
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+  set(properties TIMEOUT 600)
+  if(ZEROCOUNT_SANITIZE)
+    set(properties TIMEOUT 3000)
+  endif()
+  if(ARG_THREADED)
+    list(APPEND properties LABELS threads)
+    add_dependencies(threaded_tests ${name})
+  endif()
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
   foreach(source IN LISTS ARG_SOURCES ARG_ALONE)
     file(STRINGS "${source}" disabled REGEX "DISABLED_" LIMIT_COUNT 1)
     if(disabled)

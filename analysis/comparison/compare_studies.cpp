@@ -138,9 +138,10 @@ void take_forecast(MeasureComparison& measure, const JudgementForecast& forecast
       measure.changed_fails ? std::max(measure.bounds.high, -measure.bounds.low) : measure.bounds.high;
 }
 
-/// An open-loop study has moves, but none that could be judged.
+/// An open-loop study has moves, but none that could be judged. Its first moves tell.
 bool judges_nothing(const reading::StudyFile& file) {
-  const std::vector<double> outcomes = file.measure("outcome", file.rows());
+  const std::int64_t trials = std::min(file.rows().count, layout::chunk_rows(file.moves()));
+  const std::vector<double> outcomes = file.measure("outcome", {file.rows().first, trials});
   return std::all_of(outcomes.begin(), outcomes.end(), [](double outcome) {
     return outcome == static_cast<double>(trial::Outcome::open_loop);
   });
@@ -153,7 +154,30 @@ struct ComparedData {
   std::vector<MatchedPoint> points;
   std::int64_t baseline_rigs{0};
   std::int64_t current_rigs{0};
+  std::int64_t baseline_trials{0};  ///< of each point that are compared, its first
+  std::int64_t current_trials{0};   ///< likewise
 };
+
+/// The trials of each point of a file that are compared: of every rig at least one.
+std::int64_t compared_trials(const GateRules& rules, const reading::StudyFile& file, std::int64_t rigs) {
+  const std::int64_t limit = rules.max_trials.value_or(default_compared_moves / file.moves());
+  return std::min(file.header().trials, std::max({limit, rigs, std::int64_t{1}}));
+}
+
+ComparedData compared_data(const reading::StudyFile& baseline, const ManifestValues& old_values,
+                           const reading::StudyFile& current, const ManifestValues& new_values,
+                           std::vector<MatchedPoint> points, const GateRules& rules) {
+  ComparedData data{baseline, current, std::move(points), rigs_of(old_values), rigs_of(new_values)};
+  data.baseline_trials = compared_trials(rules, baseline, data.baseline_rigs);
+  data.current_trials = compared_trials(rules, current, data.current_rigs);
+  return data;
+}
+
+DrawComparison compare_draws_of(const ComparedData& data, const ManifestValues& old_values,
+                                const ManifestValues& new_values) {
+  return compare_draws(data.baseline, data.current, old_values, new_values, data.points,
+                       std::min(data.baseline_trials, data.current_trials));
+}
 
 struct TrialsOfBoth {
   PointTrials baseline;
@@ -161,8 +185,8 @@ struct TrialsOfBoth {
 };
 
 TrialsOfBoth read_trials(const ComparedData& data, const MatchedPoint& point) {
-  TrialsOfBoth trials{read_point_trials(data.baseline, point.baseline),
-                      read_point_trials(data.current, point.current)};
+  TrialsOfBoth trials{read_point_trials(data.baseline, point.baseline, data.baseline_trials),
+                      read_point_trials(data.current, point.current, data.current_trials)};
   trials.baseline.rigs = data.baseline_rigs;
   trials.current.rigs = data.current_rigs;
   return trials;
@@ -277,9 +301,17 @@ void note_undecided_moves(StudyComparison& result) {
   result.notes.emplace_back(measures::undecided_meaning);
 }
 
-void note_unpaired_trials(StudyComparison& result) {
-  const std::int64_t before = result.baseline.header.trials;
-  const std::int64_t after = result.current.header.trials;
+void note_left_out(StudyComparison& result, const std::string& path, std::int64_t trials,
+                   std::int64_t judged) {
+  if (judged == trials) return;
+  result.notes.push_back(
+      fmt::format("of the {} trials of each point in {}, the first {} are judged; more: --max-trials", trials,
+                  path, judged));
+}
+
+void note_unpaired_trials(StudyComparison& result, const ComparedData& data) {
+  const std::int64_t before = data.baseline_trials;
+  const std::int64_t after = data.current_trials;
   if (result.layer != ComparisonLayer::paired || before == after) return;
   result.notes.push_back(fmt::format(
       "compared are the first {} trials of each point: of the {} in {}, the others have no partner",
@@ -287,8 +319,16 @@ void note_unpaired_trials(StudyComparison& result) {
       before > after ? result.baseline.path : result.current.path));
 }
 
+void note_trials(StudyComparison& result, const ComparedData& data) {
+  note_left_out(result, result.baseline.path, result.baseline.header.trials, data.baseline_trials);
+  if (&data.current != &data.baseline)
+    note_left_out(result, result.current.path, result.current.header.trials, data.current_trials);
+  note_unpaired_trials(result, data);
+}
+
 /// The judgements, and what follows from them.
 void judge(StudyComparison& result, const GateRules& rules, const ComparedData& data) {
+  note_trials(result, data);
   judge_points(result, rules, data);
   note_undecided_moves(result);
   if (data.baseline_rigs > 0 || data.current_rigs > 0) {
@@ -319,11 +359,10 @@ void pair_trials(StudyComparison& result, const DrawComparison& draws) {
 }
 
 /// The draws of two points of one file.
-DrawComparison compare_draws_within(const reading::StudyFile& file, const ManifestValues& values,
-                                    const MatchedPoint& point) {
+DrawComparison compare_draws_within(const ComparedData& data, const ManifestValues& values) {
   if (value_or(values, "independent_points", "false") == "true")
     return {false, "the points have random numbers of their own", {}};
-  return compare_draws(file, file, values, values, {point});
+  return compare_draws_of(data, values, values);
 }
 
 /// The swept keys in which the two points differ.
@@ -342,13 +381,13 @@ std::vector<ManifestDifference> axis_differences(const reading::StudyFile& file,
 
 StudyComparison compare_studies(const reading::StudyFile& baseline, const reading::StudyFile& current,
                                 const GateRules& rules) {
-  ComparedData data{baseline, current, match_points(baseline, current)};
+  std::vector<MatchedPoint> points = match_points(baseline, current);
   ManifestValues old_values = manifest_values(baseline.header(), baseline.path().string());
   ManifestValues new_values = manifest_values(current.header(), current.path().string());
   write_changed_defaults(old_values, baseline.header().version, new_values, current.header().version);
   require_same_kind(baseline, current, old_values, new_values);
-  data.baseline_rigs = rigs_of(old_values);
-  data.current_rigs = rigs_of(new_values);
+  const ComparedData data =
+      compared_data(baseline, old_values, current, new_values, std::move(points), rules);
 
   StudyComparison result = begin(baseline, current, rules);
   result.manifest_differences = manifest_differences(old_values, new_values);
@@ -356,9 +395,8 @@ StudyComparison compare_studies(const reading::StudyFile& baseline, const readin
   if (result.layer != ComparisonLayer::bits) {
     require_independent_trials(baseline, old_values);
     require_independent_trials(current, new_values);
-    pair_trials(result, compare_draws(baseline, current, old_values, new_values, data.points));
+    pair_trials(result, compare_draws_of(data, old_values, new_values));
   }
-  note_unpaired_trials(result);
   judge(result, rules, data);
   return result;
 }
@@ -372,14 +410,16 @@ StudyComparison compare_points(const reading::StudyFile& file, std::int64_t base
   StudyComparison result = begin(file, file, rules);
   result.baseline_label = labels[static_cast<std::size_t>(baseline)];
   result.manifest_differences = axis_differences(file, point);
-  pair_trials(result, compare_draws_within(file, values, point));
-  judge(result, rules, {file, file, {point}, rigs_of(values), rigs_of(values)});
+  const ComparedData data = compared_data(file, values, file, values, {point}, rules);
+  pair_trials(result, compare_draws_within(data, values));
+  judge(result, rules, data);
   return result;
 }
 
 GateRules rules_of(const CompareOptions& options, std::span<const std::string> labels) {
   GateRules rules = options.margins ? read_gate_rules(*options.margins, labels) : GateRules{};
   rules.changed_fails = rules.changed_fails || options.changed_fails;
+  rules.max_trials = options.max_trials;
   return rules;
 }
 

@@ -169,6 +169,7 @@ StudyComparison compare_points(const reading::StudyFile& file, std::int64_t base
 struct CompareOptions {
   std::optional<std::filesystem::path> margins{};  ///< file of margins and requirements
   bool changed_fails{false};                       ///< a change for the better fails too, at every measure
+  std::optional<std::int64_t> max_trials{};        ///< as GateRules::max_trials
 };
 
 /// The rules of these options for a file with these labels of design points.

@@ -65,11 +65,17 @@ struct Requirement {
   double limit{0.0};
 };
 
+/// Moves of each point that are compared, in whole trials, unless another number of trials is asked for. They
+/// take about 0.4 GB.
+constexpr std::int64_t default_compared_moves = 1'000'000;
+
 struct GateRules {
   double confidence{0.95};            ///< of every bound, one-sided
   double false_discovery_rate{0.05};  ///< over all measures at all points
   bool changed_fails{false};          ///< of every measure, a change for the better fails too
   std::vector<std::string> measures;  ///< that are judged; empty: all
+  /// Trials of each point that are compared, the first ones; default: default_compared_moves / moves of each.
+  std::optional<std::int64_t> max_trials;
   std::map<std::string, GateMargin> margins;
   std::vector<Requirement> requirements;                                ///< at every point
   std::map<std::string, std::map<std::string, GateMargin>> margins_at;  ///< [label][measure]

@@ -99,8 +99,7 @@ const study::InputColumn* find_input(const reading::StudyFile& file, const std::
 /// The worst relation of one parameter over all points.
 InputRelation relation_over_points(const reading::StudyFile& baseline, const reading::StudyFile& current,
                                    std::size_t old_column, std::size_t new_column,
-                                   const std::vector<MatchedPoint>& points) {
-  const std::int64_t trials = std::min(baseline.header().trials, current.header().trials);
+                                   const std::vector<MatchedPoint>& points, std::int64_t trials) {
   InputRelation worst = InputRelation::equal;
   for (const MatchedPoint& point : points) {
     const InputRelation relation =
@@ -147,7 +146,7 @@ std::vector<MatchedPoint> match_points(const reading::StudyFile& baseline,
 
 DrawComparison compare_draws(const reading::StudyFile& baseline, const reading::StudyFile& current,
                              const ManifestValues& old_values, const ManifestValues& new_values,
-                             const std::vector<MatchedPoint>& points) {
+                             const std::vector<MatchedPoint>& points, std::int64_t trials) {
   if (baseline.header().seed != current.header().seed) return {false, "the seeds differ", {}};
   for (const auto& [key, absent] : {std::pair<std::string, std::string>{"design", "monte_carlo"},
                                     {"independent_points", "false"},
@@ -162,7 +161,8 @@ DrawComparison compare_draws(const reading::StudyFile& baseline, const reading::
     const study::InputColumn* const partner = find_input(current, name);
     if (partner == nullptr) continue;
     const auto new_column = static_cast<std::size_t>(partner - current.input_columns().data());
-    const InputRelation relation = relation_over_points(baseline, current, column, new_column, points);
+    const InputRelation relation =
+        relation_over_points(baseline, current, column, new_column, points, trials);
     if (relation == InputRelation::different) {
       return {false, fmt::format("trial i has other values of {}", name), {}};
     }

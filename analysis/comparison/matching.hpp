@@ -33,10 +33,10 @@ struct DrawComparison {
 };
 
 /// The draws are the same if the seeds and designs are equal and every random parameter of both files either
-/// has bitwise equal values in all common trials or, after a change of its distribution, sorts the trials in
-/// the same order.
+/// has bitwise equal values in the first `trials` trials of the points or, after a change of its
+/// distribution, sorts them in the same order.
 DrawComparison compare_draws(const reading::StudyFile& baseline, const reading::StudyFile& current,
                              const ManifestValues& old_values, const ManifestValues& new_values,
-                             const std::vector<MatchedPoint>& points);
+                             const std::vector<MatchedPoint>& points, std::int64_t trials);
 
 }  // namespace zerocount::comparison

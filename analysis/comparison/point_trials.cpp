@@ -10,30 +10,39 @@
 
 namespace zerocount::comparison {
 
-PointTrials gather_trials(std::span<const trial::MoveOutcome> outcomes, std::int64_t moves,
-                          const layout::MeasureTable& table) {
-  PointTrials result;
-  result.trials = std::ssize(outcomes) / moves;
-  result.moves = moves;
-  result.table = &table;
-  for (const GateMeasure& gated : gate_measures(table)) {
+void add_trials(PointTrials& trials, std::span<const trial::MoveOutcome> outcomes) {
+  trials.trials += std::ssize(outcomes) / trials.moves;
+  for (const GateMeasure& gated : gate_measures(*trials.table)) {
     const layout::Measure& measure = *gated.measure;
-    std::vector<double>& values = result.values[std::string(gated.name)];
+    std::vector<double>& values = trials.values[std::string(gated.name)];
     if (layout::is_quality(measure) || measure.of_trial == layout::OfTrial::sum) {
-      for (auto move = outcomes.begin(); move != outcomes.end(); move += moves)
-        values.push_back(measures::value_of_trial(measure, {move, move + moves}));
+      for (auto move = outcomes.begin(); move != outcomes.end(); move += trials.moves)
+        values.push_back(measures::value_of_trial(measure, {move, move + trials.moves}));
     } else {
       for (const trial::MoveOutcome& move : outcomes)
         values.push_back(measures::counted_value(measure, move));
     }
   }
-  for (const trial::MoveOutcome& move : outcomes) measures::add_move(result.undecided, move);
+  for (const trial::MoveOutcome& move : outcomes) measures::add_move(trials.undecided, move);
+}
+
+PointTrials gather_trials(std::span<const trial::MoveOutcome> outcomes, std::int64_t moves,
+                          const layout::MeasureTable& table) {
+  PointTrials result;
+  result.moves = moves;
+  result.table = &table;
+  add_trials(result, outcomes);
   return result;
 }
 
-PointTrials read_point_trials(const reading::StudyFile& file, std::int64_t point) {
-  const std::int64_t trials = file.header().trials;
-  return gather_trials(file.outcomes({point * trials, trials}), file.moves(), file.table());
+PointTrials read_point_trials(const reading::StudyFile& file, std::int64_t point, std::int64_t trials) {
+  PointTrials result;
+  result.moves = file.moves();
+  result.table = &file.table();
+  measures::visit_blocks(
+      file, {point * file.header().trials, trials},
+      [&](layout::RowRange, std::span<const trial::MoveOutcome> outcomes) { add_trials(result, outcomes); });
+  return result;
 }
 
 PointTrials first_trials(const PointTrials& all, std::int64_t trials) {

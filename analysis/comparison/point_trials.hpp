@@ -30,14 +30,18 @@ struct PointTrials {
   }
 };
 
+/// Adds trials, from the outcomes of all their moves, [trial][move], flattened.
+void add_trials(PointTrials& trials, std::span<const trial::MoveOutcome> outcomes);
+
 /// From the outcomes of all moves of the trials, [trial][move], flattened.
 /// @param moves of each trial
 PointTrials gather_trials(std::span<const trial::MoveOutcome> outcomes, std::int64_t moves,
                           const layout::MeasureTable& table = layout::measure_table());
 
-/// The trials of design point `point` of a whole study, with `rigs` 0: a file does not say it by itself.
+/// The first `trials` trials of design point `point` of a whole study, with `rigs` 0: a file does not say it
+/// by itself.
 /// @throws Failure (bad_data) where the file is damaged.
-PointTrials read_point_trials(const reading::StudyFile& file, std::int64_t point);
+PointTrials read_point_trials(const reading::StudyFile& file, std::int64_t point, std::int64_t trials);
 
 /// The first `trials` of them. `undecided` stays that of all.
 PointTrials first_trials(const PointTrials& all, std::int64_t trials);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "results/hdf5/foreign_file.hpp"
 #include "results/hdf5/hdf5.hpp"
 
 namespace zerocount::hdf5 {
@@ -17,7 +18,7 @@ bool is_hdf5_with_user_block(const std::filesystem::path& path);
 class ArrayFile : public File {
  public:
   /// @throws Failure: bad_data if it is damaged; machine_failed if it cannot be read.
-  explicit ArrayFile(const std::filesystem::path& path) : File(File::open_to_read(path)) {}
+  explicit ArrayFile(const std::filesystem::path& path) : File(open_foreign(path)) {}
 
   /// The paths of all datasets of integers and floating-point numbers, in alphabetic order.
   std::vector<std::string> arrays() const;

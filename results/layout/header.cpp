@@ -11,6 +11,7 @@
 #include "core/hash/sha256.hpp"
 #include "core/text/utf8.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "results/hdf5/foreign_file.hpp"
 #include "results/layout/plugin_record.hpp"
 #include "results/storage/checksum_trailer.hpp"
 #include "results/storage/durable_file.hpp"
@@ -318,7 +319,7 @@ hdf5::File open_results(const std::filesystem::path& path, Checksum checksum) {
         fmt::format("{}: not a results file of zerocount: it is not in the HDF5 format", path.string()));
   }
   if (checksum == Checksum::required) storage::require_valid_checksum(path);
-  return hdf5::File::open_to_read(path);
+  return hdf5::open_foreign(path);
 }
 
 }  // namespace zerocount::layout

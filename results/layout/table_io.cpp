@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include <fmt/format.h>
+
 namespace zerocount::layout {
 namespace {
 
@@ -102,6 +104,16 @@ TableIo TableIo::open(const hdf5::Group& root, const Table& table) {
     io.datasets_.push_back(std::move(dataset));
   }
   return io;
+}
+
+void require_flags(const TableIo& io, std::size_t index, std::int64_t first,
+                   std::span<const std::byte> flags) {
+  const auto wrong =
+      std::find_if(flags.begin(), flags.end(), [](std::byte flag) { return flag > std::byte{1}; });
+  if (wrong == flags.end()) return;
+  io.column(index).fail(fmt::format("row {}: it is {}; expected 0 or 1",
+                                    first + (wrong - flags.begin()) / io.width(),
+                                    std::to_integer<int>(*wrong)));
 }
 
 hdf5::Storage TableIo::storage_of(const Column& column) const {

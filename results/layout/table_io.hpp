@@ -88,6 +88,11 @@ void write_records(TableIo& io, const std::vector<RecordField<Record>>& fields, 
   }
 }
 
+/// Throws Failure (bad_data) if an element of the column, read as bytes from row `first` on, is neither 0
+/// nor 1.
+void require_flags(const TableIo& io, std::size_t index, std::int64_t first,
+                   std::span<const std::byte> flags);
+
 template <class Record>
 std::vector<Record> read_records(const TableIo& io, const std::vector<RecordField<Record>>& fields,
                                  std::int64_t first, std::int64_t rows) {
@@ -99,8 +104,10 @@ std::vector<Record> read_records(const TableIo& io, const std::vector<RecordFiel
     columns.push_back({&io.column(index), first, rows, bytes.back().data()});
   }
   hdf5::read_rows(columns);
-  for (std::size_t index = 0; index < fields.size(); ++index)
+  for (std::size_t index = 0; index < fields.size(); ++index) {
+    if (fields[index].column.element == hdf5::Element::flag) require_flags(io, index, first, bytes[index]);
     scatter(fields[index], bytes[index], std::span(records));
+  }
   return records;
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -124,6 +125,7 @@ ExitCode compare(const command_line::Arguments& arguments) {
   comparison::CompareOptions options;
   if (margins) options.margins = *margins;
   options.changed_fails = arguments.has("changed-fails");
+  options.max_trials = arguments.whole_number("max-trials", 1, std::int64_t{1} << 53);
   const comparison::StudyComparison result = compared(arguments, options);
   for (const FormPlace& place : places) command_line::write_text(place.place, place.form.text(result));
   return code_of(result.verdict);
@@ -137,6 +139,7 @@ Command compare_command() {
            {{"points", "A B", "compare two design points of one FILE, by label or number", false, 2},
             {"margins", "FILE", "YAML file of margins and requirements"},
             {"changed-fails", "", "a change for the better fails too, not only one for the worse"},
+            {"max-trials", "N", "judge the first N trials of each point (default: a million moves)"},
             {"format", "FORMAT", "of standard output: table (default), json, junit or markdown"},
             {"json", "FILE", "write the JSON there too"},
             {"junit", "FILE", "write JUnit XML there too"},

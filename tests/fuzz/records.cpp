@@ -32,12 +32,10 @@ std::vector<std::string> words_of(std::string_view lines) {
 }
 
 void read_record(const std::filesystem::path& path, const std::vector<std::string>& words) {
-  const command_line::Arguments arguments({.name = "identify",
-                                           .operands = "",
-                                           .options = commands::column_options(),
-                                           .min_operands = 0,
-                                           .max_operands = 0},
-                                          words);
+  std::vector<command_line::OptionSpec> options = commands::column_options();
+  options.push_back({"help,h", "", ""});
+  const command_line::Arguments arguments(
+      {.name = "identify", .operands = "", .options = options, .min_operands = 0, .max_operands = 0}, words);
   records::SeriesChoice choice{.counts_per_revolution = 1000.0};
   commands::set_columns(arguments, choice);
   const records::TextTable table(path, choice.separator);

@@ -262,6 +262,41 @@ TEST_F(ComparedStudies, WhatMeasuresNothingNeverPasses) {
   EXPECT_EQ(result.points[0].verdict, comparison::GateVerdict::not_measured);
 }
 
+/// The first `count` trials of each of two points.
+std::vector<TrialRecord> first_of(const std::vector<TrialRecord>& all, std::int64_t count) {
+  std::vector<TrialRecord> some(all.begin(), all.begin() + count);
+  some.insert(some.end(), all.begin() + trials, all.begin() + trials + count);
+  return some;
+}
+
+TEST_F(ComparedStudies, JudgesAsManyTrialsAsAsked) {
+  std::vector<TrialRecord> worse = good_trials();
+  for (std::size_t row = 0; row < worse.size(); ++row)
+    worse[row] = trial_of(row % 7 != 0, 45 + int(row % 31));
+  const auto baseline = write("a.h5", study_of(), good_trials());
+  const auto current = write("b.h5", study_of("", 2), worse);
+  for (const std::int64_t count : {25, 60, 119}) {
+    comparison::GateRules rules;
+    rules.max_trials = count;
+    const auto some = comparison::compare_studies(baseline, current, rules);
+    const auto alone =
+        comparison::compare_studies(write("c.h5", study_of("", 1, count), first_of(good_trials(), count)),
+                                    write("d.h5", study_of("", 2, count), first_of(worse, count)));
+    for (std::size_t point = 0; point < 2; ++point) {
+      EXPECT_EQ(some.points[point].baseline_trials, count);
+      ASSERT_EQ(some.points[point].measures.size(), alone.points[point].measures.size());
+      for (std::size_t i = 0; i < some.points[point].measures.size(); ++i) {
+        EXPECT_EQ(some.points[point].measures[i].baseline, alone.points[point].measures[i].baseline);
+        EXPECT_EQ(some.points[point].measures[i].effect, alone.points[point].measures[i].effect);
+      }
+    }
+    ASSERT_FALSE(some.notes.empty());
+    EXPECT_EQ(some.notes[0], fmt::format("of the 120 trials of each point in {}, the first {} are judged; "
+                                         "more: --max-trials",
+                                         (folder_ / "a.h5").string(), count));
+  }
+}
+
 TEST_F(ComparedStudies, ADriftingBaselineDoesNotCarryARequirementAway) {
   comparison::GateRules rules;
   rules.requirements = {{"success_rate ≥ 0.995", comparison::find_requirable("success_rate"), true, 0.995}};
@@ -290,13 +325,14 @@ TEST(Draws, RiseInTheSameOrderThroughAnotherDistribution) {
   const reading::StudyFile scaled = write("b.h5", [&](std::int64_t row) { return 0.95 * draw(row); });
   const reading::StudyFile other = write("c.h5", [&](std::int64_t row) { return draw(row + 1); });
   const auto points = comparison::match_points(before, scaled);
-  const comparison::DrawComparison same = comparison::compare_draws(before, scaled, {}, {}, points);
+  const comparison::DrawComparison same = comparison::compare_draws(before, scaled, {}, {}, points, trials);
   EXPECT_TRUE(same.same);
   EXPECT_EQ(same.changed_inputs, std::vector<std::string>{"friction.k1"});
-  const comparison::DrawComparison different = comparison::compare_draws(before, other, {}, {}, points);
+  const comparison::DrawComparison different =
+      comparison::compare_draws(before, other, {}, {}, points, trials);
   EXPECT_FALSE(different.same);
   EXPECT_EQ(different.reason, "trial i has other values of friction.k1");
-  EXPECT_FALSE(comparison::compare_draws(before, scaled, {}, {{"design", "sobol"}}, points).same);
+  EXPECT_FALSE(comparison::compare_draws(before, scaled, {}, {{"design", "sobol"}}, points, trials).same);
 }
 
 }  // namespace

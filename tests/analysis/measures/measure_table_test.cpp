@@ -59,6 +59,11 @@ class AddedMeasure : public ::testing::Test {
         table);
   }
 
+  comparison::PointTrials read_trials() const {
+    return comparison::read_point_trials(reading::StudyFile(path, reading::Require::complete, table), 0,
+                                         study.trials);
+  }
+
   double mean_reserve() const {
     double sum = 0.0;
     for (const testing::TrialRecord& trial : trials)
@@ -126,8 +131,7 @@ TEST_F(AddedMeasure, IsAnOutputThatSensitivityExplains) {
 }
 
 TEST_F(AddedMeasure, IsJudgedByTheGate) {
-  const comparison::PointTrials before =
-      comparison::read_point_trials(reading::StudyFile(path, reading::Require::complete, table), 0);
+  const comparison::PointTrials before = read_trials();
   comparison::PointTrials after = before;
   for (double& reserve : after.values.at("torque_reserve")) reserve -= 0.01;
   for (const bool paired : {true, false}) {
@@ -143,8 +147,7 @@ TEST_F(AddedMeasure, IsJudgedByTheGate) {
 }
 
 TEST_F(AddedMeasure, OfATrialIsThatOfItsWorstMove) {
-  const comparison::PointTrials read =
-      comparison::read_point_trials(reading::StudyFile(path, reading::Require::complete, table), 0);
+  const comparison::PointTrials read = read_trials();
   const std::vector<double> worst = comparison::worst_of_moves(read, comparison::gate_measures(table).back());
   ASSERT_EQ(worst.size(), trials.size());
   for (std::size_t i = 0; i < worst.size(); ++i) {

@@ -79,6 +79,8 @@ TEST_F(SoundValues, TheSampleHasThem) {
 TEST_F(SoundValues, AreAskedOfEveryMeasure) {
   expect_refused("outcome/outcome", 41, std::int8_t{77}, "trial 41, move 0: it is 77; expected 0 to 5");
   expect_refused("outcome/outcome", 41, std::int8_t{-1}, "trial 41, move 0: it is -1; expected 0 to 5");
+  for (const char* flag : {"arrived", "stable"})
+    expect_refused(std::string("outcome/") + flag, 41, std::uint8_t{7}, "row 41: it is 7; expected 0 or 1");
   for (const double time : {infinity, -infinity, -0.5})
     expect_refused("outcome/settling_time", 7, time, "trial 7, move 0: it is ");
   expect_refused("outcome/travel_time", 7, -0.5, "trial 7, move 0: it is -0.5; expected a finite time");

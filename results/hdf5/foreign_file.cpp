@@ -1,0 +1,110 @@
+#include "results/hdf5/foreign_file.hpp"
+
+#include <cerrno>
+#include <csignal>
+#include <cstddef>
+#include <cstdlib>
+#include <vector>
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/failure/failure.hpp"
+#include "results/hdf5/hdf5_detail.hpp"
+#include "results/storage/durable_file.hpp"
+
+namespace zerocount::hdf5 {
+namespace {
+
+constexpr rlim_t longest_reading = 20;  // s of CPU time
+constexpr std::size_t most_bytes = 16U
+                                   << 20U;  // of an attribute, or of the references to the texts of a dataset
+
+/// Room for elements as they stand in the file; none for more than the child should read. Texts need not be
+/// freed in a process that ends.
+std::vector<std::byte> room_for(Id type, hssize_t elements) {
+  const std::size_t size = H5Tget_size(type);
+  if (size == 0 || elements <= 0 || static_cast<std::size_t>(elements) > most_bytes / size) return {};
+  return std::vector<std::byte>(size * static_cast<std::size_t>(elements));
+}
+
+herr_t read_attribute(Id object, const char* name, const H5A_info_t*, void*) {
+  const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+  const Handle type(H5Aget_type(attribute.get()), H5Tclose);
+  const Handle space(H5Aget_space(attribute.get()), H5Sclose);
+  std::vector<std::byte> values = room_for(type.get(), H5Sget_simple_extent_npoints(space.get()));
+  if (!values.empty()) H5Aread(attribute.get(), type.get(), values.data());
+  return 0;
+}
+
+/// All texts of a dataset, and of numbers the first.
+void read_dataset(Id dataset) {
+  const Handle type(H5Dget_type(dataset), H5Tclose);
+  const Handle space(H5Dget_space(dataset), H5Sclose);
+  const int rank = H5Sget_simple_extent_ndims(space.get());
+  if (H5Tget_class(type.get()) != H5T_STRING && rank > 0 && H5Sget_simple_extent_npoints(space.get()) > 0) {
+    const std::vector<Size> first(static_cast<std::size_t>(rank), 0);
+    H5Sselect_elements(space.get(), H5S_SELECT_SET, 1, first.data());
+  }
+  const hssize_t elements = H5Sget_select_npoints(space.get());
+  std::vector<std::byte> values = room_for(type.get(), elements);
+  if (values.empty()) return;
+  const auto count = static_cast<Size>(elements);
+  const Handle memory(H5Screate_simple(1, &count, nullptr), H5Sclose);
+  H5Dread(dataset, type.get(), memory.get(), space.get(), H5P_DEFAULT, values.data());
+}
+
+herr_t read_object(Id file, const char* name, const H5O_info_t* info, void*) {
+  const Handle object(H5Oopen(file, name, H5P_DEFAULT), H5Oclose);
+  H5Aiterate2(object.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, read_attribute, nullptr);
+  if (info->type == H5O_TYPE_DATASET) read_dataset(object.get());
+  return 0;
+}
+
+class TriedFile : public File {
+ public:
+  explicit TriedFile(const std::filesystem::path& path) : File(File::open_to_read(path)) {}
+
+  void read_all_objects() const {
+    H5Ovisit2(id(), H5_INDEX_NAME, H5_ITER_INC, read_object, nullptr, H5O_INFO_BASIC);
+  }
+};
+
+/// The child: whatever it finds, only that it survives is of interest.
+[[noreturn]] void read_and_exit(const std::filesystem::path& path) {
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(signal, SIG_DFL);
+  const rlimit no_core{0, 0};
+  const rlimit time{longest_reading, longest_reading};
+  setrlimit(RLIMIT_CORE, &no_core);
+  setrlimit(RLIMIT_CPU, &time);
+  try {
+    TriedFile(path).read_all_objects();
+  } catch (...) {  // the caller finds it too, and says what it is
+    _exit(EXIT_SUCCESS);
+  }
+  _exit(EXIT_SUCCESS);
+}
+
+void require_survivable(const std::filesystem::path& path) {
+  const pid_t child = fork();
+  if (child < 0) storage::fail_with(path, "read in a process of its own", errno);
+  if (child == 0) read_and_exit(path);
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS) return;
+  throw Failure(ExitCode::bad_data,
+                path.string() +
+                    ": damaged: the HDF5 library fails when it reads it; a file that zerocount wrote "
+                    "and nobody changed can be read");
+}
+
+}  // namespace
+
+File open_foreign(const std::filesystem::path& path) {
+  require_survivable(path);
+  return File::open_to_read(path);
+}
+
+}  // namespace zerocount::hdf5

@@ -35,7 +35,7 @@ function(zerocount_target target)
     # instrumented (GCC bug 105562).
     target_compile_options(${target} PRIVATE ${sanitizers} -fno-omit-frame-pointer ${optimisation} -g1
                                              $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
-    target_compile_definitions(${target} PRIVATE _GLIBCXX_ASSERTIONS)
+    target_compile_definitions(${target} PRIVATE _GLIBCXX_ASSERTIONS ZEROCOUNT_SANITIZED)
     target_link_options(${target} PUBLIC ${sanitizers})
   endif()
   if(ZEROCOUNT_COVERAGE)

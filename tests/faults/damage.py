@@ -198,7 +198,7 @@ def faults(bench, quick, seconds):
     for _ in range(1 if quick else 6):
         yield "shard with an impossible value and a right checksum", damaged_shard, (impossible_value, draw.random())
     for _ in range(1 if quick else 6):
-        yield "verify of a shard with a plausible wrong value and a right checksum", plausible_value, (draw.random(),)
+        yield "`verify` of a shard with a plausible wrong value", plausible_value, (draw.random(),)
     for replaces in (True,) if quick else (True, True, False, False):
         yield "shard of another study", foreign_shard, (replaces, draw.random())
     for place in ("out.h5.shards/",) if quick else ("out.h5.part", "out.h5.shards/"):

@@ -2,14 +2,6 @@
 
 #include <cstddef>
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define ZEROCOUNT_SANITIZED
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define ZEROCOUNT_SANITIZED
-#endif
-#endif
-
 namespace zerocount::testing {
 namespace {
 

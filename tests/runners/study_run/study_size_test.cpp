@@ -60,7 +60,7 @@ TEST(StudySize, IsAboutWhatTheFilesTake) {
 }
 
 TEST(StudySize, IsAboutTheMemoryThatARunTakes) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef ZEROCOUNT_SANITIZED
   GTEST_SKIP() << "sanitizers take memory of their own";
 #endif
   const TemporaryFolder folder;

@@ -66,7 +66,7 @@ struct Requirement {
 };
 
 /// Moves of each point that are compared, in whole trials, unless another number of trials is asked for. They
-/// take about 0.4 GB.
+/// take less than 0.5 GB.
 constexpr std::int64_t default_compared_moves = 1'000'000;
 
 struct GateRules {

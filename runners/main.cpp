@@ -63,6 +63,8 @@ void occupy_closed_streams() {
 int main(int count, char** words) {
   // A write beyond the file size limit must fail and be reported; the signal would kill the process silently.
   std::signal(SIGXFSZ, SIG_IGN);
+  // Where the parent ignored it, the ends of child processes would be lost.
+  std::signal(SIGCHLD, SIG_DFL);
   occupy_closed_streams();
   return static_cast<int>(run({words + 1, words + count}));
 }

@@ -1,11 +1,14 @@
 #include "results/hdf5/foreign_file.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstddef>
 #include <cstdlib>
 #include <vector>
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -18,8 +21,12 @@ namespace zerocount::hdf5 {
 namespace {
 
 constexpr rlim_t longest_reading = 20;  // s of CPU time
-constexpr std::size_t most_bytes = 16U
-                                   << 20U;  // of an attribute, or of the references to the texts of a dataset
+
+/// Bytes of an attribute, or of the references to the texts of a dataset.
+constexpr std::size_t most_bytes = 16U << 20U;
+
+/// How the library fails: the last is the limit of the time.
+constexpr std::array crashes{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU};
 
 /// Room for elements as they stand in the file; none for more than the child should read. Texts need not be
 /// freed in a process that ends.
@@ -73,9 +80,9 @@ class TriedFile : public File {
 
 /// The child: whatever it finds, only that it survives is of interest.
 [[noreturn]] void read_and_exit(const std::filesystem::path& path) {
-  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(signal, SIG_DFL);
+  for (const int signal : crashes) std::signal(signal, SIG_DFL);
   const rlimit no_core{0, 0};
-  const rlimit time{longest_reading, longest_reading};
+  const rlimit time{longest_reading, longest_reading + 1};  // SIGXCPU before SIGKILL
   setrlimit(RLIMIT_CORE, &no_core);
   setrlimit(RLIMIT_CPU, &time);
   try {
@@ -91,9 +98,17 @@ void require_survivable(const std::filesystem::path& path) {
   if (child < 0) storage::fail_with(path, "read in a process of its own", errno);
   if (child == 0) read_and_exit(path);
   int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
+  pid_t ended = -1;
+  do {
+    ended = waitpid(child, &status, 0);
+  } while (ended < 0 && errno == EINTR);
+  if (ended < 0) storage::fail_with(path, "read in a process of its own", errno);
   if (WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS) return;
+  if (WIFSIGNALED(status) && std::ranges::find(crashes, WTERMSIG(status)) == crashes.end()) {
+    throw Failure(ExitCode::machine_failed,
+                  fmt::format("{}: the process that was to read it first was killed (signal {})",
+                              path.string(), WTERMSIG(status)));
+  }
   throw Failure(ExitCode::bad_data,
                 path.string() +
                     ": damaged: the HDF5 library fails when it reads it; a file that zerocount wrote "

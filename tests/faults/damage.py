@@ -44,7 +44,7 @@ DAMAGES = {"truncated": truncated, "zeroed": zeroed, "one bit flipped": bit_flip
 
 
 def change_value(path, draw, name, change):
-    """Another value of a dataset, and a right checksum; returns the place of the value."""
+    """Another value of a dataset, and a right checksum."""
     data = path.read_bytes()[:-TRAILER]
     path.write_bytes(data)
     with h5py.File(path, "r+", locking=False) as file:
@@ -54,7 +54,6 @@ def change_value(path, draw, name, change):
         file[name][...] = values
     path.write_bytes(path.read_bytes() + bytes(TRAILER))
     seal(path)
-    return place
 
 
 def impossible_value(path, draw):

@@ -209,15 +209,15 @@ FitResult with_time_offset(std::span<const TestRecord> records, const Observatio
   return found.squares < from.squares ? found : from;
 }
 
-/// A few steps from the best of the other starting points; at most three of them, in the order of their sums
-/// of squares.
-std::vector<FitResult> other_fits(std::span<const TestRecord> records, const Observations& observations,
-                                  FitSetting setting) {
+/// A few steps from the best of the starting points `starts`; at most three of them, in the order of their
+/// sums of squares.
+std::vector<FitResult> promising_fits(std::span<const TestRecord> records, const Observations& observations,
+                                      const std::vector<ContactPoint>& starts, FitSetting setting) {
   std::vector<FitResult> fits;
-  for (const ContactPoint& other : other_starting_points(records, setting.prior, setting.creep_torque)) {
+  for (const ContactPoint& start : starts) {
     ContactPoint contact = setting.prior;
     for (std::size_t j = 0; j < coordinate_count; ++j) {
-      if (setting.free[j]) contact[j] = other[j];
+      if (setting.free[j]) contact[j] = start[j];
     }
     fits.push_back({with_mean_offsets(records, contact, setting), 0.0});
   }
@@ -251,15 +251,18 @@ FitPoint fit_roughly(std::span<const TestRecord> records, const FitSetting& sett
       with_time_offset(records, observations, first_fit(records, observations, start, undelayed), rough);
   refuse_glitches(records, best.point, setting);
   if (are_explained(records, best.point, setting)) return best.point;
-  const std::vector<FitResult> others = other_fits(records, observations, undelayed);
-  undelayed.tolerance = rough.tolerance = setting.tolerance;
-  undelayed.max_steps = 30;
-  for (const FitResult& other : others) {
-    rough.prior = other.point.contact;
-    const FitResult found = with_time_offset(records, observations,
-                                             fit_from(records, observations, other.point, undelayed), rough);
-    if (found.squares < best.squares) best = found;
-    if (are_explained(records, best.point, setting)) return best.point;
+  FitSetting closer = undelayed;
+  closer.tolerance = rough.tolerance = setting.tolerance;
+  closer.max_steps = 30;
+  for (const auto& starting_points : {starts_with_other_softening, starts_with_other_creep}) {
+    const std::vector<ContactPoint> starts = starting_points(records, setting.prior, setting.creep_torque);
+    for (const FitResult& other : promising_fits(records, observations, starts, undelayed)) {
+      rough.prior = other.point.contact;
+      const FitResult found = with_time_offset(records, observations,
+                                               fit_from(records, observations, other.point, closer), rough);
+      if (found.squares < best.squares) best = found;
+      if (are_explained(records, best.point, setting)) return best.point;
+    }
   }
   rough.max_steps = 50;
   return fit_from(records, observations, best.point, rough).point;

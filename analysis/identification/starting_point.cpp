@@ -241,18 +241,33 @@ ContactPoint starting_point(std::span<const TestRecord> records, double creep_to
   return with_known(with_best_ringing(records, point, creep_torque), known, free);
 }
 
-std::vector<ContactPoint> other_starting_points(std::span<const TestRecord> records,
-                                                const ContactPoint& start, double creep_torque) {
-  std::vector<ContactPoint> others;
+std::vector<ContactPoint> starts_with_other_softening(std::span<const TestRecord> records,
+                                                      const ContactPoint& start, double creep_torque) {
+  std::vector<ContactPoint> points;
   for (const double rate : {0.1, 1.0, 5.0, 20.0, 80.0}) {
     for (const double offset : {0.3, 1.0}) {
       ContactPoint point = start;
       point[log_beta] += std::log(rate);
       point[log_k2] += std::log(rate * offset);
-      others.push_back(with_best_ringing(records, point, creep_torque));
+      points.push_back(with_best_ringing(records, point, creep_torque));
     }
   }
-  return others;
+  return points;
+}
+
+std::vector<ContactPoint> starts_with_other_creep(std::span<const TestRecord> records,
+                                                  const ContactPoint& start, double creep_torque) {
+  CreepEstimate creep{std::exp(start[log_alpha]), start[creep_exponent], 0.0};
+  const double travel = creep_torque / estimate_spring(records, creep, creep_torque).k1;
+  std::vector<ContactPoint> points;
+  for (const double proportion : {1e-3, 0.1, 1.0}) {
+    creep.limit = proportion * travel;
+    const ContactPoint base = point_with_creep(records, creep, creep_torque);
+    for (const ContactPoint& point : starts_with_other_softening(records, base, creep_torque)) {
+      points.push_back(point);
+    }
+  }
+  return points;
 }
 
 }  // namespace zerocount::identification

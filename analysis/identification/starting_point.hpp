@@ -57,9 +57,14 @@ motion::PlantParameters estimate_ring_down(std::span<const TestRecord> records, 
 ContactPoint starting_point(std::span<const TestRecord> records, double creep_torque,
                             const ContactPoint& known, const FreeCoordinates& free);
 
-/// Alternative starting points: springs with much larger or smaller β and with other values of k2/β, each
-/// with its best J and c of the grid.
-std::vector<ContactPoint> other_starting_points(std::span<const TestRecord> records,
-                                                const ContactPoint& start, double creep_torque);
+/// Other starting points: springs with much larger or smaller β and with other values of k2/β, each with its
+/// best J and c of the grid.
+std::vector<ContactPoint> starts_with_other_softening(std::span<const TestRecord> records,
+                                                      const ContactPoint& start, double creep_torque);
+
+/// Other starting points: springs estimated for little, some and much creep instead of that of the holds,
+/// each with other softening. The holds of a closed loop are short and show its motion rather than creep.
+std::vector<ContactPoint> starts_with_other_creep(std::span<const TestRecord> records,
+                                                  const ContactPoint& start, double creep_torque);
 
 }  // namespace zerocount::identification

@@ -35,7 +35,8 @@ LawModel spring_based_model(const RecordScales& scales, Records records, frictio
     return quantities;
   };
   model.starts.push_back(scales.contact);
-  for (const id::ContactPoint& other : id::other_starting_points(records, scales.contact, creep_torque)) {
+  for (const id::ContactPoint& other :
+       id::starts_with_other_softening(records, scales.contact, creep_torque)) {
     model.starts.push_back(other);
   }
   model.fixed_lines = [](const LawPoint&) { return std::string(); };

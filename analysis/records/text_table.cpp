@@ -255,7 +255,10 @@ void TextTable::add_row(const Line& line) {
 std::string TextTable::columns_text() const {
   if (!named_) return fmt::format("#1 to #{}, without names", columns_.size());
   std::string text;
-  for (const Column& column : columns_) text += (text.empty() ? "" : ", ") + text::printable(column.name);
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    const std::string& name = columns_[i].name;
+    text += (i == 0 ? "" : ", ") + (name.empty() ? fmt::format("#{}", i + 1) : text::printable(name));
+  }
   return text;
 }
 

@@ -163,6 +163,7 @@ TEST_F(ColumnSeries, WhatDoesNotFitIsNamed) {
   EXPECT_EQ(refusal("a,b\n1,2\n", {}),
             "has no column for the torque; expected drive_torque or torque, or --column torque=COLUMN; its "
             "columns are a, b");
+  EXPECT_NE(refusal("a,,c\n1,2,3\n", {}).find("its columns are a, #2, c"), std::string::npos);
   EXPECT_EQ(refusal("t,torque,count\n1,2,3\n", {}),
             "the angle is in counts; --counts-per-revolution is missing");
 }

@@ -314,9 +314,8 @@ void note_unpaired_trials(StudyComparison& result, const ComparedData& data) {
   const std::int64_t after = data.current_trials;
   if (result.layer != ComparisonLayer::paired || before == after) return;
   result.notes.push_back(fmt::format(
-      "compared are the first {} trials of each point: of the {} in {}, the others have no partner",
-      std::min(before, after), std::max(before, after),
-      before > after ? result.baseline.path : result.current.path));
+      "compared are the first {} trials of each point: the trials after them in {} have no partner",
+      std::min(before, after), before > after ? result.baseline.path : result.current.path));
 }
 
 void note_trials(StudyComparison& result, const ComparedData& data) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -20,19 +21,19 @@
 namespace zerocount::hdf5 {
 namespace {
 
-constexpr rlim_t longest_reading = 20;  // s of CPU time
+constexpr rlim_t max_cpu_time = 20;  // s
 
 /// Bytes of an attribute, or of the references to the texts of a dataset.
-constexpr std::size_t most_bytes = 16U << 20U;
+constexpr std::size_t max_bytes = 256U << 20U;
 
-/// How the library fails: the last is the limit of the time.
+/// Signals of a crash. SIGXCPU: the time limit.
 constexpr std::array crashes{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU};
 
 /// Room for elements as they stand in the file; none for more than the child should read. Texts need not be
 /// freed in a process that ends.
 std::vector<std::byte> room_for(Id type, hssize_t elements) {
   const std::size_t size = H5Tget_size(type);
-  if (size == 0 || elements <= 0 || static_cast<std::size_t>(elements) > most_bytes / size) return {};
+  if (size == 0 || elements <= 0 || static_cast<std::size_t>(elements) > max_bytes / size) return {};
   return std::vector<std::byte>(size * static_cast<std::size_t>(elements));
 }
 
@@ -69,45 +70,51 @@ herr_t read_object(Id file, const char* name, const H5O_info_t* info, void*) {
   return 0;
 }
 
-class TriedFile : public File {
+class UntrustedFile : public File {
  public:
-  explicit TriedFile(const std::filesystem::path& path) : File(File::open_to_read(path)) {}
+  explicit UntrustedFile(const std::filesystem::path& path) : File(File::open_to_read(path)) {}
 
   void read_all_objects() const {
     H5Ovisit2(id(), H5_INDEX_NAME, H5_ITER_INC, read_object, nullptr, H5O_INFO_BASIC);
   }
 };
 
-/// The child: whatever it finds, only that it survives is of interest.
-[[noreturn]] void read_and_exit(const std::filesystem::path& path) {
+/// Runs in the child. Only a crash matters: the parent finds other errors again.
+[[noreturn]] void read_and_exit(const std::filesystem::path& path, pid_t parent) {
+  // The child has the parent's locks: it must not outlive it, or the same command could not go on.
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(EXIT_SUCCESS);
   for (const int signal : crashes) std::signal(signal, SIG_DFL);
   const rlimit no_core{0, 0};
-  const rlimit time{longest_reading, longest_reading + 1};  // SIGXCPU before SIGKILL
+  const rlimit time{max_cpu_time, max_cpu_time + 1};  // SIGXCPU before SIGKILL
   setrlimit(RLIMIT_CORE, &no_core);
   setrlimit(RLIMIT_CPU, &time);
   try {
-    TriedFile(path).read_all_objects();
-  } catch (...) {  // the caller finds it too, and says what it is
+    UntrustedFile(path).read_all_objects();
+  } catch (...) {
     _exit(EXIT_SUCCESS);
   }
   _exit(EXIT_SUCCESS);
 }
 
-void require_survivable(const std::filesystem::path& path) {
+/// Where the system has no room for another process, the file is not read before.
+void read_in_child(const std::filesystem::path& path) {
+  const pid_t parent = getpid();
   const pid_t child = fork();
-  if (child < 0) storage::fail_with(path, "read in a process of its own", errno);
-  if (child == 0) read_and_exit(path);
+  if (child < 0) return;
+  if (child == 0) read_and_exit(path, parent);
   int status = 0;
   pid_t ended = -1;
   do {
     ended = waitpid(child, &status, 0);
   } while (ended < 0 && errno == EINTR);
-  if (ended < 0) storage::fail_with(path, "read in a process of its own", errno);
+  if (ended < 0) storage::fail_with(path, "read in a child process", errno);
   if (WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS) return;
   if (WIFSIGNALED(status) && std::ranges::find(crashes, WTERMSIG(status)) == crashes.end()) {
-    throw Failure(ExitCode::machine_failed,
-                  fmt::format("{}: the process that was to read it first was killed (signal {})",
-                              path.string(), WTERMSIG(status)));
+    throw Failure(
+        ExitCode::machine_failed,
+        fmt::format("{}: the child process that reads it first was killed (signal {}); is the memory full?",
+                    path.string(), WTERMSIG(status)));
   }
   throw Failure(ExitCode::bad_data,
                 path.string() +
@@ -118,7 +125,7 @@ void require_survivable(const std::filesystem::path& path) {
 }  // namespace
 
 File open_foreign(const std::filesystem::path& path) {
-  require_survivable(path);
+  read_in_child(path);
   return File::open_to_read(path);
 }
 

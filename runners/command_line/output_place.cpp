@@ -16,12 +16,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// A link, a device or a pipe is never an output: a new file would be put in its place.
 fs::path file_in_folder(const Arguments& arguments, std::string_view option) {
   fs::path output = arguments.required(option);
   std::error_code error;
   if (!output.has_filename() || fs::is_directory(output, error)) {
     arguments.refuse(
         fmt::format("option '--{}': '{}' is a folder; name a file in it", option, output.string()));
+  }
+  const fs::file_status there = fs::symlink_status(output, error);
+  if (fs::exists(there) && !fs::is_regular_file(there)) {
+    arguments.refuse(fmt::format("option '--{}': {} is no regular file ({}); name a file to write", option,
+                                 output.string(), fs::is_symlink(there) ? "a link" : "a device or a pipe"));
   }
   const fs::path folder = output.has_parent_path() ? output.parent_path() : ".";
   if (!fs::is_directory(folder, error)) {
@@ -50,14 +56,10 @@ void require_apart(const Arguments& arguments, const fs::path& output, std::span
   }
 }
 
-/// @throws Failure (bad_input) if `output` is not a regular file, or exists and --force is not given.
+/// @throws Failure (bad_input) if `output` exists and --force is not given.
 void require_replaceable(const Arguments& arguments, const fs::path& output) {
   std::error_code error;
-  if (!fs::exists(fs::symlink_status(output, error))) return;
-  if (fs::exists(output, error) && !fs::is_regular_file(output, error)) {
-    arguments.refuse(fmt::format("{} is no regular file; name a file to write", output.string()));
-  }
-  if (arguments.has("force")) return;
+  if (arguments.has("force") || !fs::exists(output, error)) return;
   throw Failure(ExitCode::bad_input,
                 fmt::format("{}: exists already; --force replaces it, or name another", output.string()));
 }

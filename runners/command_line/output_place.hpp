@@ -18,7 +18,8 @@ inline constexpr std::string_view overwriting_rule =
     "An existing output is replaced only with --force, and only after the new one is complete.\n";
 
 /// The results file of --output. Checks before any work that its folder exists.
-/// @throws Failure: bad_input if it does not name a file, machine_failed if its folder does not exist.
+/// @throws Failure: bad_input if it names a folder, or what exists and is no regular file (a link is none);
+/// machine_failed if its folder does not exist.
 std::filesystem::path output_place(const Arguments& arguments);
 
 /// The text file of `option`, or "-" for standard output; nothing if the option is missing.
@@ -26,8 +27,8 @@ std::filesystem::path output_place(const Arguments& arguments);
 std::optional<std::filesystem::path> text_place(const Arguments& arguments, std::string_view option);
 
 /// Checks the input and output files of a verb before any work; "-" means a standard stream.
-/// @throws Failure (bad_input) if two inputs are standard input, or if an output is an input, another output
-/// or not a regular file, or exists and --force is not given.
+/// @throws Failure (bad_input) if two inputs are standard input, or if an output is an input, another
+/// output, or exists and --force is not given.
 void require_places(const Arguments& arguments, const std::vector<std::filesystem::path>& inputs,
                     const std::vector<std::filesystem::path>& outputs);
 

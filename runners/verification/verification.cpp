@@ -145,8 +145,11 @@ std::vector<CheckReport> verify(std::span<const fs::path> operands, const Verify
       throw Failure(ExitCode::bad_input, fmt::format("{}: no such file", operand.string()));
     if (fs::is_directory(operand, ignored)) {
       verify_folder(operand, settings, reports);
-    } else {
+    } else if (fs::is_regular_file(operand, ignored)) {
       verify_file(operand, settings, reports);
+    } else {
+      throw Failure(ExitCode::bad_input,
+                    fmt::format("{}: no regular file; a results file was expected", operand.string()));
     }
   }
   return reports;

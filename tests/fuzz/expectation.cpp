@@ -55,7 +55,8 @@ void require_text(std::string_view text) {
   for (std::string_view rest = text; !rest.empty();) {
     const std::optional<std::uint32_t> point = take_code_point(rest);
     if (!point) report("a text that is not UTF-8", text);
-    if (is_control(*point) && *point != '\n' && *point != '\t') report("a text with control characters", text);
+    if (is_control(*point) && *point != '\n' && *point != '\t')
+      report("a text with control characters", text);
   }
 }
 

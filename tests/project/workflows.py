@@ -23,7 +23,7 @@ def lines_of(job):
             yield from text.splitlines()
 
 
-def problems(root, workflow, known):
+def problems(workflow, known):
     called = 0
     for name, job in yaml.safe_load(workflow.read_text(encoding="utf-8"))["jobs"].items():
         if "timeout-minutes" not in job:
@@ -43,7 +43,7 @@ def main():
     usage = subprocess.run([root / "quickstart", "--help"], capture_output=True, text=True, check=True).stdout
     known = set(re.findall(r"\./quickstart(?: \w+)?", usage))
     workflows = sorted((root / ".github/workflows").glob("*.yml"))
-    found = [problem for workflow in workflows for problem in problems(root, workflow, known)]
+    found = [problem for workflow in workflows for problem in problems(workflow, known)]
     print("\n".join(found) or f"{len(workflows)} workflows call what there is")
     return 1 if found or not workflows else 0
 

@@ -125,7 +125,8 @@ TEST_F(Places, APipeIsRefusedAndNotWaitedFor) {
        {"summary pipe.h5", "check pipe", "run pipe -o new.h5", "merge pipe.h5 -o other.h5", "trace pipe.h5",
         "identify pipe.csv", "identify pipe.h5 --column angle=/angle", "compare pipe.h5 all.h5",
         "compare all.h5 all.h5 --margins pipe", "history add pipe.h5", "trace all.h5 -o pipe.csv --force",
-        "plot all.h5 --figure success -o pipe.svg --force"}) {
+        "plot all.h5 --figure success -o pipe.svg --force", "run study.yaml -o pipe.h5 --force",
+        "verify pipe.h5"}) {
     EXPECT_EQ(shell(fmt::format("timeout 20 $Z {}", line)), 2) << line << ": " << folder_.read("err");
     EXPECT_NE(folder_.read("err").find("no regular file"), std::string::npos) << folder_.read("err");
   }
@@ -149,6 +150,19 @@ TEST_F(Places, ALinkInTheWayIsNotFollowed) {
   EXPECT_EQ(folder_.read("notes"), "my notes");
   for (const char* link : {"new.h5.lock", "merged.h5.part", "new.csv.part"})
     EXPECT_TRUE(fs::is_symlink(at(link))) << link;
+}
+
+TEST_F(Places, ALinkIsNoOutput) {
+  folder_.write("notes", "my notes");
+  for (const char* name : {"link.h5", "link.csv", "link.html"}) fs::create_symlink(at("notes"), at(name));
+  for (const char* line :
+       {"run study.yaml -q -o link.h5 --force", "merge part1.h5 part2.h5 -o link.h5 --force",
+        "trace all.h5 -o link.csv --force", "report all.h5 -o link.html --force"}) {
+    EXPECT_EQ(shell(fmt::format("$Z {}", line)), 2) << line << ": " << folder_.read("err");
+    EXPECT_NE(folder_.read("err").find("no regular file (a link)"), std::string::npos) << folder_.read("err");
+  }
+  EXPECT_EQ(folder_.read("notes"), "my notes");
+  for (const char* name : {"link.h5", "link.csv", "link.html"}) EXPECT_TRUE(fs::is_symlink(at(name))) << name;
 }
 
 TEST_F(Places, TheNameOfAnOutputIsTheKindOfItsContents) {

@@ -6,9 +6,11 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include "core/trial/trial.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
@@ -59,19 +61,39 @@ TEST(StudySize, IsAboutWhatTheFilesTake) {
   }
 }
 
-TEST(StudySize, IsAboutTheMemoryThatARunTakes) {
+/// Peak memory (bytes) of the largest program that the test has run.
+double peak_of_programs() {
+  rusage children{};
+  EXPECT_EQ(getrusage(RUSAGE_CHILDREN, &children), 0);
+  return 1024.0 * static_cast<double>(children.ru_maxrss);
+}
+
+void expect_memory_of_run(const std::string& manifest) {
 #ifdef ZEROCOUNT_SANITIZED
   GTEST_SKIP() << "sanitizers take memory of their own";
 #endif
   const TemporaryFolder folder;
-  folder.write("study.yaml", small_manifest(12000));
+  folder.write("study.yaml", manifest);
   const ProgramResult run = zerocount_program({"run", "study.yaml", "-o", "out.h5"}, folder.path());
   ASSERT_EQ(run.code, 0) << run.err;
-  rusage children{};
-  ASSERT_EQ(getrusage(RUSAGE_CHILDREN, &children), 0);
-  const double peak = 1024.0 * static_cast<double>(children.ru_maxrss);
-  expect_about(study_run::measure_size(manifest::load_study(folder / "study.yaml", {})).memory_bytes, peak,
-               "memory");
+  expect_about(study_run::measure_size(manifest::load_study(folder / "study.yaml", {})).memory_bytes,
+               peak_of_programs(), "memory");
+}
+
+TEST(StudySize, IsAboutTheMemoryThatARunTakes) {
+  expect_memory_of_run(small_manifest(12000));
+}
+
+/// Traces of 8000 trials of 1000 samples.
+TEST(StudySize, DISABLED_TheMemoryOfTracesIsBounded) {
+  constexpr int trials = 8000;
+  std::string numbers = "0";
+  for (int trial = 1; trial < trials; ++trial) numbers += ", " + std::to_string(trial);
+  expect_memory_of_run(
+      fmt::format("zerocount: 1\nname: traces\nseed: 1\ntrials: {}\ncommand: {{targets: [100], hold: 0.5}}\n"
+                  "retain: {{trials: [{}]}}\n",
+                  trials, numbers));
+  EXPECT_LT(peak_of_programs(), 0.6 * trials * 1000 * sizeof(trial::SampleRecord));
 }
 
 TEST(StudySize, ARunThatTheDiskCannotHoldIsRefusedBeforeItBegins) {

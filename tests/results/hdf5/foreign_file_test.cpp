@@ -1,7 +1,15 @@
 // Files that were damaged on purpose, under a right checksum: the HDF5 library crashes on some.
 #include "results/hdf5/foreign_file.hpp"
 
+#include <csignal>
+#include <fstream>
+#include <stop_token>
+#include <string>
+#include <thread>
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "core/failure/failure.hpp"
 #include "results/hdf5/array_file.hpp"
@@ -49,6 +57,31 @@ TEST_F(ForeignFile, ThatCrashesTheLibraryIsRefused) {
     }
   }
   EXPECT_GT(refused, 0);
+}
+
+/// Kills the children of a thread of this process as they appear, until the stop.
+void kill_children(const std::stop_token& stop, pid_t thread) {
+  const std::string children = fmt::format("/proc/self/task/{}/children", thread);
+  while (!stop.stop_requested()) {
+    std::ifstream list(children);
+    for (pid_t child = 0; list >> child;) ::kill(child, SIGKILL);
+  }
+}
+
+TEST_F(ForeignFile, WhoseReaderIsKilledIsNotCalledDamaged) {
+  const std::jthread killer(kill_children, ::gettid());
+  bool killed = false;
+  for (int i = 0; i < 200 && !killed; ++i) {
+    try {
+      hdf5::open_foreign(original);
+    } catch (const Failure& failure) {
+      killed = true;
+      EXPECT_EQ(failure.code(), ExitCode::machine_failed);
+      EXPECT_NE(std::string(failure.what()).find("was killed (signal 9)"), std::string::npos)
+          << failure.what();
+    }
+  }
+  EXPECT_TRUE(killed);
 }
 
 TEST_F(ForeignFile, ThatIsWholeIsOpened) {

@@ -128,6 +128,20 @@ TEST_F(SoundValues, AreAskedOfJerks) {
   expect_refused("jerk/direction", 3, std::int32_t{2}, "row 3: it is 2; expected -1, 0 or 1");
 }
 
+TEST_F(SoundValues, AreAskedOfTheCountsOfRigs) {
+  fs::remove(original);
+  original = write_sample_file(directory.path(), sample_study_with_rigs(2, 40, 2));  // 8 rigs
+  const auto expect_counts_refused = [&](const std::string& dataset, std::int64_t row, std::int64_t value,
+                                         const std::string& words) {
+    const fs::path path = forged(dataset, row, value);
+    expect_failure(ExitCode::bad_data, words, [&] { reading::StudyFile(path).rigs(); });
+  };
+  expect_counts_refused("rig/trials", 0, 4, "row 0: 4 trials of a rig; expected 5, or 0 of all");
+  expect_counts_refused("rig/trials", 1, 0, "row 1: 0 trials of a rig; expected 5, or 0 of all");
+  expect_counts_refused("rig/success", 1, 6, "row 1: 6 successes; expected 0 to 5");
+  expect_counts_refused("rig/success", 1, -1, "row 1: -1 successes; expected 0 to 5");
+}
+
 TEST_F(SoundValues, JerksOfATrialAreInTheirOrder) {
   const std::int64_t trial = trial_with("jerk_count", 2.0);
   std::int64_t first = 0;

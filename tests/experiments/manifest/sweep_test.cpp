@@ -102,6 +102,25 @@ TEST(Sweep, WholeNumbersMayBeSpacedWhereTheyStayWhole) {
             "least -1000000000000 and at most 1000000000000 only");
 }
 
+TEST(Sweep, SpacedValuesOfAnotherFormAreRefused) {
+  const auto of_exponent = [](const std::string& values) {
+    return failure_of("{grid: {friction.n: " + values + "}}");
+  };
+  EXPECT_EQ(of_exponent("{linspace: [1, 2]}"),
+            "m.yaml:6:39: sweep.grid.friction.n.linspace: a list of 2 stands here; expected linspace: [first "
+            "value, last value, number of values]");
+  EXPECT_EQ(
+      of_exponent("{logspace: [2, 2, 3]}"),
+      "m.yaml:6:39: sweep.grid.friction.n.logspace: the first and the last value are the same; expected "
+      "different values");
+  EXPECT_EQ(of_exponent("{spaced: [1, 2, 3]}"),
+            "m.yaml:6:28: sweep.grid.friction.n: a map stands here; expected a list of values, {linspace: "
+            "[first, last, number]} or {logspace: [first, last, number]}");
+  EXPECT_EQ(
+      failure_of("{grid: {command.targets: {linspace: [1, 2, 3]}}}"),
+      "m.yaml:6:33: sweep.grid.command.targets: a map stands here; expected a list of lists of targets");
+}
+
 TEST(Sweep, ValuesOutOfRangeAreReportedAtTheSweep) {
   EXPECT_EQ(failure_of("{grid: {friction.n: {linspace: [0, 2, 5]}}}"),
             "m.yaml:6:39: sweep.grid.friction.n.linspace: the value 0 is not allowed; expected numbers at "

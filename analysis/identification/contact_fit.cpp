@@ -254,7 +254,10 @@ FitPoint fit_roughly(std::span<const TestRecord> records, const FitSetting& sett
   FitSetting closer = undelayed;
   closer.tolerance = rough.tolerance = setting.tolerance;
   closer.max_steps = 30;
-  for (const auto& starting_points : {starts_with_other_softening, starts_with_other_creep}) {
+  std::vector alternatives{starts_with_other_softening};
+  // Steps and long holds show the creep well enough; the holds of a closed loop may not.
+  if (are_slow_alone(records)) alternatives.push_back(starts_with_other_creep);
+  for (const auto& starting_points : alternatives) {
     const std::vector<ContactPoint> starts = starting_points(records, setting.prior, setting.creep_torque);
     for (const FitResult& other : promising_fits(records, observations, starts, undelayed)) {
       rough.prior = other.point.contact;

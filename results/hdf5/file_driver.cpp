@@ -2,10 +2,18 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <span>
+#include <string>
+#include <system_error>
 
+#include <fmt/format.h>
+
+#include "core/failure/failure.hpp"
+#include "core/text/utf8.hpp"
 #include "results/hdf5/hdf5_detail.hpp"
 
 namespace zerocount::hdf5 {
@@ -66,8 +74,19 @@ haddr_t file_end(const H5FD_t* file, H5FD_mem_t) {
   return own_file(file).bytes->size();
 }
 
+[[noreturn]] void end_after_failed_read(const storage::ByteFile& bytes) {
+  const storage::IoFailure reason = bytes.failure().value();
+  const std::string message =
+      text::printable_lines(fmt::format("{}: cannot {}: {}\n", bytes.path().string(), reason.action,
+                                        std::system_category().message(reason.error)));
+  std::fwrite(message.data(), 1, message.size(), stderr);
+  std::_Exit(static_cast<int>(ExitCode::machine_failed));
+}
+
 herr_t read(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t size, void* buffer) {
-  return own_file(file).bytes->read(address, {static_cast<std::byte*>(buffer), size}) ? success : failure;
+  storage::ByteFile& bytes = *own_file(file).bytes;
+  if (!bytes.read(address, {static_cast<std::byte*>(buffer), size})) end_after_failed_read(bytes);
+  return success;
 }
 
 herr_t write(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t size, const void* buffer) {

@@ -13,6 +13,11 @@
 /// in H5D_close). Therefore this driver reports every write as successful. ByteFile records the failure and
 /// keeps the bytes in memory, so that the library reads what it wrote. Object and File check for a failure
 /// after every call.
+///
+/// Nor does it handle failed reads: where one fails while it lists the links of a group or reads texts, it
+/// frees what it has not set (SIGSEGV in H5G__link_release_table, SIGABRT in H5MM_xfree). Therefore a failed
+/// read ends the process, with exit code machine_failed and the reason. It may leave a file *.part, which the
+/// next command removes.
 namespace zerocount::hdf5 {
 
 /// Access property list of the file `bytes`.

@@ -26,6 +26,7 @@ layout::FileHeader header_of(const fs::path& output) {
   try {
     return reading::StudyFile(output, reading::Require::any_part).header();
   } catch (const Failure& failure) {
+    if (failure.code() == ExitCode::machine_failed) throw;  // it may be a good file
     refuse(output, fmt::format("exists, and is no usable results file ({})", failure.what()));
   }
 }

@@ -1,14 +1,21 @@
 // Files that were damaged on purpose, under a right checksum: the HDF5 library crashes on some.
 #include "results/hdf5/foreign_file.hpp"
 
+#include <chrono>
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <fstream>
+#include <stdexcept>
 #include <stop_token>
 #include <string>
 #include <thread>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "core/failure/failure.hpp"
@@ -69,6 +76,9 @@ void kill_children(const std::stop_token& stop, pid_t thread) {
 }
 
 TEST_F(ForeignFile, WhoseReaderIsKilledIsNotCalledDamaged) {
+#ifdef ZEROCOUNT_SANITIZED
+  GTEST_SKIP() << "there is no reader where there are other threads";
+#endif
   const std::jthread killer(kill_children, ::gettid());
   bool killed = false;
   for (int i = 0; i < 200 && !killed; ++i) {
@@ -77,11 +87,75 @@ TEST_F(ForeignFile, WhoseReaderIsKilledIsNotCalledDamaged) {
     } catch (const Failure& failure) {
       killed = true;
       EXPECT_EQ(failure.code(), ExitCode::machine_failed);
-      EXPECT_NE(std::string(failure.what()).find("was killed (signal 9)"), std::string::npos)
+      EXPECT_NE(std::string(failure.what()).find("was ended by signal 9"), std::string::npos)
           << failure.what();
     }
   }
   EXPECT_TRUE(killed);
+}
+
+/// Opens a file as a user of whom there may be no more processes, and ends with the exit code.
+[[noreturn]] void open_without_children(const std::filesystem::path& path) {
+  constexpr uid_t nobody = 65534;
+  const rlimit none{0, 0};
+  try {
+    if (geteuid() == 0 && setuid(nobody) != 0) throw std::logic_error("root cannot become another user");
+    setrlimit(RLIMIT_NPROC, &none);
+    hdf5::open_foreign(path);
+  } catch (const Failure& failure) {
+    std::fputs(failure.what(), stderr);
+    std::_Exit(static_cast<int>(failure.code()));
+  }
+  std::_Exit(EXIT_SUCCESS);
+}
+
+TEST_F(ForeignFile, IsNotOpenedWhereThereCanBeNoReader) {
+  EXPECT_EXIT(
+      open_without_children(original), ::testing::ExitedWithCode(5),
+      "sample.h5: cannot start a child process that reads it first: Resource temporarily unavailable");
+}
+
+/// The first child of a child of this process; 0 where the child ends without one.
+pid_t wait_for_grandchild(pid_t child) {
+  const std::string list = fmt::format("/proc/{0}/task/{0}/children", child);
+  pid_t grandchild = 0;
+  while (!(std::ifstream(list) >> grandchild)) {
+    if (waitpid(child, nullptr, WNOHANG) == child) return 0;
+  }
+  return grandchild;
+}
+
+/// Whether the reader of a file, stopped while it reads, ends when its parent is killed. False too where it
+/// was stopped before it could say so to the system.
+bool reader_ends_with_its_parent(const std::filesystem::path& path) {
+  const pid_t parent = fork();
+  if (parent == 0) {
+    hdf5::open_foreign(path);
+    std::_Exit(EXIT_SUCCESS);
+  }
+  const pid_t reader = wait_for_grandchild(parent);
+  if (reader == 0) return false;
+  std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  kill(reader, SIGSTOP);
+  kill(parent, SIGKILL);
+  waitpid(parent, nullptr, 0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  int status = 0;
+  if (waitpid(reader, &status, WNOHANG) == 0) {
+    kill(reader, SIGKILL);
+    waitpid(reader, nullptr, 0);
+    return false;
+  }
+  return WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
+}
+
+// It has the parent's locks.
+TEST_F(ForeignFile, IsReadNoLongerThanTheParentLives) {
+  ASSERT_EQ(prctl(PR_SET_CHILD_SUBREAPER, 1), 0);  // the reader becomes a child of this process
+  bool ended = false;
+  for (int i = 0; i < 50 && !ended; ++i) ended = reader_ends_with_its_parent(original);
+  EXPECT_TRUE(ended);
+  prctl(PR_SET_CHILD_SUBREAPER, 0);
 }
 
 TEST_F(ForeignFile, ThatIsWholeIsOpened) {

@@ -23,7 +23,9 @@ namespace fs = std::filesystem;
 /// The bytes of a file; empty where there is none.
 std::string bytes_of(const fs::path& path) {
   std::error_code error;
-  if (!fs::exists(path, error)) return {};
+  const fs::file_status there = fs::status(path, error);
+  if (!fs::exists(there)) return {};
+  if (!fs::is_regular_file(there)) storage::fail_irregular(path);  // a pipe would be waited for
   std::ifstream file(path, std::ios::binary);
   std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   if (!file.is_open() || file.bad()) storage::fail_with(path, "read", errno);

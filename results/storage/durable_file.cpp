@@ -75,7 +75,16 @@ UnfinishedFile::~UnfinishedFile() {
   ::unlink(part_.c_str());
 }
 
+bool is_named(const FileDescriptor& file, const fs::path& path) {
+  struct stat named {};
+  struct stat held {};
+  return ::lstat(path.c_str(), &named) == 0 && ::fstat(file.get(), &held) == 0 &&
+         named.st_ino == held.st_ino && named.st_dev == held.st_dev;
+}
+
 void publish(const fs::path& path) {
+  struct stat there {};
+  if (::lstat(path.c_str(), &there) == 0 && !S_ISREG(there.st_mode)) fail_irregular(path);
   const fs::path part = part_of(path);
   if (::rename(part.c_str(), path.c_str()) != 0)
     fail_with(part, fmt::format("rename to {}", path.filename().string()), errno);

@@ -32,6 +32,9 @@ class UnfinishedFile {
   std::filesystem::path part_;
 };
 
+/// True if `path` names the open file itself, not a link to it.
+bool is_named(const FileDescriptor& file, const std::filesystem::path& path);
+
 /// Renames the finished and flushed file part_of(path) to `path` and flushes the directory. Replaces an
 /// existing `path`.
 /// @throws Failure (machine_failed) with the path and the system's reason. If only the flush of the directory

@@ -4,6 +4,7 @@
 #include <span>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include "core/failure/failure.hpp"
@@ -38,10 +39,18 @@ void OutputFile::finish() {
   const bool same = size_of_file(part_.path(), file_) == size_ &&
                     sha256_of(part_.path(), file_, size_) == written_.digest();
   if (!same) fail_read_back(part_.path(), "its bytes differ");
-  if (!file_.close()) fail_with(part_.path(), "close", errno);
+  held_ = FileDescriptor(::fcntl(file_.get(), F_DUPFD_CLOEXEC, 0));
+  if (!held_.valid() || !file_.close()) fail_with(part_.path(), "close", errno);
 }
 
 void OutputFile::publish() {
+  if (!is_named(held_, part_.path())) {
+    throw Failure(
+        ExitCode::machine_failed,
+        fmt::format("{}: another command is writing this output; give the command again when it has "
+                    "ended, or name another output",
+                    path_.string()));
+  }
   storage::publish(path_);
 }
 

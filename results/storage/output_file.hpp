@@ -21,7 +21,9 @@ class OutputFile {
   void write(std::string_view text);
   /// Flushes the file to the disk, reads it back and compares it with what was written. No write may follow.
   void finish();
-  void publish();  ///< renames the finished file to its final name; replaces an existing file
+  /// Renames the finished file to its final name; replaces an existing file. Fails if another process has put
+  /// its own file in place of this one.
+  void publish();
 
  private:
   void flush();
@@ -29,6 +31,7 @@ class OutputFile {
   std::filesystem::path path_;
   UnfinishedFile part_;
   FileDescriptor file_;
+  FileDescriptor held_;  ///< the finished file, so that another that takes its name can be told from it
   std::string buffer_;
   std::size_t size_{0};  ///< bytes passed to the system
   hash::Sha256Hash written_;

@@ -13,15 +13,6 @@
 namespace zerocount::storage {
 namespace {
 
-/// True if `path` still names the open file. Another run may have ended and removed it between our open and
-/// our lock.
-bool still_named(const std::filesystem::path& path, const FileDescriptor& file) {
-  struct stat named {};
-  struct stat held {};
-  return ::stat(path.c_str(), &named) == 0 && ::fstat(file.get(), &held) == 0 &&
-         named.st_ino == held.st_ino && named.st_dev == held.st_dev;
-}
-
 /// Follows no link, and does not wait for the other end of a pipe.
 FileDescriptor open_lock(const std::filesystem::path& path) {
   FileDescriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666));
@@ -47,7 +38,8 @@ OutputLock::OutputLock(const std::filesystem::path& output) : path_(output) {
                       "another output",
                       output.string(), path_.string()));
     }
-  } while (!still_named(path_, file_));
+    // Another run may have ended and removed the file between our open and our lock.
+  } while (!is_named(file_, path_));
 }
 
 OutputLock::~OutputLock() {

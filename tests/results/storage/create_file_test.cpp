@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include "results/storage/durable_file.hpp"
+#include "results/storage/output_file.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
 
@@ -41,6 +42,34 @@ TEST(CreateFile, LeavesEverythingElseAsItIs) {
   }
   EXPECT_EQ(fs::file_size(folder / "notes"), 8U);
   EXPECT_FALSE(fs::exists(folder / "nowhere"));
+}
+
+TEST(OutputFile, ReplacesNoLinkAndNoPipe) {
+  const TemporaryFolder folder;
+  folder.write("notes", "my notes");
+  fs::create_symlink(folder / "notes", folder / "link");
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0666), 0);
+  for (const char* name : {"link", "pipe"}) {
+    expect_failure(ExitCode::machine_failed, "it exists and is no regular file",
+                   [&] { storage::replace_file(folder / name, "text"); });
+  }
+  EXPECT_EQ(folder.read("notes"), "my notes");
+}
+
+TEST(OutputFile, OfTwoAtOnceTheUnfinishedOneIsNotPublished) {
+  const TemporaryFolder folder;
+  storage::OutputFile first(folder / "all.csv");
+  first.write("all of the first");
+  first.finish();
+  storage::OutputFile second(folder / "all.csv");
+  second.write("half of");
+  expect_failure(ExitCode::machine_failed, "all.csv: another command is writing this output",
+                 [&] { first.publish(); });
+  EXPECT_FALSE(fs::exists(folder / "all.csv"));
+  second.write(" the second");
+  second.finish();
+  second.publish();
+  EXPECT_EQ(folder.read("all.csv"), "half of the second");
 }
 
 }  // namespace

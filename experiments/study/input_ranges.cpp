@@ -11,6 +11,7 @@ bool contains(const InputRange& allowed, double value) {
 
 std::vector<InputRange> input_ranges(const Study& study) {
   std::vector<InputRange> ranges;
+  if (study.plan == nullptr) return ranges;
   for (const InputSource& source : study.plan->inputs) {
     const parameters::Parameter& row = study.plan->table.rows[source.slot];
     ranges.push_back({parameters::range_of(row, study.units), row.none});

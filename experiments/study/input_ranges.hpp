@@ -16,7 +16,7 @@ struct InputRange {
 
 bool contains(const InputRange& allowed, double value);
 
-/// [input column] the ranges of a study that was made from a manifest.
+/// [input column] the ranges; empty for a study that was not made from a manifest.
 std::vector<InputRange> input_ranges(const Study& study);
 
 }  // namespace zerocount::study

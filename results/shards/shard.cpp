@@ -1,7 +1,9 @@
 #include "results/shards/shard.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
 
 #include <fmt/format.h>
@@ -9,6 +11,7 @@
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/table_io.hpp"
+#include "results/reading/input_validation.hpp"
 #include "results/reading/study_file.hpp"
 #include "results/storage/checksum_trailer.hpp"
 #include "results/storage/durable_file.hpp"
@@ -111,6 +114,13 @@ ShardInfo info_of(const reading::StudyFile& file) {
 ShardInfo inspect_whole_shard(const fs::path& path, const study::Study& study) {
   const reading::StudyFile file = file_of_study(path, study);
   file.require_valid_values();
+  const std::int64_t at_once = layout::chunk_rows(file.moves());
+  for (std::int64_t first = file.rows().first; first < file.rows().end(); first += at_once) {
+    reading::check_inputs(file, study, {first, std::min(at_once, file.rows().end() - first)},
+                          [&](const std::string& problem) {
+                            throw Failure(ExitCode::bad_data, fmt::format("{}: {}", path.string(), problem));
+                          });
+  }
   return info_of(file);
 }
 

@@ -9,13 +9,14 @@
 #include "analysis/text/text.hpp"
 #include "runners/commands/commands.hpp"
 #include "runners/commands/plugin_option.hpp"
+#include "runners/standard_output/standard_output.hpp"
 #include "runners/verification/verification.hpp"
 
 namespace zerocount::commands {
 namespace {
 
 constexpr const char* verify_help =
-    "Checks that results files are whole and true. FILE is a results file, a part of a study or a\n"
+    "Checks the integrity of results files. FILE is a results file, a part of a study or a\n"
     "shard; of a folder, all its files *.h5 are checked. One line per check, ok or FAILED:\n"
     "checksum: the bytes are those that were written;\n"
     "header: the file was finished, and its attributes and the hash of the study are those that\n"
@@ -28,7 +29,8 @@ constexpr const char* verify_help =
     "the folder for temporary files;\n"
     "trials run again: a random sample of the trials gives the recorded inputs, measures, jerks and\n"
     "sample records, to the bit if this program on this kind of processor made the file;\n"
-    "shards: those of a folder are of one study, and hold each of its trials once.\n"
+    "shards: those of a folder are of one study, and no trial is in two of them;\n"
+    "all trials: the number of trials that no shard of the folder has, if any (no failure).\n"
     "The exit code is 4 if a check fails, and 5 if a file cannot be read.\n"
     "\n"
     "Examples:\n"
@@ -85,11 +87,12 @@ ExitCode verify(const command_line::Arguments& arguments) {
     nlohmann::ordered_json json{{"ok", code == ExitCode::success},
                                 {"files", nlohmann::ordered_json::array()}};
     for (const verification::CheckReport& report : reports) json["files"].push_back(json_of(report));
-    fmt::print("{}", text::json_text(json));
+    standard_output::write(text::json_text(json));
     return code;
   }
   for (const verification::CheckReport& report : reports) {
-    for (const verification::Check& check : report.checks) fmt::print("{}", line_of(report, check));
+    for (const verification::Check& check : report.checks)
+      standard_output::print("{}", line_of(report, check));
   }
   return code;
 }
@@ -105,7 +108,7 @@ Command verify_command() {
             {"format", "FORMAT", "table (default) or json"}},
            1,
            100000},
-          "prove that results files are whole and true",
+          "check results files, and run a sample of their trials again",
           verify_help,
           verify};
 }

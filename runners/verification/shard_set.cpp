@@ -47,9 +47,18 @@ void check_overlaps(std::span<const shards::ShardInfo> sorted, ProblemList& prob
   }
 }
 
+/// A run that goes on, or was interrupted, has not run all trials yet.
+Check unfinished(std::span<const layout::RowRange> gaps) {
+  return {.name = "all trials",
+          .detail = fmt::format("{} are in none of the shards yet, from trial {} on",
+                                layout::total_rows(gaps), gaps.front().first),
+          .skipped = true};
+}
+
 }  // namespace
 
 void check_shard_set(CheckReport& report, std::span<const ShardHeader> shards, bool stops) {
+  std::vector<layout::RowRange> gaps;
   add_check(report, "shards", [&](Check& check, ProblemList& problems) {
     const std::string study = common_study(shards);
     const layout::FileHeader& first =
@@ -65,10 +74,9 @@ void check_shard_set(CheckReport& report, std::span<const ShardHeader> shards, b
     shards::sort_by_rows(own);
     check_overlaps(own, problems);
     check.detail = fmt::format("{} of one study{}", own.size(), stops ? "" : ", with each trial once");
-    if (stops) return;
-    for (const layout::RowRange& gap : shards::missing_ranges(own, {0, first.trials * first.points}))
-      problems.add(fmt::format("trials {} to {} are in none of them", gap.first, gap.end() - 1));
+    if (!stops) gaps = shards::missing_ranges(own, {0, first.trials * first.points});
   });
+  if (!gaps.empty()) report.checks.push_back(unfinished(gaps));
 }
 
 }  // namespace zerocount::verification

@@ -3,32 +3,20 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include "core/trial/parameters.hpp"
-#include "experiments/study/input_ranges.hpp"
 #include "results/layout/fields.hpp"
 #include "results/layout/table_io.hpp"
+#include "results/reading/input_validation.hpp"
 
 namespace zerocount::verification {
 namespace {
-
-void check_inputs(const reading::StudyFile& file, const study::Study& study, layout::RowRange rows,
-                  ProblemList& problems) {
-  const std::vector<study::InputRange> ranges = study::input_ranges(study);
-  for (std::size_t column = 0; column < std::min(ranges.size(), file.input_columns().size()); ++column) {
-    const std::vector<double> values = file.input(column, rows);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (study::contains(ranges[column], values[i])) continue;
-      problems.add(fmt::format("/trial/input/{}: trial {}: it is {}; expected {}",
-                               file.input_columns()[column].name, rows.first + static_cast<std::int64_t>(i),
-                               values[i], numerics::range_text(ranges[column].range)));
-    }
-  }
-}
 
 /// [row][move] the durations of the moves, s.
 std::vector<double> durations_of(const study::Study& study, layout::RowRange rows) {
@@ -84,7 +72,8 @@ void check_values(CheckReport& report, const reading::StudyFile& file, const stu
     const std::int64_t at_once = layout::chunk_rows(file.moves());
     for (std::int64_t first = file.rows().first; first < file.rows().end(); first += at_once) {
       const layout::RowRange rows{first, std::min(at_once, file.rows().end() - first)};
-      check_inputs(file, study, rows, problems);
+      reading::check_inputs(file, study, rows,
+                            [&](std::string problem) { problems.add(std::move(problem)); });
       const std::vector<double> durations = durations_of(study, rows);
       try {
         check_times(file, rows, durations, file.outcomes(rows), problems);

@@ -25,21 +25,30 @@ ExitCode say(ExitCode code, const std::string& message) {
   return code;
 }
 
+/// A reader that closed its end of the pipe, such as head, wants no more: the process ends as the system
+/// would have ended it. @param error errno of the write
+ExitCode end_without_output(int error) {
+  if (error == EPIPE) {
+    std::signal(SIGPIPE, SIG_DFL);
+    std::raise(SIGPIPE);
+  }
+  return say(ExitCode::machine_failed,
+             "zerocount: standard output cannot be written: " + std::generic_category().message(error));
+}
+
 ExitCode run(const std::vector<std::string>& words) {
   try {
     const ExitCode code = zerocount::commands::run_command_line(words);
-    const bool failed = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
-    // Some file systems report a failed write only here. EBADF: there is no standard output, so nothing is
-    // lost.
-    if (failed || (std::fclose(stdout) != 0 && errno != EBADF)) {
-      return say(ExitCode::machine_failed, "zerocount: standard output cannot be written");
-    }
+    // Some file systems report a failed write only when the file is closed. EBADF: there is no standard
+    // output, so nothing is lost.
+    if (std::fflush(stdout) != 0 || (std::fclose(stdout) != 0 && errno != EBADF))
+      return end_without_output(errno);
     return code;
   } catch (const zerocount::Failure& failure) {
     return say(failure.code(), failure.what());
   } catch (const std::system_error& error) {
-    const char* what = std::ferror(stdout) != 0 ? "standard output cannot be written" : "the system failed";
-    return say(ExitCode::machine_failed, std::string("zerocount: ") + what + ": " + error.code().message());
+    if (std::ferror(stdout) != 0) return end_without_output(error.code().value());
+    return say(ExitCode::machine_failed, "zerocount: the system failed: " + error.code().message());
   } catch (const std::bad_alloc&) {
     return say(ExitCode::machine_failed, "zerocount: out of memory");
   } catch (const std::exception&) {
@@ -63,6 +72,8 @@ void occupy_closed_streams() {
 int main(int count, char** words) {
   // A write beyond the file size limit must fail and be reported; the signal would kill the process silently.
   std::signal(SIGXFSZ, SIG_IGN);
+  // A reader of the messages that ends, such as tee or head, stops nothing.
+  std::signal(SIGPIPE, SIG_IGN);
   // Where the parent ignored it, the ends of child processes would be lost.
   std::signal(SIGCHLD, SIG_DFL);
   occupy_closed_streams();

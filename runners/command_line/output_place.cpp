@@ -10,6 +10,7 @@
 #include "core/failure/failure.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/storage/durable_file.hpp"
+#include "runners/standard_output/standard_output.hpp"
 
 namespace zerocount::command_line {
 namespace {
@@ -97,7 +98,7 @@ void require_places(const Arguments& arguments, const std::vector<fs::path>& inp
 
 void write_text(const fs::path& place, std::string_view text) {
   if (yaml::is_standard_stream(place)) {
-    fmt::print("{}", text);
+    standard_output::write(text);
   } else {
     storage::replace_file(place, text);
   }

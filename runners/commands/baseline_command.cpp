@@ -8,6 +8,7 @@
 #include "results/storage/output_lock.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
+#include "runners/standard_output/standard_output.hpp"
 #include "runners/status/status.hpp"
 
 namespace zerocount::commands {
@@ -42,7 +43,8 @@ ExitCode baseline(const command_line::Arguments& arguments) {
   }
   for (const std::string& warning : update.warnings)
     status::tell("zerocount baseline: warning: {}\n", warning);
-  if (!update.comparison.empty()) fmt::print("compared with the baseline before: {}\n", update.comparison);
+  if (!update.comparison.empty())
+    standard_output::print("compared with the baseline before: {}\n", update.comparison);
   status::tell("wrote {} and recorded it in {}\n", output.string(),
                comparison::baseline_log(output).string());
   return ExitCode::success;

@@ -11,6 +11,7 @@
 #include "runners/commands/point_theory.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/plugins/hidden_state.hpp"
+#include "runners/standard_output/standard_output.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_run/cost.hpp"
 #include "runners/study_run/engine_use.hpp"
@@ -47,17 +48,17 @@ void print_columns(const study::Study& study, std::string_view title,
   for (const study::InputColumn& column : study.input_columns) {
     if (std::find(drawn.begin(), drawn.end(), column.per) != drawn.end()) names += " " + column.name;
   }
-  if (!names.empty()) fmt::print("  {}:{}\n", title, names);
+  if (!names.empty()) standard_output::print("  {}:{}\n", title, names);
 }
 
 /// Trials that the rule takes against a number fixed beforehand, at three success rates.
 void print_cost_of_stopping(const study::StoppingRule& rule) {
-  fmt::print(
+  standard_output::print(
       "  its bounds hold at whatever number of trials it ends, which takes more than a fixed number:\n");
   for (const double rate : {0.5, 0.9, 0.99}) {
     const statistics::SequentialCost cost =
         statistics::sequential_cost(rule.success_rate_halfwidth, rule.confidence, rate, rule.block);
-    fmt::print(
+    standard_output::print(
         "    success rate {}: about {} trials at each point, {:.1f} times the {} of a fixed number{}\n",
         text::percent(rate), cost.sequential, cost.ratio(), cost.fixed,
         cost.sequential > rule.max_trials ? fmt::format("; max_trials ends it before, at {}", rule.max_trials)
@@ -66,53 +67,58 @@ void print_cost_of_stopping(const study::StoppingRule& rule) {
 }
 
 void print_what_differs(const study::Study& study) {
-  if (study.input_columns.empty()) fmt::print("  differing between trials: nothing\n");
+  if (study.input_columns.empty()) standard_output::print("  differing between trials: nothing\n");
   print_columns(study, "differing between trials", {study::Per::trial, study::Per::contact});
   print_columns(study, "of these, drawn anew at each contact", {study::Per::contact});
   print_columns(study, "differing between rigs", {study::Per::rig});
   print_columns(study, "the same in all trials of a point", {study::Per::study});
-  if (study.samples) fmt::print("  sampled together: {}\n", study::samples_text(*study.samples));
+  if (study.samples) standard_output::print("  sampled together: {}\n", study::samples_text(*study.samples));
   if (!study.correlations.empty())
-    fmt::print("  correlated: {}\n", study::correlations_text(study.correlations));
+    standard_output::print("  correlated: {}\n", study::correlations_text(study.correlations));
 }
 
 void print_plan(const study::Study& study) {
   const study_run::StudyCost cost = study_run::measure_cost(study);
-  fmt::print("{}: {}\n", study.name, study.description.empty() ? "(no description)" : study.description);
-  fmt::print("  {} × {} trials = {} trials, {} each\n", counted(study::point_count(study), "design point"),
-             study.trials, study::trial_count(study), counted(study.moves, "move"));
+  standard_output::print("{}: {}\n", study.name,
+                         study.description.empty() ? "(no description)" : study.description);
+  standard_output::print("  {} × {} trials = {} trials, {} each\n",
+                         counted(study::point_count(study), "design point"), study.trials,
+                         study::trial_count(study), counted(study.moves, "move"));
   if (study.rigs > 0) {
-    fmt::print("  at each point {} rigs × {} trials of each\n", study.rigs, study.trials / study.rigs);
+    standard_output::print("  at each point {} rigs × {} trials of each\n", study.rigs,
+                           study.trials / study.rigs);
   }
   if (study.stop) {
-    fmt::print(
+    standard_output::print(
         "  or fewer: after every {} at each point it ends if all success rates are known to ± {:.4g}\n",
         study.stop->block, study.stop->success_rate_halfwidth);
     print_cost_of_stopping(*study.stop);
     if (study.rigs > 0) {
-      fmt::print(
+      standard_output::print(
           "  (of these {} rigs; more trials do not show how other rigs differ; see 'zerocount plan "
           "--rig-sd')\n",
           study.rigs);
     }
   }
-  fmt::print("  {:.4g} samples at {:.0f} ns: about {} on {}\n", cost.samples, 1e9 * cost.seconds_per_sample,
-             study_run::duration_text(cost.seconds()), counted(cost.cores, "core"));
+  standard_output::print("  {:.4g} samples at {:.0f} ns: about {} on {}\n", cost.samples,
+                         1e9 * cost.seconds_per_sample, study_run::duration_text(cost.seconds()),
+                         counted(cost.cores, "core"));
   const std::string engine = study_run::engine_text(study_run::points_on_reference(study));
-  if (!engine.empty()) fmt::print("  {}\n", engine);
+  if (!engine.empty()) standard_output::print("  {}\n", engine);
   const study_run::StudySize size = study_run::measure_size(study);
-  fmt::print("  results file about {}; while it runs up to {} on the disk and {} of memory\n",
-             study_run::bytes_text(size.file_bytes),
-             study_run::bytes_text(size.file_bytes + size.shard_bytes),
-             study_run::bytes_text(size.memory_bytes));
+  standard_output::print("  results file about {}; while it runs up to {} on the disk and {} of memory\n",
+                         study_run::bytes_text(size.file_bytes),
+                         study_run::bytes_text(size.file_bytes + size.shard_bytes),
+                         study_run::bytes_text(size.memory_bytes));
   print_what_differs(study);
 }
 
 void print_theory_heading(const study::Study& study) {
-  fmt::print("\nTheory, over the first {} trials of each point, each with the friction it starts on:\n",
-             std::min(study.trials, max_trials_examined));
+  standard_output::print(
+      "\nTheory, over the first {} trials of each point, each with the friction it starts on:\n",
+      std::min(study.trials, max_trials_examined));
   if (study.trials > max_trials_examined_closely) {
-    fmt::print(
+    standard_output::print(
         "(sampled loop, time constants and margins over the first {}, and the trials with the lowest and the "
         "highest k1)\n",
         max_trials_examined_closely);
@@ -131,14 +137,15 @@ ExitCode check(const command_line::Arguments& arguments) {
   for (std::int64_t point = 0; point < shown; ++point) {
     const PointTheory theory = examine(study, point);
     const std::string& label = study.point_labels[static_cast<std::size_t>(point)];
-    fmt::print("  point {}: {}\n{}", point, label, describe(theory));
+    standard_output::print("  point {}: {}\n{}", point, label, describe(theory));
     if (!may_be_too_slow(theory)) continue;
     status::tell(
         "warning: point {} ({}): the loop's slowest time constant{}: moves may end before they arrive\n",
         point, label, slowness_text(theory));
   }
   if (shown < study::point_count(study)) {
-    fmt::print("  … and {} more points (--all-points shows them)\n", study::point_count(study) - shown);
+    standard_output::print("  … and {} more points (--all-points shows them)\n",
+                           study::point_count(study) - shown);
   }
   return ExitCode::success;
 }

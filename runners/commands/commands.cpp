@@ -7,6 +7,7 @@
 
 #include "results/layout/header.hpp"
 #include "runners/command_line/output_place.hpp"
+#include "runners/standard_output/standard_output.hpp"
 #include "runners/status/status.hpp"
 
 namespace zerocount::commands {
@@ -46,7 +47,7 @@ std::string help_of(const Command& command) {
 }
 
 ExitCode print(const std::string& text) {
-  fmt::print("{}", text);
+  standard_output::write(text);
   return ExitCode::success;
 }
 

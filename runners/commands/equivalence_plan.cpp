@@ -23,6 +23,7 @@
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/plugins/hidden_state.hpp"
+#include "runners/standard_output/standard_output.hpp"
 #include "runners/study_run/progress.hpp"
 #include "runners/study_run/study_runner.hpp"
 #include "runners/study_run/trial_runner.hpp"
@@ -151,12 +152,13 @@ EquivalencePlan plan_of(const command_line::Arguments& arguments) {
   plan.power = command_line::probability_option(arguments, "power").value_or(plan.power);
   const study::Study study = planned_study(arguments);
   plan.pilot = study.rigs > 0 ? study.trials : std::min(study.trials, pilot_trials);
-  std::vector<comparison::ForecastPoint> points;
+  const std::int64_t units = study.rigs > 0 ? study.rigs : plan.pilot;
+  comparison::ForecastSamples samples({units, units}, true);
   study_run::Progress progress(study::point_count(study) * plan.pilot, 0, study_run::samples_per_trial(study),
                                false);
   for (std::int64_t i = 0; i < study::point_count(study); ++i) {
-    points.push_back(planned_point(plan, study.point_labels[static_cast<std::size_t>(i)],
-                                   run_point(study, i, plan.pilot)));
+    samples.add(planned_point(plan, study.point_labels[static_cast<std::size_t>(i)],
+                              run_point(study, i, plan.pilot)));
     progress.update((i + 1) * plan.pilot);
   }
   if (plan.measures.empty()) {
@@ -170,7 +172,7 @@ EquivalencePlan plan_of(const command_line::Arguments& arguments) {
   options.probability = plan.power;
   options.min_factor = min_planned_trials / static_cast<double>(plan.pilot);
   options.max_factor = std::max(2.0, max_planned_trials / static_cast<double>(plan.pilot));
-  plan.forecast = comparison::forecast_equivalence(points, options);
+  plan.forecast = comparison::forecast_equivalence(samples, options);
   for (std::size_t k = 0; k < plan.measures.size(); ++k)
     plan.measures[k].forecast = plan.forecast.judgements[k];
   return plan;
@@ -227,7 +229,7 @@ std::string text_of(const EquivalencePlan& plan) {
 ExitCode print_equivalence_plan(const command_line::Arguments& arguments) {
   const bool json = arguments.one_of("format", {"table", "json"}) == "json";
   const EquivalencePlan plan = plan_of(arguments);
-  fmt::print("{}", json ? json_of(plan).dump(2) + "\n" : text_of(plan));
+  standard_output::write(json ? json_of(plan).dump(2) + "\n" : text_of(plan));
   return plan.forecast.trials ? ExitCode::success : ExitCode::inconclusive;
 }
 

@@ -16,6 +16,7 @@
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
 #include "runners/commands/figure_picture.hpp"
+#include "runners/standard_output/standard_output.hpp"
 #include "runners/status/status.hpp"
 
 namespace zerocount::commands {
@@ -73,9 +74,9 @@ ExitCode show(const command_line::Arguments& arguments) {
   const std::string format = arguments.one_of("format", {"text", "json", "csv"});
   const history::History shown =
       history::history_of(history::read_runs(database_of(arguments)), filter_of(arguments));
-  if (format == "text") fmt::print("{}", history::history_text(shown));
-  if (format == "json") fmt::print("{}", history::history_json(shown));
-  if (format == "csv") fmt::print("{}", history::history_csv(shown));
+  if (format == "text") standard_output::print("{}", history::history_text(shown));
+  if (format == "json") standard_output::write(history::history_json(shown));
+  if (format == "csv") standard_output::write(history::history_csv(shown));
   return ExitCode::success;
 }
 

@@ -1,13 +1,12 @@
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "analysis/jerks/jerk_report.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/study_file.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/commands.hpp"
+#include "runners/standard_output/standard_output.hpp"
 #include "runners/status/status.hpp"
 
 namespace zerocount::commands {
@@ -33,7 +32,7 @@ ExitCode print_jerks(const command_line::Arguments& arguments) {
   const study::Study study = layout::recorded_study(file.header(), file.path());
   const std::vector<std::int64_t> points = command_line::point_options(arguments, study.point_labels);
   const jerks::JerkReport report = jerks::jerk_report(file, study, points, confidence, creep_trials);
-  fmt::print("{}", format == "json" ? jerks::jerk_json_text(report) : jerks::jerk_text(report));
+  standard_output::write(format == "json" ? jerks::jerk_json_text(report) : jerks::jerk_text(report));
   if (jerks::any_arrival(report)) return ExitCode::success;
   status::tell("no move arrived, so there are no jerks\n");
   return ExitCode::inconclusive;

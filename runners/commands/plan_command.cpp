@@ -19,6 +19,7 @@
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/commands.hpp"
 #include "runners/commands/equivalence_plan.hpp"
+#include "runners/standard_output/standard_output.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -288,7 +289,7 @@ ExitCode print_plan(const command_line::Arguments& arguments) {
   if (arguments.has("set")) arguments.refuse("option '--set' needs '--margin'");
   const std::string format = arguments.one_of("format", {"table", "json"});
   const PlanRequest request = request_of(arguments);
-  fmt::print("{}", format == "json" ? plan_json(request).dump(2) + "\n" : plan_text(request));
+  standard_output::write(format == "json" ? plan_json(request).dump(2) + "\n" : plan_text(request));
   return ExitCode::success;
 }
 

@@ -19,6 +19,7 @@
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
 #include "runners/commands/figure_picture.hpp"
+#include "runners/standard_output/standard_output.hpp"
 #include "runners/status/status.hpp"
 #include "runners/verification/replay.hpp"
 
@@ -108,7 +109,7 @@ ExitCode plot(const command_line::Arguments& arguments) {
     if (arguments.has("output")) arguments.refuse("option '--output' needs '--figure'");
     const reading::StudyFile file(input);
     for (const std::string& name : report::figure_names(report_of(arguments, file).page))
-      fmt::print("{}\n", name);
+      standard_output::print("{}\n", name);
     return ExitCode::success;
   }
   const std::filesystem::path output = picture_or_page(arguments, {".svg", ".png"});

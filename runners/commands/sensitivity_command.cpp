@@ -6,6 +6,7 @@
 #include "results/reading/study_file.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/commands.hpp"
+#include "runners/standard_output/standard_output.hpp"
 #include "runners/status/status.hpp"
 
 namespace zerocount::commands {
@@ -50,9 +51,9 @@ ExitCode print_sensitivity(const command_line::Arguments& arguments) {
     line.show([&] { return fmt::format("sensitivity: {} of {} outputs", done, all); });
   };
   const sensitivity::StudySensitivity sensitivity = sensitivity::study_sensitivity(file, question);
-  if (format == "table") fmt::print("{}", sensitivity::sensitivity_table(sensitivity));
-  if (format == "json") fmt::print("{}", sensitivity::sensitivity_json(sensitivity));
-  if (format == "csv") fmt::print("{}", sensitivity::sensitivity_csv(sensitivity));
+  if (format == "table") standard_output::print("{}", sensitivity::sensitivity_table(sensitivity));
+  if (format == "json") standard_output::write(sensitivity::sensitivity_json(sensitivity));
+  if (format == "csv") standard_output::write(sensitivity::sensitivity_csv(sensitivity));
   return sensitivity::any_estimated(sensitivity) ? ExitCode::success : ExitCode::inconclusive;
 }
 

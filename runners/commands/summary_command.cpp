@@ -17,6 +17,7 @@
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/commands.hpp"
 #include "runners/commands/plugin_option.hpp"
+#include "runners/standard_output/standard_output.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_run/confirmation.hpp"
 
@@ -139,15 +140,16 @@ ExitCode summarise_file(const command_line::Arguments& arguments) {
     arguments.refuse("option '--confirm' goes with the formats table and json");
   const std::optional<ConfirmedBest> best = confirmed_best(arguments, summary);
   if (format == "table") {
-    fmt::print("{}{}", summary::summary_table(summary), best ? confirmation_text(summary, *best) : "");
+    standard_output::print("{}{}", summary::summary_table(summary),
+                           best ? confirmation_text(summary, *best) : "");
   }
   if (format == "json") {
     nlohmann::ordered_json json = summary::summary_json(summary);
     if (best) json["confirmation"] = confirmation_json(*best);
-    fmt::print("{}", text::json_text(json));
+    standard_output::write(text::json_text(json));
   }
   if (format == "csv" && summary.unfinished) status::tell("{}\n", summary::unfinished_sentence(summary));
-  if (format == "csv") fmt::print("{}", summary::summary_csv(summary));
+  if (format == "csv") standard_output::write(summary::summary_csv(summary));
   return ExitCode::success;
 }
 

@@ -1,9 +1,8 @@
-#include <fmt/format.h>
-
 #include "experiments/manifest/json_schema.hpp"
 #include "experiments/manifest/parameter_listing.hpp"
 #include "runners/commands/commands.hpp"
 #include "runners/commands/study_argument.hpp"
+#include "runners/standard_output/standard_output.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -13,7 +12,8 @@ ExitCode print_parameters_of_study(const command_line::Arguments& arguments, con
   if (arguments.has("axis") || arguments.has("units"))
     arguments.refuse("the units are those of the manifest; --axis and --units cannot be given with it");
   const study::Study study = load_study(manifest, arguments);
-  fmt::print("{}", text ? manifest::parameters_as_text(study) : manifest::parameters_as_markdown(study));
+  standard_output::print(
+      "{}", text ? manifest::parameters_as_text(study) : manifest::parameters_as_markdown(study));
   return ExitCode::success;
 }
 
@@ -25,13 +25,13 @@ ExitCode print_parameters(const command_line::Arguments& arguments) {
   parameters::StudyUnits units;
   if (arguments.one_of("axis", {"rotary", "linear"}) == "linear") units.axis = parameters::AxisKind::linear;
   if (arguments.one_of("units", {"count", "si"}) == "si") units.gains = parameters::GainUnits::si;
-  fmt::print(
+  standard_output::print(
       "{}", format == "text" ? manifest::parameters_as_text(units) : manifest::parameters_as_markdown(units));
   return ExitCode::success;
 }
 
 ExitCode print_schema(const command_line::Arguments&) {
-  fmt::print("{}\n", manifest::json_schema().dump(2));
+  standard_output::write(manifest::json_schema().dump(2) + "\n");
   return ExitCode::success;
 }
 

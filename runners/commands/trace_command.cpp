@@ -19,6 +19,7 @@
 #include "runners/commands/plugin_option.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/commands/trace_writer.hpp"
+#include "runners/standard_output/standard_output.hpp"
 #include "runners/status/status.hpp"
 #include "runners/verification/replay.hpp"
 
@@ -75,8 +76,7 @@ shards::TrialResult write_trace(const TraceSubject& subject, const TraceWriter::
 shards::TrialResult write_trace_to(const std::filesystem::path& place, const TraceSubject& subject,
                                    bool json) {
   if (yaml::is_standard_stream(place)) {
-    return write_trace(
-        subject, [](std::string_view text) { fmt::print("{}", text); }, json);
+    return write_trace(subject, standard_output::write, json);
   }
   storage::OutputFile file(place);
   shards::TrialResult result = write_trace(

@@ -138,6 +138,11 @@ TEST_F(Places, APipeIsRefusedAndNotWaitedFor) {
               fs::is_fifo(at("new.csv.part")));
 }
 
+// Where a parent ignores the ends of its children, so do they, unless they say otherwise.
+TEST_F(Places, AFileIsReadWhereTheEndsOfChildrenAreIgnored) {
+  EXPECT_EQ(shell("env --ignore-signal=CHLD $Z summary all.h5 > summary.txt"), 0) << folder_.read("err");
+}
+
 TEST_F(Places, ALinkInTheWayIsNotFollowed) {
   folder_.write("notes", "my notes");
   for (const char* link : {"new.h5.lock", "merged.h5.part", "new.csv.part"})

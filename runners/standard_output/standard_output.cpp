@@ -1,0 +1,19 @@
+#include "runners/standard_output/standard_output.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <string>
+#include <system_error>
+
+#include <unistd.h>
+
+namespace zerocount::standard_output {
+
+void write(std::string_view data) {
+  std::string shown;
+  if (isatty(STDOUT_FILENO) == 1) data = shown = text::printable_lines(data);
+  if (std::fwrite(data.data(), 1, data.size(), stdout) != data.size())
+    throw std::system_error(errno, std::generic_category());
+}
+
+}  // namespace zerocount::standard_output

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -158,10 +159,14 @@ struct ComparedData {
   std::int64_t current_trials{0};   ///< likewise
 };
 
+/// The most trials of each point that are compared.
+std::int64_t trial_limit(const GateRules& rules, const reading::StudyFile& file) {
+  return std::max(std::int64_t{1}, rules.max_trials.value_or(default_compared_moves / file.moves()));
+}
+
 /// The trials of each point of a file that are compared: of every rig at least one.
 std::int64_t compared_trials(const GateRules& rules, const reading::StudyFile& file, std::int64_t rigs) {
-  const std::int64_t limit = rules.max_trials.value_or(default_compared_moves / file.moves());
-  return std::min(file.header().trials, std::max({limit, rigs, std::int64_t{1}}));
+  return std::min(file.header().trials, std::max(trial_limit(rules, file), rigs));
 }
 
 ComparedData compared_data(const reading::StudyFile& baseline, const ManifestValues& old_values,
@@ -210,8 +215,20 @@ void judge_points(StudyComparison& result, const GateRules& rules, const Compare
     result.notes.push_back("the moves have torque levels and no targets: no measure of the gate applies");
 }
 
+/// Independent units of the samples of a forecast. Pairs are as many as the smaller file has; a requirement
+/// is judged on all units of the current one.
+std::array<std::int64_t, 2> units_of_samples(const StudyComparison& comparison, const GateRules& rules,
+                                             const ComparedData& data) {
+  const auto units = [](std::int64_t trials, std::int64_t rigs) { return rigs > 0 ? rigs : trials; };
+  const std::int64_t before = units(data.baseline_trials, data.baseline_rigs);
+  const std::int64_t after = units(data.current_trials, data.current_rigs);
+  if (comparison.layer == ComparisonLayer::two_samples) return {before, after};
+  const std::int64_t pairs = std::min(before, after);
+  return {pairs, count_requirements(rules, data.points) > 0 ? after : pairs};
+}
+
 /// Finds the trials that would decide what is open. Reads the trials again: most comparisons leave nothing
-/// open, and need no memory for the samples of all points.
+/// open.
 void forecast(StudyComparison& result, const GateRules& rules, const ComparedData& data) {
   const auto open = [](const auto& one) { return one.verdict == GateVerdict::inconclusive; };
   const bool any = std::any_of(result.points.begin(), result.points.end(), [&](const PointComparison& point) {
@@ -219,10 +236,10 @@ void forecast(StudyComparison& result, const GateRules& rules, const ComparedDat
            std::any_of(point.requirements.begin(), point.requirements.end(), open);
   });
   if (!any) return;
-  std::vector<ForecastPoint> points;
+  ForecastSamples samples(units_of_samples(result, rules, data), false);
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     const TrialsOfBoth trials = read_trials(data, data.points[i]);
-    points.push_back(
+    samples.add(
         forecast_point(result.points[i], rules, trials.baseline, trials.current, result.equal_to_the_bit));
   }
   ForecastOptions options;
@@ -230,12 +247,15 @@ void forecast(StudyComparison& result, const GateRules& rules, const ComparedDat
   options.false_discovery_rate = rules.false_discovery_rate;
   options.failing_confidence = failing_confidence(rules.confidence, count_requirements(rules, data.points));
   options.probability = decision_probability;
-  const auto trials =
-      static_cast<double>(std::max(points.front().baseline_trials, points.front().current_trials));
+  const auto trials = static_cast<double>(std::max(samples.trials_of(0), samples.trials_of(1)));
   options.max_factor = std::max(options.max_factor, min_tried_trials / trials);
-  const Forecast found = forecast_decision(points, options);
+  const Forecast found = forecast_decision(samples, options);
   result.max_trials_to_decide = found.max_trials;
   if (result.verdict == GateVerdict::inconclusive) result.trials_to_decide = found.trials;
+  if (result.trials_to_decide > static_cast<double>(trial_limit(rules, data.current))) {
+    result.notes.push_back(fmt::format("so many trials are judged only with --max-trials {:.0f} or more",
+                                       *result.trials_to_decide));
+  }
   auto next = found.judgements.begin();
   for (PointComparison& point : result.points) {
     for (MeasureComparison& measure : point.measures) {

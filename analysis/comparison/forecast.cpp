@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <stdexcept>
+#include <utility>
 
 #include <oneapi/tbb/parallel_for.h>
 
-#include "analysis/comparison/judged_sample.hpp"
 #include "analysis/statistics/normal.hpp"
 #include "core/random/random_numbers.hpp"
 #include "core/random/variates.hpp"
@@ -25,14 +27,6 @@ enum class Truth {
   as_seen,    ///< as seen, with their uncertainty
   some_nil,   ///< likewise, but some are nil
   no_effect,  ///< two studies of one population, and what was seen is of one of them
-};
-
-/// A measure or a requirement at a point.
-struct Judged {
-  std::size_t point{0};
-  const TestedMeasure* found{nullptr};  ///< of a measure
-  double nil{0.0};                      ///< of a measure: probability that its effect is nil
-  const RequirementSample* requirement{nullptr};
 };
 
 /// A weight of the gamma distribution of shape ½: the posterior part of a kind of unit that was not seen.
@@ -54,20 +48,13 @@ struct SimulatedComparison {
 
 class Simulator {
  public:
-  Simulator(const std::vector<ForecastPoint>& points, const ForecastOptions& options, bool one_sample)
-      : options_(options), one_sample_(one_sample), continuations_(continuations_of(points, one_sample)) {
-    for (const ForecastPoint& point : points) {
-      trials_ = std::max({trials_, point.baseline_trials, point.current_trials});
-      trials_of_[0] = std::max(trials_of_[0], point.baseline_trials);
-      trials_of_[1] = std::max(trials_of_[1], point.current_trials);
-    }
-    add_measures(points);
-    add_requirements(points);
-  }
+  Simulator(const ForecastSamples& samples, const ForecastOptions& options)
+      : samples_(samples), options_(options), nil_(nil_of(samples.measures(), options.confidence)) {}
 
-  std::int64_t trials() const { return trials_; }
-  const std::vector<Judged>& judged() const { return judged_; }
-  std::size_t measures() const { return measures_.size(); }
+  double trials() const {
+    return static_cast<double>(std::max(samples_.trials_of(0), samples_.trials_of(1)));
+  }
+  std::size_t judgements() const { return samples_.measures().size() + samples_.requirements().size(); }
 
   /// A comparison under each of the assumptions, from the same random numbers.
   std::vector<SimulatedComparison> simulate(double trials, const std::vector<Truth>& truths,
@@ -75,8 +62,8 @@ class Simulator {
     FileWeights population;
     FileWeights further;
     for (std::size_t file = 0; file < 2; ++file) {
-      const Continuation& continuation = continuations_[file];
-      population[file] = continuations_[one_sample_ ? 1 : file].population(simulation);
+      const Continuation& continuation = samples_.continuations()[file];
+      population[file] = samples_.continuations()[samples_.one_sample() ? 1 : file].population(simulation);
       further[file] = continuation.further_units(population[file], more_units(file, trials), simulation);
     }
     const std::vector<FileSums> sums = further_sums(further, simulation, trials);
@@ -84,7 +71,7 @@ class Simulator {
     std::vector<SimulatedComparison> outcomes;
     for (const Truth truth : truths) {
       std::vector<TestedMeasure> tested;
-      for (std::size_t i = 0; i < measures_.size(); ++i)
+      for (std::size_t i = 0; i < nil_.size(); ++i)
         tested.push_back(tested_measure(i, population, sums[i], is_nil(i, truth, simulation)));
       decide(tested, options_.false_discovery_rate);
       outcomes.push_back(outcome_of(tested, requirements, truth));
@@ -93,53 +80,21 @@ class Simulator {
   }
 
  private:
-  static std::array<Continuation, 2> continuations_of(const std::vector<ForecastPoint>& points, bool one) {
-    std::array<std::int64_t, 2> units{1, 1};
-    for (const ForecastPoint& point : points) {
-      for (const MeasureSample& sample : point.measures) {
-        units = {std::max(units[0], std::ssize(one ? sample.current : sample.baseline)),
-                 std::max(units[1], std::ssize(sample.current))};
-      }
-      for (const RequirementSample& sample : point.requirements)
-        units[1] = std::max(units[1], std::ssize(sample.hits));
-    }
-    return {Continuation(units[0], 0), Continuation(units[1], 1)};
-  }
-
-  void add_measures(const std::vector<ForecastPoint>& points) {
+  static std::vector<double> nil_of(const std::vector<ForecastMeasure>& measures, double confidence) {
     std::vector<double> z;
-    for (std::size_t point = 0; point < points.size(); ++point) {
-      for (std::size_t i = 0; i < points[point].measures.size(); ++i) {
-        MeasureSample sample = points[point].measures[i];
-        if (one_sample_) sample.baseline = sample.current;
-        measures_.emplace_back(sample, continuations_);
-        const TestedMeasure& found = points[point].found[i];
-        judged_.push_back({point, &found, 0.0, nullptr});
-        const double error =
-            (found.bounds.high - found.bounds.low) / 2.0 / statistics::normal_quantile(options_.confidence);
-        z.push_back(error > 0.0 ? found.effect / error : 0.0);
-      }
+    for (const ForecastMeasure& measure : measures) {
+      const TestedMeasure& found = measure.found;
+      const double error =
+          (found.bounds.high - found.bounds.low) / 2.0 / statistics::normal_quantile(confidence);
+      z.push_back(error > 0.0 ? found.effect / error : 0.0);
     }
-    const std::vector<double> nil = nil_probabilities(z);
-    for (std::size_t i = 0; i < nil.size(); ++i) judged_[i].nil = nil[i];
-  }
-
-  void add_requirements(const std::vector<ForecastPoint>& points) {
-    for (std::size_t point = 0; point < points.size(); ++point) {
-      for (const RequirementSample& sample : points[point].requirements) {
-        judged_.push_back({point, nullptr, 0.0, &sample});
-        std::vector<SampleSums> rows;
-        for (std::size_t i = 0; i < sample.hits.size(); ++i)
-          rows.push_back(sums_of_requirement(sample.hits[i], sample.events[i]));
-        requirements_.emplace_back(rows, continuations_[1]);
-      }
-    }
+    return nil_probabilities(z);
   }
 
   double more_units(std::size_t file, double trials) const {
-    const auto units = static_cast<double>(continuations_[file].units());
-    const auto there = static_cast<double>(std::max<std::int64_t>(1, trials_of_[file]));
-    return one_sample_ ? units * trials / there : std::max(0.0, units * trials / there - units);
+    const auto units = static_cast<double>(samples_.continuations()[file].units());
+    const auto there = static_cast<double>(samples_.trials_of(file));
+    return samples_.one_sample() ? units * trials / there : std::max(0.0, units * trials / there - units);
   }
 
   /// Number of further units of a kind that the sample of the file does not have, the same for all measures
@@ -147,10 +102,11 @@ class Simulator {
   double unseen_units(std::size_t file, std::size_t point, std::uint32_t kind, std::uint32_t simulation,
                       double trials) const {
     const auto stream = 2 * kind + static_cast<std::uint32_t>(file);
-    const auto population = 2 * kind + static_cast<std::uint32_t>(one_sample_ ? 1 : file);
+    const auto population = 2 * kind + static_cast<std::uint32_t>(samples_.one_sample() ? 1 : file);
     const double weight =
         unseen_weight(continuation_bits(simulation, population, point, ContinuationDraw::unseen_kind));
-    const double mean = weight * more_units(file, trials) / static_cast<double>(continuations_[file].units());
+    const double mean =
+        weight * more_units(file, trials) / static_cast<double>(samples_.continuations()[file].units());
     return poisson_number(mean, continuation_bits(simulation, stream, point, ContinuationDraw::unseen_units));
   }
 
@@ -158,35 +114,34 @@ class Simulator {
     if (truth != Truth::some_nil) return false;
     const double u =
         random::open_uniform(continuation_bits(simulation, 0, measure, ContinuationDraw::nil_effect));
-    return u < judged_[measure].nil;
+    return u < nil_[measure];
   }
 
   /// The sums over the further units of each measure.
   std::vector<FileSums> further_sums(const FileWeights& further, std::uint32_t simulation,
                                      double trials) const {
     std::vector<FileSums> all;
-    for (std::size_t i = 0; i < measures_.size(); ++i) {
-      const JudgedMeasure& measure = measures_[i];
+    for (const auto& [point, found, measure] : samples_.measures()) {
       FileSums& sums = all.emplace_back(measure.weighted(further));
       if (!measure.proportion()) continue;
       for (std::size_t file = 0; file < (measure.paired() ? 1U : 2U); ++file) {
-        measure.add_unseen(sums[file], unseen_units(file, judged_[i].point, 0, simulation, trials),
-                           unseen_units(file, judged_[i].point, 1, simulation, trials));
+        measure.add_unseen(sums[file], unseen_units(file, point, 0, simulation, trials),
+                           unseen_units(file, point, 1, simulation, trials));
       }
     }
     return all;
   }
 
   TestedMeasure tested_measure(std::size_t i, const FileWeights& population, FileSums sums, bool nil) const {
-    const JudgedMeasure& measure = measures_[i];
+    const JudgedMeasure& measure = samples_.measures()[i].sums;
     if (nil) measure.remove_effect(sums, measure.weighted(population));
-    if (!one_sample_) {
+    if (!samples_.one_sample()) {
       const FileSums seen = measure.seen();
       for (std::size_t file = 0; file < sums.size(); ++file) {
         for (std::size_t k = 0; k < seen[file].size(); ++k) sums[file][k] += seen[file][k];
       }
     }
-    TestedMeasure tested = *judged_[i].found;
+    TestedMeasure tested = samples_.measures()[i].found;
     const QuickResult result = measure.test(sums, options_.confidence, !nil);
     tested.effect = result.effect;
     tested.bounds = result.bounds;
@@ -198,18 +153,16 @@ class Simulator {
   std::vector<GateVerdict> requirement_verdicts(const FileWeights& further, std::uint32_t simulation,
                                                 double trials) const {
     std::vector<GateVerdict> verdicts;
-    for (std::size_t i = 0; i < requirements_.size(); ++i) {
-      const Judged& judged = judged_[measures_.size() + i];
-      SampleSums sums = requirements_[i].weighted(further[1]);
-      for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += requirements_[i].seen()[k];
-      if (judged.requirement->kind != RequirementKind::mean && !judged.requirement->clustered) {
-        const double missed = unseen_units(1, judged.point, 0, simulation, trials);
-        const double met = unseen_units(1, judged.point, 1, simulation, trials);
+    for (const auto& [point, asked, seen] : samples_.requirements()) {
+      SampleSums sums = seen.weighted(further[1]);
+      for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += seen.seen()[k];
+      if (asked.kind != RequirementKind::mean && !asked.clustered) {
+        const double missed = unseen_units(1, point, 0, simulation, trials);
+        const double met = unseen_units(1, point, 1, simulation, trials);
         sums[1] += met;
         sums[2] += met + missed;
       }
-      verdicts.push_back(requirement_verdict(*judged.requirement,
-                                             {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5]},
+      verdicts.push_back(requirement_verdict(asked, {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5]},
                                              options_.confidence, options_.failing_confidence));
     }
     return verdicts;
@@ -240,14 +193,9 @@ class Simulator {
     return outcome;
   }
 
+  const ForecastSamples& samples_;
   ForecastOptions options_;
-  bool one_sample_;
-  std::array<Continuation, 2> continuations_;
-  std::vector<JudgedMeasure> measures_;
-  std::vector<BlockedSums> requirements_;
-  std::vector<Judged> judged_;  ///< measures, then requirements
-  std::int64_t trials_{1};
-  std::array<std::int64_t, 2> trials_of_{1, 1};
+  std::vector<double> nil_;  ///< [measure] probability that its effect is nil
 };
 
 /// Proportions of the simulations that decide, with so many trials.
@@ -317,8 +265,8 @@ double crossing_between(double few, double low, double many, double high, double
 Forecast search(const Simulator& simulator, const std::vector<Truth>& truths,
                 const ForecastOptions& options) {
   Forecast forecast;
-  forecast.judgements.resize(simulator.judged().size());
-  const auto there = static_cast<double>(simulator.trials());
+  forecast.judgements.resize(simulator.judgements());
+  const double there = simulator.trials();
   Chances before{0.0, std::vector<double>(forecast.judgements.size(), 0.0), {}};
   double trials_before = there * options.min_factor;
   for (double factor = options.min_factor;; factor = std::min(factor * factor_step, options.max_factor)) {
@@ -363,12 +311,40 @@ std::vector<double> nil_probabilities(const std::vector<double>& z) {
   return nil;
 }
 
-Forecast forecast_decision(const std::vector<ForecastPoint>& points, const ForecastOptions& options) {
-  return search(Simulator(points, options, false), {Truth::as_seen, Truth::some_nil}, options);
+ForecastSamples::ForecastSamples(std::array<std::int64_t, 2> units, bool one_sample)
+    : one_sample_(one_sample), continuations_{Continuation(units[0], 0), Continuation(units[1], 1)} {}
+
+void ForecastSamples::add(ForecastPoint point) {
+  trials_ = {std::max(trials_[0], point.baseline_trials), std::max(trials_[1], point.current_trials)};
+  for (std::size_t i = 0; i < point.measures.size(); ++i) {
+    MeasureSample& sample = point.measures[i];
+    if (one_sample_) sample.baseline = sample.current;
+    require_units(std::ssize(sample.baseline), 0);
+    require_units(std::ssize(sample.current), 1);
+    measures_.push_back({points_, point.found[i], JudgedMeasure(sample, continuations_)});
+  }
+  for (RequirementSample& sample : point.requirements) {
+    require_units(std::ssize(sample.hits), 1);
+    std::vector<SampleSums> rows;
+    for (std::size_t i = 0; i < sample.hits.size(); ++i)
+      rows.push_back(sums_of_requirement(sample.hits[i], sample.events[i]));
+    sample.hits = sample.events = {};
+    requirements_.push_back({points_, std::move(sample), BlockedSums(rows, continuations_[1])});
+  }
+  ++points_;
 }
 
-Forecast forecast_equivalence(const std::vector<ForecastPoint>& pilot, const ForecastOptions& options) {
-  return search(Simulator(pilot, options, true), {Truth::no_effect}, options);
+void ForecastSamples::require_units(std::int64_t units, std::size_t file) const {
+  if (units > continuations_[file].units())
+    throw std::invalid_argument("a sample of more units than announced");
+}
+
+Forecast forecast_decision(const ForecastSamples& samples, const ForecastOptions& options) {
+  return search(Simulator(samples, options), {Truth::as_seen, Truth::some_nil}, options);
+}
+
+Forecast forecast_equivalence(const ForecastSamples& pilot, const ForecastOptions& options) {
+  return search(Simulator(pilot, options), {Truth::no_effect}, options);
 }
 
 }  // namespace zerocount::comparison

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "analysis/comparison/continuation.hpp"
+#include "analysis/comparison/judged_sample.hpp"
 #include "analysis/comparison/measure_comparison.hpp"
 
 /// How many trials would decide a comparison, by simulation of the comparison with more trials.
@@ -16,6 +20,49 @@ struct ForecastPoint {
   std::vector<MeasureSample> measures;  ///< with values enough for a verdict
   std::vector<TestedMeasure> found;     ///< [measure]
   std::vector<RequirementSample> requirements;
+};
+
+/// A measure at a design point.
+struct ForecastMeasure {
+  std::size_t point{0};
+  TestedMeasure found;
+  JudgedMeasure sums;
+};
+
+/// A requirement at a design point.
+struct ForecastRequirement {
+  std::size_t point{0};
+  RequirementSample asked;  ///< without its units
+  BlockedSums sums;
+};
+
+/// The samples of all design points, as the sums that simulations need: the memory does not grow with the
+/// trials.
+class ForecastSamples {
+ public:
+  /// @param units number of independent units (trials or rigs) of the largest sample of the baseline and of
+  /// the file
+  /// @param one_sample the samples of the file stand for the baseline too
+  ForecastSamples(std::array<std::int64_t, 2> units, bool one_sample);
+
+  void add(ForecastPoint point);
+
+  bool one_sample() const { return one_sample_; }
+  const std::array<Continuation, 2>& continuations() const { return continuations_; }
+  const std::vector<ForecastMeasure>& measures() const { return measures_; }
+  const std::vector<ForecastRequirement>& requirements() const { return requirements_; }
+  /// The most trials of a point of the baseline (0) or the file (1); at least 1.
+  std::int64_t trials_of(std::size_t file) const { return trials_[file]; }
+
+ private:
+  void require_units(std::int64_t units, std::size_t file) const;
+
+  bool one_sample_;
+  std::array<Continuation, 2> continuations_;
+  std::size_t points_{0};
+  std::vector<ForecastMeasure> measures_;
+  std::vector<ForecastRequirement> requirements_;
+  std::array<std::int64_t, 2> trials_{1, 1};
 };
 
 struct ForecastOptions {
@@ -53,12 +100,12 @@ struct Forecast {
 /// changes. Its measured accuracy: README.md.
 ///
 /// The result does not depend on the number of threads.
-Forecast forecast_decision(const std::vector<ForecastPoint>& points, const ForecastOptions& options);
+Forecast forecast_decision(const ForecastSamples& samples, const ForecastOptions& options);
 
 /// The number of trials of each of two equal studies, with different random numbers, with which all measures
 /// are equivalent with the stated probability.
-/// @param pilot its `current` samples are trials of the study; `baseline` is not used
-Forecast forecast_equivalence(const std::vector<ForecastPoint>& pilot, const ForecastOptions& options);
+/// @param pilot one sample: the trials of the study
+Forecast forecast_equivalence(const ForecastSamples& pilot, const ForecastOptions& options);
 
 /// For each measure the probability that its effect is nil: with z = e/s, the posterior of a mixture of
 /// N(0, 1) and N(0, 1 + 3²), whose weights are estimated from all z by expectation maximisation, with one

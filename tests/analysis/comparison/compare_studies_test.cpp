@@ -297,6 +297,20 @@ TEST_F(ComparedStudies, JudgesAsManyTrialsAsAsked) {
   }
 }
 
+TEST_F(ComparedStudies, SaysHowSoManyTrialsAsWouldDecideAreJudged) {
+  std::vector<TrialRecord> other = good_trials();
+  for (std::size_t row = 0; row < other.size(); ++row)
+    other[row] = trial_of(row % 9 != 0, 40 + int(row * 5 % 23));
+  comparison::GateRules rules;
+  rules.max_trials = 100;
+  const auto result = comparison::compare_studies(write("a.h5", study_of(), good_trials()),
+                                                  write("b.h5", study_of("", 2), other), rules);
+  ASSERT_TRUE(result.trials_to_decide.has_value());
+  EXPECT_EQ(result.notes.back(),
+            fmt::format("so many trials are judged only with --max-trials {:.0f} or more",
+                        *result.trials_to_decide));
+}
+
 TEST_F(ComparedStudies, ADriftingBaselineDoesNotCarryARequirementAway) {
   comparison::GateRules rules;
   rules.requirements = {{"success_rate ≥ 0.995", comparison::find_requirable("success_rate"), true, 0.995}};

@@ -37,6 +37,13 @@ PairTrials trials_of(const StudyPair& pair, std::int64_t count) {
   return {before, pair.paired ? redraw_some(other, before, 0.2) : draw_chances(other, count)};
 }
 
+comparison::ForecastSamples samples_of(const std::vector<ForecastPoint>& points, bool one_sample = false) {
+  const comparison::MeasureSample& first = points.front().measures.front();
+  comparison::ForecastSamples samples({std::ssize(first.baseline), std::ssize(first.current)}, one_sample);
+  for (const ForecastPoint& point : points) samples.add(point);
+  return samples;
+}
+
 /// A comparison, and what a forecast needs of it.
 struct Compared {
   GateVerdict verdict{GateVerdict::inconclusive};
@@ -114,7 +121,7 @@ Kept try_pairs(Change change, bool paired, bool changed_fails, int wanted, std::
     const Compared few = compare(pair, trials_of(pair, 200), rules);
     if (few.verdict != GateVerdict::inconclusive) continue;
     ++kept.open;
-    const comparison::Forecast forecast = comparison::forecast_decision(few.points, {});
+    const comparison::Forecast forecast = comparison::forecast_decision(samples_of(few.points), {});
     if (!forecast.trials) continue;
     ++kept.stated;
     const auto needed = static_cast<std::int64_t>(*forecast.trials);
@@ -169,9 +176,10 @@ Compared an_open_pair() {
 
 TEST(Forecast, DoesNotDependOnTheNumberOfThreads) {
   const Compared open = an_open_pair();
-  const comparison::Forecast all = comparison::forecast_decision(open.points, {});
+  const comparison::Forecast all = comparison::forecast_decision(samples_of(open.points), {});
   comparison::Forecast one;
-  oneapi::tbb::task_arena(1).execute([&] { one = comparison::forecast_decision(open.points, {}); });
+  oneapi::tbb::task_arena(1).execute(
+      [&] { one = comparison::forecast_decision(samples_of(open.points), {}); });
   ASSERT_TRUE(all.trials.has_value());
   EXPECT_EQ(one.trials, all.trials);
   for (std::size_t i = 0; i < all.judgements.size(); ++i) {
@@ -183,7 +191,8 @@ TEST(Forecast, DoesNotDependOnTheNumberOfThreads) {
 // All measures together need at least as many trials as any of them where nothing fails.
 TEST(Forecast, TheWholeNeedsMoreThanAnyOfItsParts) {
   const Compared open = an_open_pair();
-  const comparison::Forecast forecast = comparison::forecast_equivalence(open.points, {.max_factor = 1000.0});
+  const comparison::Forecast forecast =
+      comparison::forecast_equivalence(samples_of(open.points, true), {.max_factor = 1000.0});
   ASSERT_TRUE(forecast.trials.has_value());
   for (const comparison::JudgementForecast& one : forecast.judgements) {
     ASSERT_TRUE(one.trials.has_value());
@@ -200,7 +209,7 @@ TEST(Forecast, OfOneRateAgreesWithTheClosedForm) {
   rules.changed_fails = true;
   const Compared pilot = compare(pair, trials_of(pair, 4000), rules);
   const comparison::Forecast forecast = comparison::forecast_equivalence(
-      pilot.points, {.probability = 0.9, .simulations = 2000, .min_factor = 0.1});
+      samples_of(pilot.points, true), {.probability = 0.9, .simulations = 2000, .min_factor = 0.1});
   const double z = 1.6448536 + 1.6448536;
   ASSERT_TRUE(forecast.trials.has_value());
   EXPECT_NEAR(*forecast.trials, 2.0 * 0.8 * 0.2 * z * z / (0.03 * 0.03), 0.07 * *forecast.trials);
@@ -208,7 +217,8 @@ TEST(Forecast, OfOneRateAgreesWithTheClosedForm) {
 
 TEST(Forecast, TellsWhichMarginCanBeDecidedWhereNoNumberOfTrialsDecides) {
   const Compared open = an_open_pair();
-  const comparison::Forecast forecast = comparison::forecast_decision(open.points, {.max_factor = 1.5});
+  const comparison::Forecast forecast =
+      comparison::forecast_decision(samples_of(open.points), {.max_factor = 1.5});
   EXPECT_FALSE(forecast.trials.has_value());
   EXPECT_EQ(forecast.max_trials, 450.0);
   int open_measures = 0;

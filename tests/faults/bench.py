@@ -12,6 +12,7 @@ import time
 
 import h5py
 
+RUN = ["run", "study.yaml", "-o", "out.h5"]
 TRAILER = 87  # bytes of the checksum trailer, see results/README.md
 LONGEST = 120  # s: a command that takes longer hangs
 
@@ -57,21 +58,21 @@ def datasets(path):
     return found
 
 
-def is_sealed(path):
+def has_valid_checksum(path):
     """The bytes of the file are those of its checksum trailer."""
     data = path.read_bytes()
     return data[-TRAILER:] == b"zerocount-seal sha256 %s\n" % hashlib.sha256(data[:-TRAILER]).hexdigest().encode()
 
 
-def seal(path):
+def append_checksum(path):
     """Writes the checksum trailer of a changed file anew."""
     data = path.read_bytes()[:-TRAILER]
     path.write_bytes(data + b"zerocount-seal sha256 %s\n" % hashlib.sha256(data).hexdigest().encode())
 
 
 def trials_of(path):
-    """The number of trials of a sound shard; 0 of another file."""
-    if not is_sealed(path):
+    """The number of trials of a valid shard; 0 of another file."""
+    if not has_valid_checksum(path):
         return 0
     with h5py.File(path, "r", locking=False) as file:
         return int(file.attrs["trial_count"])
@@ -88,7 +89,6 @@ class Bench:
         self.program = str(pathlib.Path(program).resolve())
         self.libraries = {name: str(pathlib.Path(path).resolve()) for name, path in libraries.items()}
         self.root = pathlib.Path(folder)
-        self.number = 0
         self.references = {}
 
     def folder(self, name):
@@ -163,15 +163,15 @@ class Bench:
             raise Lost(f"{output} has wrong data: {', '.join(wrong[:5])}")
         return True
 
-    def require_going_on(self, study, folder, kept=None, words=("run", "study.yaml", "-o", "out.h5")):
+    def require_going_on(self, study, folder, kept=None, words=RUN):
         """The same command without the fault ends, with the right data, and keeps what was complete.
 
-        kept: trials that must not be run again; None: those of all sound shards.
+        kept: trials that must not be run again; None: those of all valid shards.
         """
         was_there = self.require_served_right(study, folder)
         if kept is None:
             kept = sum(trials_of(path) for path in shards_of(folder))
-        ended = self.run(list(words), folder)
+        ended = self.run(words, folder)
         if ended.code != 0:
             raise Lost(f"the same command does not go on: exit code {ended.code}: {ended.err.strip()[-300:]}")
         if not self.require_served_right(study, folder):
@@ -192,5 +192,5 @@ def kill_after(process, seconds, number=signal.SIGKILL):
         process.send_signal(number)
 
 
-def copy_of(source, target):
+def copy_tree(source, target):
     shutil.copytree(source, target, dirs_exist_ok=True)

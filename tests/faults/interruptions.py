@@ -4,9 +4,8 @@ import random
 import shutil
 import signal
 
-from bench import Lost, datasets, kill_after, shards_of
+from bench import Lost, RUN, datasets, kill_after, shards_of
 
-RUN = ["run", "study.yaml", "-o", "out.h5"]
 SIGNALS = {"KILL": signal.SIGKILL, "TERM": signal.SIGTERM, "INT": signal.SIGINT}
 
 

@@ -7,14 +7,14 @@ import shutil
 import subprocess
 import sys
 
-from bench import Lost, kill_after
+from bench import Lost, RUN, copy_tree, kill_after
 
-RUN = ["run", "study.yaml", "-o", "out.h5"]
 MEBIBYTE = 1 << 20
 
 
 def can_mount():
-    return subprocess.run(["unshare", "-rm", "true"], capture_output=True, check=False).returncode == 0
+    mount = ["unshare", "-rm", "mount", "-t", "tmpfs", "none", "/mnt"]
+    return subprocess.run(mount, capture_output=True, check=False).returncode == 0
 
 
 def require_told(ended, codes=(0, 5)):
@@ -88,10 +88,6 @@ def vanished_folder(bench, name, seconds, which, back):
     bench.require_going_on("long", folder)
 
 
-def copy_tree(source, target):
-    shutil.copytree(source, target, dirs_exist_ok=True)
-
-
 def faults(bench, quick, seconds):
     draw = random.Random(3)
     size = (bench.references["long"][1] / "out.h5").stat().st_size
@@ -103,7 +99,7 @@ def faults(bench, quick, seconds):
         for _ in range(1 if quick else 2):
             yield "read-only folder", read_only_folder, ()
     else:
-        print("not tried: disk full, no inodes left, read-only folder (unshare -rm is refused here)", file=sys.stderr)
+        print("not tried: disk full, no inodes left, read-only folder (unshare -rm mount is refused here)", file=sys.stderr)
     for _ in range(0 if quick else 8):
         yield "limit of the file size", limited, (resource.RLIMIT_FSIZE, draw.randint(1000, size), "long", (0, 5))
     count = bench.calls_of(RUN, bench.study_folder("short", "count-failing"))

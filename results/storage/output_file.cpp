@@ -18,7 +18,19 @@ constexpr std::size_t buffer_size = std::size_t{1} << 16;
 }  // namespace
 
 OutputFile::OutputFile(const std::filesystem::path& path)
-    : path_(path), part_(path), file_(create_file(part_.path())) {}
+    : path_(path),
+      part_(part_of(path)),
+      file_(create_file(part_)),
+      held_(::fcntl(file_.get(), F_DUPFD_CLOEXEC, 0)) {
+  if (held_.valid()) return;
+  const int error = errno;
+  ::unlink(part_.c_str());
+  fail_with(part_, "open for writing", error);
+}
+
+OutputFile::~OutputFile() {
+  if (is_named(held_, part_)) ::unlink(part_.c_str());
+}
 
 void OutputFile::write(std::string_view text) {
   buffer_ += text;
@@ -26,7 +38,7 @@ void OutputFile::write(std::string_view text) {
 }
 
 void OutputFile::flush() {
-  write_all(part_.path(), file_, buffer_);
+  write_all(part_, file_, buffer_);
   written_.add(std::as_bytes(std::span(buffer_)));
   size_ += buffer_.size();
   buffer_.clear();
@@ -34,17 +46,16 @@ void OutputFile::flush() {
 
 void OutputFile::finish() {
   flush();
-  synchronise(part_.path(), file_);
-  if (::lseek(file_.get(), 0, SEEK_SET) != 0) fail_with(part_.path(), "read back", errno);
-  const bool same = size_of_file(part_.path(), file_) == size_ &&
-                    sha256_of(part_.path(), file_, size_) == written_.digest();
-  if (!same) fail_read_back(part_.path(), "its bytes differ");
-  held_ = FileDescriptor(::fcntl(file_.get(), F_DUPFD_CLOEXEC, 0));
-  if (!held_.valid() || !file_.close()) fail_with(part_.path(), "close", errno);
+  synchronise(part_, file_);
+  if (::lseek(file_.get(), 0, SEEK_SET) != 0) fail_with(part_, "read back", errno);
+  const bool same =
+      size_of_file(part_, file_) == size_ && sha256_of(part_, file_, size_) == written_.digest();
+  if (!same) fail_read_back(part_, "its bytes differ");
+  if (!file_.close()) fail_with(part_, "close", errno);
 }
 
 void OutputFile::publish() {
-  if (!is_named(held_, part_.path())) {
+  if (!is_named(held_, part_)) {
     throw Failure(
         ExitCode::machine_failed,
         fmt::format("{}: another command is writing this output; give the command again when it has "

@@ -12,11 +12,15 @@
 namespace zerocount::storage {
 
 /// A new file that is written sequentially. It is named PATH.part until publish(), and is removed if
-/// publish() is never called. A file named PATH is therefore always complete.
+/// publish() is never called. If another process puts a file of its own there, that file is left as it is. A
+/// file named PATH is therefore always complete.
 /// @throws Failure (machine_failed) with the path and the reason, from every function.
 class OutputFile {
  public:
   explicit OutputFile(const std::filesystem::path& path);
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+  ~OutputFile();
 
   void write(std::string_view text);
   /// Flushes the file to the disk, reads it back and compares it with what was written. No write may follow.
@@ -29,9 +33,9 @@ class OutputFile {
   void flush();
 
   std::filesystem::path path_;
-  UnfinishedFile part_;
+  std::filesystem::path part_;
   FileDescriptor file_;
-  FileDescriptor held_;  ///< the finished file, so that another that takes its name can be told from it
+  FileDescriptor held_;  ///< the same file: open to the end, so that no other file can pass for it
   std::string buffer_;
   std::size_t size_{0};  ///< bytes passed to the system
   hash::Sha256Hash written_;

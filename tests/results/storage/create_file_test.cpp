@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <optional>
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -58,14 +59,15 @@ TEST(OutputFile, ReplacesNoLinkAndNoPipe) {
 
 TEST(OutputFile, OfTwoAtOnceTheUnfinishedOneIsNotPublished) {
   const TemporaryFolder folder;
-  storage::OutputFile first(folder / "all.csv");
-  first.write("all of the first");
-  first.finish();
+  std::optional<storage::OutputFile> first(folder / "all.csv");
+  first->write("all of the first");
+  first->finish();
   storage::OutputFile second(folder / "all.csv");
   second.write("half of");
   expect_failure(ExitCode::machine_failed, "all.csv: another command is writing this output",
-                 [&] { first.publish(); });
+                 [&] { first->publish(); });
   EXPECT_FALSE(fs::exists(folder / "all.csv"));
+  first.reset();  // leaves the file of the second
   second.write(" the second");
   second.finish();
   second.publish();

@@ -253,8 +253,9 @@ void forecast(StudyComparison& result, const GateRules& rules, const ComparedDat
   result.max_trials_to_decide = found.max_trials;
   if (result.verdict == GateVerdict::inconclusive) result.trials_to_decide = found.trials;
   if (result.trials_to_decide > static_cast<double>(trial_limit(rules, data.current))) {
-    result.notes.push_back(fmt::format("so many trials are judged only with --max-trials {:.0f} or more",
-                                       *result.trials_to_decide));
+    result.notes.push_back(
+        fmt::format("more than {} trials of each point are judged only with --max-trials (here {:.0f})",
+                    trial_limit(rules, data.current), *result.trials_to_decide));
   }
   auto next = found.judgements.begin();
   for (PointComparison& point : result.points) {

@@ -307,8 +307,8 @@ TEST_F(ComparedStudies, SaysHowSoManyTrialsAsWouldDecideAreJudged) {
                                                   write("b.h5", study_of("", 2), other), rules);
   ASSERT_TRUE(result.trials_to_decide.has_value());
   EXPECT_EQ(result.notes.back(),
-            fmt::format("so many trials are judged only with --max-trials {:.0f} or more",
-                        *result.trials_to_decide));
+            fmt::format("more than {} trials of each point are judged only with --max-trials (here {:.0f})",
+                        100, *result.trials_to_decide));
 }
 
 TEST_F(ComparedStudies, ADriftingBaselineDoesNotCarryARequirementAway) {

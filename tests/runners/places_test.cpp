@@ -118,6 +118,18 @@ TEST_F(Places, ADashIsTheStandardOutput) {
   EXPECT_EQ(program({"run", "study.yaml", "-o", "-"}).code, 2);
 }
 
+// `script` gives the program a terminal. The character turns the direction of the text after it.
+TEST_F(Places, DataForATerminalHaveNoControlCharacters) {
+  const std::string turned = "\u202e";
+  fs::copy_file(at("all.h5"), at("a" + turned + "b.h5"));
+  const std::string verify = fmt::format("$Z verify --format json a{}b.h5", turned);
+  EXPECT_EQ(shell(verify + " > piped"), 0) << folder_.read("err");
+  EXPECT_NE(folder_.read("piped").find(turned), std::string::npos);
+  EXPECT_EQ(shell(fmt::format("export Z && script -qec '{}' typescript < /dev/null > shown", verify)), 0);
+  EXPECT_EQ(folder_.read("shown").find(turned), std::string::npos);
+  EXPECT_NE(folder_.read("shown").find("a\ufffdb.h5"), std::string::npos) << folder_.read("shown");
+}
+
 // The system's `timeout` ends a program that waits for the other end with exit code 124.
 TEST_F(Places, APipeIsRefusedAndNotWaitedFor) {
   ASSERT_EQ(shell("mkfifo pipe pipe.h5 pipe.csv pipe.svg new.h5.part new.h5.lock new.csv.part"), 0);

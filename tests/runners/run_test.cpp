@@ -191,6 +191,20 @@ TEST_F(Run, RunsAgainWhatADamagedShardHeld) {
   expect_same_datasets(at("whole.h5"), at("new.h5"));
 }
 
+// The spring constant is positive.
+TEST_F(Run, RunsAgainWhatAShardWithAnImpossibleInputHeld) {
+  folder_.write("study.yaml", small_manifest(40));
+  complete("study.yaml", "whole.h5");
+  fs::create_directory(at("new.h5.shards"));
+  complete("study.yaml", "new.h5.shards/wrong.h5", {"--shard", "1/2"});
+  set_element(at("new.h5.shards/wrong.h5"), "/trial/input/friction.k2", 3, -1.0);
+  const ProgramResult result = run({"run", "study.yaml", "-o", "new.h5"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.err.find("/trial/input/friction.k2: trial 3: it is -1; expected"), std::string::npos)
+      << result.err;
+  expect_same_datasets(at("whole.h5"), at("new.h5"));
+}
+
 // As by a faulty memory before the checksum was computed: the checksum is right, and the values are not.
 TEST_F(Run, RunsAgainWhatASealedShardWithWrongDataHeld) {
   folder_.write("study.yaml", small_manifest(40));

@@ -1,7 +1,9 @@
 #include "tests/support/raw_hdf5.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <stdexcept>
 #include <vector>
 
@@ -181,19 +183,36 @@ std::map<std::string, std::size_t> sizes_of_numbers(const std::filesystem::path&
   return sizes;
 }
 
-void change_element(const std::filesystem::path& path, const std::string& name, std::size_t index) {
+namespace {
+
+/// `change` gets the bytes of the element, their number and whether it is a floating-point number.
+void rewrite_element(const std::filesystem::path& path, const std::string& name, std::size_t index,
+                     const std::function<void(char*, std::size_t, bool)>& change) {
   std::string elements = elements_of(path, name).value();
   unseal(path);
   const hid_t file = open_file(path, H5F_ACC_RDWR);
   const hid_t dataset = checked(H5Dopen2(file, name.c_str(), H5P_DEFAULT));
   const hid_t type = H5Dget_type(dataset);
   const std::size_t size = H5Tget_size(type);
-  change_bytes(elements.data() + index * size, size, H5Tget_class(type) == H5T_FLOAT);
+  change(elements.data() + index * size, size, H5Tget_class(type) == H5T_FLOAT);
   checked(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, elements.data()));
   H5Tclose(type);
   H5Dclose(dataset);
   H5Fclose(file);
   storage::append_checksum(path);
+}
+
+}  // namespace
+
+void change_element(const std::filesystem::path& path, const std::string& name, std::size_t index) {
+  rewrite_element(path, name, index, change_bytes);
+}
+
+void set_element(const std::filesystem::path& path, const std::string& name, std::size_t index,
+                 double value) {
+  rewrite_element(path, name, index, [&](char* bytes, std::size_t size, bool) {
+    std::memcpy(bytes, &value, std::min(size, sizeof value));
+  });
 }
 
 std::set<std::string> attribute_names(const std::filesystem::path& path) {

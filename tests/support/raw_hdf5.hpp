@@ -28,6 +28,10 @@ std::map<std::string, std::size_t> sizes_of_numbers(const std::filesystem::path&
 /// trailer anew.
 void change_element(const std::filesystem::path& path, const std::string& dataset, std::size_t index);
 
+/// Sets one element of a dataset of doubles, and writes the checksum trailer anew.
+void set_element(const std::filesystem::path& path, const std::string& dataset, std::size_t index,
+                 double value);
+
 /// Names of the attributes of the root group.
 std::set<std::string> attribute_names(const std::filesystem::path& path);
 

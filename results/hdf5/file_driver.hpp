@@ -14,10 +14,10 @@
 /// keeps the bytes in memory, so that the library reads what it wrote. Object and File check for a failure
 /// after every call.
 ///
-/// Nor does it handle failed reads: where one fails while it lists the links of a group or reads texts, it
-/// frees what it has not set (SIGSEGV in H5G__link_release_table, SIGABRT in H5MM_xfree). Therefore a failed
-/// read ends the process, with exit code machine_failed and the reason. It may leave a file *.part, which the
-/// next command removes.
+/// The library does not handle failed reads either. If a read fails while the library lists the links of a
+/// group or reads texts, it frees pointers that it has not set (SIGSEGV in H5G__link_release_table, SIGABRT
+/// in H5MM_xfree). Therefore a failed read ends the process: the driver prints the path and the reason, and
+/// exits with machine_failed. A file *.part may remain; the next command removes it.
 namespace zerocount::hdf5 {
 
 /// Access property list of the file `bytes`.

@@ -7,8 +7,8 @@
 
 #include "core/text/utf8.hpp"
 
-/// What the commands print. Names in it come from manifests and files, and may hold what a terminal would
-/// obey.
+/// The output of the commands. It repeats names from manifests and files, which may contain control
+/// characters.
 namespace zerocount::standard_output {
 
 /// Writes data (JSON, CSV, pictures) as they are; to a terminal, with the control characters replaced.

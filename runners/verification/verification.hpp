@@ -18,7 +18,8 @@ struct VerifySettings {
   std::shared_ptr<const plugin::ControllerPlugin> plugin{};  ///< the user's controller; null: none is given
 };
 
-/// Verifies results files, parts, shards, and folders of these. Goes on after a failure.
+/// Verifies results files, parts, shards, and folders of these. Goes on after a failure, but a read that
+/// fails after the checksum was right ends the process (hdf5/file_driver.hpp).
 /// @returns one report per file, in the order of the operands, and one per folder of shards after its files
 /// @throws Failure (bad_input) if an operand does not exist, a folder has no results files, or the controller
 /// of a study is a plugin that is not given

@@ -1,5 +1,4 @@
-// What `zerocount identify` refuses: data that identify nothing, options that contradict one another, columns
-// that are not there.
+// Refusals of `zerocount identify`: data without information, contradictory options, missing columns.
 #include <string>
 #include <vector>
 

@@ -133,8 +133,8 @@ pid_t wait_for_grandchild(pid_t child) {
   return grandchild;
 }
 
-/// Whether the reader of a file, stopped while it reads, ends when its parent is killed. False too where it
-/// was stopped before it could say so to the system.
+/// Stops the reader of a file, kills its parent, and returns whether the reader has ended then. False also if
+/// the reader was stopped before it had asked the system for that signal.
 bool reader_ends_with_its_parent(const std::filesystem::path& path) {
   const pid_t parent = fork();
   if (parent == 0) {

@@ -3,7 +3,6 @@
 #include <cerrno>
 #include <span>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -18,18 +17,10 @@ constexpr std::size_t buffer_size = std::size_t{1} << 16;
 }  // namespace
 
 OutputFile::OutputFile(const std::filesystem::path& path)
-    : path_(path),
-      part_(part_of(path)),
-      file_(create_file(part_)),
-      held_(::fcntl(file_.get(), F_DUPFD_CLOEXEC, 0)) {
-  if (held_.valid()) return;
-  const int error = errno;
-  ::unlink(part_.c_str());
-  fail_with(part_, "open for writing", error);
-}
+    : path_(path), part_(part_of(path)), file_(create_file(part_)) {}
 
 OutputFile::~OutputFile() {
-  if (is_named(held_, part_)) ::unlink(part_.c_str());
+  if (is_named(file_, part_)) ::unlink(part_.c_str());
 }
 
 void OutputFile::write(std::string_view text) {
@@ -51,11 +42,10 @@ void OutputFile::finish() {
   const bool same =
       size_of_file(part_, file_) == size_ && sha256_of(part_, file_, size_) == written_.digest();
   if (!same) fail_read_back(part_, "its bytes differ");
-  if (!file_.close()) fail_with(part_, "close", errno);
 }
 
 void OutputFile::publish() {
-  if (!is_named(held_, part_)) {
+  if (!is_named(file_, part_)) {
     throw Failure(
         ExitCode::machine_failed,
         fmt::format("{}: another command is writing this output; give the command again when it has "

@@ -34,8 +34,7 @@ class OutputFile {
 
   std::filesystem::path path_;
   std::filesystem::path part_;
-  FileDescriptor file_;
-  FileDescriptor held_;  ///< the same file: open to the end, so that no other file can pass for it
+  FileDescriptor file_;  ///< open to the end, so that no other file can pass for it
   std::string buffer_;
   std::size_t size_{0};  ///< bytes passed to the system
   hash::Sha256Hash written_;

@@ -1,6 +1,5 @@
 #include "tests/support/raw_hdf5.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -210,8 +209,9 @@ void change_element(const std::filesystem::path& path, const std::string& name, 
 
 void set_element(const std::filesystem::path& path, const std::string& name, std::size_t index,
                  double value) {
-  rewrite_element(path, name, index, [&](char* bytes, std::size_t size, bool) {
-    std::memcpy(bytes, &value, std::min(size, sizeof value));
+  rewrite_element(path, name, index, [&](char* bytes, std::size_t size, bool real) {
+    if (!real || size != sizeof value) throw std::invalid_argument(name + " has no doubles");
+    std::memcpy(bytes, &value, size);
   });
 }
 

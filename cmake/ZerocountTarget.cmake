@@ -1,5 +1,12 @@
 # Functions that define the targets of this project.
-#
+
+# The functions of core/numerics/elementary_functions.cpp: the compiler must neither compute them itself, where it knows the
+# argument, nor replace them (pow(x, 2) by x·x).
+set(zerocount_elementary_functions
+  exp exp2 expm1 log log2 log10 log1p pow cbrt hypot sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh erf erfc
+  tgamma)
+list(TRANSFORM zerocount_elementary_functions PREPEND -fno-builtin-)
+
 # zerocount_target(<target>): sets the options of all targets: C++20, warnings, and no contraction of a·b + c into a fused
 # operation. Every build must give the same bits, because the quantisers of the loop turn a last-bit difference into a different
 # count.
@@ -9,7 +16,10 @@ function(zerocount_target target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion)
   # Clang also warns of a local name that a constant of another file in the same unity build has.
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wshadow>)
-  target_compile_options(${target} PRIVATE -ffp-contract=off)
+  target_compile_options(${target} PUBLIC -ffp-contract=off)
+  target_compile_options(${target} PRIVATE ${zerocount_elementary_functions})
+  # Boost would compute in long double, by the x87 unit of the processor.
+  target_compile_definitions(${target} PUBLIC BOOST_MATH_PROMOTE_DOUBLE_POLICY=false)
   if(ZEROCOUNT_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
   endif()

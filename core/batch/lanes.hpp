@@ -223,15 +223,6 @@ struct Simd {
     return r;
   }
 
-  /// aⁿ for a ≥ 0, lane by lane by the C library.
-  friend ZEROCOUNT_ALWAYS_INLINE Simd pow(const Simd& a, const Simd& n) {
-    Simd r;
-    for (int i = 0; i < Chains; ++i) {
-      for (int j = 0; j < Width; ++j) r.part[i][j] = __builtin_pow(a.part[i][j], n.part[i][j]);
-    }
-    return r;
-  }
-
   /// The nearest whole number, half to even. |a| < 2⁵¹.
   friend ZEROCOUNT_ALWAYS_INLINE Simd fast_rint(const Simd& a) {
     const Simd shift(0x1.8p52);
@@ -253,6 +244,18 @@ struct Simd {
     for (int i = 0; i < Chains; ++i) r.part[i] = (Real)(((Bits)shifted.part[i] + 1023) << 52);
     return r;
   }
+  /// The factors of a = m·2ᵉ, 1 ≤ m < 2, for a normal a > 0.
+  friend ZEROCOUNT_ALWAYS_INLINE void split(const Simd& a, Simd& m, Simd& e) {
+    typedef std::uint64_t Unsigned __attribute__((vector_size(8 * Width)));
+    constexpr int stored_bits = 52;
+    constexpr std::int64_t of_one = std::int64_t{1023} << stored_bits;  // bits of 1.0
+    const Simd shift(0x1.8p52);
+    for (int i = 0; i < Chains; ++i) {
+      const Bits exponent = (Bits)((Unsigned)a.part[i] >> stored_bits) - 1023;
+      e.part[i] = (Real)(exponent + (Bits)shift.part[i]) - shift.part[i];
+      m.part[i] = (Real)(((Bits)a.part[i] & ((std::int64_t{1} << stored_bits) - 1)) | of_one);
+    }
+  }
   /// (a/b) to the power `fraction`, within 15 %, for positive a and b: the bits of a number, taken as one,
   /// are about its logarithm.
   friend ZEROCOUNT_ALWAYS_INLINE Simd rough_power(const Simd& a, const Simd& b, double fraction) {
@@ -270,18 +273,48 @@ struct Simd {
   }
 };
 
+/// ln 2 in two parts; the first has so few bits that its product with an exponent is exact.
+inline constexpr double ln2_high = 0x1.62e42fefa3800p-1;
+inline constexpr double ln2_low = 0x1.ef35793c76730p-45;
+
 /// eᵃ for a ≤ 700, to some 2e-16 relative; of a < −700, e⁻⁷⁰⁰.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P exp(const P& a) {
   const P x = max(a, P(-700.0));
-  const P n = fast_rint(x * P(0x1.71547652b82fep0));                             // x/ln 2
-  const P r = (x - n * P(0x1.62e42fefa3800p-1)) - n * P(0x1.ef35793c76730p-45);  // ln 2 in two parts
+  const P n = fast_rint(x * P(0x1.71547652b82fep0));  // x/ln 2
+  const P r = (x - n * P(ln2_high)) - n * P(ln2_low);
   constexpr double factorials[] = {1.0 / 6227020800.0, 1.0 / 479001600.0, 1.0 / 39916800.0, 1.0 / 3628800.0,
                                    1.0 / 362880.0,     1.0 / 40320.0,     1.0 / 5040.0,     1.0 / 720.0,
                                    1.0 / 120.0,        1.0 / 24.0,        1.0 / 6.0,        0.5};
   P sum(factorials[0]);
   for (int i = 1; i < 12; ++i) sum = sum * r + P(factorials[i]);
   return (P(1.0) + (r + (r * r) * sum)) * exp2(n);
+}
+
+/// ln a of a normal a > 0, to some 2e-16 relative: a = m·2ᵉ with m from √½ to √2, and with s = (m − 1)/(m +
+/// 1) ln m = 2·(s + s³/3 + s⁵/5 + …).
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P log(const P& a) {
+  P m, e;
+  split(a, m, e);
+  const typename P::Mask large = m > P(0x1.6a09e667f3bcdp0);  // √2
+  m = select(large, P(0.5) * m, m);
+  e = select(large, e + P(1.0), e);
+  const P s = (m - P(1.0)) / (m + P(1.0));
+  const P square = s * s;
+  P sum(1.0 / 21.0);
+  for (int odd = 19; odd >= 3; odd -= 2) sum = sum * square + P(1.0 / odd);
+  return e * P(ln2_high) + (e * P(ln2_low) + P(2.0) * (s + s * (square * sum)));
+}
+
+/// aⁿ for a ≥ 0 and n > 0, to some 2e-16·(1 + |n·ln a|) relative; from e⁷⁰⁰ on infinite, below e⁻⁷⁰⁰ that, or
+/// 0 of 0. NaN of NaN and of infinity.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P pow(const P& a, const P& n) {
+  constexpr double infinite = __builtin_inf();
+  const P logarithm = n * log(max(a, P(0x1p-1022)));
+  const P power = select(logarithm < P(700.0), exp(min(logarithm, P(700.0))), P(infinite));
+  return select(a == P(0.0), P(0.0), power) + (a - a);
 }
 
 }  // namespace zerocount::batch

@@ -2,8 +2,7 @@
 
 #include "core/batch/series.hpp"
 
-/// |σ|ⁿ of the creep law in lanes. Exponents other than 2 cost a call of the C library for each lane of a
-/// vector that has one; the others in it keep the bits that they have without.
+/// |σ|ⁿ of the creep law in lanes. Lanes whose exponent is 2 have the same bits in any company.
 namespace zerocount::batch {
 
 template <class P>

@@ -34,11 +34,12 @@ void Reference::plan_s_curve(const ReferenceProfile& limits) {
   // acceleration limit a is reached, and 2√(v/j) where it is not. Solved for v:
   const double a = limits.acceleration_limit;
   const double full_jerk_time = a / limits.jerk_limit;
+  const double half_root = std::cbrt(0.5 * travel_);
   const bool reaches_full_acceleration = travel_ >= 2.0 * a * full_jerk_time * full_jerk_time;
   const double velocity_without_cruise =
       reaches_full_acceleration
           ? 0.5 * a * (std::sqrt(full_jerk_time * full_jerk_time + 4.0 * travel_ / a) - full_jerk_time)
-          : std::cbrt(limits.jerk_limit) * std::pow(std::cbrt(0.5 * travel_), 2);
+          : std::cbrt(limits.jerk_limit) * half_root * half_root;
 
   velocity_ = std::min(limits.velocity_limit, velocity_without_cruise);
   jerk_ = limits.jerk_limit;

@@ -1,0 +1,116 @@
+// The trials of a study are the same on every processor.
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/runners/program.hpp"
+#include "tests/support/raw_hdf5.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+/// glibc then takes the functions that a processor without these instructions has (the names of glibc 2.36
+/// and, with _Usable, those before 2.33).
+constexpr const char* plain_processor =
+    "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX,-AVX2,-FMA,-FMA4,-AVX512F,-AVX2_Usable,-FMA_Usable,-AVX512F_Usable";
+
+bool processor_has_fma() {
+  std::ifstream file("/proc/cpuinfo");
+  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  return text.find(" fma ") != std::string::npos;
+}
+
+/// Exit code of a command of the shell.
+int shell(const std::string& line) {
+  return std::system(line.c_str());
+}
+
+// The Python interpreter takes its exponentials from the C library.
+TEST(Processors, WithoutFusedOperationsHaveOtherExponentialsInTheCLibrary) {
+  if (!processor_has_fma()) GTEST_SKIP() << "this processor has no fused operations";
+  const TemporaryFolder folder;
+  const std::string python = fmt::format(
+      ZEROCOUNT_PYTHON " -c 'import math; print([math.exp(0.001 * i) for i in range(5000)])' > {}/",
+      folder.path().string());
+  ASSERT_EQ(shell(python + "this"), 0);
+  ASSERT_EQ(shell(fmt::format("{} {}plain", plain_processor, python)), 0);
+  EXPECT_NE(folder.read("this"), folder.read("plain"));
+}
+
+struct ShortStudy {
+  const char* name;
+  const char* trials;
+};
+
+class EveryProcessor : public ::testing::TestWithParam<ShortStudy> {};
+
+TEST_P(EveryProcessor, GivesTheSameTrials) {
+  const TemporaryFolder folder;
+  const auto& [name, trials] = GetParam();
+  const std::string manifest = fmt::format("{}/{}.yaml", ZEROCOUNT_MANIFESTS, name);
+  const auto run = [&](const char* output, const std::vector<std::string>& environment) {
+    const ProgramResult result =
+        zerocount_program({"run", manifest, "--set", fmt::format("trials={}", trials), "-q", "-o", output},
+                          folder.path(), environment);
+    EXPECT_EQ(result.code, 0) << result.err;
+  };
+  run("this.h5", {});
+  run("plain.h5", {plain_processor});
+  expect_same_datasets(folder / "this.h5", folder / "plain.h5");
+}
+
+INSTANTIATE_TEST_SUITE_P(ShippedStudies, EveryProcessor,
+                         ::testing::Values(ShortStudy{"paper-gains", "200"},
+                                           ShortStudy{"contact-variation", "200"},
+                                           ShortStudy{"linear-stage", "200"},
+                                           ShortStudy{"friction-models", "20"},
+                                           ShortStudy{"coarse-to-fine", "20"}, ShortStudy{"notch", "50"}),
+                         [](const auto& named) {
+                           std::string name = named.param.name;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+/// The symbols that the program takes from shared libraries: "                 U floor@GLIBC_2.2.5".
+std::vector<std::string> undefined_symbols() {
+  std::vector<std::string> symbols;
+  FILE* const output = popen("nm --dynamic --undefined-only " ZEROCOUNT_PROGRAM, "r");
+  std::array<char, 4096> line{};
+  while (std::fgets(line.data(), line.size(), output) != nullptr) {
+    std::istringstream words(line.data());
+    std::string kind, symbol;
+    words >> kind >> symbol;
+    symbols.push_back(symbol.substr(0, symbol.find('@')));
+  }
+  EXPECT_EQ(pclose(output), 0);
+  return symbols;
+}
+
+TEST(Processors, TheProgramTakesNoElementaryFunctionOfTheCLibrary) {
+  constexpr std::array<std::string_view, 28> functions{
+      "exp",   "exp2",  "exp10", "expm1", "log",  "log2", "log10",  "log1p", "pow",  "cbrt",
+      "sin",   "cos",   "tan",   "asin",  "acos", "atan", "atan2",  "sinh",  "cosh", "tanh",
+      "asinh", "acosh", "atanh", "hypot", "erf",  "erfc", "tgamma", "sincos"};
+  const std::vector<std::string> symbols = undefined_symbols();
+  EXPECT_NE(std::find(symbols.begin(), symbols.end(), "floor"), symbols.end()) << "nm lists the functions";
+  for (const std::string& symbol : symbols) {
+    for (const std::string_view function : functions) {
+      EXPECT_NE(symbol, function);
+      EXPECT_NE(symbol, std::string(function) + "l") << "of the x87 unit";
+      EXPECT_NE(symbol, std::string(function) + "f");
+    }
+  }
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -161,16 +161,17 @@ std::vector<measures::PointSummary> study_statistics(const reading::StudyFile& f
   return accumulator.statistics();
 }
 
-measures::TheoryPrediction point_prediction(const study::Study& study, std::int64_t point,
-                                            std::int64_t trials) {
+measures::TheoryPrediction prediction_of(const study::Study& study, layout::RowRange rows) {
   using Range = oneapi::tbb::blocked_range<std::int64_t>;
-  const auto add = [&](const Range& indices, measures::TheoryPrediction prediction) {
-    for (std::int64_t index = indices.begin(); index < indices.end(); ++index)
-      prediction.add(measures::predict(study::study_trial(study, point, index).parameters));
+  const auto add = [&](const Range& range, measures::TheoryPrediction prediction) {
+    for (std::int64_t row = range.begin(); row < range.end(); ++row) {
+      const study::StudyTrial trial = study::study_trial(study, row / study.trials, row % study.trials);
+      prediction.add(measures::predict(trial.parameters));
+    }
     return prediction;
   };
-  return oneapi::tbb::parallel_reduce(Range(0, trials, trials_of_task), measures::TheoryPrediction{}, add,
-                                      std::plus{});
+  return oneapi::tbb::parallel_reduce(Range(rows.first, rows.end(), trials_of_task),
+                                      measures::TheoryPrediction{}, add, std::plus{});
 }
 
 std::vector<measures::TheoryPrediction> study_predictions(const study::Study& study,
@@ -178,8 +179,9 @@ std::vector<measures::TheoryPrediction> study_predictions(const study::Study& st
   std::vector<measures::TheoryPrediction> predictions(known.begin(), known.end());
   predictions.resize(static_cast<std::size_t>(study::point_count(study)));
   for (std::size_t point = 0; point < predictions.size(); ++point) {
+    const std::int64_t first = static_cast<std::int64_t>(point) * study.trials;
     if (predictions[point].trials != study.trials)
-      predictions[point] = point_prediction(study, static_cast<std::int64_t>(point), study.trials);
+      predictions[point] = prediction_of(study, {first, study.trials});
   }
   return predictions;
 }

@@ -53,9 +53,8 @@ std::vector<measures::PointSummary> study_statistics(const reading::StudyFile& f
                                                      double confidence = statistics::summary_confidence,
                                                      bool bootstrap = false);
 
-/// The criteria (6) and (7) for the first `trials` of a point, from the parameters of each.
-measures::TheoryPrediction point_prediction(const study::Study& study, std::int64_t point,
-                                            std::int64_t trials);
+/// The criteria (6) and (7) for the trials `rows`, from the parameters of each.
+measures::TheoryPrediction prediction_of(const study::Study& study, layout::RowRange rows);
 
 /// The same of all trials of every point, [point].
 /// @param known [point] predictions counted before; those that do not cover all trials are computed again

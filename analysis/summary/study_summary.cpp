@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/iso230/repeatability_file.hpp"
 #include "analysis/iso230/repeatability_statistics.hpp"
 #include "analysis/measures/point_columns.hpp"
 #include "analysis/statistics/unknown.hpp"
@@ -17,7 +18,7 @@
 #include "experiments/manifest/manifest_keys.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
-#include "results/shards/shard.hpp"
+#include "results/shards/pieces.hpp"
 
 namespace zerocount::summary {
 namespace {
@@ -79,24 +80,29 @@ void shorten(StudySummary& summary, std::size_t points) {
   }
 }
 
-/// The finished trials of a study, shard after shard in order of rows.
+/// The finished trials of a study, file after file in order of rows.
 class FinishedTrials {
  public:
   FinishedTrials(const study::Study& study, double confidence, bool bootstrap)
       : study_(study),
+        in_order_(study.rigs > 0 || study.design != study::Design::monte_carlo),
         counts_(study.point_labels.size()),
+        predictions_(counts_.size()),
         statistics_(study, confidence, bootstrap),
         undecided_(study) {}
 
-  /// Takes of the shard's trials those that follow the trials taken before.
+  /// Takes the trials that were not taken before. Where trials depend on one another, those that follow them:
+  /// every rig then has as many as there can be, and a design is spread as evenly.
   void add(const reading::StudyFile& shard) {
     for (std::int64_t row = shard.rows().first; row < shard.rows().end();) {
       const std::int64_t point = row / study_.trials;
       const std::int64_t end = std::min((point + 1) * study_.trials, shard.rows().end());
-      const std::int64_t next = point * study_.trials + counts_[static_cast<std::size_t>(point)];
+      const std::int64_t next = in_order_ ? point * study_.trials + counts_[static_cast<std::size_t>(point)]
+                                          : std::max(row, next_row_);
       if (row <= next && next < end) add(shard, point, {next, end - next});
       row = end;
     }
+    next_row_ = std::max(next_row_, shard.rows().end());
   }
 
   std::int64_t count() const { return count_; }
@@ -106,9 +112,8 @@ class FinishedTrials {
     summary.points = statistics_.statistics();
     shorten(summary, summary.points.size());
     complete_points(summary, study_, undecided_.moves());
-    for (std::size_t point = 0; point < summary.points.size(); ++point)
-      summary.predictions.push_back(
-          point_prediction(study_, static_cast<std::int64_t>(point), counts_[point]));
+    predictions_.resize(summary.points.size());
+    summary.predictions = predictions_;
     add_tolerance_statement(summary);
     summary.unfinished = UnfinishedStudy{count_, study::trial_count(study_), study::point_count(study_)};
     return summary;
@@ -118,16 +123,43 @@ class FinishedTrials {
   void add(const reading::StudyFile& shard, std::int64_t point, layout::RowRange rows) {
     statistics_.add(shard, rows);
     undecided_.add(shard, rows);
-    counts_[static_cast<std::size_t>(point)] += rows.count;
+    const auto index = static_cast<std::size_t>(point);
+    predictions_[index] = predictions_[index] + prediction_of(study_, rows);
+    counts_[index] += rows.count;
     count_ += rows.count;
   }
 
   const study::Study& study_;
-  std::vector<std::int64_t> counts_;  ///< [point]
+  bool in_order_;
+  std::vector<std::int64_t> counts_;                     ///< [point]
+  std::vector<measures::TheoryPrediction> predictions_;  ///< [point]
   std::int64_t count_{0};
+  std::int64_t next_row_{0};  ///< after the rows of all files
   StudyAccumulator statistics_;
   UndecidedAccumulator undecided_;
 };
+
+StudySummary summary_of_pieces(const std::filesystem::path& output, double confidence, bool bootstrap) {
+  std::optional<study::Study> study;
+  std::optional<FinishedTrials> trials;
+  for (const std::filesystem::path& path : shards::finished_pieces(output)) {
+    const reading::StudyFile shard(path, reading::Require::any_part);
+    if (!study) {
+      study = layout::recorded_study(shard.header(), path);
+      trials.emplace(*study, confidence, bootstrap);
+    }
+    if (shard.header().study_sha256 != study->study_sha256) {
+      throw Failure(ExitCode::bad_data, fmt::format("{}: of another study than the others of {}",
+                                                    path.string(), output.string()));
+    }
+    trials->add(shard);
+  }
+  if (!trials || trials->count() == 0) {
+    throw Failure(ExitCode::bad_data,
+                  fmt::format("{}: no trial of this run is finished yet", output.string()));
+  }
+  return trials->summary(confidence);
+}
 
 }  // namespace
 
@@ -153,26 +185,16 @@ StudySummary summarise(const reading::StudyFile& file, double confidence, bool b
   return summary;
 }
 
-StudySummary summarise_unfinished(const std::filesystem::path& shards, double confidence, bool bootstrap) {
-  std::optional<study::Study> study;
-  std::optional<FinishedTrials> trials;
-  for (const std::filesystem::path& path : shards::shard_files(shards)) {
-    const reading::StudyFile shard(path, reading::Require::any_part);
-    if (!study) {
-      study = layout::recorded_study(shard.header(), path);
-      trials.emplace(*study, confidence, bootstrap);
+StudySummary summarise_unfinished(const std::filesystem::path& output, double confidence, bool bootstrap) {
+  constexpr int tries = 5;
+  for (int i = 1;; ++i) {
+    try {
+      return summary_of_pieces(output, confidence, bootstrap);
+    } catch (const Failure& failure) {
+      // A file that is not there was joined to others in the meantime.
+      if (failure.code() != ExitCode::bad_input || i == tries || !shards::has_begun(output)) throw;
     }
-    if (shard.header().study_sha256 != study->study_sha256) {
-      throw Failure(ExitCode::bad_data, fmt::format("{}: of another study than the other shards of {}",
-                                                    path.string(), shards.string()));
-    }
-    trials->add(shard);
   }
-  if (!trials || trials->count() == 0) {
-    throw Failure(ExitCode::bad_data,
-                  fmt::format("{}: no trial of this run is finished yet", shards.string()));
-  }
-  return trials->summary(confidence);
 }
 
 }  // namespace zerocount::summary

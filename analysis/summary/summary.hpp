@@ -85,12 +85,12 @@ std::string summary_csv(const StudySummary& summary);
 StudySummary summarise(const reading::StudyFile& file, double confidence = statistics::summary_confidence,
                        bool bootstrap = false);
 
-/// The summary of a run that has not ended: of the trials in its finished shards, of each point those before
-/// the first that is missing, so that every rig has as many as there can be. Points without trials at the
-/// end are left out, and so are sections about all trials.
-/// @param shards the folder of the run's shards
+/// The summary of a run that has not ended: of the trials in its shards and parts (shards::finished_pieces).
+/// Of a study with rigs, at each point those before the first that is missing, so that every rig has as many
+/// as there can be. Points without trials at the end are left out, and so are sections about all trials.
+/// @param output the results file that the run makes
 /// @throws Failure (bad_data) where there is no finished trial, a shard is damaged or of another study;
 /// (bad_input) where a shard vanishes, as shards do when the run ends.
-StudySummary summarise_unfinished(const std::filesystem::path& shards, double confidence, bool bootstrap);
+StudySummary summarise_unfinished(const std::filesystem::path& output, double confidence, bool bootstrap);
 
 }  // namespace zerocount::summary

@@ -175,7 +175,7 @@ ShardInfo inspect_shard(const fs::path& path, const study::Study& study) {
   return info_of(file_of_study(path, study));
 }
 
-ShardSurvey list_shards(const fs::path& directory, const study::Study& study) {
+ShardSurvey list_shards(const fs::path& directory, const study::Study& study, Inspection inspection) {
   ShardSurvey survey;
   std::error_code error;
   const bool exists = fs::exists(directory, error);
@@ -184,7 +184,8 @@ ShardSurvey list_shards(const fs::path& directory, const study::Study& study) {
   survey.unfinished = files_in(directory, ".part");
   for (const fs::path& path : shard_files(directory)) {
     try {
-      survey.shards.push_back(inspect_whole_shard(path, study));
+      survey.shards.push_back(inspection == Inspection::values ? inspect_whole_shard(path, study)
+                                                               : inspect_shard(path, study));
     } catch (const layout::ForeignFile& foreign) {
       survey.problems.push_back({path, foreign.what(), ShardProblem::Kind::foreign});
     } catch (const Failure& failure) {

@@ -85,11 +85,16 @@ std::vector<std::filesystem::path> shard_files(const std::filesystem::path& dire
 /// @throws ForeignFile or another Failure (bad_data) if it cannot be used; see also open_results.
 ShardInfo inspect_shard(const std::filesystem::path& path, const study::Study& study);
 
-/// Inspects shard_files(directory), and reads all their values. A missing directory has no shards; other
+/// What is read of a shard: all its values, which may be wrong under a right checksum; or the bytes of the
+/// file and its header.
+enum class Inspection { values, checksum };
+
+/// Inspects shard_files(directory). A missing directory has no shards; other
 /// files are ignored.
 /// @throws Failure (machine_failed) if the directory or a file cannot be read. Such a file does not count as
 /// damaged.
-ShardSurvey list_shards(const std::filesystem::path& directory, const study::Study& study);
+ShardSurvey list_shards(const std::filesystem::path& directory, const study::Study& study,
+                        Inspection inspection = Inspection::values);
 
 /// The ranges of `wanted` that no shard covers, in order. Shards may overlap.
 std::vector<layout::RowRange> missing_ranges(std::span<const ShardInfo> shards, layout::RowRange wanted);

@@ -36,6 +36,7 @@ ExitCode baseline(const command_line::Arguments& arguments) {
         fmt::format("{} is the output itself; name a results file that was just made", file.string()));
   }
   const storage::OutputLock lock(output);
+  print_fallback_lock(lock, output);
   const comparison::BaselineUpdate update = comparison::update_baseline(file, output, reason);
   if (!update.changed) {
     status::tell("{}: is this file already, nothing to do\n", output.string());

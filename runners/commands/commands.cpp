@@ -62,6 +62,12 @@ Command find_command(const std::string& name) {
 
 }  // namespace
 
+void print_fallback_lock(const storage::OutputLock& lock, const std::filesystem::path& output) {
+  if (!lock.owner()) return;
+  status::tell("{}: the file system has no locks (flock); {} keeps other commands off this output\n",
+               output.string(), lock.owner()->path().filename().string());
+}
+
 void print_warnings(const study::Study& study) {
   for (const std::string& warning : study.warnings) status::tell("warning: {}\n", warning);
 }
@@ -71,7 +77,7 @@ std::vector<Command> commands() {
                            merge_command(),      verify_command(),  export_command(),  identify_command(),
                            parameters_command(), schema_command(),  jerks_command(),   compare_command(),
                            baseline_command(),   history_command(), plan_command(),    sensitivity_command(),
-                           report_command(),     plot_command()};
+                           report_command(),     plot_command(),    slurm_command(),   status_command()};
   for (Command& command : all) command.spec.options.push_back({"help,h", "", "show this text"});
   return all;
 }

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/failure/failure.hpp"
 #include "experiments/study/study.hpp"
+#include "results/storage/output_lock.hpp"
 #include "runners/command_line/command_line.hpp"
 
 namespace zerocount::commands {
@@ -32,10 +34,15 @@ Command jerks_command();
 Command plan_command();
 Command identify_command();
 Command sensitivity_command();
+Command slurm_command();
+Command status_command();
 Command report_command();
 Command plot_command();
 Command parameters_command();
 Command schema_command();
+
+/// Says on stderr that the lock is a file with an owner, if it is.
+void print_fallback_lock(const storage::OutputLock& lock, const std::filesystem::path& output);
 
 /// Prints the warnings about the manifest to stderr.
 void print_warnings(const study::Study& study);

@@ -9,7 +9,7 @@
 #include "analysis/report/report.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/yaml/text_file.hpp"
-#include "runners/commands/child_process.hpp"
+#include "runners/child_process/child_process.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 /// Output of a program for `input`.
 std::string output_of(const std::vector<std::string>& words, std::string_view input,
                       std::string_view package) {
-  const std::optional<ChildResult> result = run_child(words, input);
+  const std::optional<child_process::ChildResult> result = child_process::run_child(words, input);
   if (!result) {
     throw Failure(ExitCode::machine_failed, fmt::format("there is no {} here, which draws "
                                                         "the figure; install it (Debian: apt-get install {})",

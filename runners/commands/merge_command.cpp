@@ -43,6 +43,7 @@ ExitCode merge(const command_line::Arguments& arguments) {
   command_line::require_places(arguments, inputs, {output});
   const study::Study study = layout::recorded_study(shards::first_header(inputs), inputs.front());
   const storage::OutputLock lock(output);
+  print_fallback_lock(lock, output);
   const std::vector<shards::ShardInfo> parts = shards::merge_inputs(inputs, study);
   require_everything(parts, study);
   study_run::assemble(parts, study, output, layout::all_rows(study));

@@ -87,11 +87,23 @@ study::Engine engine_of(const command_line::Arguments& arguments, const study::S
   return study::Engine::reference;
 }
 
+/// @throws Failure (bad_input) if --study names another study.
+void require_study_of_option(const command_line::Arguments& arguments, const study::Study& study) {
+  const std::optional<std::string> wanted = arguments.value("study");
+  if (!wanted || *wanted == study.study_sha256) return;
+  throw Failure(
+      ExitCode::bad_input,
+      fmt::format("{}: with its overrides, samples and plugin it is another study than is asked for: "
+                  "its SHA-256 is {}; expected {}",
+                  arguments.operands()[0], study.study_sha256, *wanted));
+}
+
 RunRequest run_request(const command_line::Arguments& arguments) {
   RunRequest request;
   request.output = command_line::output_place(arguments);
   const std::string& manifest = arguments.operands()[0];
   request.study = load_study(manifest, arguments);
+  require_study_of_option(arguments, request.study);
   request.study.engine = engine_of(arguments, request.study);
   const std::optional<std::string> part = arguments.value("shard");
   request.wanted = part ? part_of(arguments, *part, request.study) : layout::all_rows(request.study);
@@ -178,6 +190,7 @@ ExitCode run(const command_line::Arguments& arguments) {
   plugins::require_no_hidden_state(request.study);
   const study_run::InterruptionWatch interruption;
   const storage::OutputLock lock(request.output);
+  print_fallback_lock(lock, request.output);
   const study_run::ExistingUse existing =
       request.force ? study_run::ExistingUse::none
                     : study_run::use_of_existing(request.output, request.study, request.wanted);
@@ -210,6 +223,7 @@ Command run_command() {
         {"engine", "NAME",
          "batch (default): many trials at a time in SIMD lanes; reference: one after the other"},
         {"shard", "I/N", "run only the I-th of N parts, into a part file for 'zerocount merge'"},
+        {"study", "SHA256", "refuse a study with another hash: one whose manifest has changed since"},
         {"set", "KEY=VALUE",
          "override a manifest key, e.g. controller.ki=2e-5; may be repeated; recorded in the file", true},
         {"quiet,q", "", "print no progress"},

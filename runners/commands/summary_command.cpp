@@ -14,6 +14,7 @@
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/study_file.hpp"
+#include "results/shards/pieces.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/commands.hpp"
 #include "runners/commands/plugin_option.hpp"
@@ -49,16 +50,15 @@ bool is_there(const fs::path& path) {
 
 /// The summary of the file, or of the unfinished run that writes it.
 summary::StudySummary summary_of(const fs::path& path, double confidence, bool with_means) {
-  const fs::path shards = layout::shards_directory(path);
-  if (!is_there(path) && is_there(shards)) {
+  if (!is_there(path) && shards::has_begun(path)) {
     try {
-      return summary::summarise_unfinished(shards, confidence, with_means);
+      return summary::summarise_unfinished(path, confidence, with_means);
     } catch (const Failure&) {
       if (!is_there(path)) throw;  // otherwise the run has ended in the meantime and removed its shards
     }
   }
   summary::StudySummary summary = summary::summarise(reading::StudyFile(path), confidence, with_means);
-  if (is_there(shards)) {
+  if (const fs::path shards = layout::shards_directory(path); is_there(shards)) {
     status::tell("note: an unfinished run ({1}) will replace {0}; this is the summary of the present file\n",
                  path.string(), shards.string());
   }

@@ -16,9 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// File name extension of damaged shards.
-constexpr const char* set_aside = ".damaged";
-
 /// The differences to the shard's study if its header is readable; otherwise the problem itself.
 std::string why_foreign(const shards::ShardProblem& bad, const study::Study& study) {
   try {
@@ -58,8 +55,8 @@ EarlierShards choose_shards(const std::vector<shards::ShardInfo>& sound, layout:
 }
 
 EarlierShards earlier_shards(const fs::path& directory, const study::Study& study, layout::RowRange wanted,
-                             ForeignShards foreign) {
-  shards::ShardSurvey survey = shards::list_shards(directory, study);
+                             ForeignShards foreign, shards::Inspection inspection) {
+  shards::ShardSurvey survey = shards::list_shards(directory, study, inspection);
   for (const shards::ShardProblem& bad : survey.problems) {
     if (bad.kind == shards::ShardProblem::Kind::foreign && foreign == ForeignShards::remove) {
       std::error_code ignored;
@@ -75,7 +72,7 @@ EarlierShards earlier_shards(const fs::path& directory, const study::Study& stud
                       directory.string(), why_foreign(bad, study)));
     }
     fs::path aside = bad.path;
-    aside += set_aside;
+    aside += damaged_extension;
     std::error_code error;
     fs::rename(bad.path, aside, error);
     status::tell("warning: {}; its trials are run again{}\n", bad.problem,

@@ -9,6 +9,9 @@
 
 namespace zerocount::study_run {
 
+/// File name extension of damaged shards, which are kept.
+inline constexpr const char* damaged_extension = ".damaged";
+
 /// The shards of earlier runs.
 struct EarlierShards {
   std::vector<shards::ShardInfo> usable;   ///< in order of rows, without overlaps
@@ -25,7 +28,8 @@ enum class ForeignShards { refuse, remove };
 /// Finds the shards of earlier runs. Damaged shards are renamed and their trials run again.
 /// @throws Failure (bad_input) if the folder has shards of another study and `refuse` is given.
 EarlierShards earlier_shards(const std::filesystem::path& directory, const study::Study& study,
-                             layout::RowRange wanted, ForeignShards foreign = ForeignShards::refuse);
+                             layout::RowRange wanted, ForeignShards foreign = ForeignShards::refuse,
+                             shards::Inspection inspection = shards::Inspection::values);
 
 /// Removes the shards, and their folder if it is then empty.
 void remove_shards(const std::filesystem::path& directory, const std::vector<std::filesystem::path>& shards);

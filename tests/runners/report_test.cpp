@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "runners/commands/child_process.hpp"
+#include "runners/child_process/child_process.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -150,8 +150,8 @@ TEST_F(ReportCommand, PlotWithoutNodeNamesThePackage) {
 
 TEST(ChildProcess, PassesAnyAmountBothWays) {
   const std::string input(3'000'000, 'x');
-  const std::optional<commands::ChildResult> result =
-      commands::run_child({"sh", "-c", "cat; cat /dev/null; echo said >&2; exit 7"}, input);
+  const std::optional<child_process::ChildResult> result =
+      child_process::run_child({"sh", "-c", "cat; cat /dev/null; echo said >&2; exit 7"}, input);
   ASSERT_TRUE(result.has_value());
   EXPECT_EQ(result->code, 7);
   EXPECT_EQ(result->out, input);
@@ -159,11 +159,11 @@ TEST(ChildProcess, PassesAnyAmountBothWays) {
 }
 
 TEST(ChildProcess, TellsWhereThereIsNoSuchProgram) {
-  EXPECT_FALSE(commands::run_child({"zerocount-no-such-program"}, "").has_value());
+  EXPECT_FALSE(child_process::run_child({"zerocount-no-such-program"}, "").has_value());
 }
 
 TEST(ChildProcess, TellsOfASignal) {
-  EXPECT_EQ(commands::run_child({"sh", "-c", "kill -9 $$"}, "")->code, 137);
+  EXPECT_EQ(child_process::run_child({"sh", "-c", "kill -9 $$"}, "")->code, 137);
 }
 
 }  // namespace

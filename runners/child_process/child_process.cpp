@@ -1,4 +1,4 @@
-#include "runners/commands/child_process.hpp"
+#include "runners/child_process/child_process.hpp"
 
 #include <cerrno>
 #include <cstdio>
@@ -14,7 +14,7 @@
 
 extern char** environ;
 
-namespace zerocount::commands {
+namespace zerocount::child_process {
 namespace {
 
 [[noreturn]] void fail(const std::string& program, int error) {
@@ -91,4 +91,4 @@ std::optional<ChildResult> run_child(const std::vector<std::string>& words, std:
   return ChildResult{code, content_of(out.get()), content_of(err.get())};
 }
 
-}  // namespace zerocount::commands
+}  // namespace zerocount::child_process

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace zerocount::commands {
+namespace zerocount::child_process {
 
 /// Exit code and output of a child process.
 struct ChildResult {
@@ -19,4 +19,4 @@ struct ChildResult {
 /// @throws Failure (machine_failed) if it cannot be started for another reason.
 std::optional<ChildResult> run_child(const std::vector<std::string>& words, std::string_view input);
 
-}  // namespace zerocount::commands
+}  // namespace zerocount::child_process

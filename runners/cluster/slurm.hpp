@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The commands of Slurm: scontrol, squeue and sbatch.
+namespace zerocount::cluster {
+
+/// Of Slurm where its configuration does not say otherwise: slurm.conf(5).
+inline constexpr std::int64_t default_max_array_size = 1001;
+
+/// Limit of the number of elements of an array job, and of their numbers. 0 if there are no arrays.
+/// @returns nothing if Slurm is not installed here
+/// @throws Failure (machine_failed) with the message of Slurm.
+std::optional<std::int64_t> max_array_size();
+
+/// The numbers of all jobs that have not ended; of an array, that of its first element.
+/// @throws Failure (machine_failed) if Slurm is not installed, or with its message.
+std::vector<std::string> queued_jobs();
+
+/// Submits a script. @param after number of the job after whose end it begins; empty: none
+/// @returns the number of the job
+/// @throws Failure (machine_failed) likewise.
+std::string submit(const std::filesystem::path& script, const std::string& after);
+
+}  // namespace zerocount::cluster

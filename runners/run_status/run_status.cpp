@@ -1,0 +1,245 @@
+#include "runners/run_status/run_status.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/failure/failure.hpp"
+#include "results/hdf5/hdf5.hpp"
+#include "results/layout/header.hpp"
+#include "results/shards/pieces.hpp"
+#include "results/storage/durable_file.hpp"
+#include "results/storage/output_lock.hpp"
+#include "runners/cluster/submission.hpp"
+#include "runners/study_run/earlier_shards.hpp"
+#include "runners/study_run/progress.hpp"
+
+namespace zerocount::run_status {
+namespace {
+
+namespace fs = std::filesystem;
+using Time = fs::file_time_type;
+
+/// A run writes a shard every 20 s or more often.
+constexpr std::chrono::seconds recently{60};
+
+std::optional<Time> time_of(const fs::path& path) {
+  std::error_code error;
+  const Time time = fs::last_write_time(path, error);
+  return error ? std::nullopt : std::optional(time);
+}
+
+bool is_folder(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_directory(path, ignored);
+}
+
+/// A file with finished trials.
+struct Piece {
+  fs::path path;
+  layout::RowRange rows;
+  Time written;
+};
+
+/// The files of the run, as far as they could be read.
+struct Pieces {
+  std::vector<Piece> pieces;
+  std::vector<std::string> problems;
+  std::string name;
+  std::int64_t trials{0};
+  bool changed{false};  ///< a file vanished, because it was joined to others
+};
+
+void read_piece(const fs::path& path, Pieces& found) {
+  try {
+    const layout::FileHeader header = layout::read_header(hdf5::File::open_to_read(path));
+    const std::optional<Time> written = time_of(path);
+    found.changed = found.changed || !written;
+    if (!written) return;
+    found.name = header.name;
+    found.trials = header.trials * header.points;
+    found.pieces.push_back({path, header.rows, *written});
+  } catch (const Failure& failure) {
+    if (time_of(path)) {
+      found.problems.emplace_back(failure.what());
+    } else {
+      found.changed = true;
+    }
+  }
+}
+
+Pieces read_pieces(const fs::path& output) {
+  constexpr int tries = 5;
+  for (int i = 1;; ++i) {
+    Pieces found;
+    for (const fs::path& path : shards::finished_pieces(output)) read_piece(path, found);
+    if (!found.changed || i == tries) return found;
+  }
+}
+
+/// Trials that any of the pieces has.
+std::int64_t finished_trials(std::vector<Piece> pieces) {
+  std::sort(pieces.begin(), pieces.end(),
+            [](const Piece& one, const Piece& other) { return one.rows.first < other.rows.first; });
+  std::int64_t trials = 0;
+  std::int64_t end = 0;
+  for (const Piece& piece : pieces) {
+    trials += std::max<std::int64_t>(0, piece.rows.end() - std::max(piece.rows.first, end));
+    end = std::max(end, piece.rows.end());
+  }
+  return trials;
+}
+
+fs::path lock_file(const fs::path& output) {
+  fs::path path = output;
+  return path += ".lock";
+}
+
+/// When the run has begun; nothing if no file tells.
+std::optional<Time> begin_of(const fs::path& output) {
+  if (const std::optional<Time> submitted = time_of(cluster::submission_file(output))) return submitted;
+  return time_of(lock_file(output));
+}
+
+double rate_of(const std::vector<Piece>& pieces, std::optional<Time> begin) {
+  if (!begin) return std::nan("");
+  std::int64_t trials = 0;
+  Time end = *begin;
+  for (const Piece& piece : pieces) {
+    if (piece.written <= *begin) continue;
+    trials += piece.rows.count;
+    end = std::max(end, piece.written);
+  }
+  const std::chrono::duration<double> time = end - *begin;
+  return time.count() > 0.0 ? static_cast<double>(trials) / time.count() : std::nan("");
+}
+
+/// Adds the damaged files that a run has set aside in `directory`.
+void add_damaged(const fs::path& directory, RunStatus& status) {
+  std::error_code error;
+  for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error)) {
+    if (entry->path().extension() == study_run::damaged_extension)
+      status.problems.push_back(fmt::format("{}: damaged; its trials are run again", entry->path().string()));
+  }
+}
+
+/// The outputs of which a shard was written lately.
+std::set<fs::path> written_lately(const std::vector<Piece>& pieces) {
+  std::set<fs::path> outputs;
+  for (const Piece& piece : pieces) {
+    const fs::path folder = piece.path.parent_path();
+    if (folder.extension() == ".shards" && Time::clock::now() - piece.written < recently)
+      outputs.insert(fs::path(folder).replace_extension());
+  }
+  return outputs;
+}
+
+bool is_running(const fs::path& output, const std::set<fs::path>& lately) {
+  const storage::LockState lock = storage::lock_state(output);
+  return lock == storage::LockState::held || (lock == storage::LockState::unknown && lately.contains(output));
+}
+
+PartCounts count_parts(const fs::path& output, const Pieces& found, RunStatus& status) {
+  std::map<std::int64_t, fs::path> complete, begun;
+  PartCounts counts;
+  for (const shards::Part& part : shards::begun_parts(output)) {
+    counts.all = part.count;
+    begun.emplace(part.number, part.path);
+    add_damaged(layout::shards_directory(part.path), status);
+  }
+  for (const Piece& piece : found.pieces) {
+    const std::optional<shards::Part> part = shards::part_named(piece.path);
+    if (part) complete.emplace(part->number, part->path);
+  }
+  if (const std::optional<cluster::Submission> submission = cluster::read_submission(output))
+    counts.all = submission->parts;
+  const std::set<fs::path> lately = written_lately(found.pieces);
+  for (const auto& [number, path] : begun) {
+    if (complete.contains(number)) continue;
+    (is_running(path, lately) ? counts.running : counts.interrupted) += 1;
+  }
+  counts.complete = std::ssize(complete);
+  return counts;
+}
+
+/// Whether the results file is that of the parts: all of them are complete, and none is newer.
+bool is_merged(const fs::path& output, const RunStatus& status, const std::vector<Piece>& pieces) {
+  const std::optional<Time> merged = time_of(output);
+  if (!merged || !status.parts || status.parts->complete != status.parts->all || status.shards > 0)
+    return false;
+  return std::all_of(pieces.begin(), pieces.end(),
+                     [&](const Piece& piece) { return piece.written <= *merged; });
+}
+
+RunStatus status_of_file(const fs::path& output) {
+  if (!time_of(output)) {
+    throw Failure(
+        ExitCode::bad_input,
+        fmt::format("{}: there is neither this file nor a run of it: neither {} nor {}", output.string(),
+                    layout::shards_directory(output).string(), shards::parts_directory(output).string()));
+  }
+  const layout::FileHeader header = layout::read_header(layout::open_results(output));
+  if (!header.complete || !header.finished) {
+    throw Failure(ExitCode::bad_data,
+                  fmt::format("{}: a part with {} of {} trials; merge it with the others", output.string(),
+                              header.rows.count, header.trials * header.points));
+  }
+  RunStatus status;
+  status.complete = true;
+  status.name = header.name;
+  status.trials = status.finished = header.rows.count;
+  return status;
+}
+
+}  // namespace
+
+RunStatus status_of(const fs::path& output) {
+  if (!shards::has_begun(output)) return status_of_file(output);
+  const Pieces found = read_pieces(output);
+  RunStatus status;
+  status.name = found.name;
+  status.trials = found.trials;
+  status.problems = found.problems;
+  status.finished = finished_trials(found.pieces);
+  status.rate = rate_of(found.pieces, begin_of(output));
+  status.shards = std::count_if(found.pieces.begin(), found.pieces.end(),
+                                [](const Piece& piece) { return !shards::part_named(piece.path); });
+  add_damaged(layout::shards_directory(output), status);
+  status.running = is_running(output, written_lately(found.pieces));
+  if (is_folder(shards::parts_directory(output))) {
+    status.parts = count_parts(output, found, status);
+    status.running = status.running || status.parts->running > 0;
+    status.complete = is_merged(output, status, found.pieces);
+  }
+  return status;
+}
+
+std::string status_text(const RunStatus& status) {
+  std::string text = status.name.empty() ? "no trial is finished yet" : status.name;
+  text += status.complete ? ": complete" : status.running ? ": running" : ": not running";
+  if (status.trials > 0) {
+    text += fmt::format(", {} of {} trials ({:.1f} %)", status.finished, status.trials,
+                        100.0 * static_cast<double>(status.finished) / static_cast<double>(status.trials));
+  }
+  if (status.running && status.rate > 0.0) {
+    text +=
+        fmt::format(", {:.4g} trials/s, {} to go", status.rate, study_run::duration_text(status.remaining()));
+  }
+  text += "\n";
+  if (status.parts) {
+    const PartCounts& parts = *status.parts;
+    text += fmt::format("parts:  {} of {} complete, {} running, {} interrupted, {} waiting\n", parts.complete,
+                        parts.all, parts.running, parts.interrupted, parts.waiting());
+  }
+  if (!status.complete) text += fmt::format("shards: {}\n", status.shards);
+  for (const std::string& problem : status.problems) text += fmt::format("problem: {}\n", problem);
+  return text;
+}
+
+}  // namespace zerocount::run_status

@@ -1,8 +1,11 @@
-# zerocount_embed(<target> <name>=<path> ...): embeds the unchanged bytes of files in a target.
+# zerocount_embed(<target> <namespace>::<function> <name>=<path> ...): embeds the unchanged bytes of files in a target, and defines
+# the function std::span<const zerocount::text::EmbeddedFile> <namespace>::<function>() that lists them.
 #
-# The assembler includes them (.incbin), so their size and contents do not matter. A generated table maps names to contents: see
-# analysis/report/embedded_files.hpp.
-function(zerocount_embed target)
+# The assembler includes them (.incbin), so their size and contents do not matter.
+function(zerocount_embed target table_of)
+  string(REGEX MATCH "^(.+)::([^:]+)$" matched "${table_of}")
+  set(namespace "${CMAKE_MATCH_1}")
+  set(function "${CMAKE_MATCH_2}")
   set(bytes "")
   set(symbols "")
   set(rows "")
@@ -10,7 +13,7 @@ function(zerocount_embed target)
   set(index 0)
   foreach(entry IN LISTS ARGN)
     string(REGEX MATCH "^([^=]+)=(.+)$" matched "${entry}")
-    set(symbol "zerocount_embedded_${index}")
+    set(symbol "${target}_embedded_${index}")
     string(APPEND bytes "${symbol}:\n.incbin \"${CMAKE_MATCH_2}\"\n${symbol}_end:\n")
     string(APPEND symbols "extern const char ${symbol}[];\nextern const char ${symbol}_end[];\n")
     string(APPEND rows

@@ -95,7 +95,18 @@ function(zerocount_includes target visibility folder)
   get_filename_component(parent "${root}/${folder}" DIRECTORY)
   file(MAKE_DIRECTORY "${parent}")
   file(CREATE_LINK "${CMAKE_SOURCE_DIR}/${folder}" "${root}/${folder}" SYMBOLIC)
-  target_include_directories(${target} ${visibility} "${root}")
+  target_include_directories(${target} ${visibility} "$<BUILD_INTERFACE:${root}>")
+endfunction()
+
+# zerocount_install(<target> <folder>): installs a folder of core as a library that others can link: its headers are found by their
+# path from the repository root, as here.
+function(zerocount_install target folder)
+  string(REPLACE "/" "::" name "${folder}")
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  install(TARGETS ${target} EXPORT zerocount COMPONENT development
+    ARCHIVE COMPONENT development INCLUDES DESTINATION include/zerocount)
+  install(DIRECTORY "${CMAKE_SOURCE_DIR}/${folder}" DESTINATION "include/zerocount/core" COMPONENT development
+    FILES_MATCHING PATTERN "*.hpp")
 endfunction()
 
 # zerocount_folder(SOURCES ... [ALONE ...] LINKS ...): makes the folder of this CMakeLists.txt a library; core/friction becomes the
@@ -117,6 +128,9 @@ function(zerocount_folder)
     zerocount_includes(${target} INTERFACE "${folder}")
   endif()
   add_library(${alias} ALIAS ${target})
+  if(folder MATCHES "^core/")
+    zerocount_install(${target} "${folder}")
+  endif()
 endfunction()
 
 # zerocount_layer(<folder>...): adds the folders of a layer, lowest first, and a target for all of them, such as zerocount::core.

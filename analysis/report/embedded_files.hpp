@@ -4,13 +4,11 @@
 #include <span>
 #include <string_view>
 
+#include "core/text/embedded_file.hpp"
+
 namespace zerocount::report {
 
-/// A file embedded in the program at build time.
-struct EmbeddedFile {
-  std::string_view name;  ///< "vega.min.js"
-  std::string_view bytes;
-};
+using EmbeddedFile = text::EmbeddedFile;
 
 /// All embedded files: the Vega-Lite specifications, the page of the report, and the JavaScript libraries for
 /// drawing (if they were installed at build time).

@@ -25,6 +25,7 @@ Command run_command();
 Command summary_command();
 Command trace_command();
 Command merge_command();
+Command new_command();
 Command verify_command();
 Command export_command();
 Command compare_command();
@@ -40,6 +41,8 @@ Command report_command();
 Command plot_command();
 Command parameters_command();
 Command schema_command();
+Command completion_command();
+Command manual_command();
 
 /// Says on stderr that the lock is a file with an owner, if it is.
 void print_fallback_lock(const storage::OutputLock& lock, const std::filesystem::path& output);

@@ -36,6 +36,7 @@ void expect_understood(const std::filesystem::path& manifest) {
 TEST(ShippedManifests, AllAreUnderstoodWithoutWarningsAndNamedLikeTheirFiles) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(ZEROCOUNT_MANIFESTS)) {
+    if (entry.path().extension() != ".yaml") continue;
     expect_understood(entry.path());
     ++count;
   }

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "core/text/embedded_file.hpp"
+
+/// The manifests of this folder, which are part of the program.
+namespace zerocount::manifests {
+
+/// All of them, in order of their names ("paper-gains.yaml").
+std::span<const text::EmbeddedFile> shipped_manifests();
+
+/// The manifest `name`, with or without ".yaml".
+/// @throws Failure (bad_input) with the names that there are
+const text::EmbeddedFile& shipped_manifest(std::string_view name);
+
+}  // namespace zerocount::manifests

@@ -1,0 +1,120 @@
+#include "runners/commands/shell_completion.hpp"
+
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace zerocount::commands {
+namespace {
+
+using command_line::OptionSpec;
+
+std::string long_form(const OptionSpec& option) {
+  return "--" + option.name.substr(0, option.name.find(','));
+}
+
+std::string short_form(const OptionSpec& option) {
+  const std::size_t comma = option.name.find(',');
+  return comma == std::string::npos ? "" : "-" + option.name.substr(comma + 1);
+}
+
+/// All forms of the options, with blanks between.
+std::string option_words(const Command& command) {
+  std::string words;
+  for (const OptionSpec& option : command.spec.options) {
+    for (const std::string& form : {long_form(option), short_form(option)})
+      if (!form.empty()) words += (words.empty() ? "" : " ") + form;
+  }
+  return words;
+}
+
+/// `text` within single quotes of zsh, with a backslash before the `special` characters.
+std::string zsh_text(std::string_view text, std::string_view special) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '\'') {
+      escaped += "'\\''";
+    } else {
+      if (special.find(c) != std::string_view::npos) escaped += '\\';
+      escaped += c;
+    }
+  }
+  return escaped;
+}
+
+std::string zsh_option(const OptionSpec& option) {
+  constexpr std::string_view special = "[]:\\";
+  const std::string help = zsh_text(option.help, special);
+  const std::string value =
+      option.value.empty() ? "" : fmt::format(":{}:_files", zsh_text(option.value, special));
+  const std::string many = option.repeatable ? "*" : "";
+  std::string lines = fmt::format(" \\\n        '{}{}{}[{}]{}'", many, long_form(option),
+                                  value.empty() ? "" : "=", help, value);
+  if (const std::string form = short_form(option); !form.empty())
+    lines += fmt::format(" \\\n        '{}{}{}[{}]{}'", many, form, value.empty() ? "" : "+", help, value);
+  return lines;
+}
+
+}  // namespace
+
+std::string bash_completion(std::span<const Command> commands) {
+  std::string names;
+  std::string cases;
+  for (const Command& command : commands) {
+    names += (names.empty() ? "" : " ") + command.spec.name;
+    cases += fmt::format("    {}) options='{}' ;;\n", command.spec.name, option_words(command));
+  }
+  return fmt::format(
+      "# Completion of zerocount for bash: put it where bash-completion finds it, or source it.\n"
+      "_zerocount() {{\n"
+      "  local word=${{COMP_WORDS[COMP_CWORD]}} options=\n"
+      "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
+      "    COMPREPLY=($(compgen -W '{} --help --version' -- \"$word\"))\n"
+      "    return\n"
+      "  fi\n"
+      "  case ${{COMP_WORDS[1]}} in\n"
+      "{}"
+      "    help) options='{}' ;;\n"
+      "  esac\n"
+      "  case $word in\n"
+      "    -*) COMPREPLY=($(compgen -W \"$options\" -- \"$word\")) ;;\n"
+      "    *) mapfile -t COMPREPLY < <(compgen -f -- \"$word\"); compopt -o filenames 2>/dev/null ;;\n"
+      "  esac\n"
+      "}}\n"
+      "complete -F _zerocount zerocount\n",
+      names, cases, names);
+}
+
+std::string zsh_completion(std::span<const Command> commands) {
+  std::string names = "    'help:the help of a command'\n";
+  std::string cases;
+  for (const Command& command : commands) {
+    names += fmt::format("    '{}:{}'\n", command.spec.name, zsh_text(command.summary, ":\\"));
+    cases += fmt::format("    {})\n      _arguments", command.spec.name);
+    for (const OptionSpec& option : command.spec.options) cases += zsh_option(option);
+    cases += " \\\n        '*:file:_files'\n      ;;\n";
+  }
+  return fmt::format(
+      "#compdef zerocount\n"
+      "# Completion of zerocount for zsh: put it into a folder of $fpath as _zerocount.\n"
+      "_zerocount() {{\n"
+      "  local -a commands\n"
+      "  commands=(\n"
+      "{}"
+      "  )\n"
+      "  if (( CURRENT == 2 )); then\n"
+      "    _describe command commands\n"
+      "    return\n"
+      "  fi\n"
+      "  local command=$words[2]\n"
+      "  shift words\n"
+      "  (( CURRENT-- ))\n"
+      "  case $command in\n"
+      "{}"
+      "  esac\n"
+      "}}\n"
+      "_zerocount \"$@\"\n",
+      names, cases);
+}
+
+}  // namespace zerocount::commands

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "runners/commands/commands.hpp"
+
+namespace zerocount::commands {
+
+/// The completion of commands, options and files for bash, from the tables of options.
+std::string bash_completion(std::span<const Command> commands);
+
+/// The same for zsh, with the help of each.
+std::string zsh_completion(std::span<const Command> commands);
+
+}  // namespace zerocount::commands

@@ -1,0 +1,78 @@
+#!/usr/bin/python3
+"""What `cmake --install` makes works from another place: the program, its manual and completions, and a program that uses the library.
+
+usage: installed_prefix.py SOURCE BUILD
+"""
+
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+
+def run(*words, cwd=None):
+    ended = subprocess.run([str(word) for word in words], cwd=cwd, capture_output=True, text=True, check=False)
+    if ended.returncode != 0:
+        raise SystemExit(f"{' '.join(map(str, words))}: exit code {ended.returncode}\n{ended.stdout[-3000:]}{ended.stderr[-3000:]}")
+    return ended.stdout
+
+
+def require(holds, what):
+    if not holds:
+        raise SystemExit(f"not so: {what}")
+
+
+def completions(script, *words, cwd=None):
+    """What bash offers for the last of the words."""
+    lines = (f"source {script}; COMP_WORDS=({' '.join(words)}); COMP_CWORD={len(words) - 1}; _zerocount; "
+             "printf '%s\\n' \"${COMPREPLY[@]}\"")
+    return run("bash", "-c", lines, cwd=cwd).splitlines()
+
+
+def check_program(prefix, folder):
+    program = prefix / "bin/zerocount"
+    run(program, "new", "paper-gains", "-o", "mine.yaml", cwd=folder)
+    run(program, "run", "mine.yaml", "--set", "rigs=2", "--set", "trials=4", "-q", "-o", "mine.h5", cwd=folder)
+    run(program, "report", "mine.h5", "-o", "mine.html", cwd=folder)
+    shipped = (prefix / "share/zerocount/manifests/paper-gains.yaml").read_text()
+    require((folder / "mine.yaml").read_text() == shipped, "`new` copies the installed manifest")
+
+
+def check_shell_files(prefix):
+    manual = (prefix / "share/man/man1/zerocount.1").read_text()
+    for command in ("run", "summary", "slurm"):
+        require(f".SS {command}\n" in manual, f"the manual page has {command}")
+    if shutil.which("groff"):
+        checked = subprocess.run(["groff", "-k", "-man", "-Tutf8", "-ww", "-z", prefix / "share/man/man1/zerocount.1"],
+                                 capture_output=True, text=True, check=True)
+        require(not checked.stderr, f"groff warns of nothing: {checked.stderr}")
+    script = prefix / "share/bash-completion/completions/zerocount"
+    require(completions(script, "zerocount", "summ") == ["summary"], "bash completes a command")
+    require(completions(script, "zerocount", "run", "--th") == ["--threads"], "bash completes an option")
+    with tempfile.TemporaryDirectory() as folder:
+        (pathlib.Path(folder) / "my study.yaml").touch()
+        require(completions(script, "zerocount", "run", "my", cwd=folder) == ["my study.yaml"], "bash completes a name with a blank")
+    if shutil.which("zsh"):
+        run("zsh", "-n", prefix / "share/zsh/vendor-completions/_zerocount")
+
+
+def check_consumer(source, prefix, folder):
+    run("cmake", "-S", source / "examples/consumer", "-B", folder / "consumer", f"-DCMAKE_PREFIX_PATH={prefix}")
+    run("cmake", "--build", folder / "consumer")
+    require("zero counts of error" in run(folder / "consumer/one_trial"), "one trial ends in zero counts")
+
+
+def main():
+    source, build = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
+    with tempfile.TemporaryDirectory(prefix="zerocount-prefix-") as temporary:
+        folder = pathlib.Path(temporary)
+        run("cmake", "--install", build, "--prefix", folder / "first")
+        prefix = (folder / "first").rename(folder / "second")
+        check_program(prefix, folder)
+        check_shell_files(prefix)
+        check_consumer(source, prefix, folder)
+
+
+if __name__ == "__main__":
+    main()

@@ -74,7 +74,7 @@ std::string single_script(const BatchRequest& request) {
       "# The study as a whole; what was finished before an interruption is not run again.\n"
       "{}{}"
       "cd {} || exit 5\n"
-      "exec {} --threads \"$SLURM_CPUS_PER_TASK\" --quiet --output {}{}\n",
+      "exec {} --threads \"${{SLURM_CPUS_PER_TASK:-1}}\" --quiet --output {}{}\n",
       options_text(request, "", "run.log"), further_options(request), shell_word(request.folder.string()),
       run_words(request), shell_word(request.output.string()), request.replaces ? " --force" : "");
 }
@@ -94,7 +94,7 @@ std::string array_script(const BatchRequest& request) {
       "for ((part = SLURM_ARRAY_TASK_ID + 1; part <= {0}; part += {1})); do\n"
       "  printf -v number '%0{7}d' \"$part\"\n"
       "  {8} \\\n"
-      "    --shard \"$part/{0}\" --threads \"$SLURM_CPUS_PER_TASK\" --quiet \\\n"
+      "    --shard \"$part/{0}\" --threads \"${{SLURM_CPUS_PER_TASK:-1}}\" --quiet \\\n"
       "    --output {9}/\"part-$number-of-{0}.h5\" || status=$?\n"
       "  if [ \"${{stopped:-}}\" ] || [ \"$status\" -eq 130 ]; then break; fi\n"
       "done\n"
@@ -106,13 +106,15 @@ std::string array_script(const BatchRequest& request) {
 }
 
 std::string merge_script(const BatchRequest& request) {
+  BatchRequest one_processor = request;
+  one_processor.cpus = 1;
   return fmt::format(
       "#!/bin/bash\n"
       "# Merges the parts; says which trials are missing where some are.\n"
       "{}{}"
       "cd {} || exit 5\n"
       "exec {} merge {} --output {}{}\n",
-      options_text(request, "-merge", "merge.log"), further_options(request),
+      options_text(one_processor, "-merge", "merge.log"), further_options(request),
       shell_word(request.folder.string()), shell_word(request.program.string()),
       shell_word(shards::parts_directory(request.output).string()), shell_word(request.output.string()),
       request.replaces ? " --force" : "");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include <boost/program_options.hpp>
 #include <fmt/format.h>
@@ -57,9 +58,27 @@ po::parsed_options parse(const CommandSpec& spec, const std::vector<std::string>
   return po::command_line_parser(words).options(all).positional(operands).style(unguessed).run();
 }
 
+/// "table (default), json or csv"
+std::string words_text(const std::vector<std::string>& words) {
+  std::string text = words.front() + " (default)";
+  for (std::size_t i = 1; i < words.size(); ++i) text += (i + 1 == words.size() ? " or " : ", ") + words[i];
+  return text;
+}
+
 }  // namespace
 
-Arguments::Arguments(const CommandSpec& spec, const std::vector<std::string>& words) : command_(spec.name) {
+OptionSpec choice_option(std::string name, std::string value, std::vector<std::string> words,
+                         const std::string& help) {
+  OptionSpec option{std::move(name), std::move(value), words_text(words) + (help.empty() ? "" : ": " + help)};
+  option.words = std::move(words);
+  return option;
+}
+
+OptionSpec format_option(std::vector<std::string> formats, const std::string& help) {
+  return choice_option("format", "FORMAT", std::move(formats), help);
+}
+
+Arguments::Arguments(const CommandSpec& spec, const std::vector<std::string>& words) : spec_(spec) {
   for (const OptionSpec& option : spec.options) values_.push_back({long_name(option), {}});
   try {
     for (const po::option& given : parse(spec, words).options) {
@@ -88,6 +107,11 @@ Arguments::Arguments(const CommandSpec& spec, const std::vector<std::string>& wo
   if (operands_.size() > spec.max_operands) {
     refuse(fmt::format("'{}' is one word too many", operands_[spec.max_operands]));
   }
+  const std::vector<std::string>& words_of_operand = spec.operand_words;
+  if (words_of_operand.empty() || operands_.empty()) return;
+  if (std::find(words_of_operand.begin(), words_of_operand.end(), operands_.front()) ==
+      words_of_operand.end())
+    refuse(fmt::format("'{}' is none of {}", operands_.front(), fmt::join(words_of_operand, ", ")));
 }
 
 void Arguments::take_values(const OptionSpec& option, const std::vector<std::string>& words) {
@@ -124,6 +148,10 @@ std::string Arguments::required(std::string_view option) const {
   return values(option).front();
 }
 
+std::string Arguments::choice(std::string_view option) const {
+  return one_of(option, find_spec(spec_, option)->words);
+}
+
 std::string Arguments::one_of(std::string_view option, const std::vector<std::string>& words) const {
   std::string given = value(option).value_or(words.front());
   if (std::find(words.begin(), words.end(), given) == words.end()) {
@@ -145,7 +173,7 @@ std::optional<std::int64_t> Arguments::whole_number(std::string_view option, std
 
 void Arguments::refuse(const std::string& problem) const {
   throw Failure(ExitCode::bad_input,
-                fmt::format("zerocount {}: {}; see 'zerocount {} --help'", command_, problem, command_));
+                fmt::format("zerocount {}: {}; see 'zerocount {} --help'", spec_.name, problem, spec_.name));
 }
 
 std::string options_help(const CommandSpec& spec) {

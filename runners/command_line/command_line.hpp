@@ -25,8 +25,16 @@ struct OptionSpec {
   std::string value;  ///< name of its value in the help; empty for a flag
   std::string help;
   bool repeatable{false};
-  std::size_t count{1};  ///< of its values, words that follow the option
+  std::size_t count{1};              ///< of its values, words that follow the option
+  std::vector<std::string> words{};  ///< of which its value is one, the default first; empty: any text
 };
+
+/// An option whose value is one of `words`, the default first; its help begins with them.
+OptionSpec choice_option(std::string name, std::string value, std::vector<std::string> words,
+                         const std::string& help = "");
+
+/// `--format`, the form of what is printed.
+OptionSpec format_option(std::vector<std::string> formats, const std::string& help = "");
 
 /// Operands and options of a command.
 struct CommandSpec {
@@ -35,6 +43,7 @@ struct CommandSpec {
   std::vector<OptionSpec> options;
   std::size_t min_operands{1};
   std::size_t max_operands{1};
+  std::vector<std::string> operand_words{};  ///< of which the first operand is one; empty: a file
 };
 
 /// The parsed arguments of a command. All values are text.
@@ -48,6 +57,7 @@ class Arguments {
   const std::vector<std::string>& values(std::string_view option) const;  ///< all occurrences; "" for a flag
   std::optional<std::string> value(std::string_view option) const;
   std::string required(std::string_view option) const;
+  std::string choice(std::string_view option) const;  ///< of an option with words; default: the first
   std::string one_of(std::string_view option,
                      const std::vector<std::string>& words) const;  ///< default: the first of `words`
 
@@ -61,7 +71,7 @@ class Arguments {
  private:
   void take_values(const OptionSpec& option, const std::vector<std::string>& words);
 
-  std::string command_;
+  CommandSpec spec_;
   std::vector<std::string> operands_;
   std::vector<std::pair<std::string, std::vector<std::string>>> values_;
 };

@@ -75,7 +75,7 @@ struct FormPlace {
 /// Destinations of all formats. The format of --format goes to standard output, unless another format does.
 std::vector<FormPlace> places_of(const command_line::Arguments& arguments,
                                  const std::optional<std::string>& margins) {
-  const std::string format = arguments.one_of("format", {"table", "json", "junit", "markdown"});
+  const std::string format = arguments.choice("format");
   std::vector<std::filesystem::path> inputs{arguments.operands().begin(), arguments.operands().end()};
   if (margins) inputs.emplace_back(*margins);
   std::vector<std::filesystem::path> outputs;
@@ -141,7 +141,7 @@ Command compare_command() {
             {"changed-fails", "", "a change for the better fails too, not only one for the worse"},
             {"max-trials", "N",
              "judge the first N trials of each point, at least one of every rig (default: a million moves)"},
-            {"format", "FORMAT", "of standard output: table (default), json, junit or markdown"},
+            command_line::format_option({"table", "json", "junit", "markdown"}, "of standard output"),
             {"json", "FILE", "write the JSON there too"},
             {"junit", "FILE", "write JUnit XML there too"},
             {"markdown", "FILE", "write the Markdown summary there too"},

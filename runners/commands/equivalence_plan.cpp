@@ -227,7 +227,7 @@ std::string text_of(const EquivalencePlan& plan) {
 }  // namespace
 
 ExitCode print_equivalence_plan(const command_line::Arguments& arguments) {
-  const bool json = arguments.one_of("format", {"table", "json"}) == "json";
+  const bool json = arguments.choice("format") == "json";
   const EquivalencePlan plan = plan_of(arguments);
   standard_output::write(json ? json_of(plan).dump(2) + "\n" : text_of(plan));
   return plan.forecast.trials ? ExitCode::success : ExitCode::inconclusive;

@@ -71,7 +71,7 @@ ExitCode add(const command_line::Arguments& arguments) {
 }
 
 ExitCode show(const command_line::Arguments& arguments) {
-  const std::string format = arguments.one_of("format", {"text", "json", "csv"});
+  const std::string format = arguments.choice("format");
   const history::History shown =
       history::history_of(history::read_runs(database_of(arguments)), filter_of(arguments));
   if (format == "text") standard_output::print("{}", history::history_text(shown));
@@ -109,12 +109,17 @@ std::vector<HistoryAction> actions() {
           {"plot", {"study", "point", "measure", "output", "force"}, plot_history}};
 }
 
+std::vector<std::string> names_of(const std::vector<HistoryAction>& all) {
+  std::vector<std::string> names;
+  names.reserve(all.size());
+  for (const HistoryAction& action : all) names.emplace_back(action.name);
+  return names;
+}
+
 ExitCode run_history(const command_line::Arguments& arguments) {
   const std::vector<HistoryAction> all = actions();
   const std::string& name = arguments.operands()[0];
   const auto action = std::ranges::find(all, name, &HistoryAction::name);
-  if (action == all.end())
-    arguments.refuse(fmt::format("'{}' is no action; expected add, show or plot", name));
   for (const HistoryAction& other : all) {
     for (const std::string_view option : other.options) {
       if (arguments.has(option) && std::ranges::find(action->options, option) == action->options.end())
@@ -136,11 +141,12 @@ Command history_command() {
             {"study", "NAME", "only this study"},
             {"point", "LABEL", "only this design point"},
             {"measure", "NAME", "only this measure, such as success_rate"},
-            {"format", "FORMAT", "show: text (default), json or csv"},
+            command_line::format_option({"text", "json", "csv"}, "of 'show'"),
             {"output,o", "PLOT", "plot: a page of all series (*.html), or one series as *.svg or *.png"},
             command_line::force_option()},
            1,
-           2},
+           2,
+           names_of(actions())},
           "results over time, with the runs at which they changed",
           history_help,
           run_history};

@@ -324,7 +324,7 @@ ExitCode write_identification(const identification::Identification& found, const
 }
 
 ExitCode identify_records(const command_line::Arguments& arguments) {
-  const std::string format = arguments.one_of("format", {"text", "json", "yaml"});
+  const std::string format = arguments.choice("format");
   identification::IdentificationOptions options = identification_options(arguments);
   const IdentifyOutputs outputs = identify_outputs(arguments);
   if (arguments.has("sliding")) {
@@ -372,7 +372,7 @@ std::vector<command_line::OptionSpec> identify_options() {
           {"point", "P", "design point in a results file, by label or number (default 0); may be repeated",
            true},
           {"trial", "I", "trial of the point (default 0)"},
-          {"format", "FORMAT", "text (default), json or yaml"},
+          command_line::format_option({"text", "json", "yaml"}),
           {"output,o", "FILE", "write there instead of to standard output"},
           {"quiet,q", "", "print no progress"},
           command_line::force_option()});

@@ -23,7 +23,7 @@ constexpr const char* jerks_help =
 constexpr std::int64_t default_creep_trials = 20;
 
 ExitCode print_jerks(const command_line::Arguments& arguments) {
-  const std::string format = arguments.one_of("format", {"table", "json"});
+  const std::string format = arguments.choice("format");
   const double confidence =
       command_line::probability_option(arguments, "confidence").value_or(statistics::summary_confidence);
   const std::int64_t creep_trials =
@@ -46,7 +46,7 @@ Command jerks_command() {
            {{"point", "P", "design point, by label or number; may be repeated (default: all)", true},
             {"confidence", "LEVEL", "of all bounds, between 0 and 1 (default 0.95)"},
             {"creep-trials", "N", "trials of each point to compare with creep (default 20)"},
-            {"format", "FORMAT", "table (default) or json"}}},
+            command_line::format_option({"table", "json"})}},
           "print the rate, intervals and trend of jerks",
           jerks_help,
           print_jerks};

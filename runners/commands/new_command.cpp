@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -21,6 +22,13 @@ constexpr const char* new_help =
     "Examples:\n"
     "  zerocount new --list\n"
     "  zerocount new paper-gains -o my-axis.yaml\n";
+
+std::vector<std::string> manifest_names() {
+  std::vector<std::string> stems;
+  for (const text::EmbeddedFile& file : manifests::shipped_manifests())
+    stems.emplace_back(file.name.substr(0, file.name.rfind('.')));
+  return stems;
+}
 
 void print_list() {
   std::size_t width = 0;
@@ -58,7 +66,8 @@ Command new_command() {
             {"output,o", "FILE", "the manifest to make; default: NAME.yaml"},
             command_line::force_option()},
            0,
-           1},
+           1,
+           manifest_names()},
           "start a study from a manifest that comes with the program",
           new_help,
           make_new};

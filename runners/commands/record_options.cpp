@@ -29,7 +29,8 @@ std::vector<command_line::OptionSpec> column_options() {
            "column of a quantity, with its unit and factors: time=t[ms], torque=current[A]*0.87; may be "
            "repeated",
            true},
-          {"separator", "NAME", "of the cells: comma, semicolon, tab or blanks (default: detected)"},
+          {"separator", "NAME", "of the cells: comma, semicolon, tab or blanks (default: detected)", false, 1,
+           records::separator_names()},
           {"sample-time", "T", "of a record without a column for the time, s"},
           {"exclude", "FROM:TO", "times whose readings are not used, s; may be repeated", true}};
 }
@@ -42,7 +43,7 @@ void set_columns(const command_line::Arguments& arguments, records::SeriesChoice
   }
   if (arguments.has("separator")) {
     const std::vector<std::string> names = records::separator_names();
-    const auto found = std::find(names.begin(), names.end(), arguments.one_of("separator", names));
+    const auto found = std::find(names.begin(), names.end(), arguments.choice("separator"));
     choice.separator = static_cast<records::Separator>(found - names.begin());
   }
   if (const std::optional<std::string> text = arguments.value("sample-time")) {

@@ -80,7 +80,7 @@ struct RunRequest {
 
 /// The engine that is asked for. A plugin decides one torque at a time.
 study::Engine engine_of(const command_line::Arguments& arguments, const study::Study& study) {
-  const bool batch = arguments.one_of("engine", {"batch", "reference"}) == "batch";
+  const bool batch = arguments.choice("engine") == "batch";
   if (!study.plugin) return batch ? study::Engine::batch : study::Engine::reference;
   if (batch && arguments.has("engine"))
     arguments.refuse("option '--engine': a controller that is a plugin runs on the reference engine only");
@@ -220,8 +220,8 @@ Command run_command() {
        "MANIFEST -o FILE",
        {{"output,o", "FILE", "the results file to make (required)"},
         {"threads", "N", "threads to use; default: all cores"},
-        {"engine", "NAME",
-         "batch (default): many trials at a time in SIMD lanes; reference: one after the other"},
+        command_line::choice_option("engine", "NAME", {"batch", "reference"},
+                                    "many trials at a time in SIMD lanes, or one after the other"),
         {"shard", "I/N", "run only the I-th of N parts, into a part file for 'zerocount merge'"},
         {"study", "SHA256", "refuse a study with another hash: one whose manifest has changed since"},
         {"set", "KEY=VALUE",

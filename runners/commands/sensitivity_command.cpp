@@ -37,7 +37,7 @@ std::string full_help() {
 }
 
 ExitCode print_sensitivity(const command_line::Arguments& arguments) {
-  const std::string format = arguments.one_of("format", {"table", "json", "csv"});
+  const std::string format = arguments.choice("format");
   sensitivity::SensitivityQuestion question;
   const reading::StudyFile file(arguments.operands()[0]);
   question.points = command_line::point_options(arguments, file.point_labels());
@@ -68,7 +68,7 @@ Command sensitivity_command() {
         {"confidence", "C", "confidence of the bounds, above 0 and up to 0.999 (default 0.95)"},
         {"max-trials", "N",
          "use the first N trials of each point (default 100000; of a saltelli design all are used)"},
-        {"format", "FORMAT", "table (default), json or csv"}}},
+        command_line::format_option({"table", "json", "csv"})}},
       "print which random parameters influence the outputs of the trials",
       full_help(),
       print_sensitivity};

@@ -11,7 +11,6 @@ namespace {
 
 ExitCode print_completion(const command_line::Arguments& arguments) {
   const std::string& shell = arguments.operands()[0];
-  if (shell != "bash" && shell != "zsh") arguments.refuse("'" + shell + "' is none of bash, zsh");
   standard_output::write(shell == "bash" ? bash_completion(commands()) : zsh_completion(commands()));
   return ExitCode::success;
 }
@@ -24,7 +23,7 @@ ExitCode print_manual(const command_line::Arguments&) {
 }  // namespace
 
 Command completion_command() {
-  return {{"completion", "bash|zsh", {}},
+  return {{"completion", "bash|zsh", {}, 1, 1, {"bash", "zsh"}},
           "print the completion of commands and options for a shell",
           "Prints a script that completes commands, options and files.\n"
           "\n"

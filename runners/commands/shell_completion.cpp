@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace zerocount::commands {
 namespace {
@@ -28,6 +29,22 @@ std::string option_words(const Command& command) {
   return words;
 }
 
+/// The lines of bash that find what a command takes: its options, the words that the value of an option is
+/// one of, and those of its operand.
+std::string bash_case(const Command& command) {
+  std::string lines = fmt::format("    {})\n      options='{}'\n", command.spec.name, option_words(command));
+  if (!command.spec.operand_words.empty())
+    lines += fmt::format("      if [ \"$COMP_CWORD\" -eq 2 ]; then words='{}'; fi\n",
+                         fmt::join(command.spec.operand_words, " "));
+  std::string cases;
+  for (const OptionSpec& option : command.spec.options) {
+    if (!option.words.empty())
+      cases += fmt::format("        {}) words='{}' ;;\n", long_form(option), fmt::join(option.words, " "));
+  }
+  if (!cases.empty()) lines += fmt::format("      case $previous in\n{}      esac\n", cases);
+  return lines + "      ;;\n";
+}
+
 /// `text` within single quotes of zsh, with a backslash before the `special` characters.
 std::string zsh_text(std::string_view text, std::string_view special) {
   std::string escaped;
@@ -45,8 +62,10 @@ std::string zsh_text(std::string_view text, std::string_view special) {
 std::string zsh_option(const OptionSpec& option) {
   constexpr std::string_view special = "[]:\\";
   const std::string help = zsh_text(option.help, special);
+  const std::string values =
+      option.words.empty() ? "_files" : fmt::format("({})", fmt::join(option.words, " "));
   const std::string value =
-      option.value.empty() ? "" : fmt::format(":{}:_files", zsh_text(option.value, special));
+      option.value.empty() ? "" : fmt::format(":{}:{}", zsh_text(option.value, special), values);
   const std::string many = option.repeatable ? "*" : "";
   std::string lines = fmt::format(" \\\n        '{}{}{}[{}]{}'", many, long_form(option),
                                   value.empty() ? "" : "=", help, value);
@@ -62,24 +81,32 @@ std::string bash_completion(std::span<const Command> commands) {
   std::string cases;
   for (const Command& command : commands) {
     names += (names.empty() ? "" : " ") + command.spec.name;
-    cases += fmt::format("    {}) options='{}' ;;\n", command.spec.name, option_words(command));
+    cases += bash_case(command);
   }
   return fmt::format(
       "# Completion of zerocount for bash: put it where bash-completion finds it, or source it.\n"
       "_zerocount() {{\n"
-      "  local word=${{COMP_WORDS[COMP_CWORD]}} options=\n"
+      "  local word=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD-1]}} options= words=\n"
       "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
-      "    COMPREPLY=($(compgen -W '{} --help --version' -- \"$word\"))\n"
+      "    COMPREPLY=($(compgen -W '{} help --help --version' -- \"$word\"))\n"
       "    return\n"
+      "  fi\n"
+      "  # bash takes --option=value apart\n"
+      "  if [ \"$word\" = = ]; then word=\n"
+      "  elif [ \"$previous\" = = ]; then previous=${{COMP_WORDS[COMP_CWORD-2]}}\n"
       "  fi\n"
       "  case ${{COMP_WORDS[1]}} in\n"
       "{}"
-      "    help) options='{}' ;;\n"
+      "    help) if [ \"$COMP_CWORD\" -eq 2 ]; then words='{}'; fi ;;\n"
       "  esac\n"
       "  case $word in\n"
-      "    -*) COMPREPLY=($(compgen -W \"$options\" -- \"$word\")) ;;\n"
-      "    *) mapfile -t COMPREPLY < <(compgen -f -- \"$word\"); compopt -o filenames 2>/dev/null ;;\n"
+      "    -*) words=$options ;;\n"
       "  esac\n"
+      "  if [ \"$words\" ]; then\n"
+      "    COMPREPLY=($(compgen -W \"$words\" -- \"$word\"))\n"
+      "  else\n"
+      "    mapfile -t COMPREPLY < <(compgen -f -- \"$word\"); compopt -o filenames 2>/dev/null\n"
+      "  fi\n"
       "}}\n"
       "complete -F _zerocount zerocount\n",
       names, cases, names);
@@ -87,11 +114,15 @@ std::string bash_completion(std::span<const Command> commands) {
 
 std::string zsh_completion(std::span<const Command> commands) {
   std::string names = "    'help:the help of a command'\n";
+  std::string words;
   std::string cases;
   for (const Command& command : commands) {
+    words += (words.empty() ? "" : " ") + command.spec.name;
     names += fmt::format("    '{}:{}'\n", command.spec.name, zsh_text(command.summary, ":\\"));
     cases += fmt::format("    {})\n      _arguments", command.spec.name);
     for (const OptionSpec& option : command.spec.options) cases += zsh_option(option);
+    if (!command.spec.operand_words.empty())
+      cases += fmt::format(" \\\n        '1:word:({})'", fmt::join(command.spec.operand_words, " "));
     cases += " \\\n        '*:file:_files'\n      ;;\n";
   }
   return fmt::format(
@@ -111,10 +142,11 @@ std::string zsh_completion(std::span<const Command> commands) {
       "  (( CURRENT-- ))\n"
       "  case $command in\n"
       "{}"
+      "    help) _arguments '1:command:({})' ;;\n"
       "  esac\n"
       "}}\n"
       "_zerocount \"$@\"\n",
-      names, cases);
+      names, cases, words);
 }
 
 }  // namespace zerocount::commands

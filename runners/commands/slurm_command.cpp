@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <regex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -58,13 +59,18 @@ bool has_control_character(const std::string& text) {
   return std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; });
 }
 
-/// Options that decide how the jobs hang together.
+/// Options that decide how the jobs hang together, and those that this command gives itself. sbatch takes a
+/// long option by any beginning of its name, and the value of a short one without a space.
 bool is_reserved(const std::string& option) {
-  constexpr std::array<std::string_view, 12> reserved{
-      "--array", "-a",         "--dependency", "-d",     "--output", "-o",
-      "--wrap",  "--parsable", "--test-only",  "--wait", "-W",       "--export-file"};
+  constexpr std::array<std::string_view, 14> names{
+      "--array", "--dependency", "--output", "--error", "--wrap",          "--parsable", "--test-only",
+      "--wait",  "--chdir",      "--ntasks", "--time",  "--cpus-per-task", "--job-name", "--export-file"};
+  constexpr std::string_view letters = "adoeWDntcJ";
+  if (!option.starts_with("--"))
+    return option.size() > 1 && letters.find(option[1]) != std::string_view::npos;
   const std::string name = option.substr(0, option.find_first_of("= "));
-  return std::find(reserved.begin(), reserved.end(), name) != reserved.end();
+  if (name == "--export") return false;
+  return std::any_of(names.begin(), names.end(), [&](std::string_view one) { return one.starts_with(name); });
 }
 
 std::vector<std::string> sbatch_options(const command_line::Arguments& arguments) {
@@ -83,8 +89,9 @@ std::vector<std::string> sbatch_options(const command_line::Arguments& arguments
 }
 
 std::optional<std::string> time_limit(const command_line::Arguments& arguments) {
+  const std::regex form(R"(\d+(:\d+){0,2}|\d+-\d+(:\d+){0,2})");
   std::optional<std::string> time = arguments.value("time");
-  if (time && (time->empty() || time->find_first_not_of("0123456789:-") != std::string::npos)) {
+  if (time && !std::regex_match(*time, form)) {
     arguments.refuse(fmt::format(
         "option '--time': '{}' is no time of Slurm: minutes, H:MM:SS, or D-HH, such as 2:00:00", *time));
   }
@@ -106,7 +113,7 @@ study::Study study_to_divide(const command_line::Arguments& arguments, std::int6
   if (study.stop && parts > 1) {
     arguments.refuse(
         "option '--tasks': how many trials a study with `stop` takes can only be decided in one run; give "
-        "--tasks 1, or a number of `trials` in place of `stop`");
+        "--tasks 1, or leave `stop` out");
   }
   if (parts > study::trial_count(study)) {
     arguments.refuse(fmt::format("option '--tasks': the study has {} trials, which cannot make {} parts",
@@ -227,14 +234,18 @@ ExitCode slurm(const command_line::Arguments& arguments) {
     arguments.refuse("the jobs read the manifest later: name a file that stays");
   arguments.required("tasks");
   const std::int64_t parts = *arguments.whole_number("tasks", 1, max_tasks);
+  if (parts == 1 && arguments.has("at-once"))
+    arguments.refuse("option '--at-once' goes with more than one part");
   command_line::require_places(arguments, {arguments.operands()[0]}, {output});
   const study::Study study = study_to_divide(arguments, parts);
+  if (!arguments.has("dry-run")) require_no_job(output);
   require_same_division(output, parts);
   if (arguments.has("dry-run")) {
     for (const Script& script : scripts_of(batch_request(arguments, output, study, parts)))
       standard_output::print("==> {} <==\n{}\n", script.path.string(), script.text);
     return ExitCode::success;
   }
+  if (parts > 1) largest_array(arguments);  // where there is no Slurm nothing is made
   storage::make_directory(shards::parts_directory(output));
   const storage::OutputLock lock(cluster::submission_file(output));  // one command at a time
   require_no_job(output);
@@ -259,7 +270,7 @@ Command slurm_command() {
              "further option of sbatch for all jobs, e.g. --sbatch=--partition=long; may be repeated", true},
             {"dry-run", "", "print the scripts; write and submit nothing"},
             {"set", "KEY=VALUE", "override a manifest key, as in 'zerocount run'; may be repeated", true},
-            {"force", "", "the merged file replaces an existing FILE"}}},
+            {"force", "", "replace an existing FILE, and discard the parts of another study or build"}}},
           "run a study as an array job of Slurm",
           slurm_help,
           slurm};

@@ -1,6 +1,7 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -24,7 +25,8 @@ constexpr const char* status_help =
     "machine, which writes FILE.shards/, or of an array job (zerocount slurm), which writes FILE.parts/.\n"
     "It reads these files alone, so it can be asked for on any machine that sees them. A part is running\n"
     "if a process has it locked, or has written a shard of it in the last minute. The rate is that since\n"
-    "the jobs were submitted, or the run has begun.\n"
+    "the jobs were submitted, or the run has begun. Of a study with `stop` the number of trials is the\n"
+    "largest that there may be. With --watch, JSON has one line each time.\n"
     "\n"
     "Examples:\n"
     "  zerocount status study.h5\n"
@@ -60,10 +62,11 @@ std::string summary_so_far(const std::filesystem::path& output) {
   }
 }
 
-run_status::RunStatus print_status(const std::filesystem::path& output, bool json) {
+/// @param json_indent nothing: as a table
+run_status::RunStatus print_status(const std::filesystem::path& output, std::optional<int> json_indent) {
   run_status::RunStatus status = run_status::status_of(output);
-  if (json) {
-    standard_output::write(text::json_text(json_of(status)));
+  if (json_indent) {
+    standard_output::write(text::json_text(json_of(status), *json_indent));
     return status;
   }
   standard_output::print("{}", run_status::status_text(status));
@@ -74,14 +77,16 @@ run_status::RunStatus print_status(const std::filesystem::path& output, bool jso
 
 ExitCode print_statuses(const command_line::Arguments& arguments) {
   const std::filesystem::path output = arguments.operands()[0];
-  const bool json = arguments.one_of("format", {"table", "json"}) == "json";
   const std::optional<std::int64_t> seconds = arguments.whole_number("watch", 1, 86400);
-  run_status::RunStatus status = print_status(output, json);
+  const bool json = arguments.choice("format") == "json";
+  constexpr int indented = 2;
+  const auto indent = json ? std::optional(seconds ? text::one_line : indented) : std::nullopt;
+  run_status::RunStatus status = print_status(output, indent);
   while (seconds && !status.complete) {
     std::fflush(stdout);
     std::this_thread::sleep_for(std::chrono::seconds(*seconds));
     if (isatty(STDOUT_FILENO) == 1) std::fputs(clear_screen, stdout);
-    status = print_status(output, json);
+    status = print_status(output, indent);
   }
   return status.finished == 0 && !status.problems.empty() ? ExitCode::bad_data : ExitCode::success;
 }
@@ -91,8 +96,8 @@ ExitCode print_statuses(const command_line::Arguments& arguments) {
 Command status_command() {
   return {{"status",
            "FILE",
-           {{"watch", "S", "print it again every S seconds until FILE is complete"},
-            {"format", "FORMAT", "table (default) or json"}}},
+           {{"watch", "S", "print it again every S seconds until FILE is complete, or you stop it"},
+            command_line::format_option({"table", "json"})}},
           "how far a run or an array job has come, with the summary so far",
           status_help,
           print_statuses};

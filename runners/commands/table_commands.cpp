@@ -18,13 +18,13 @@ ExitCode print_parameters_of_study(const command_line::Arguments& arguments, con
 }
 
 ExitCode print_parameters(const command_line::Arguments& arguments) {
-  const std::string format = arguments.one_of("format", {"text", "markdown"});
+  const std::string format = arguments.choice("format");
   if (const auto manifest = arguments.value("manifest"))
     return print_parameters_of_study(arguments, *manifest, format == "text");
   if (arguments.has("set")) arguments.refuse("--set changes a manifest; expected --manifest FILE with it");
   parameters::StudyUnits units;
-  if (arguments.one_of("axis", {"rotary", "linear"}) == "linear") units.axis = parameters::AxisKind::linear;
-  if (arguments.one_of("units", {"count", "si"}) == "si") units.gains = parameters::GainUnits::si;
+  if (arguments.choice("axis") == "linear") units.axis = parameters::AxisKind::linear;
+  if (arguments.choice("units") == "si") units.gains = parameters::GainUnits::si;
   standard_output::print(
       "{}", format == "text" ? manifest::parameters_as_text(units) : manifest::parameters_as_markdown(units));
   return ExitCode::success;
@@ -41,11 +41,12 @@ Command parameters_command() {
   return {
       {"parameters",
        "",
-       {{"format", "FORMAT", "text (default) or markdown"},
+       {command_line::format_option({"text", "markdown"}),
         {"manifest", "FILE", "list the parameters of this study, with those of the lists in its manifest"},
         {"set", "KEY=VALUE", "override a key of that manifest; may be repeated", true},
-        {"axis", "AXIS", "rotary (default) or linear: units on this kind of axis"},
-        {"units", "UNITS", "count (default) or si: unit of the gains (controller.units)"}},
+        command_line::choice_option("axis", "AXIS", {"rotary", "linear"}, "units on this kind of axis"),
+        command_line::choice_option("units", "UNITS", {"count", "si"},
+                                    "unit of the gains (controller.units)")},
        0,
        0},
       "list every parameter: unit, default, range, source",

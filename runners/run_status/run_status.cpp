@@ -145,6 +145,13 @@ bool is_running(const fs::path& output, const std::set<fs::path>& lately) {
   return lock == storage::LockState::held || (lock == storage::LockState::unknown && lately.contains(output));
 }
 
+/// Whether jobs were submitted after the results file was written, or there is none.
+bool is_awaited(const fs::path& output) {
+  const std::optional<Time> submitted = time_of(cluster::submission_file(output));
+  const std::optional<Time> written = time_of(output);
+  return submitted && (!written || *written < *submitted);
+}
+
 PartCounts count_parts(const fs::path& output, const Pieces& found, RunStatus& status) {
   std::map<std::int64_t, fs::path> complete, begun;
   PartCounts counts;
@@ -197,12 +204,24 @@ RunStatus status_of_file(const fs::path& output) {
   return status;
 }
 
+/// The status of a file that was merged from the parts, or has been extended since.
+RunStatus status_of_merged(const fs::path& output, const RunStatus& of_parts) {
+  RunStatus status = status_of_file(output);
+  status.problems = of_parts.problems;
+  if (status.trials == of_parts.trials) status.parts = of_parts.parts;
+  return status;
+}
+
 }  // namespace
 
 RunStatus status_of(const fs::path& output) {
   if (!shards::has_begun(output)) return status_of_file(output);
   const Pieces found = read_pieces(output);
+  const bool running = is_running(output, written_lately(found.pieces));
+  const bool has_nothing = found.pieces.empty() && found.problems.empty();
+  if (has_nothing && !running && !is_awaited(output)) return status_of_file(output);
   RunStatus status;
+  status.running = running;
   status.name = found.name;
   status.trials = found.trials;
   status.problems = found.problems;
@@ -211,12 +230,13 @@ RunStatus status_of(const fs::path& output) {
   status.shards = std::count_if(found.pieces.begin(), found.pieces.end(),
                                 [](const Piece& piece) { return !shards::part_named(piece.path); });
   add_damaged(layout::shards_directory(output), status);
-  status.running = is_running(output, written_lately(found.pieces));
   if (is_folder(shards::parts_directory(output))) {
-    status.parts = count_parts(output, found, status);
-    status.running = status.running || status.parts->running > 0;
-    status.complete = is_merged(output, status, found.pieces);
+    const PartCounts parts = count_parts(output, found, status);
+    status.running = status.running || parts.running > 0;
+    if (parts.all > 1) status.parts = parts;
+    if (is_merged(output, status, found.pieces)) return status_of_merged(output, status);
   }
+  if (!status.running) status.rate = std::nan("");
   return status;
 }
 
@@ -236,6 +256,8 @@ std::string status_text(const RunStatus& status) {
     const PartCounts& parts = *status.parts;
     text += fmt::format("parts:  {} of {} complete, {} running, {} interrupted, {} waiting\n", parts.complete,
                         parts.all, parts.running, parts.interrupted, parts.waiting());
+    if (!status.complete && parts.complete == parts.all)
+      text += "not merged: see merge.log in the folder of the parts, or give the command 'slurm' again\n";
   }
   if (!status.complete) text += fmt::format("shards: {}\n", status.shards);
   for (const std::string& problem : status.problems) text += fmt::format("problem: {}\n", problem);

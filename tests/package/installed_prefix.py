@@ -50,9 +50,17 @@ def check_shell_files(prefix):
     script = prefix / "share/bash-completion/completions/zerocount"
     require(completions(script, "zerocount", "summ") == ["summary"], "bash completes a command")
     require(completions(script, "zerocount", "run", "--th") == ["--threads"], "bash completes an option")
+    require(completions(script, "zerocount", "help", "comp") == ["compare", "completion"], "bash completes the operand of help")
+    require(completions(script, "zerocount", "completion", "z") == ["zsh"], "bash completes an operand of a few words")
+    require(completions(script, "zerocount", "new", "paper-g") == ["paper-gains"], "bash completes a manifest that comes with it")
+    for value in (["--format", "js"], ["--format", "=", "js"]):
+        require(completions(script, "zerocount", "summary", "a.h5", *value) == ["json"], f"bash completes {' '.join(value)}")
+    require("table json csv" in " ".join(completions(script, "zerocount", "summary", "--format", "=")), "bash offers all formats")
     with tempfile.TemporaryDirectory() as folder:
         (pathlib.Path(folder) / "my study.yaml").touch()
-        require(completions(script, "zerocount", "run", "my", cwd=folder) == ["my study.yaml"], "bash completes a name with a blank")
+        for words in (["run"], ["history", "add"], ["history", "show", "--database"], ["new", "paper-gains", "-o"]):
+            require(completions(script, "zerocount", *words, "my", cwd=folder) == ["my study.yaml"],
+                    f"bash completes a name with a blank after {' '.join(words)}")
     if shutil.which("zsh"):
         run("zsh", "-n", prefix / "share/zsh/vendor-completions/_zerocount")
 

@@ -89,6 +89,8 @@ TEST_F(SlurmCommand, SubmitsWhatIsMissing) {
   EXPECT_NE(slurm({"--tasks", "3"}).out.find("array job of 3 elements"), std::string::npos);
   EXPECT_TRUE(fs::exists(folder_ / "out.h5.parts/part-2-of-3.h5.damaged"));
   for (const int element : {0, 1, 2}) ASSERT_EQ(run_element(element), 0);
+  EXPECT_NE(zerocount_program({"status", "out.h5"}, folder_.path()).out.find("not merged: "),
+            std::string::npos);
   EXPECT_EQ(slurm({"--tasks", "3"}).out.find("array job"), std::string::npos);
 }
 
@@ -156,7 +158,10 @@ TEST_F(SlurmCommand, RefusesWhatTheScriptsCannotHold) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
       {{"--sbatch=partition=long"}, "'partition=long' is no option of sbatch"},
       {{"--sbatch=--array=0-3"}, "the scripts need --array themselves"},
+      {{"--sbatch=-a5"}, "the scripts need -a5 themselves"},
+      {{"--sbatch=--arr=5"}, "the scripts need --arr themselves"},
       {{"--sbatch=--comment=a\nb"}, "is no option of sbatch"},
+      {{"--time", ":::"}, "is no time of Slurm"},
       {{"--time", ""}, "is no time of Slurm"},
       {{"--time", "1 day"}, "is no time of Slurm"},
       {{"--cpus", "0"}, "--cpus"},
@@ -166,6 +171,8 @@ TEST_F(SlurmCommand, RefusesWhatTheScriptsCannotHold) {
     all.insert(all.end(), words.begin(), words.end());
     expect_refusal(slurm(all), 2, what);
   }
+  EXPECT_EQ(slurm({"--tasks", "2", "--dry-run", "--sbatch=--export=NONE", "--time", "1-12:30"}).code, 0);
+  expect_refusal(slurm({"--tasks", "1", "--at-once", "2"}), 2, "--at-once");
   expect_refusal(slurm({"--tasks", "121"}), 2, "cannot make 121 parts");
   expect_refusal(zerocount_program({"slurm", "study.yaml", "-o", "a\\b.h5", "--tasks", "2", "--dry-run"},
                                    folder_.path(), environment()),
@@ -183,6 +190,9 @@ TEST_F(SlurmCommand, RunsAStudyThatStopsItselfAsOneJob) {
                             .c_str()),
             0);
   EXPECT_TRUE(fs::exists(folder_ / "out.h5"));
+  const ProgramResult status = zerocount_program({"status", "out.h5"}, folder_.path());
+  EXPECT_NE(status.out.find("small: complete, "), std::string::npos) << status.out << status.err;
+  EXPECT_EQ(status.out.find("parts"), std::string::npos) << status.out;
 }
 
 }  // namespace

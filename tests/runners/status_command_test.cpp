@@ -110,6 +110,9 @@ TEST_F(StatusOfARun, OfPartsIsCompleteWhenTheyAreMerged) {
   EXPECT_FALSE(status()["complete"].get<bool>());
   ASSERT_EQ(program({"merge", "out.h5.parts", "-o", "out.h5"}).code, 0);
   EXPECT_TRUE(status()["complete"].get<bool>());
+  EXPECT_EQ(status()["parts"]["all"], 4);
+  ASSERT_EQ(program({"run", "study.yaml", "-q", "-o", "out.h5", "--set", "trials=80"}).code, 0);
+  EXPECT_EQ(status()["finished"], 160) << "trials were added to the file";
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
   ASSERT_EQ(
       program({"run", "study.yaml", "-q", "--force", "-o", "out.h5.parts/part-2-of-4.h5", "--shard", "2/4"})
@@ -126,6 +129,8 @@ TEST_F(StatusOfARun, OfAFileThatIsThereIsComplete) {
             std::string::npos)
       << text;
   EXPECT_EQ(program({"status", "out.h5", "--watch", "1"}).code, 0);
+  const std::string json = program({"status", "out.h5", "--watch", "1", "--format", "json"}).out;
+  EXPECT_EQ(json.find('\n'), json.size() - 1) << json;
 }
 
 }  // namespace

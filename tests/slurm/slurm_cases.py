@@ -187,6 +187,7 @@ class Arrays(SlurmCase):
         self.submit("--tasks", "8", code=2)
         self.submit("--tasks", "1")
         self.require_same_as_local_run()
+        self.assertIn(": complete", self.zerocount("status", "out.h5").stdout)
 
 
 class SmallArrays(SlurmCase):

@@ -149,7 +149,7 @@ void export_table(const hdf5::Group& root, const layout::Table& table, reading::
 }
 
 reading::ExportedTable exported(const char* name, layout::Table table) {
-  return {name, [table = std::move(table)](const reading::StudyFile& file, reading::CsvFile& csv) {
+  return {name, [table = std::move(table)](const reading::ResultsFile& file, reading::CsvFile& csv) {
             export_table(hdf5::File::open_to_read(file.path()), table, csv);
           }};
 }

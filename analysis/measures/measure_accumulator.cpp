@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <numeric>
 #include <string>
 
@@ -16,14 +17,38 @@
 namespace zerocount::measures {
 namespace {
 
+/// −0 + 0 is 0: which of two equal values stands for both must not depend on their order.
+constexpr double positive_zero = 0.0;
+
 bool needs_every_value(const layout::Measure& measure, const layout::ReportedStatistics& reported) {
   return measure.of_trial == layout::OfTrial::sum || reports(reported, layout::Statistic::median) ||
          reports(reported, layout::Statistic::p95);
 }
 
+/// Adds counts element by element; missing ones are zero.
+void add_counts(std::vector<std::int64_t>& counts, const std::vector<std::int64_t>& added) {
+  if (counts.size() < added.size()) counts.resize(added.size());
+  std::transform(added.begin(), added.end(), counts.begin(), counts.begin(), std::plus{});
+}
+
 /// Whether files of this version have the measure, or a known value in place of it.
 bool is_known(const layout::Measure& measure, std::int64_t version) {
   return measure.file.since <= version || !std::isnan(measure.file.before);
+}
+
+/// Whether `total` is the sum of counts of 0 or more.
+bool is_sum_of(const std::vector<std::int64_t>& counts, std::int64_t total) {
+  for (const std::int64_t count : counts) {
+    if (count < 0 || count > total) return false;
+    total -= count;
+  }
+  return total == 0;
+}
+
+/// Whether each of the counts is from 0 to `most`.
+bool are_all_within(const std::vector<std::int64_t>& counts, std::int64_t most) {
+  return std::all_of(counts.begin(), counts.end(),
+                     [most](std::int64_t count) { return count >= 0 && count <= most; });
 }
 
 }  // namespace
@@ -34,43 +59,80 @@ MeasureAccumulator::MeasureAccumulator(const layout::Measure& measure,
       reported_(&reported),
       kind_(kind),
       in_clusters_(needs_every_value(measure, reported)),
-      clusters_(kind.rigs),
-      hits_(static_cast<std::size_t>(std::max<std::int64_t>(kind.rigs, 1))) {}
+      clusters_(kind.rigs) {}
 
-void MeasureAccumulator::add_quality(std::span<const trial::MoveOutcome> moves) {
+void MeasureAccumulator::add_quality(std::int64_t trial, std::span<const trial::MoveOutcome> moves) {
   by_move_.resize(moves.size());
+  judged_.resize(static_cast<std::size_t>(std::max<std::int64_t>(kind_.rigs, 1)));
+  hits_.resize(judged_.size());
   for (std::size_t i = 0; i < moves.size(); ++i) by_move_[i] += layout::has_quality(*measure_, moves[i]);
-  hits_[static_cast<std::size_t>(trials_) % hits_.size()] += value_of_trial(*measure_, moves) > 0.0;
+  const std::size_t rig = static_cast<std::size_t>(trial) % hits_.size();
+  ++judged_[rig];
+  hits_[rig] += value_of_trial(*measure_, moves) > 0.0;
 }
 
 /// Adds values_ to the clusters, with `size` − |values_| censored values: later than all others.
-void MeasureAccumulator::add_clusters(std::int64_t size) {
-  if (reports(*reported_, layout::Statistic::bootstrap_low)) {
-    totals_.add(kind_.rigs > 0 ? trials_ % kind_.rigs : trials_,
-                std::accumulate(values_.begin(), values_.end(), 0.0), static_cast<double>(values_.size()));
-  }
-  clusters_.add_trial(trials_, values_, size);
+void MeasureAccumulator::add_clusters(std::int64_t trial, std::int64_t size) {
+  if (reports(*reported_, layout::Statistic::bootstrap_low))
+    totals_.add(kind_.rigs > 0 ? trial % kind_.rigs : trial, values_);
+  clusters_.add_trial(trial, values_, size);
 }
 
-void MeasureAccumulator::add(std::span<const trial::MoveOutcome> moves) {
+void MeasureAccumulator::add(std::int64_t trial, std::span<const trial::MoveOutcome> moves) {
   if (reported_->texts.empty()) return;
   values_.clear();
   const layout::CountedValues& counted = measure_->values;
   if (layout::is_quality(*measure_)) {
-    add_quality(moves);
+    add_quality(trial, moves);
   } else if (measure_->of_trial == layout::OfTrial::sum) {
     values_.push_back(value_of_trial(*measure_, moves));
-    add_clusters(1);
+    add_clusters(trial, 1);
   } else if (!(counted.needs_target && kind_.open_loop)) {
     const bool known = is_known(*measure_, kind_.version);
     for (const trial::MoveOutcome& move : moves) {
-      const double value = known ? counted_value(*measure_, move) : statistics::unknown;
+      const double value = known ? counted_value(*measure_, move) + positive_zero : statistics::unknown;
       if (!in_clusters_ && trial::was_run(move)) moments_.add(value);
       if (in_clusters_ && !std::isnan(value)) values_.push_back(value);
     }
-    if (in_clusters_) add_clusters(counted.nan_is_late ? std::ssize(moves) : std::ssize(values_));
+    if (in_clusters_) add_clusters(trial, counted.nan_is_late ? std::ssize(moves) : std::ssize(values_));
   }
   ++trials_;
+}
+
+MeasureAccumulator& MeasureAccumulator::operator+=(const MeasureAccumulator& next) {
+  trials_ += next.trials_;
+  moments_ += next.moments_;
+  clusters_ += next.clusters_;
+  totals_ += next.totals_;
+  add_counts(by_move_, next.by_move_);
+  add_counts(judged_, next.judged_);
+  add_counts(hits_, next.hits_);
+  return *this;
+}
+
+bool MeasureAccumulator::is_sound(std::int64_t trials, std::int64_t moves) const {
+  const bool is_reported = !reported_->texts.empty();
+  if (trials_ != (is_reported ? trials : 0)) return false;
+  const std::int64_t all_moves = trials * moves;
+  return has_sound_qualities(moves) && has_sound_totals() && moments_.n >= 0 && moments_.nonfinite >= 0 &&
+         moments_.n <= all_moves - moments_.nonfinite && clusters_.size() <= all_moves;
+}
+
+bool MeasureAccumulator::has_sound_qualities(std::int64_t moves) const {
+  if (!layout::is_quality(*measure_) || trials_ == 0)
+    return by_move_.empty() && judged_.empty() && hits_.empty();
+  const auto rigs = static_cast<std::size_t>(std::max<std::int64_t>(kind_.rigs, 1));
+  if (std::ssize(by_move_) != moves || judged_.size() != rigs || hits_.size() != rigs) return false;
+  for (std::size_t rig = 0; rig < rigs; ++rig)
+    if (hits_[rig] < 0 || hits_[rig] > judged_[rig]) return false;
+  return is_sum_of(judged_, trials_) && are_all_within(by_move_, trials_);
+}
+
+bool MeasureAccumulator::has_sound_totals() const {
+  if (totals_.sums.empty()) return totals_.numbers.empty() && totals_.added.empty();
+  return totals_.sums.size() <= statistics::max_clusters && totals_.sums.size() == totals_.numbers.size() &&
+         totals_.sums.size() == totals_.added.size() && is_sum_of(totals_.added, trials_) &&
+         std::all_of(totals_.numbers.begin(), totals_.numbers.end(), [](std::int64_t n) { return n >= 0; });
 }
 
 RateWithBounds MeasureAccumulator::rate(double confidence) const {
@@ -81,25 +143,23 @@ RateWithBounds MeasureAccumulator::rate(double confidence) const {
             statistics::wilson(hits_.front(), trials_, confidence)};
   }
   statistics::ClusterSums sums;
-  for (std::int64_t rig = 0; rig < kind_.rigs; ++rig) {
-    sums.add(hits_[static_cast<std::size_t>(rig)],
-             trials_ / kind_.rigs + (rig < trials_ % kind_.rigs ? 1 : 0));
-  }
+  for (std::size_t rig = 0; rig < hits_.size(); ++rig) sums.add(hits_[rig], judged_[rig]);
   const statistics::ClusteredProportion proportion = statistics::clustered_proportion(sums, confidence);
   return {proportion.value, proportion.korn_graubard, proportion.wilson};
 }
 
 MeasureStatistics MeasureAccumulator::statistics(const StatisticsOptions& options) const {
   MeasureStatistics result;
-  result.n = result.moves = moments_.n;
-  result.nonfinite = moments_.nonfinite;
-  result.mean = moments_.mean;
-  result.sd = moments_.sd();
-  result.rms = moments_.rms();
-  result.min = moments_.min;
-  result.max = moments_.max;
+  const statistics::Moments moments = moments_.moments();
+  result.n = result.moves = moments.n;
+  result.nonfinite = moments.nonfinite;
+  result.mean = moments.mean;
+  result.sd = moments.sd();
+  result.rms = moments.rms();
+  result.min = moments.min;
+  result.max = moments.max;
   if (reports(*reported_, layout::Statistic::student_low))
-    result.mean_bounds = statistics::student_t(moments_, options.confidence);
+    result.mean_bounds = statistics::student_t(moments, options.confidence);
   if (layout::is_quality(*measure_)) {
     result.trials = std::accumulate(hits_.begin(), hits_.end(), std::int64_t{0});
     result.by_move = by_move_;

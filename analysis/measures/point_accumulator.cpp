@@ -47,11 +47,11 @@ void require_kind(const trial::MoveOutcome& move, bool open_loop) {
                                               : "a move with a torque level; expected one with a target");
 }
 
-void add_trials(MeasureAccumulator& measure, std::span<const trial::MoveOutcome> moves,
+/// @param trial index of the first
+void add_trials(MeasureAccumulator& measure, std::int64_t trial, std::span<const trial::MoveOutcome> moves,
                 std::size_t moves_of_trial) {
-  for (std::size_t first = 0; first < moves.size(); first += moves_of_trial) {
-    measure.add(moves.subspan(first, moves_of_trial));
-  }
+  for (; !moves.empty(); moves = moves.subspan(moves_of_trial))
+    measure.add(trial++, moves.first(moves_of_trial));
 }
 
 std::vector<MeasureStatistics> statistics_of(const std::vector<MeasureAccumulator>& measures,
@@ -62,7 +62,44 @@ std::vector<MeasureStatistics> statistics_of(const std::vector<MeasureAccumulato
   return statistics;
 }
 
+template <class Summand>
+void add_each(std::vector<Summand>& sums, const std::vector<Summand>& added) {
+  for (std::size_t i = 0; i < added.size(); ++i) sums[i] += added[i];
+}
+
+/// Whether each of the counts is from 0 to `most`.
+bool are_within(const OutcomeCounts& counts, std::int64_t most) {
+  const std::array all{counts.zero_count,  counts.one_count, counts.off_target,
+                       counts.oscillating, counts.nonfinite, counts.open_loop};
+  return std::all_of(all.begin(), all.end(),
+                     [most](std::int64_t count) { return count >= 0 && count <= most; });
+}
+
 }  // namespace
+
+OutcomeCounts& OutcomeCounts::operator+=(const OutcomeCounts& other) {
+  zero_count += other.zero_count;
+  one_count += other.one_count;
+  off_target += other.off_target;
+  oscillating += other.oscillating;
+  nonfinite += other.nonfinite;
+  open_loop += other.open_loop;
+  return *this;
+}
+
+std::int64_t OutcomeCounts::total() const {
+  return zero_count + one_count + off_target + oscillating + nonfinite + open_loop;
+}
+
+PointCounts& PointCounts::operator+=(const PointCounts& other) {
+  trials += other.trials;
+  moves += other.moves;
+  outcomes += other.outcomes;
+  if (by_move.size() < other.by_move.size()) by_move.resize(other.by_move.size());
+  add_each(by_move, other.by_move);
+  jerks_agreeing += other.jerks_agreeing;
+  return *this;
+}
 
 std::int64_t OutcomeCounts::*counter_of(trial::Outcome outcome) {
   switch (outcome) {
@@ -83,9 +120,9 @@ std::int64_t OutcomeCounts::*counter_of(trial::Outcome outcome) {
                 fmt::format("a move with outcome {}; expected 0 to 5", static_cast<int>(outcome)));
 }
 
-PointAccumulator::PointAccumulator(const MoveKind& kind, const layout::MeasureTable& table)
-    : kind_(kind), trial_settling_times_(kind.rigs) {
-  counted_.table = &table;
+PointAccumulator::PointAccumulator(const MoveKind& kind, const layout::MeasureTable& table,
+                                   std::int64_t first_trial)
+    : kind_(kind), first_trial_(first_trial), table_(&table), trial_settling_times_(kind.rigs) {
   for (const layout::Measure& measure : table) measures_.emplace_back(measure, measure.point, kind);
 }
 
@@ -95,13 +132,17 @@ void PointAccumulator::add(const trial::TrialOutcome& trial, std::span<const tri
 }
 
 void PointAccumulator::add_measures(std::span<const trial::MoveOutcome> moves, std::size_t moves_of_trial) {
-  for (MeasureAccumulator& measure : measures_) add_trials(measure, moves, moves_of_trial);
+  for (MeasureAccumulator& measure : measures_)
+    add_trials(measure, first_trial_ + measured_, moves, moves_of_trial);
+  measured_ += static_cast<std::int64_t>(moves.size() / moves_of_trial);
 }
 
 void PointAccumulator::add_measures_in_tasks(std::span<const trial::MoveOutcome> moves,
                                              std::size_t moves_of_trial) {
-  oneapi::tbb::parallel_for(std::size_t{0}, measures_.size(),
-                            [&](std::size_t i) { add_trials(measures_[i], moves, moves_of_trial); });
+  oneapi::tbb::parallel_for(std::size_t{0}, measures_.size(), [&](std::size_t i) {
+    add_trials(measures_[i], first_trial_ + measured_, moves, moves_of_trial);
+  });
+  measured_ += static_cast<std::int64_t>(moves.size() / moves_of_trial);
 }
 
 void PointAccumulator::add_counts(std::span<const trial::MoveOutcome> moves,
@@ -139,21 +180,22 @@ void PointAccumulator::add_moves(std::span<const trial::MoveOutcome> moves) {
 }
 
 void PointAccumulator::add_level(std::size_t level, std::span<const trial::MoveOutcome> move) {
-  if (level == levels_.size()) {
-    counted_.levels.emplace_back().table = counted_.table;
-    levels_.emplace_back();
-    for (const layout::Measure& measure : *counted_.table)
-      levels_[level].emplace_back(measure, measure.level, kind_);
-  }
+  if (level == levels_.size()) add_level_accumulators();
   if (move.front().outcome == trial::Outcome::nonfinite) {
-    ++counted_.levels[level].nonfinite;
+    ++lost_in_levels_[level];
   } else {
-    for (MeasureAccumulator& measure : levels_[level]) measure.add(move);
+    for (MeasureAccumulator& measure : levels_[level]) measure.add(first_trial_ + counted_.trials, move);
   }
 }
 
+void PointAccumulator::add_level_accumulators() {
+  lost_in_levels_.push_back(0);
+  std::vector<MeasureAccumulator>& measures = levels_.emplace_back();
+  for (const layout::Measure& measure : *table_) measures.emplace_back(measure, measure.level, kind_);
+}
+
 void PointAccumulator::add_to_rig(std::span<const trial::MoveOutcome> moves) {
-  const auto number = static_cast<std::size_t>(counted_.trials % kind_.rigs);
+  const auto number = static_cast<std::size_t>((first_trial_ + counted_.trials) % kind_.rigs);
   if (number >= rigs_.size()) rigs_.resize(number + 1);
   statistics::RigTrials& rig = rigs_[number];
   const auto zero = std::count_if(moves.begin(), moves.end(),
@@ -174,7 +216,7 @@ void PointAccumulator::add_trial_settling_time(std::span<const trial::MoveOutcom
     for (const trial::MoveOutcome& move : moves) slowest = std::max(slowest, move.settling_time);
     values_.push_back(slowest);
   }
-  trial_settling_times_.add_trial(counted_.trials, values_, 1);
+  trial_settling_times_.add_trial(first_trial_ + counted_.trials, values_, 1);
 }
 
 void PointAccumulator::add_jerks(const trial::MoveOutcome& move, std::span<const trial::Jerk> jerks) {
@@ -199,9 +241,126 @@ void PointAccumulator::add_jerks(const trial::MoveOutcome& move, std::span<const
   if (values_.size() < 2) return;
   const statistics::RankTrend trend = statistics::rank_trend(values_);
   interval_trend_ += trend;
-  ++counted_.jerk_slowing.moves;
-  counted_.jerk_slowing.slowing += trend.rising > trend.falling;
-  counted_.jerk_slowing.quickening += trend.rising < trend.falling;
+  ++jerk_slowing_.moves;
+  jerk_slowing_.slowing += trend.rising > trend.falling;
+  jerk_slowing_.quickening += trend.rising < trend.falling;
+}
+
+PointAccumulator& PointAccumulator::operator+=(const PointAccumulator& next) {
+  counted_ += next.counted_;
+  measured_ += next.measured_;
+  add_each(measures_, next.measures_);
+  if (levels_.empty()) {
+    levels_ = next.levels_;
+    lost_in_levels_ = next.lost_in_levels_;
+  } else {
+    for (std::size_t level = 0; level < next.levels_.size(); ++level)
+      add_each(levels_[level], next.levels_[level]);
+    add_each(lost_in_levels_, next.lost_in_levels_);
+  }
+  if (rigs_.size() < next.rigs_.size()) rigs_.resize(next.rigs_.size());
+  add_each(rigs_, next.rigs_);
+  trial_settling_times_ += next.trial_settling_times_;
+  jerks_ += next.jerks_;
+  jerk_intervals_ += next.jerk_intervals_;
+  jerk_slowing_.moves += next.jerk_slowing_.moves;
+  jerk_slowing_.slowing += next.jerk_slowing_.slowing;
+  jerk_slowing_.quickening += next.jerk_slowing_.quickening;
+  interval_trend_ += next.interval_trend_;
+  one_count_jerks_ += next.one_count_jerks_;
+  return *this;
+}
+
+template <class Self, class Archive>
+void PointAccumulator::transfer(Self& self, Archive& archive) {
+  archive(self.counted_, self.rigs_, self.trial_settling_times_, self.jerks_, self.jerk_intervals_,
+          self.jerk_slowing_, self.interval_trend_, self.one_count_jerks_);
+  if constexpr (!std::is_const_v<Self>) {
+    while (self.kind_.open_loop && self.levels_.size() < self.counted_.by_move.size())
+      self.add_level_accumulators();
+  }
+  for (auto& measure : self.measures_) archive(measure);
+  for (std::size_t level = 0; level < self.levels_.size(); ++level) {
+    archive(self.lost_in_levels_[level]);
+    for (auto& measure : self.levels_[level]) archive(measure);
+  }
+}
+
+bool PointAccumulator::is_sound(std::int64_t moves) const {
+  const auto sound = [](const std::vector<MeasureAccumulator>& measures, std::int64_t trials,
+                        std::int64_t moves_of_trial) {
+    return std::all_of(measures.begin(), measures.end(),
+                       [&](const auto& one) { return one.is_sound(trials, moves_of_trial); });
+  };
+  if (!has_sound_counts(moves) || !has_sound_jerks() || !has_sound_rigs()) return false;
+  for (std::size_t level = 0; level < levels_.size(); ++level) {
+    const std::int64_t lost = lost_in_levels_[level];
+    if (lost < 0 || lost > counted_.trials || !sound(levels_[level], counted_.trials - lost, 1)) return false;
+  }
+  return sound(measures_, counted_.trials, moves);
+}
+
+bool PointAccumulator::has_sound_counts(std::int64_t moves) const {
+  constexpr std::int64_t most_trials = std::int64_t{1} << 53;  // sums of counts up to this do not overflow
+  const auto complete = [this](const OutcomeCounts& counts) {
+    return are_within(counts, counted_.trials) && counts.total() == counted_.trials;
+  };
+  return counted_.trials > 0 && counted_.trials <= most_trials && counted_.moves % moves == 0 &&
+         counted_.moves / moves == counted_.trials && complete(counted_.outcomes) &&
+         std::ssize(counted_.by_move) == moves &&
+         std::all_of(counted_.by_move.begin(), counted_.by_move.end(), complete) &&
+         trial_settling_times_.size() == (kind_.open_loop ? 0 : counted_.trials);
+}
+
+bool PointAccumulator::has_sound_jerks() const {
+  const auto within = [](std::int64_t count, std::int64_t most) { return count >= 0 && count <= most; };
+  return jerks_ >= 0 && within(counted_.jerks_agreeing, jerks_) && within(one_count_jerks_, jerks_) &&
+         jerk_intervals_.size <= jerks_ && within(jerk_slowing_.moves, counted_.moves) &&
+         within(jerk_slowing_.slowing, jerk_slowing_.moves) &&
+         within(jerk_slowing_.quickening, jerk_slowing_.moves - jerk_slowing_.slowing) &&
+         interval_trend_.rising >= 0 && interval_trend_.falling >= 0 && interval_trend_.equal >= 0;
+}
+
+bool PointAccumulator::has_sound_rigs() const {
+  if (kind_.rigs == 0 || kind_.open_loop) return rigs_.empty();
+  if (std::ssize(rigs_) > kind_.rigs) return false;
+  statistics::RigTrials sum;
+  for (const statistics::RigTrials& rig : rigs_) {
+    if (rig.successes < 0 || rig.successes > rig.trials || rig.trials > counted_.trials - sum.trials ||
+        rig.zero_moves < 0 || rig.zero_moves > rig.moves || rig.moves > counted_.moves - sum.moves)
+      return false;
+    sum += rig;
+  }
+  return sum.trials == counted_.trials && sum.successes == counted_.outcomes.zero_count &&
+         sum.moves == counted_.moves;
+}
+
+statistics::State PointAccumulator::state() const {
+  statistics::State state;
+  statistics::StateWriter writer(state);
+  transfer(*this, writer);
+  return state;
+}
+
+void PointAccumulator::restore(std::span<const std::int64_t> whole, std::span<const double> real,
+                               std::int64_t moves) {
+  statistics::StateReader reader(whole, real);
+  PointAccumulator restored(kind_, *table_, first_trial_);
+  transfer(restored, reader);
+  reader.require_end();
+  reader.require(restored.is_sound(moves));
+  restored.measured_ = restored.counted_.trials;
+  *this = std::move(restored);
+}
+
+std::vector<LevelStatistics> PointAccumulator::level_statistics(const StatisticsOptions& options) const {
+  std::vector<LevelStatistics> levels(levels_.size());
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    levels[i].table = table_;
+    levels[i].nonfinite = lost_in_levels_[i];
+    levels[i].measures = statistics_of(levels_[i], options);
+  }
+  return levels;
 }
 
 statistics::SuccessClaim PointAccumulator::claim(const PointSummary& point,
@@ -221,11 +380,12 @@ statistics::SuccessClaim PointAccumulator::claim(const PointSummary& point,
 }
 
 PointSummary PointAccumulator::statistics(const StatisticsOptions& options) const {
-  PointSummary result = counted_;
+  PointSummary result;
+  result.table = table_;
+  static_cast<PointCounts&>(result) = counted_;
   result.judged = kind_.open_loop ? 0 : result.trials;
   result.measures = statistics_of(measures_, options);
-  for (std::size_t i = 0; i < levels_.size(); ++i)
-    result.levels[i].measures = statistics_of(levels_[i], options);
+  result.levels = level_statistics(options);
   if (kind_.rigs > 0 && result.judged > 0)
     result.rigs = statistics::rig_statistics(rigs_, options.confidence);
   result.claim = claim(result, options);
@@ -234,6 +394,7 @@ PointSummary PointAccumulator::statistics(const StatisticsOptions& options) cons
   result.settles_within = tolerance_limits(trial_settling_times_.sample(), options);
   result.jerk_interval = {jerk_intervals_.size, statistics::mean(jerk_intervals_),
                           statistics::quantile(jerk_intervals_, 0.5).value};
+  result.jerk_slowing = jerk_slowing_;
   result.jerk_slowing.proportion = statistics::rate(result.jerk_slowing.slowing, result.jerk_slowing.moves);
   result.jerk_slowing.tau = statistics::kendall_tau(interval_trend_);
   result.jerk_agreement = statistics::rate(result.jerks_agreeing, jerks_);

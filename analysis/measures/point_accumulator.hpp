@@ -10,6 +10,7 @@
 #include "analysis/statistics/clustered_mean.hpp"
 #include "analysis/statistics/clustered_quantile.hpp"
 #include "analysis/statistics/histogram.hpp"
+#include "analysis/statistics/state.hpp"
 #include "analysis/statistics/trend.hpp"
 #include "core/trial/outcome.hpp"
 
@@ -49,12 +50,25 @@ class MeasureAccumulator {
   MeasureAccumulator(const layout::Measure& measure, const layout::ReportedStatistics& reported,
                      const MoveKind& kind);
 
-  void add(std::span<const trial::MoveOutcome> moves);
+  /// @param trial index of the trial at its point, which tells its rig
+  void add(std::int64_t trial, std::span<const trial::MoveOutcome> moves);
+  /// Adds other trials, of the same measure.
+  MeasureAccumulator& operator+=(const MeasureAccumulator& next);
   MeasureStatistics statistics(const StatisticsOptions& options) const;
 
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    archive(self.trials_, self.moments_, self.clusters_, self.totals_, self.by_move_, self.judged_,
+            self.hits_);
+  }
+  /// Whether what transfer() has read can be the sums of this measure. @param moves of each of the trials
+  bool is_sound(std::int64_t trials, std::int64_t moves) const;
+
  private:
-  void add_quality(std::span<const trial::MoveOutcome> moves);
-  void add_clusters(std::int64_t size);
+  bool has_sound_qualities(std::int64_t moves) const;
+  bool has_sound_totals() const;
+  void add_quality(std::int64_t trial, std::span<const trial::MoveOutcome> moves);
+  void add_clusters(std::int64_t trial, std::int64_t size);
   RateWithBounds rate(double confidence) const;
 
   const layout::Measure* measure_;
@@ -62,11 +76,12 @@ class MeasureAccumulator {
   MoveKind kind_;
   bool in_clusters_;  ///< whether values are kept in clusters; otherwise only their moments
   std::int64_t trials_{0};
-  statistics::Moments moments_;
+  statistics::MomentSums moments_;
   statistics::TrialClusters clusters_;
   statistics::ClusterTotals totals_;
-  std::vector<std::int64_t> by_move_;  ///< [move] trials whose move has the quality
-  std::vector<std::int64_t> hits_;     ///< [rig], or one for all: trials with the quality
+  std::vector<std::int64_t> by_move_;  ///< [move] trials whose move has the quality; empty without trials
+  std::vector<std::int64_t> judged_;   ///< [rig], or one for all: trials; empty likewise
+  std::vector<std::int64_t> hits_;     ///< likewise: trials with the quality
   std::vector<double> values_;         ///< of the current trial
 };
 
@@ -78,9 +93,11 @@ class MeasureAccumulator {
 /// of a move and the maximum error in counts.
 class PointAccumulator {
  public:
-  /// @param table the measures; must outlive this object.
+  /// @param table the measures; must outlive this object. @param first_trial index of the first trial that
+  /// is added
   explicit PointAccumulator(const MoveKind& kind = {},
-                            const layout::MeasureTable& table = layout::measure_table());
+                            const layout::MeasureTable& table = layout::measure_table(),
+                            std::int64_t first_trial = 0);
 
   /// Adds a trial with its jerks in order of move and onset.
   /// @throws Failure (bad_data) where the trial has no move or another number of moves than those before it,
@@ -93,26 +110,53 @@ class PointAccumulator {
   void add_measures_in_tasks(std::span<const trial::MoveOutcome> moves, std::size_t moves_of_trial);
   void add_counts(std::span<const trial::MoveOutcome> moves, std::span<const trial::Jerk> jerks);
 
+  /// Adds the trials that follow these, of the same point. The statistics do not depend on how the trials of
+  /// a point were divided.
+  PointAccumulator& operator+=(const PointAccumulator& next);
+
+  std::int64_t trials() const { return counted_.trials; }
+  std::int64_t failures() const { return counted_.trials - counted_.outcomes.zero_count; }
+
+  /// The sums of the trials added so far, for files.
+  statistics::State state() const;
+  /// Takes the trials whose sums these are in place of those added so far.
+  /// @param moves of each trial
+  /// @throws Failure (bad_data) if they cannot be those of a point of this kind.
+  void restore(std::span<const std::int64_t> whole, std::span<const double> real, std::int64_t moves);
+
   /// The statistics of the trials added so far.
   /// @throws Failure (bad_input) for a confidence outside (0, 1).
   PointSummary statistics(const StatisticsOptions& options = {}) const;
 
  private:
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive);
+  bool is_sound(std::int64_t moves) const;
+  bool has_sound_counts(std::int64_t moves) const;
+  bool has_sound_jerks() const;
+  bool has_sound_rigs() const;
+  void add_level_accumulators();
   void add_moves(std::span<const trial::MoveOutcome> moves);
   void add_level(std::size_t level, std::span<const trial::MoveOutcome> move);
   void add_to_rig(std::span<const trial::MoveOutcome> moves);
   void add_trial_settling_time(std::span<const trial::MoveOutcome> moves);
   void add_jerks(const trial::MoveOutcome& move, std::span<const trial::Jerk> jerks);
+  std::vector<LevelStatistics> level_statistics(const StatisticsOptions& options) const;
   statistics::SuccessClaim claim(const PointSummary& point, const StatisticsOptions& options) const;
 
   MoveKind kind_;
-  PointSummary counted_;                                 ///< the fields that are plain counts
+  std::int64_t first_trial_;  ///< index of the first trial
+  std::int64_t measured_{0};  ///< trials whose measures are added
+  const layout::MeasureTable* table_;
+  PointCounts counted_;
   std::vector<MeasureAccumulator> measures_;             ///< [row of the table]
   std::vector<std::vector<MeasureAccumulator>> levels_;  ///< [move][row of the table]
+  std::vector<std::int64_t> lost_in_levels_;             ///< [move] trials whose motion was lost
   std::vector<statistics::RigTrials> rigs_;              ///< [rig], of those that have trials
   statistics::TrialClusters trial_settling_times_;       ///< of each trial: of its slowest move
   std::int64_t jerks_{0};
   statistics::Histogram<double> jerk_intervals_;
+  JerkSlowing jerk_slowing_;  ///< its counts
   statistics::RankTrend interval_trend_;
   std::int64_t one_count_jerks_{0};
   std::vector<double> values_;  ///< of the current trial or move

@@ -23,6 +23,15 @@ struct OutcomeCounts {
   std::int64_t oscillating{0};
   std::int64_t nonfinite{0};
   std::int64_t open_loop{0};  ///< not judged
+
+  std::int64_t total() const;
+  OutcomeCounts& operator+=(const OutcomeCounts& other);
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    archive(self.zero_count, self.one_count, self.off_target, self.oscillating, self.nonfinite,
+            self.open_loop);
+  }
 };
 
 /// Where an outcome is counted.
@@ -48,6 +57,11 @@ struct JerkSlowing {
   double proportion{statistics::unknown};  ///< slowing / moves
   double tau{statistics::unknown};         ///< Kendall's τ_a over the pairs of intervals within
                                            ///< a move, all moves pooled
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    archive(self.moves, self.slowing, self.quickening);
+  }
 };
 
 /// One torque level of an open-loop study, over the trials of a point: all values at the end of the level.
@@ -56,23 +70,34 @@ struct LevelStatistics : StatisticsOfMeasures {
   std::int64_t nonfinite{0};  ///< trials whose motion was lost
 };
 
-/// All statistics of a design point.
-struct PointSummary : StatisticsOfMeasures {
+/// Plain counts of the trials of a design point.
+struct PointCounts {
   std::int64_t trials{0};
-  std::int64_t moves{0};             ///< moves of all trials
-  double hold{statistics::unknown};  ///< of a move, s, in a summary; NaN where trials differ
-
-  std::int64_t judged{0};              ///< trials with targets: all, or none in an open-loop study
+  std::int64_t moves{0};               ///< moves of all trials
   OutcomeCounts outcomes;              ///< trials by the worst of their moves
   std::vector<OutcomeCounts> by_move;  ///< [move] trials by this move, which all of them have
-  statistics::SuccessClaim claim;      ///< from zero_count of judged trials; none for an open-loop study
-  statistics::RigStatistics rigs;      ///< differences between rigs, of a study with rigs
+  std::int64_t jerks_agreeing{0};      ///< jerks in the direction of the sign of their move's holding torque
+
+  PointCounts& operator+=(const PointCounts& other);
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    archive(self.trials, self.moves, self.outcomes, self.by_move, self.jerks_agreeing);
+  }
+};
+
+/// All statistics of a design point.
+struct PointSummary : StatisticsOfMeasures, PointCounts {
+  double hold{statistics::unknown};  ///< of a move, s, in a summary; NaN where trials differ
+
+  std::int64_t judged{0};          ///< trials with targets: all, or none in an open-loop study
+  statistics::SuccessClaim claim;  ///< from zero_count of judged trials; none for an open-loop study
+  statistics::RigStatistics rigs;  ///< differences between rigs, of a study with rigs
   /// Upper tolerance limits of the settling time of a trial (that of its slowest move), with the contents of
   /// tolerance_contents; a trial with a move that never arrives is above every limit.
   std::array<statistics::ToleranceLimit, std::size(statistics::tolerance_contents)> settles_within{};
   JerkIntervalStatistics jerk_interval;
   JerkSlowing jerk_slowing;
-  std::int64_t jerks_agreeing{0};  ///< jerks in the direction of the sign of their move's holding torque
   double jerk_agreement{statistics::unknown};        ///< jerks_agreeing / jerks
   double jerk_one_count_share{statistics::unknown};  ///< jerks of magnitude 1 / jerks
   UndecidedMoves undecided;                          ///< only off_target is known without the study

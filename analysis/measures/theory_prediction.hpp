@@ -34,6 +34,11 @@ struct TheoryPrediction {
 
   void add(const TrialPrediction& trial);
   TheoryPrediction operator+(const TheoryPrediction& other) const;
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    archive(self.trials, self.stable, self.unstable, self.outside);
+  }
 };
 
 /// The denominator of the proportions: all trials, or 0 if the criteria apply to none.

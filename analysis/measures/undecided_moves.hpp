@@ -23,6 +23,11 @@ struct UndecidedMoves {
   /// Hold that most of those whose error still fell are expected to need, s; NaN where there are none, or
   /// nothing in their control brings the error to zero.
   double advised_hold{statistics::unknown};
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    archive(self.moves, self.off_target, self.still_falling, self.falling_with_ripple, self.about_to_arrive);
+  }
 };
 
 /// One of the counts as summaries and comparisons report it.

@@ -17,6 +17,20 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
+/// ClusterTotals as doubles.
+struct Clusters {
+  std::vector<double> sums;
+  std::vector<double> numbers;
+
+  explicit Clusters(const ClusterTotals& totals) {
+    for (std::size_t i = 0; i < totals.sums.size(); ++i) {
+      if (totals.added[i] == 0) continue;
+      sums.push_back(totals.sums[i].value());
+      numbers.push_back(static_cast<double>(totals.numbers[i]));
+    }
+  }
+};
+
 /// A mean with its standard error.
 struct Estimate {
   double mean{unknown};
@@ -24,7 +38,7 @@ struct Estimate {
 };
 
 /// @param drawn [cluster] weight: how often the resample contains it
-Estimate estimate_of(const ClusterTotals& totals, const std::vector<std::int32_t>& drawn, double clusters) {
+Estimate estimate_of(const Clusters& totals, const std::vector<std::int32_t>& drawn, double clusters) {
   double sum = 0.0, number = 0.0, sum_sum = 0.0, sum_number = 0.0, number_number = 0.0;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     const auto times = static_cast<double>(drawn[i]);
@@ -45,8 +59,8 @@ Estimate estimate_of(const ClusterTotals& totals, const std::vector<std::int32_t
 }
 
 /// (θ* − θ)/e* of every resample, sorted. Infinite for a resample without spread.
-std::vector<double> studentised_means(const ClusterTotals& totals, double mean,
-                                      const random::RandomStream& stream, std::int64_t resamples) {
+std::vector<double> studentised_means(const Clusters& totals, double mean, const random::RandomStream& stream,
+                                      std::int64_t resamples) {
   const std::size_t clusters = totals.sums.size();
   std::vector<double> result;
   std::vector<std::int32_t> drawn(clusters);
@@ -101,28 +115,15 @@ double sum_of(const std::vector<double>& values) {
 }
 
 /// Variance of the mean divided by that of a Poisson number; at least 1.
-double overdispersion(const ClusterTotals& totals, const Estimate& estimate) {
+double overdispersion(const Clusters& totals, const Estimate& estimate) {
   const double number = sum_of(totals.numbers);
   const double of_poisson = estimate.mean / number;
   return of_poisson > 0.0 ? std::max(1.0, estimate.error * estimate.error / of_poisson) : 1.0;
 }
 
-}  // namespace
-
-void ClusterTotals::add(std::int64_t cluster, double sum, double number) {
-  const auto place = static_cast<std::size_t>(cluster % max_clusters);
-  if (place >= sums.size()) {
-    sums.resize(place + 1, 0.0);
-    numbers.resize(place + 1, 0.0);
-  }
-  sums[place] += sum;
-  numbers[place] += number;
-  clusters = std::max(clusters, cluster + 1);
-}
-
-ConfidenceInterval clustered_mean_bounds(const ClusterTotals& totals, const random::RandomStream& stream,
-                                         double confidence, std::int64_t resamples) {
-  require_confidence(confidence);
+/// See clustered_mean_bounds of ClusterTotals.
+ConfidenceInterval mean_bounds(const Clusters& totals, const random::RandomStream& stream, double confidence,
+                               std::int64_t resamples) {
   constexpr ConfidenceInterval none{unknown, unknown};
   if (number_of_positive(totals.numbers) < 2) return none;
   const auto clusters = static_cast<double>(totals.sums.size());
@@ -138,18 +139,59 @@ ConfidenceInterval clustered_mean_bounds(const ClusterTotals& totals, const rand
           finite_or_unknown(estimate.mean - below * estimate.error)};
 }
 
-ConfidenceInterval clustered_count_bounds(const ClusterTotals& totals, const random::RandomStream& stream,
+}  // namespace
+
+void ClusterTotals::add(std::int64_t cluster, std::span<const double> values) {
+  const auto place = static_cast<std::size_t>(cluster % max_clusters);
+  if (place >= sums.size()) {
+    sums.resize(place + 1);
+    numbers.resize(place + 1);
+    added.resize(place + 1);
+  }
+  for (const double value : values) sums[place].add(value);
+  numbers[place] += std::ssize(values);
+  ++added[place];
+  highest = std::max(highest, cluster);
+}
+
+ClusterTotals& ClusterTotals::operator+=(const ClusterTotals& other) {
+  if (sums.size() < other.sums.size()) {
+    sums.resize(other.sums.size());
+    numbers.resize(other.sums.size());
+    added.resize(other.sums.size());
+  }
+  for (std::size_t i = 0; i < other.sums.size(); ++i) {
+    sums[i] += other.sums[i];
+    numbers[i] += other.numbers[i];
+    added[i] += other.added[i];
+  }
+  highest = std::max(highest, other.highest);
+  return *this;
+}
+
+std::int64_t ClusterTotals::clusters() const {
+  return std::min(highest + 1, std::accumulate(added.begin(), added.end(), std::int64_t{0}));
+}
+
+ConfidenceInterval clustered_mean_bounds(const ClusterTotals& totals, const random::RandomStream& stream,
+                                         double confidence, std::int64_t resamples) {
+  require_confidence(confidence);
+  return mean_bounds(Clusters(totals), stream, confidence, resamples);
+}
+
+ConfidenceInterval clustered_count_bounds(const ClusterTotals& sample, const random::RandomStream& stream,
                                           double confidence, std::int64_t resamples) {
   require_confidence(confidence);
+  const Clusters totals(sample);
   const auto clusters = static_cast<double>(totals.sums.size());
   const double number = sum_of(totals.numbers);
   if (!(number > 0.0)) return {unknown, unknown};
   const double count = sum_of(totals.sums);
   if (count == 0.0) {
-    return {0.0, poisson_bounds(0.0, confidence).high / static_cast<double>(totals.clusters)};
+    return {0.0, poisson_bounds(0.0, confidence).high / static_cast<double>(sample.clusters())};
   }
   if (number_of_positive(totals.sums) >= min_counting_clusters) {
-    return clustered_mean_bounds(totals, stream, confidence, resamples);
+    return mean_bounds(totals, stream, confidence, resamples);
   }
   if (clusters < 2.0) return {unknown, unknown};
   const Estimate estimate = estimate_of(totals, std::vector<std::int32_t>(totals.sums.size(), 1), clusters);

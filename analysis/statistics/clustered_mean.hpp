@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "analysis/statistics/exact_sum.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "core/random/random_numbers.hpp"
 
@@ -14,14 +16,25 @@ inline constexpr std::int64_t max_clusters = 4096;
 
 inline constexpr std::int64_t bootstrap_resamples = 2000;
 
-/// Sum and number of the values of each cluster. The mean is Σ sums/Σ numbers.
+/// Sum and number of the values of each cluster. The mean is Σ sums/Σ numbers. Totals of parts of a sample,
+/// added in any order, are those of the whole.
 struct ClusterTotals {
-  std::vector<double> sums;     ///< [cluster], in the values' unit
-  std::vector<double> numbers;  ///< [cluster]
-  std::int64_t clusters{0};     ///< number of clusters before grouping
+  std::vector<ExactSum> sums;         ///< [cluster], in the values' unit
+  std::vector<std::int64_t> numbers;  ///< [cluster]
+  std::vector<std::int64_t> added;    ///< [cluster] how often values were added to it, none being values too
+  std::int64_t highest{-1};           ///< of the clusters before grouping
 
-  /// Adds values to a cluster; it belongs to group `cluster` mod max_clusters.
-  void add(std::int64_t cluster, double sum, double number);
+  /// Adds values to a cluster; it belongs to group `cluster` mod max_clusters. A cluster to which none were
+  /// ever added is none.
+  void add(std::int64_t cluster, std::span<const double> values);
+  ClusterTotals& operator+=(const ClusterTotals& other);
+  /// Number of clusters before grouping, where each was added to once, or none below the highest is missing.
+  std::int64_t clusters() const;
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    archive(self.sums, self.numbers, self.added, self.highest);
+  }
 };
 
 /// Bounds of the mean of values in independent clusters, in the values' unit: the outer bounds of two

@@ -29,12 +29,12 @@ double student_quantile(double degrees_of_freedom, double tail) {
 double lower_bound(double proportion, double events, double tail) {
   if (!(proportion > 0.0)) return 0.0;
   const double hits = proportion * events;
-  return boost::math::ibeta_inv(hits, events - hits + 1.0, tail);
+  return lower_bound_on_p(hits, events, tail);
 }
 double upper_bound(double proportion, double events, double tail) {
   if (!(proportion < 1.0)) return 1.0;
   const double hits = proportion * events;
-  return boost::math::ibetac_inv(hits + 1.0, events - hits, tail);
+  return upper_bound_on_p(hits, events, tail);
 }
 
 }  // namespace
@@ -49,6 +49,16 @@ void ClusterSums::add(std::int64_t cluster_hits, std::int64_t cluster_events) {
   hits_squared += k * k;
   hits_by_events += k * n;
   events_squared += n * n;
+}
+
+ClusterSums& ClusterSums::operator+=(const ClusterSums& other) {
+  clusters += other.clusters;
+  hits += other.hits;
+  events += other.events;
+  hits_squared += other.hits_squared;
+  hits_by_events += other.hits_by_events;
+  events_squared += other.events_squared;
+  return *this;
 }
 
 double effective_events(const ClusterSums& sums) {

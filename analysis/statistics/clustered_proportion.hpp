@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/unknown.hpp"
@@ -29,6 +30,19 @@ struct ClusterSums {
 
   /// Adds a cluster. A cluster without events is ignored.
   void add(std::int64_t cluster_hits, std::int64_t cluster_events);
+  /// Adds the sums of other clusters.
+  ClusterSums& operator+=(const ClusterSums& other);
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    archive(self.clusters, self.hits, self.events, self.hits_squared, self.hits_by_events,
+            self.events_squared);
+    if constexpr (!std::is_const_v<Self>) {
+      archive.require(self.clusters >= 0 && self.clusters <= self.events && self.hits >= 0 &&
+                      self.hits <= self.events && self.hits_squared >= 0.0 && self.hits_by_events >= 0.0 &&
+                      self.events_squared >= 0.0);
+    }
+  }
 };
 
 /// The equivalent number of independent events (effective sample size),

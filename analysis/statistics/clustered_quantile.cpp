@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "analysis/statistics/tolerance.hpp"
 #include "analysis/statistics/unknown.hpp"
@@ -35,7 +36,11 @@ double scaled_high(const ClusteredSample& sample, std::int64_t rank, std::int64_
 
 void ClusteredSample::begin_cluster(std::int64_t size) {
   totals_.add(0, size);
-  if (!single_values_ || size <= 1) return;
+  if (size > 1) count_in_steps();
+}
+
+void ClusteredSample::count_in_steps() {
+  if (!single_values_) return;
   single_values_ = false;
   for (const auto& [value, count] : observed_.counts) {
     const auto hits = static_cast<double>(count);
@@ -68,6 +73,20 @@ void ClusteredSample::add_cluster(std::span<double> observed, std::int64_t size)
     observed_.add(observed[i]);
     if (!single_values_) add_step(observed[i], static_cast<std::int64_t>(i), 1, size);
   }
+}
+
+ClusteredSample& ClusteredSample::operator+=(const ClusteredSample& other) {
+  if (!other.single_values_) count_in_steps();
+  observed_ += other.observed_;
+  totals_ += other.totals_;
+  if (single_values_) return *this;
+  ClusteredSample added = other;
+  added.count_in_steps();
+  for (const auto& [value, step] : added.steps_) {
+    steps_[value].hits_squared += step.hits_squared;
+    steps_[value].hits_by_events += step.hits_by_events;
+  }
+  return *this;
 }
 
 ClusterSums ClusteredSample::at_most(double x) const {
@@ -115,6 +134,21 @@ void TrialClusters::add_trial(std::int64_t trial, std::vector<double>& observed,
   Rig& rig = rigs_[number];
   for (const double value : observed) rig.observed.add(value);
   rig.size += size;
+}
+
+TrialClusters& TrialClusters::operator+=(const TrialClusters& other) {
+  trials_ += other.trials_;
+  if (rigs_.size() < other.rigs_.size()) rigs_.resize(other.rigs_.size());
+  for (std::size_t i = 0; i < other.rigs_.size(); ++i) {
+    rigs_[i].observed += other.rigs_[i].observed;
+    rigs_[i].size += other.rigs_[i].size;
+  }
+  return *this;
+}
+
+std::int64_t TrialClusters::size() const {
+  return std::accumulate(rigs_.begin(), rigs_.end(), trials_.size(),
+                         [](std::int64_t sum, const Rig& rig) { return sum + rig.size; });
 }
 
 ClusteredSample TrialClusters::sample() const {

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "analysis/statistics/clustered_proportion.hpp"
@@ -23,6 +25,8 @@ class ClusteredSample {
   void add_cluster(const Histogram<double>& observed, std::int64_t size);
   /// @param observed in any order; they are sorted
   void add_cluster(std::span<double> observed, std::int64_t size);
+  /// Adds the clusters of another sample.
+  ClusteredSample& operator+=(const ClusteredSample& other);
 
   /// The observed values.
   const Histogram<double>& observed() const { return observed_; }
@@ -32,13 +36,25 @@ class ClusteredSample {
   /// Hits and events of the clusters, where a hit is a value ≤ x.
   ClusterSums at_most(double x) const;
 
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    archive(self.single_values_, self.observed_, self.steps_, self.totals_);
+    if constexpr (!std::is_const_v<Self>) archive.require(self.observed_.size <= self.totals_.events);
+  }
+
  private:
   /// Increments at x of sums over the clusters' numbers kᵢ(x) of values ≤ x.
   struct Step {
     double hits_squared{0.0};    ///< of Σ kᵢ(x)²
     double hits_by_events{0.0};  ///< of Σ kᵢ(x)·nᵢ
+
+    template <class Self, class Archive>
+    static void transfer(Self& self, Archive& archive) {
+      archive(self.hits_squared, self.hits_by_events);
+    }
   };
   void begin_cluster(std::int64_t size);
+  void count_in_steps();
   void add_step(double value, std::int64_t before, std::int64_t count, std::int64_t size);
 
   bool single_values_{true};  ///< every cluster so far has one value: the histogram gives the increments
@@ -74,14 +90,33 @@ class TrialClusters {
   /// ones).
   /// @param observed in any order; sorted by the call
   void add_trial(std::int64_t trial, std::vector<double>& observed, std::int64_t size);
+  /// Adds other trials, of as many rigs.
+  TrialClusters& operator+=(const TrialClusters& other);
 
   /// The sample of all trials added so far.
   ClusteredSample sample() const;
+  std::int64_t size() const;  ///< of the sample
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    archive(self.rigs_, self.trials_);
+    if constexpr (!std::is_const_v<Self>) {
+      archive.require(std::ssize(self.rigs_) <= self.rigs_in_all_);
+      for (const Rig& rig : self.rigs_)
+        archive.require(rig.observed.size <= rig.size &&
+                        rig.size <= (std::int64_t{1} << 53) / std::ssize(self.rigs_));
+    }
+  }
 
  private:
   struct Rig {
     Histogram<double> observed;
     std::int64_t size{0};
+
+    template <class Self, class Archive>
+    static void transfer(Self& self, Archive& archive) {
+      archive(self.observed, self.size);
+    }
   };
   std::int64_t rigs_in_all_;
   std::vector<Rig> rigs_;   ///< rigs that have trials

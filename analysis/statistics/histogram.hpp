@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <type_traits>
 
 #include "analysis/statistics/unknown.hpp"
 
@@ -18,6 +19,24 @@ struct Histogram {
   void add(Value value, std::int64_t times = 1) {
     counts[value] += times;
     size += times;
+  }
+
+  Histogram& operator+=(const Histogram& other) {
+    for (const auto& [value, times] : other.counts) add(value, times);
+    return *this;
+  }
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    archive(self.counts, self.size);
+    if constexpr (!std::is_const_v<Self>) {
+      std::int64_t size = 0;
+      for (const auto& [value, times] : self.counts) {
+        archive.require(times > 0 && times <= self.size - size);
+        size += times;
+      }
+      archive.require(size == self.size);
+    }
   }
 };
 

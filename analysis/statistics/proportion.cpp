@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <exception>
+#include <numeric>
 
-#include <boost/math/distributions/binomial.hpp>
+#include <boost/math/special_functions/beta.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <fmt/format.h>
 
 #include "analysis/statistics/normal.hpp"
@@ -21,6 +25,25 @@ void require_proportion(std::int64_t successes, std::int64_t trials, double conf
   require_confidence(confidence);
 }
 
+/// The root of the rising function `excess` of the quantile p of Beta(a, b), where `inverse`, which Boost
+/// computes faster, does not end (from some 10¹¹ trials on).
+template <class Inverse, class Excess>
+double inverse_of_beta(const Inverse& inverse, double a, double b, const Excess& excess) {
+  try {
+    return inverse();
+  } catch (const std::exception&) {
+    constexpr double standard_deviations = 40.0;  // beyond any tail that a confidence gives
+    constexpr int bits = 52;
+    const double mean = a / (a + b);
+    const double reach = standard_deviations * std::sqrt(mean * (1.0 - mean) / (a + b + 1.0));
+    std::uintmax_t steps = 200;
+    const auto [low, high] =
+        boost::math::tools::toms748_solve(excess, std::max(0.0, mean - reach), std::min(1.0, mean + reach),
+                                          boost::math::tools::eps_tolerance<double>(bits), steps);
+    return std::midpoint(low, high);
+  }
+}
+
 }  // namespace
 
 void require_open_unit(const char* what, double value) {
@@ -34,28 +57,39 @@ double rate(std::int64_t successes, std::int64_t trials) {
   return static_cast<double>(successes) / static_cast<double>(trials);
 }
 
+double lower_bound_on_p(double successes, double trials, double tail) {
+  const double a = successes;
+  const double b = trials - successes + 1.0;
+  const auto inverse = [&] { return boost::math::ibeta_inv(a, b, tail); };
+  return inverse_of_beta(inverse, a, b, [&](double p) { return boost::math::ibeta(a, b, p) - tail; });
+}
+
+double upper_bound_on_p(double successes, double trials, double tail) {
+  const double a = successes + 1.0;
+  const double b = trials - successes;
+  const auto inverse = [&] { return boost::math::ibetac_inv(a, b, tail); };
+  return inverse_of_beta(inverse, a, b, [&](double p) { return tail - boost::math::ibetac(a, b, p); });
+}
+
 ConfidenceInterval clopper_pearson(std::int64_t successes, std::int64_t trials, double confidence) {
   require_proportion(successes, trials, confidence);
-  using Binomial = boost::math::binomial_distribution<double>;
   const double n = static_cast<double>(trials);
   const double k = static_cast<double>(successes);
   const double tail = 0.5 * (1.0 - confidence);
-  return {successes == 0 ? 0.0 : Binomial::find_lower_bound_on_p(n, k, tail),
-          successes == trials ? 1.0 : Binomial::find_upper_bound_on_p(n, k, tail)};
+  return {successes == 0 ? 0.0 : lower_bound_on_p(k, n, tail),
+          successes == trials ? 1.0 : upper_bound_on_p(k, n, tail)};
 }
 
 double proportion_at_least(std::int64_t successes, std::int64_t trials, double confidence) {
   require_proportion(successes, trials, confidence);
   if (successes == 0) return 0.0;
-  return boost::math::binomial_distribution<double>::find_lower_bound_on_p(
-      static_cast<double>(trials), static_cast<double>(successes), 1.0 - confidence);
+  return lower_bound_on_p(static_cast<double>(successes), static_cast<double>(trials), 1.0 - confidence);
 }
 
 double proportion_at_most(std::int64_t successes, std::int64_t trials, double confidence) {
   require_proportion(successes, trials, confidence);
   if (successes == trials) return 1.0;
-  return boost::math::binomial_distribution<double>::find_upper_bound_on_p(
-      static_cast<double>(trials), static_cast<double>(successes), 1.0 - confidence);
+  return upper_bound_on_p(static_cast<double>(successes), static_cast<double>(trials), 1.0 - confidence);
 }
 
 ConfidenceInterval wilson(std::int64_t successes, std::int64_t trials, double confidence) {

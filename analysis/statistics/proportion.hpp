@@ -22,6 +22,12 @@ inline void require_confidence(double confidence) {
 /// successes/trials; NaN if trials is 0.
 double rate(std::int64_t successes, std::int64_t trials);
 
+/// The p for which `successes` or more of `trials` have the probability `tail`, and that for which they or
+/// fewer have it. Neither need be whole; 0 < successes for the lower bound, successes < trials for the upper.
+/// Up to 10¹³ trials accurate to a thousandth of the standard error.
+double lower_bound_on_p(double successes, double trials, double tail);
+double upper_bound_on_p(double successes, double trials, double tail);
+
 /// Clopper–Pearson interval of a proportion: the p that neither one-sided binomial test at (1 − confidence)/2
 /// rejects.
 ///

@@ -102,6 +102,14 @@ double tolerance_allowance(std::int64_t rigs, double content, double confidence)
   return rank_and_allowance(rigs, content, confidence).allowance;
 }
 
+RigTrials& RigTrials::operator+=(const RigTrials& other) {
+  trials += other.trials;
+  successes += other.successes;
+  moves += other.moves;
+  zero_moves += other.zero_moves;
+  return *this;
+}
+
 RigTolerance rig_tolerance(std::span<const RigTrials> rigs, double content, double confidence) {
   RigTolerance result{.content = content, .confidence = confidence};
   result.min_rigs = min_rigs_for_tolerance(content, confidence);

@@ -20,6 +20,13 @@ struct RigTrials {
   std::int64_t successes{0};   ///< trials all of whose moves ended at zero error
   std::int64_t moves{0};       ///< moves with a target
   std::int64_t zero_moves{0};  ///< of them, those that ended at zero error
+
+  RigTrials& operator+=(const RigTrials& other);
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    archive(self.trials, self.successes, self.moves, self.zero_moves);
+  }
 };
 
 /// "At least the proportion `content` of all rigs hold zero in at least the proportion `zero_at_least` of

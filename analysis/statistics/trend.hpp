@@ -12,6 +12,11 @@ struct RankTrend {
   std::int64_t equal{0};    ///< pairs of equal values
 
   RankTrend& operator+=(const RankTrend& other);
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    archive(self.rising, self.falling, self.equal);
+  }
 };
 
 /// Counts the pairs of a series in O(n log n) time. rising − falling is the Mann–Kendall statistic S:

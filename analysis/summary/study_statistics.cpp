@@ -186,23 +186,27 @@ std::vector<measures::TheoryPrediction> study_predictions(const study::Study& st
   return predictions;
 }
 
-layout::StoredStatistics stored_statistics(const reading::StudyFile& file, const study::Study& study,
-                                           std::span<const measures::TheoryPrediction> predictions) {
-  const std::vector<measures::PointSummary> points = study_statistics(file, study);
+layout::StoredStatistics stored_statistics(const std::vector<measures::PointSummary>& points,
+                                           const study::Study& study,
+                                           const std::vector<measures::TheoryPrediction>& predictions,
+                                           const layout::MeasureTable& table) {
   layout::StoredStatistics stored;
-  stored.points = measures::point_columns(points, study.features, file.table());
-  const std::vector<layout::PointColumn> predicted =
-      measures::prediction_columns(study_predictions(study, predictions));
+  stored.points = measures::point_columns(points, study.features, table);
+  const std::vector<layout::PointColumn> predicted = measures::prediction_columns(predictions);
   stored.points.insert(stored.points.end(), predicted.begin(), predicted.end());
   const std::vector<layout::PointColumn> observed = observed_columns(points, study);
   stored.points.insert(stored.points.end(), observed.begin(), observed.end());
-  if (study.open_loop) {
-    stored.tables.push_back(measures::level_table(points, file.table()));
-  }
+  if (study.open_loop) stored.tables.push_back(measures::level_table(points, table));
   if (!study.sequence.empty()) {
     stored.groups = [&study](hdf5::File& part) { iso230::write_repeatability(part, study); };
   }
   return stored;
+}
+
+layout::StoredStatistics stored_statistics(const reading::StudyFile& file, const study::Study& study,
+                                           std::span<const measures::TheoryPrediction> predictions) {
+  return stored_statistics(study_statistics(file, study), study, study_predictions(study, predictions),
+                           file.table());
 }
 
 }  // namespace zerocount::summary

@@ -61,8 +61,13 @@ measures::TheoryPrediction prediction_of(const study::Study& study, layout::RowR
 std::vector<measures::TheoryPrediction> study_predictions(
     const study::Study& study, std::span<const measures::TheoryPrediction> known = {});
 
-/// Everything that the results file stores of its statistics: point_columns, prediction_columns, and the
+/// Everything that a results file stores of its statistics: point_columns, prediction_columns, and the
 /// levels of an open-loop study. All bounds have 95 %.
+/// @param points, predictions [point] of all trials of `study`, which stays as long as the result
+layout::StoredStatistics stored_statistics(const std::vector<measures::PointSummary>& points,
+                                           const study::Study& study,
+                                           const std::vector<measures::TheoryPrediction>& predictions,
+                                           const layout::MeasureTable& table);
 /// @param file holds all trials of `study`. @param predictions see study_predictions
 layout::StoredStatistics stored_statistics(const reading::StudyFile& file, const study::Study& study,
                                            std::span<const measures::TheoryPrediction> predictions = {});

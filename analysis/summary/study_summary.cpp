@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -13,12 +15,15 @@
 #include "analysis/summary/study_statistics.hpp"
 #include "analysis/summary/summary.hpp"
 #include "analysis/summary/summary_parts.hpp"
+#include "analysis/summary/summed_point.hpp"
 #include "analysis/summary/undecided.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/manifest_keys.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
+#include "results/reading/statistics_file.hpp"
 #include "results/shards/pieces.hpp"
+#include "results/shards/shard.hpp"
 
 namespace zerocount::summary {
 namespace {
@@ -80,12 +85,17 @@ void shorten(StudySummary& summary, std::size_t points) {
   }
 }
 
+/// Whether the trials of a point are those of the study only together, or from the first on.
+bool depend_on_order(const study::Study& study) {
+  return study.rigs > 0 || study.design != study::Design::monte_carlo;
+}
+
 /// The finished trials of a study, file after file in order of rows.
-class FinishedTrials {
+class TrialsSoFar {
  public:
-  FinishedTrials(const study::Study& study, double confidence, bool bootstrap)
+  TrialsSoFar(const study::Study& study, double confidence, bool bootstrap)
       : study_(study),
-        in_order_(study.rigs > 0 || study.design != study::Design::monte_carlo),
+        in_order_(depend_on_order(study)),
         counts_(study.point_labels.size()),
         predictions_(counts_.size()),
         statistics_(study, confidence, bootstrap),
@@ -93,7 +103,8 @@ class FinishedTrials {
 
   /// Takes the trials that were not taken before. Where trials depend on one another, those that follow them:
   /// every rig then has as many as there can be, and a design is spread as evenly.
-  void add(const reading::StudyFile& shard) {
+  void add(const std::filesystem::path& path) {
+    const reading::StudyFile shard(path, reading::Require::any_part);
     for (std::int64_t row = shard.rows().first; row < shard.rows().end();) {
       const std::int64_t point = row / study_.trials;
       const std::int64_t end = std::min((point + 1) * study_.trials, shard.rows().end());
@@ -139,41 +150,100 @@ class FinishedTrials {
   UndecidedAccumulator undecided_;
 };
 
+/// The trials finished so far of a study that keeps statistics, file after file in order of rows.
+class SumsSoFar {
+ public:
+  SumsSoFar(const study::Study& study, double confidence, bool bootstrap)
+      : study_(study), counts_(study.point_labels.size()), sums_(study, confidence, bootstrap) {}
+
+  /// Takes the points of a file whose trials were not taken before. Where trials depend on one another, those
+  /// whose trials follow them.
+  void add(const std::filesystem::path& path) {
+    const reading::StatisticsFile shard(path, reading::Require::any_part);
+    for (std::int64_t i = 0; i < shard.points(); ++i) {
+      const std::int64_t point = shard.first_point() + i;
+      const layout::RowRange rows = shard.rows_of(point);
+      std::int64_t& count = counts_[static_cast<std::size_t>(point)];
+      const std::int64_t next = point * study_.trials + count;
+      if (rows.first < next_row_ || (depend_on_order(study_) && rows.first != next)) continue;
+      sums_.add(shard, point);
+      count += rows.count;
+      count_ += rows.count;
+      next_row_ = rows.end();
+    }
+  }
+
+  std::int64_t count() const { return count_; }
+
+  StudySummary summary(double confidence) {
+    StudySummary summary = summary_of(study_, confidence);
+    SummedStudy summed = sums_.sum();
+    summary.points = std::move(summed.points);
+    shorten(summary, summary.points.size());
+    complete_points(summary, study_, summed.undecided);
+    summary.predictions = std::move(summed.predictions);
+    add_tolerance_statement(summary);
+    summary.unfinished = UnfinishedStudy{count_, study::trial_count(study_), study::point_count(study_)};
+    return summary;
+  }
+
+ private:
+  const study::Study& study_;
+  std::vector<std::int64_t> counts_;  ///< [point]
+  StudySums sums_;
+  std::int64_t count_{0};
+  std::int64_t next_row_{0};  ///< after the rows that were taken
+};
+
+/// @param pieces of a run that has not ended, in order of rows; @tparam Finished TrialsSoFar or
+/// SumsSoFar
+template <class Finished>
+std::optional<StudySummary> summary_of_pieces(const std::vector<std::filesystem::path>& pieces,
+                                              const study::Study& study, double confidence, bool bootstrap) {
+  Finished trials(study, confidence, bootstrap);
+  for (const std::filesystem::path& path : pieces) trials.add(path);
+  return trials.count() > 0 ? std::optional(trials.summary(confidence)) : std::nullopt;
+}
+
 StudySummary summary_of_pieces(const std::filesystem::path& output, double confidence, bool bootstrap) {
+  const std::vector<std::filesystem::path> pieces = shards::finished_pieces(output);
   std::optional<study::Study> study;
-  std::optional<FinishedTrials> trials;
-  for (const std::filesystem::path& path : shards::finished_pieces(output)) {
-    const reading::StudyFile shard(path, reading::Require::any_part);
-    if (!study) {
-      study = layout::recorded_study(shard.header(), path);
-      trials.emplace(*study, confidence, bootstrap);
-    }
-    if (shard.header().study_sha256 != study->study_sha256) {
-      throw Failure(ExitCode::bad_data, fmt::format("{}: of another study than the others of {}",
-                                                    path.string(), output.string()));
-    }
-    trials->add(shard);
-  }
-  if (!trials || trials->count() == 0) {
+  for (const std::filesystem::path& path : pieces) {
+    const layout::FileHeader header = shards::inspect_header(path, layout::Checksum::not_yet);
+    if (!study) study = layout::recorded_study(header, path);
+    if (header.study_sha256 == study->study_sha256) continue;
     throw Failure(ExitCode::bad_data,
-                  fmt::format("{}: no trial of this run is finished yet", output.string()));
+                  fmt::format("{}: of another study than the others of {}", path.string(), output.string()));
   }
-  return trials->summary(confidence);
+  std::optional<StudySummary> summary;
+  if (study) {
+    summary = study->kept == study::Kept::trials
+                  ? summary_of_pieces<TrialsSoFar>(pieces, *study, confidence, bootstrap)
+                  : summary_of_pieces<SumsSoFar>(pieces, *study, confidence, bootstrap);
+  }
+  if (summary) return *std::move(summary);
+  throw Failure(ExitCode::bad_data, fmt::format("{}: no trial of this run is finished yet", output.string()));
+}
+
+/// The summary but for its points and their sections.
+StudySummary summary_of(const reading::ResultsFile& file, const study::Study& study, double confidence) {
+  StudySummary summary = summary_of(study, confidence);
+  summary.name = file.header().name;
+  summary.labels = file.point_labels();
+  summary.axes = file.axes();
+  summary.predictions = measures::predictions_of(file.statistics(), file.header().trials, file.path());
+  return summary;
 }
 
 }  // namespace
 
 StudySummary summarise(const reading::StudyFile& file, double confidence, bool bootstrap) {
   const study::Study study = layout::recorded_study(file.header(), file.path());
-  StudySummary summary = summary_of(study, confidence);
-  summary.name = file.header().name;
-  summary.labels = file.point_labels();
-  summary.axes = file.axes();
+  StudySummary summary = summary_of(file, study, confidence);
   summary.points = study_statistics(file, study, confidence, bootstrap);
   UndecidedAccumulator undecided(study);
   undecided.add(file, file.rows());
   complete_points(summary, study, undecided.moves());
-  summary.predictions = measures::predictions_of(file.statistics(), file.header().trials, file.path());
   if (!study.sequence.empty()) {
     summary.sections.push_back(
         iso230::repeatability_section(iso230::study_repeatability(file, study, confidence), summary.labels));
@@ -183,6 +253,23 @@ StudySummary summarise(const reading::StudyFile& file, double confidence, bool b
   }
   add_tolerance_statement(summary);
   return summary;
+}
+
+StudySummary summarise(const reading::StatisticsFile& file, double confidence, bool bootstrap) {
+  const study::Study study = layout::recorded_study(file.header(), file.path());
+  StudySummary summary = summary_of(file, study, confidence);
+  StudySums sums(study, confidence, bootstrap);
+  sums.add(file);
+  SummedStudy summed = sums.sum();
+  summary.points = std::move(summed.points);
+  complete_points(summary, study, summed.undecided);
+  add_tolerance_statement(summary);
+  return summary;
+}
+
+StudySummary summarise_file(const std::filesystem::path& path, double confidence, bool bootstrap) {
+  return shards::keeps_trials(path) ? summarise(reading::StudyFile(path), confidence, bootstrap)
+                                    : summarise(reading::StatisticsFile(path), confidence, bootstrap);
 }
 
 StudySummary summarise_unfinished(const std::filesystem::path& output, double confidence, bool bootstrap) {

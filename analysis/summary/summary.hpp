@@ -14,6 +14,7 @@
 #include "analysis/measures/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"
+#include "results/reading/statistics_file.hpp"
 #include "results/reading/study_file.hpp"
 
 namespace zerocount::summary {
@@ -84,6 +85,12 @@ std::string summary_csv(const StudySummary& summary);
 /// @throws Failure (bad_input) for a confidence outside (0, 1), (bad_data) where the file is damaged.
 StudySummary summarise(const reading::StudyFile& file, double confidence = statistics::summary_confidence,
                        bool bootstrap = false);
+
+StudySummary summarise(const reading::StatisticsFile& file,
+                       double confidence = statistics::summary_confidence, bool bootstrap = false);
+/// The same of the file `path`, whatever it keeps.
+StudySummary summarise_file(const std::filesystem::path& path,
+                            double confidence = statistics::summary_confidence, bool bootstrap = false);
 
 /// The summary of a run that has not ended: of the trials in its shards and parts (shards::finished_pieces).
 /// Of a study with rigs, at each point those before the first that is missing, so that every rig has as many

@@ -65,14 +65,6 @@ double needed_hold(const trial::MoveOutcome& move, std::size_t number, std::int6
          std::max(p.verdict.dwell, p.verdict.window);
 }
 
-/// @param needed holds, s
-double advised_hold(const std::vector<double>& needed) {
-  if (needed.empty()) return statistics::unknown;
-  statistics::Histogram<double> holds;
-  for (const double hold : needed) holds.add(hold);
-  return rounded_up(statistics::quantile(holds, advised_proportion).value);
-}
-
 /// A converter that clips keeps moves from their targets, too.
 std::string clipping_remark(const measures::PointSummary& point) {
   const std::int64_t clipped = point.of(&trial::MoveOutcome::saturated).trials;
@@ -88,28 +80,45 @@ double time_to_zero(std::int64_t midway_error, std::int64_t final_error, std::in
                     std::log(2.0 * static_cast<double>(std::abs(final_error)));
 }
 
+void UndecidedSums::add(const study::Study& study, std::int64_t row,
+                        std::span<const trial::MoveOutcome> moves) {
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    measures::add_move(counts, moves[i]);
+    if (!measures::is_still_falling(moves[i])) continue;
+    const trial::TrialParameters parameters =
+        study::study_trial(study, row / study.trials, row % study.trials).parameters;
+    if (!(parameters.controller.ki > 0.0)) continue;
+    // Rounding up keeps the order, so that a quantile of the rounded holds is the rounded quantile.
+    needed_holds.add(rounded_up(needed_hold(moves[i], i, i == 0 ? 0 : moves[i - 1].final_error, parameters)));
+  }
+}
+
+UndecidedSums& UndecidedSums::operator+=(const UndecidedSums& other) {
+  counts = measures::sum_of(counts, other.counts);
+  needed_holds += other.needed_holds;
+  return *this;
+}
+
+measures::UndecidedMoves UndecidedSums::moves() const {
+  measures::UndecidedMoves moves = counts;
+  if (needed_holds.size > 0)
+    moves.advised_hold = statistics::quantile(needed_holds, advised_proportion).value;
+  return moves;
+}
+
 UndecidedAccumulator::UndecidedAccumulator(const study::Study& study)
-    : study_(study), counts_(study.point_labels.size()), needed_(study.point_labels.size()) {}
+    : study_(study), points_(study.point_labels.size()) {}
 
 void UndecidedAccumulator::add(const reading::StudyFile& file, layout::RowRange rows) {
   measures::visit_trials(file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
-    const std::int64_t point = row / study_.trials;
-    const auto at = static_cast<std::size_t>(point);
-    for (std::size_t i = 0; i < moves.size(); ++i) {
-      measures::add_move(counts_[at], moves[i]);
-      if (!measures::is_still_falling(moves[i])) continue;
-      const trial::TrialParameters parameters =
-          study::study_trial(study_, point, row % study_.trials).parameters;
-      if (!(parameters.controller.ki > 0.0)) continue;
-      needed_[at].push_back(needed_hold(moves[i], i, i == 0 ? 0 : moves[i - 1].final_error, parameters));
-    }
+    points_[static_cast<std::size_t>(row / study_.trials)].add(study_, row, moves);
   });
 }
 
-std::vector<measures::UndecidedMoves> UndecidedAccumulator::moves() {
-  std::vector<measures::UndecidedMoves> points = counts_;
-  for (std::size_t i = 0; i < points.size(); ++i) points[i].advised_hold = advised_hold(needed_[i]);
-  return points;
+std::vector<measures::UndecidedMoves> UndecidedAccumulator::moves() const {
+  std::vector<measures::UndecidedMoves> moves;
+  for (const UndecidedSums& point : points_) moves.push_back(point.moves());
+  return moves;
 }
 
 measures::SummarySection undecided_section(std::span<const measures::PointSummary> points,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/measures/undecided_moves.hpp"
+#include "analysis/statistics/histogram.hpp"
 #include "analysis/summary/summary.hpp"
 #include "experiments/study/study.hpp"
 #include "results/reading/study_file.hpp"
@@ -27,6 +28,22 @@ namespace zerocount::summary {
 double time_to_zero(std::int64_t midway_error, std::int64_t final_error, std::int64_t samples,
                     double sample_time);
 
+/// Sums over the undecided moves of a design point.
+struct UndecidedSums {
+  measures::UndecidedMoves counts;             ///< without the advised hold
+  statistics::Histogram<double> needed_holds;  ///< of the moves still falling, rounded up to two digits, s
+
+  /// Adds a trial. @param row of the study
+  void add(const study::Study& study, std::int64_t row, std::span<const trial::MoveOutcome> moves);
+  UndecidedSums& operator+=(const UndecidedSums& other);
+  measures::UndecidedMoves moves() const;
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    archive(self.counts, self.needed_holds);
+  }
+};
+
 /// Counts the undecided moves of a study, from one results file or several.
 class UndecidedAccumulator {
  public:
@@ -37,12 +54,11 @@ class UndecidedAccumulator {
   void add(const reading::StudyFile& file, layout::RowRange rows);
 
   /// [point] of the study
-  std::vector<measures::UndecidedMoves> moves();
+  std::vector<measures::UndecidedMoves> moves() const;
 
  private:
   const study::Study& study_;
-  std::vector<measures::UndecidedMoves> counts_;  ///< [point], without the advised hold
-  std::vector<std::vector<double>> needed_;       ///< [point] holds that the moves still falling need, s
+  std::vector<UndecidedSums> points_;
 };
 
 /// The section "undecided" of a summary. Its JSON is {"moves", "off_target", "still_falling",

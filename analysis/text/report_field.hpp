@@ -33,9 +33,11 @@ inline double to_double(std::int64_t count) {
   return static_cast<double>(count);
 }
 
-/// A JSON object as text, indented, ending with a line break. Bytes that are not UTF-8 are replaced.
-inline std::string json_text(const nlohmann::ordered_json& json) {
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+inline constexpr int one_line = -1;  ///< as the indent of JSON
+
+/// A JSON object as text, ending with a line break. Bytes that are not UTF-8 are replaced.
+inline std::string json_text(const nlohmann::ordered_json& json, int indent = 2) {
+  return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 /// Adds the numbers of `subject` to a JSON object under the names of their fields, by group. Whole numbers

@@ -242,6 +242,7 @@ Json general_schemas() {
        object_of(
            {{"trials",
              {{"type", "array"}, {"items", {{"type", "integer"}, {"minimum", 0}}}, {"uniqueItems", true}}}})},
+      {"keep", {{"enum", kept_labels}}},
       {"stop", object_of({{"success_rate_halfwidth",
                            {{"type", "number"}, {"exclusiveMinimum", 0}, {"exclusiveMaximum", 0.5}}},
                           {"confidence",

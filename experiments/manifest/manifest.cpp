@@ -216,6 +216,28 @@ void read_retained(Manifest& m) {
     m.problems().add(*list, "a trial stands twice in the list", "each trial once");
 }
 
+void read_kept(Manifest& m) {
+  const auto field = yaml::find_field(m.root, "keep");
+  if (!field) return;
+  if (const auto kept = yaml::read_label(*field, kept_labels, m.problems()))
+    m.study.kept = static_cast<study::Kept>(*kept);
+}
+
+// What needs every trial when all have been run.
+void check_kept(Manifest& m) {
+  if (m.study.kept == study::Kept::trials) return;
+  const auto refuse = [&](std::string_view what, const char* expected) {
+    m.problems().add(yaml::find_field(m.root, "keep").value(), std::string(what), expected);
+  };
+  constexpr const char* trials = "keep: trials";
+  if (!m.study.retained_trials.empty()) refuse("retain needs every trial", trials);
+  if (m.study.stop) refuse("stop needs every trial", trials);
+  if (m.plan().sequence) refuse("command.sequence needs every trial", trials);
+  if (m.study.design == study::Design::saltelli) refuse("design: saltelli needs every trial", trials);
+  if (m.study.kept == study::Kept::failures && m.plan().open_loop)
+    refuse("the trials of torque levels are not judged, so that none fails", "keep: statistics or trials");
+}
+
 void read_observed(Manifest& m) {
   const auto field = yaml::find_field(m.root, "observed");
   const bool complete =
@@ -247,6 +269,7 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, con
   if (samples != nullptr) join_samples(*samples, m.axes, m.reading, m.study);
   read_correlations(m.root, m.reading, m.study);
   read_retained(m);
+  read_kept(m);
   if (const auto field = yaml::find_field(m.root, "stop"))
     read_stop(*field, max_study_trials, m.study, problems);
   check_trial_count(m);
@@ -257,6 +280,7 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, con
   check_points(m.places, m.reading);
   check_travel(m.root, m.reading);
   if (problems.empty()) check_rows(m);
+  if (problems.empty()) check_kept(m);
   if (problems.empty()) assemble_study(m.reading.profiles, m.axes, *plan, m.study);
   m.study.warnings = std::move(m.reading.warnings);
   m.study.plugin = plan->plugin;

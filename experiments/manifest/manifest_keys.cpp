@@ -34,7 +34,7 @@ std::vector<std::string_view> value_paths() {
 }  // namespace
 
 std::span<const GeneralKey> general_keys() {
-  static constexpr std::array<GeneralKey, 23> keys{{
+  static constexpr std::array<GeneralKey, 24> keys{{
       {"zerocount", "version of the manifest's format: 1", true},
       {"name", "name of the study", true},
       {"description", "what the study is for", false},
@@ -56,6 +56,10 @@ std::span<const GeneralKey> general_keys() {
        "true: every design point has its own random numbers; false (default): all share those of trial i",
        false},
       {"retain", "trials whose sample-by-sample records are kept: {trials: [0, 1]}", false},
+      {"keep",
+       "what the results file keeps beside the statistics: trials (default), failures (the trials that did "
+       "not succeed) or statistics (no trial)",
+       false},
       {"stop",
        "trials are added, a block of `trials` at a time, until the success rate of every point is known: "
        "{success_rate_halfwidth: 0.005, confidence: 0.95, min_trials: 1000, max_trials: 100000}",

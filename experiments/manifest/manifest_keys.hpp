@@ -37,6 +37,9 @@ bool is_section(std::string_view path);
 /// Whether the dotted path is `section` or lies below it.
 bool is_within(std::string_view path, std::string_view section);
 
+/// The values of the key `keep`, in the order of the enumeration Kept.
+inline constexpr std::array<std::string_view, 3> kept_labels{"trials", "failures", "statistics"};
+
 /// The values of the key `design`, in the order of the enumeration Design.
 inline constexpr std::array<std::string_view, 4> design_labels{"monte_carlo", "latin_hypercube", "sobol",
                                                                "saltelli"};

@@ -125,6 +125,13 @@ struct StoppingRule {
   std::int64_t max_trials{1};  ///< trials per point at which the study ends in any case
 };
 
+/// The trials that a results file keeps beside the statistics.
+enum class Kept {
+  trials,     ///< all
+  failures,   ///< those that did not succeed in all their moves
+  statistics  ///< none
+};
+
 /// Trials counted on a real rig.
 struct ObservedCounts {
   std::int64_t successes{0};  ///< trials all of whose moves ended at zero error
@@ -169,9 +176,10 @@ struct Study {
       observed;  ///< point label → observation on the real rig (the text of a case for all its points)
   std::map<std::string, ObservedCounts> observed_counts;  ///< point label → its counts, where it has any
   std::vector<std::int64_t> retained_trials;  ///< trial indices whose traces are kept, at every point
-  std::int64_t moves{1};                      ///< per trial
-  std::vector<SequenceMove> sequence;         ///< [move]; empty without a sequence
-  bool open_loop{false};                      ///< the moves are torque levels, without targets
+  Kept kept{Kept::trials};
+  std::int64_t moves{1};               ///< per trial
+  std::vector<SequenceMove> sequence;  ///< [move]; empty without a sequence
+  bool open_loop{false};               ///< the moves are torque levels, without targets
   StudyFeatures features;
   std::vector<std::string> warnings;  ///< possibly unintended input, one line each
 

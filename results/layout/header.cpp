@@ -1,5 +1,7 @@
 #include "results/layout/header.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <string_view>
 #include <system_error>
@@ -11,8 +13,10 @@
 #include "core/hash/sha256.hpp"
 #include "core/text/utf8.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "experiments/manifest/manifest_keys.hpp"
 #include "results/hdf5/foreign_file.hpp"
 #include "results/layout/plugin_record.hpp"
+#include "results/layout/point_sums.hpp"
 #include "results/storage/checksum_trailer.hpp"
 #include "results/storage/durable_file.hpp"
 #include "results/storage/file_descriptor.hpp"
@@ -20,8 +24,28 @@
 namespace zerocount::layout {
 namespace {
 
-constexpr std::string_view study_format = "zerocount-study";
-constexpr std::string_view shard_format = "zerocount-shard";
+struct Format {
+  std::string_view name;
+  FileKind kind;
+  Contents contents;
+};
+constexpr std::array<Format, 4> formats{{
+    {"zerocount-study", FileKind::study, Contents::trials},
+    {"zerocount-shard", FileKind::shard, Contents::trials},
+    {"zerocount-statistics", FileKind::study, Contents::statistics},
+    {"zerocount-statistics-shard", FileKind::shard, Contents::statistics},
+}};
+
+std::string_view keep_label(study::Kept kept) {
+  return manifest::kept_labels[static_cast<std::size_t>(kept)];
+}
+
+const Format& format_of(const FileHeader& header) {
+  const Contents contents = contents_of(header.kept);
+  return *std::find_if(formats.begin(), formats.end(), [&](const Format& format) {
+    return format.kind == header.kind && format.contents == contents;
+  });
+}
 
 /// A text with a zero byte would be cut there without a word.
 const std::string& storable(const hdf5::File& file, const std::string& text) {
@@ -79,14 +103,25 @@ std::optional<plugin::PluginDescription> read_plugin(const hdf5::File& file) {
   return plugin;
 }
 
-FileKind read_kind(const hdf5::File& file) {
+const Format& read_format(const hdf5::File& file) {
   if (!file.has_attribute("format"))
     throw ForeignFile(file.file_name(), "not a results file of zerocount: the attribute 'format' is missing");
-  const std::string format = file.text("format");
-  if (format == study_format) return FileKind::study;
-  if (format == shard_format) return FileKind::shard;
-  throw ForeignFile(file.file_name(), fmt::format("its format is '{}'; expected '{}' or '{}'", format,
-                                                  study_format, shard_format));
+  const std::string name = file.text("format");
+  const auto format =
+      std::find_if(formats.begin(), formats.end(), [&](const Format& known) { return known.name == name; });
+  if (format != formats.end()) return *format;
+  throw ForeignFile(file.file_name(), fmt::format("its format is '{}'; expected '{}' or another of zerocount",
+                                                  name, formats.front().name));
+}
+
+study::Kept read_kept(const hdf5::File& file, Contents contents) {
+  if (contents == Contents::trials) return study::Kept::trials;
+  const std::string name = file.text("keep");
+  for (const study::Kept kept : {study::Kept::failures, study::Kept::statistics}) {
+    if (name == keep_label(kept)) return kept;
+  }
+  file.fail(fmt::format("its attribute 'keep' is '{}'; expected '{}' or '{}'", name,
+                        keep_label(study::Kept::failures), keep_label(study::Kept::statistics)));
 }
 
 std::int64_t read_version(const hdf5::File& file) {
@@ -133,6 +168,20 @@ void check_numbers(const hdf5::File& file, const FileHeader& header) {
 ForeignFile::ForeignFile(const std::filesystem::path& path, const std::string& what_it_is)
     : Failure(ExitCode::bad_data, text::printable_lines(fmt::format("{}: {}", path.string(), what_it_is))) {}
 
+Contents contents_of(study::Kept kept) {
+  return kept == study::Kept::trials ? Contents::trials : Contents::statistics;
+}
+
+void require_contents(const std::filesystem::path& path, const FileHeader& header, Contents contents) {
+  if (contents_of(header.kept) == contents) return;
+  if (contents == Contents::statistics)
+    throw ForeignFile(path, "it keeps trials; expected a file of statistics");
+  throw ForeignFile(path,
+                    fmt::format("it was made with keep: {}, and this needs every trial; a run with keep: {} "
+                                "has them, and 'zerocount summary' reads this file",
+                                keep_label(header.kept), keep_label(study::Kept::trials)));
+}
+
 std::string_view name_of(study::Engine engine) {
   return engine == study::Engine::batch ? "batch" : "reference";
 }
@@ -143,6 +192,7 @@ RowRange all_rows(const study::Study& study) {
 
 FileHeader make_header(const study::Study& study, FileKind kind, RowRange rows, Provenance provenance) {
   return {kind,
+          study.kept,
           format_version,
           study.name,
           std::move(provenance),
@@ -162,7 +212,12 @@ FileHeader make_header(const study::Study& study, FileKind kind, RowRange rows, 
 }
 
 void write_header(hdf5::File& file, const FileHeader& header) {
-  file.set_text("format", std::string(header.kind == FileKind::study ? study_format : shard_format));
+  const Format& format = format_of(header);
+  file.set_text("format", std::string(format.name));
+  if (format.contents == Contents::statistics) {
+    file.set_text("keep", std::string(keep_label(header.kept)));
+    file.set_text("sums_form", sums_form());
+  }
   file.set_integer("format_version", format_version);
   file.set_text("name", storable(file, header.name));
   file.set_text("zerocount_version", header.provenance.zerocount_version);
@@ -191,7 +246,9 @@ void mark_finished(hdf5::File& file) {
 
 FileHeader read_header(const hdf5::File& file) {
   FileHeader header;
-  header.kind = read_kind(file);
+  const Format& format = read_format(file);
+  header.kind = format.kind;
+  header.kept = read_kept(file, format.contents);
   header.version = read_version(file);
   header.name = file.text("name");
   header.provenance = {file.text("zerocount_version"), file.text("git_commit"), file.text("compiler"),

@@ -35,9 +35,18 @@ bool is_dirty(const Provenance& provenance);
 
 enum class FileKind { study, shard };
 
+/// What a file holds of each trial, or of all together.
+enum class Contents {
+  trials,     ///< every trial
+  statistics  ///< the sums that the statistics of each design point follow from, and perhaps the failures
+};
+
+Contents contents_of(study::Kept kept);
+
 /// The description of a results file: the attributes of its root, and the manifest.
 struct FileHeader {
   FileKind kind{FileKind::study};
+  study::Kept kept{study::Kept::trials};
   std::int64_t version{format_version};  ///< of the layout
   std::string name;
   Provenance provenance;
@@ -63,6 +72,9 @@ class ForeignFile : public Failure {
   /// The message is "PATH: what it is".
   ForeignFile(const std::filesystem::path& path, const std::string& what_it_is);
 };
+
+/// @throws ForeignFile unless the file `path` has these contents.
+void require_contents(const std::filesystem::path& path, const FileHeader& header, Contents contents);
 
 /// "batch" or "reference".
 std::string_view name_of(study::Engine engine);

@@ -151,6 +151,8 @@ Table point_table(const std::vector<study::SweepAxis>& axes, const std::vector<P
 Table trial_table(const std::vector<study::InputColumn>& inputs);
 Table outcome_table(std::int64_t version = format_version, const study::StudyFeatures& features = {},
                     const MeasureTable& measures = measure_table());
+/// The table of outcomes with the verdicts alone.
+Table verdict_table();
 Table jerk_table();
 Table trace_table(const study::StudyFeatures& features);
 Table statistic_table(const StatisticGroup& group, const std::vector<PointColumn>& columns);
@@ -162,6 +164,12 @@ Table rig_table(const std::vector<study::InputColumn>& inputs);
 /// Successes of the rigs at the design points: [point, rig]. In the group of rig_table, whose scale it
 /// proportions.
 Table rig_count_table();
+
+/// How many of the whole and real numbers in /sums belong to each design point: [point].
+Table sums_table();
+/// The numbers themselves, point after point.
+Table whole_sums_table();
+Table real_sums_table();
 
 /// The table with the units and long names that its columns have on an axis of this kind. The tables above
 /// have those of a rotary axis, but for what is a study's own: its sweep, its inputs and its profiles'

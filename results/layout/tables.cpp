@@ -83,6 +83,12 @@ Table outcome_table(std::int64_t version, const study::StudyFeatures& features,
           columns_of(outcome_fields(version, features, measures))};
 }
 
+Table verdict_table() {
+  Table table = outcome_table();
+  std::erase_if(table.columns, [](const Column& column) { return column.name != "outcome"; });
+  return table;
+}
+
 Table jerk_table() {
   return {"jerk",
           whole_numbers("jerk", "index of the jerk, by trial, move and onset"),
@@ -162,6 +168,28 @@ Table rig_count_table() {
           rig_scale(),
           {whole_numbers("success", "trials of the rig at the point that succeeded, in all their moves"),
            whole_numbers("trials", "trials of the rig at the point that were judged, 0 in an open loop")}};
+}
+
+Table sums_table() {
+  return {"sums",
+          whole_numbers("point", "index of the design point"),
+          {},
+          {whole_numbers("whole_count", "elements of whole that belong to the point"),
+           whole_numbers("real_count", "elements of real that belong to the point")}};
+}
+
+Table whole_sums_table() {
+  return {"sums",
+          whole_numbers("whole_index", "index among the whole numbers of all points"),
+          {},
+          {whole_numbers("whole", "counts and digits of the sums")}};
+}
+
+Table real_sums_table() {
+  return {"sums",
+          whole_numbers("real_index", "index among the real numbers of all points"),
+          {},
+          {{"real", "1", "distinct values of the sums, each in its unit", hdf5::Element::float64}}};
 }
 
 }  // namespace zerocount::layout

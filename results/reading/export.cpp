@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <deque>
 #include <functional>
+#include <numeric>
 #include <string>
 
 #include <fmt/format.h>
@@ -50,7 +51,7 @@ void export_records(const std::vector<layout::RecordField<Record>>& fields, std:
   });
 }
 
-void export_points(const StudyFile& file, CsvFile& csv) {
+void export_points(const ResultsFile& file, CsvFile& csv) {
   const std::vector<std::string> labels = file.point_labels();
   const std::vector<study::SweepAxis> axes = file.axes();
   const std::vector<layout::PointColumn> statistics = file.statistics();
@@ -73,55 +74,99 @@ void export_points(const StudyFile& file, CsvFile& csv) {
   }
 }
 
-void export_trials(const StudyFile& file, CsvFile& csv) {
+/// All trials of a file, as KeptTrials gives those of another.
+class AllTrials {
+ public:
+  explicit AllTrials(const StudyFile& file) : file_(file) {}
+
+  std::int64_t count() const { return file_.rows().count; }
+  std::vector<std::int64_t> rows(std::int64_t first, std::int64_t count) const {
+    std::vector<std::int64_t> rows(static_cast<std::size_t>(count));
+    std::iota(rows.begin(), rows.end(), file_.rows().first + first);
+    return rows;
+  }
+  const std::vector<study::InputColumn>& input_columns() const { return file_.input_columns(); }
+  std::vector<double> input(std::size_t column, std::int64_t first, std::int64_t count) const {
+    return file_.input(column, {file_.rows().first + first, count});
+  }
+  std::int64_t moves() const { return file_.moves(); }
+  const std::vector<layout::RecordField<trial::MoveOutcome>>& measures() const { return file_.measures(); }
+  std::vector<trial::MoveOutcome> outcomes(std::int64_t first, std::int64_t count) const {
+    return file_.outcomes({file_.rows().first + first, count});
+  }
+  std::int64_t jerk_count() const { return file_.jerk_count(); }
+  std::vector<layout::JerkRecord> jerks_at(std::int64_t first, std::int64_t count) const {
+    return file_.jerks_at(first, count);
+  }
+  parameters::AxisKind axis() const { return file_.axis(); }
+
+ private:
+  const StudyFile& file_;
+};
+
+template <class Trials>
+void export_trials(const Trials& trials, std::int64_t trials_of_point, CsvFile& csv) {
   csv.add("trial", "point", "index");
-  for (const study::InputColumn& input : file.input_columns())
+  for (const study::InputColumn& input : trials.input_columns())
     csv.add(head_with_unit(input.name, input.unit));
   csv.end_row();
-  for_each_block(file.rows().first, file.rows().end(), layout::chunk_elements,
-                 [&](std::int64_t first, std::int64_t count) {
-                   std::vector<std::vector<double>> inputs;
-                   for (std::size_t column = 0; column < file.input_columns().size(); ++column) {
-                     inputs.push_back(file.input(column, {first, count}));
-                   }
-                   for (std::int64_t row = first; row < first + count; ++row) {
-                     csv.add(row, row / file.header().trials, row % file.header().trials);
-                     for (const std::vector<double>& values : inputs)
-                       csv.add(values[static_cast<std::size_t>(row - first)]);
-                     csv.end_row();
-                   }
-                 });
+  for_each_block(0, trials.count(), layout::chunk_elements, [&](std::int64_t first, std::int64_t count) {
+    std::vector<std::vector<double>> inputs;
+    for (std::size_t column = 0; column < trials.input_columns().size(); ++column)
+      inputs.push_back(trials.input(column, first, count));
+    std::size_t position = 0;
+    for (const std::int64_t row : trials.rows(first, count)) {
+      csv.add(row, row / trials_of_point, row % trials_of_point);
+      for (const std::vector<double>& values : inputs) csv.add(values[position]);
+      csv.end_row();
+      ++position;
+    }
+  });
 }
 
-void export_outcomes(const StudyFile& file, CsvFile& csv) {
+template <class Trials>
+void export_outcomes(const Trials& trials, CsvFile& csv) {
   csv.add("trial", "move");
-  add_names(csv, file.measures(), file.axis());
+  add_names(csv, trials.measures(), trials.axis());
   csv.end_row();
-  const std::int64_t moves = file.moves();
-  for_each_block(file.rows().first, file.rows().end(), layout::chunk_rows(moves),
-                 [&](std::int64_t first, std::int64_t count) {
-                   std::int64_t position = 0;
-                   for (const trial::MoveOutcome& outcome : file.outcomes({first, count})) {
-                     csv.add(first + position / moves, position % moves);
-                     add_values(csv, file.measures(), outcome);
-                     csv.end_row();
-                     ++position;
-                   }
-                 });
+  const std::int64_t moves = trials.moves();
+  for_each_block(0, trials.count(), layout::chunk_rows(moves), [&](std::int64_t first, std::int64_t count) {
+    const std::vector<std::int64_t> rows = trials.rows(first, count);
+    std::int64_t position = 0;
+    for (const trial::MoveOutcome& outcome : trials.outcomes(first, count)) {
+      csv.add(rows[static_cast<std::size_t>(position / moves)], position % moves);
+      add_values(csv, trials.measures(), outcome);
+      csv.end_row();
+      ++position;
+    }
+  });
 }
 
-void export_jerks(const StudyFile& file, CsvFile& csv) {
-  const auto read = [&](std::int64_t first, std::int64_t count) { return file.jerks_at(first, count); };
-  export_records(layout::jerk_fields(), file.jerk_count(), read, file.axis(), csv);
+template <class Trials>
+void export_jerks(const Trials& trials, CsvFile& csv) {
+  const auto read = [&](std::int64_t first, std::int64_t count) { return trials.jerks_at(first, count); };
+  export_records(layout::jerk_fields(), trials.jerk_count(), read, trials.axis(), csv);
 }
 
-void export_profiles(const StudyFile& file, CsvFile& csv) {
+/// @param trials stays as long as the tables
+template <class Trials>
+void add_trial_tables(std::vector<ExportedTable>& tables, const Trials& trials,
+                      std::int64_t trials_of_point) {
+  tables.push_back({"trials.csv", [&trials, trials_of_point](const ResultsFile&, CsvFile& csv) {
+                      export_trials(trials, trials_of_point, csv);
+                    }});
+  tables.push_back(
+      {"outcomes.csv", [&trials](const ResultsFile&, CsvFile& csv) { export_outcomes(trials, csv); }});
+  tables.push_back({"jerks.csv", [&trials](const ResultsFile&, CsvFile& csv) { export_jerks(trials, csv); }});
+}
+
+void export_profiles(const ResultsFile& file, CsvFile& csv) {
   const std::vector<StoredProfile> profiles = file.profiles();
   const bool of_rigs =
       std::any_of(profiles.begin(), profiles.end(), [](const StoredProfile& p) { return p.rigs > 0; });
   csv.add("profile");
   if (of_rigs) csv.add("rig");
-  csv.add(head_with_unit("theta", parameters::unit_on(file.axis(), "rad")), "value", "unit of value");
+  csv.add(head_with_unit("theta", profiles.front().theta_unit), "value", "unit of value");
   csv.end_row();
   for (const StoredProfile& profile : profiles) {
     const std::size_t angles = profile.theta.size();
@@ -177,33 +222,28 @@ void export_statistics(const layout::StatisticTable& table, CsvFile& csv) {
   }
 }
 
-std::vector<ExportedTable> tables_of(const StudyFile& file) {
-  std::vector<ExportedTable> tables{{"points.csv", export_points},
-                                    {"trials.csv", export_trials},
-                                    {"outcomes.csv", export_outcomes},
-                                    {"jerks.csv", export_jerks}};
+void add_study_tables(std::vector<ExportedTable>& tables, const ResultsFile& file) {
   if (file.has_profiles()) tables.push_back({"profiles.csv", export_profiles});
   if (const auto rigs = file.rigs()) {
-    tables.push_back({"rigs.csv", [rigs](const StudyFile&, CsvFile& csv) { export_rigs(*rigs, csv); }});
+    tables.push_back({"rigs.csv", [rigs](const ResultsFile&, CsvFile& csv) { export_rigs(*rigs, csv); }});
     if (!rigs->success.empty()) {
       tables.push_back(
-          {"rig_counts.csv", [rigs](const StudyFile&, CsvFile& csv) { export_rig_counts(*rigs, csv); }});
+          {"rig_counts.csv", [rigs](const ResultsFile&, CsvFile& csv) { export_rig_counts(*rigs, csv); }});
     }
   }
-  if (file.has_trace()) tables.push_back({"trace.csv", export_trace});
-  for (const layout::StatisticTable& table : file.statistic_tables()) {
-    tables.push_back({std::string(table.group->csv),
-                      [table](const StudyFile&, CsvFile& csv) { export_statistics(table, csv); }});
-  }
-  return tables;
 }
 
-}  // namespace
+void add_statistic_tables(std::vector<ExportedTable>& tables, const ResultsFile& file) {
+  for (const layout::StatisticTable& table : file.statistic_tables()) {
+    tables.push_back({std::string(table.group->csv),
+                      [table](const ResultsFile&, CsvFile& csv) { export_statistics(table, csv); }});
+  }
+}
 
-std::vector<fs::path> export_csv(const StudyFile& file, const fs::path& directory,
-                                 const std::vector<ExportedTable>& further, ExistingFiles existing) {
-  std::vector<ExportedTable> tables = tables_of(file);
-  tables.insert(tables.end(), further.begin(), further.end());
+/// Writes the tables. None has its name before all are whole: a failure leaves nothing that would stop the
+/// next attempt.
+std::vector<fs::path> write_tables(const std::vector<ExportedTable>& tables, const ResultsFile& file,
+                                   const fs::path& directory, ExistingFiles existing) {
   std::vector<fs::path> paths(tables.size());
   std::transform(tables.begin(), tables.end(), paths.begin(),
                  [&directory](const ExportedTable& table) { return directory / table.name; });
@@ -221,7 +261,6 @@ std::vector<fs::path> export_csv(const StudyFile& file, const fs::path& director
                                                      path.string()));
     }
   }
-  // None has its name before all are whole: a failure leaves nothing that would stop the next attempt.
   std::deque<CsvFile> written;
   for (std::size_t i = 0; i < tables.size(); ++i) {
     CsvFile& csv = written.emplace_back(paths[i]);
@@ -230,6 +269,31 @@ std::vector<fs::path> export_csv(const StudyFile& file, const fs::path& director
   }
   for (CsvFile& csv : written) csv.publish();
   return paths;
+}
+
+}  // namespace
+
+std::vector<fs::path> export_csv(const StudyFile& file, const fs::path& directory,
+                                 const std::vector<ExportedTable>& further, ExistingFiles existing) {
+  const AllTrials trials(file);
+  std::vector<ExportedTable> tables{{"points.csv", export_points}};
+  add_trial_tables(tables, trials, file.header().trials);
+  add_study_tables(tables, file);
+  if (file.has_trace()) {
+    tables.push_back({"trace.csv", [&file](const ResultsFile&, CsvFile& csv) { export_trace(file, csv); }});
+  }
+  add_statistic_tables(tables, file);
+  tables.insert(tables.end(), further.begin(), further.end());
+  return write_tables(tables, file, directory, existing);
+}
+
+std::vector<fs::path> export_csv(const StatisticsFile& file, const fs::path& directory,
+                                 ExistingFiles existing) {
+  std::vector<ExportedTable> tables{{"points.csv", export_points}};
+  if (file.failures()) add_trial_tables(tables, *file.failures(), file.header().trials);
+  add_study_tables(tables, file);
+  add_statistic_tables(tables, file);
+  return write_tables(tables, file, directory, existing);
 }
 
 }  // namespace zerocount::reading

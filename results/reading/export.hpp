@@ -6,14 +6,15 @@
 #include <vector>
 
 #include "results/reading/csv.hpp"
+#include "results/reading/statistics_file.hpp"
 #include "results/reading/study_file.hpp"
 
 namespace zerocount::reading {
 
 /// A table as a CSV file.
 struct ExportedTable {
-  std::string name;                                       ///< of the file
-  std::function<void(const StudyFile&, CsvFile&)> write;  ///< all its rows
+  std::string name;                                         ///< of the file
+  std::function<void(const ResultsFile&, CsvFile&)> write;  ///< all its rows
 };
 
 /// The treatment of files that have the names of tables already.
@@ -31,6 +32,12 @@ enum class ExistingFiles { refuse, replace };
 /// results are damaged, machine_failed where a file cannot be written.
 std::vector<std::filesystem::path> export_csv(const StudyFile& file, const std::filesystem::path& directory,
                                               const std::vector<ExportedTable>& further = {},
+                                              ExistingFiles existing = ExistingFiles::refuse);
+
+/// The same of a file of statistics; trials.csv, outcomes.csv and jerks.csv are of the failures, where it
+/// keeps them.
+std::vector<std::filesystem::path> export_csv(const StatisticsFile& file,
+                                              const std::filesystem::path& directory,
                                               ExistingFiles existing = ExistingFiles::refuse);
 
 }  // namespace zerocount::reading

@@ -13,38 +13,14 @@
 #include "results/layout/layout.hpp"
 #include "results/layout/row_range.hpp"
 #include "results/layout/table_io.hpp"
+#include "results/reading/results_file.hpp"
 
 namespace zerocount::reading {
-
-/// How much of its study a file must hold to be opened.
-enum class Require {
-  complete,   ///< every trial: what statistics may be made of
-  any_part,   ///< also a part or a shard
-  unfinished  ///< also a file that is still being made
-};
-
-/// A profile as it stands in a results file.
-struct StoredProfile {
-  std::string name;
-  std::string unit;
-  std::vector<double> theta;  ///< rad
-  std::vector<double> value;  ///< in `unit`; of rigs [rig][theta], flattened
-  std::int64_t rigs{0};       ///< each with a rotor of its own; 0: one rotor of all trials
-};
-
-/// The rigs of a study as they stand in a results file.
-struct StoredRigs {
-  std::int64_t rigs{0};
-  std::vector<study::InputColumn> columns;  ///< what differs between them
-  std::vector<std::vector<double>> inputs;  ///< [column][rig]
-  std::vector<std::int64_t> success;        ///< [point][rig], flattened: trials that succeeded
-  std::vector<std::int64_t> trials;         ///< likewise: trials that were judged; none of both in a part
-};
 
 /// A results file, open to be read. Rows are global rows, here and in the file. Every function may find that
 /// the file is damaged, or holds values that cannot be (see validation.hpp), and throws Failure (bad_data)
 /// then. One thread at a time.
-class StudyFile {
+class StudyFile : public ResultsFile {
  public:
   /// Checks checksum trailer, format, version, completion mark, completeness as required, and that the rows
   /// have the numbers of their places (see validation.hpp). Reads the file once from beginning to end.
@@ -54,19 +30,9 @@ class StudyFile {
   explicit StudyFile(const std::filesystem::path& path, Require require = Require::complete,
                      const layout::MeasureTable& table = layout::measure_table());
 
-  const std::filesystem::path& path() const { return path_; }
-  const layout::FileHeader& header() const { return header_; }
-  const hdf5::Group& root() const { return file_; }  ///< for groups that this class does not know
-  layout::RowRange rows() const { return header_.rows; }
   /// Of a shard always rotary, whose units are those of the tables.
   parameters::AxisKind axis() const { return features_.axis; }
   std::int64_t moves() const { return outcomes_.width(); }
-
-  /// Empty in a shard, like axes, statistics and their tables.
-  std::vector<std::string> point_labels() const;
-  std::vector<study::SweepAxis> axes() const;
-  std::vector<layout::PointColumn> statistics() const;
-  std::vector<layout::StatisticTable> statistic_tables() const;
 
   /// How often each is drawn is not in the file.
   const std::vector<study::InputColumn>& input_columns() const { return inputs_; }
@@ -102,18 +68,9 @@ class StudyFile {
   /// `drive_torque` the torque decided, which becomes the motor's after the control's delay.
   std::vector<layout::TraceRecord> trace_at(std::int64_t first, std::int64_t count) const;
 
-  bool has_profiles() const { return file_.contains("profile"); }
-  std::vector<StoredProfile> profiles() const;
-
-  /// Nothing in a study without rigs, and in a shard.
-  std::optional<StoredRigs> rigs() const;
-
  private:
   std::int64_t local(layout::RowRange rows) const;
 
-  std::filesystem::path path_;
-  hdf5::File file_;
-  layout::FileHeader header_;
   study::StudyFeatures features_;
   std::vector<study::InputColumn> inputs_;
   layout::TableIo trials_;  ///< point, index, then one column per input

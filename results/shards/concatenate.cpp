@@ -124,11 +124,11 @@ void renumber_trials(const layout::Table& table, const Renumbering& renumber, Bl
 }  // namespace
 
 void concatenate(hdf5::File& file, const layout::Table& table, std::span<const ShardInfo> shards,
-                 std::int64_t width, std::int64_t first_number, const Renumbering& renumber) {
+                 std::int64_t width, std::optional<std::int64_t> first_number, const Renumbering& renumber) {
   Sources sources(table, find_sources(table, shards, width));
   const std::int64_t rows = sources.rows();
   layout::TableIo out = layout::TableIo::create(file, table, rows, width);
-  out.number_rows(first_number);
+  if (first_number) out.number_rows(*first_number);
   Block block(table.columns.size());
   for (layout::RowRange wanted; wanted.first < rows; wanted.first = wanted.end()) {
     wanted.count = std::min(layout::chunk_rows(width), rows - wanted.first);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 
 #include "results/hdf5/hdf5.hpp"
@@ -19,9 +20,10 @@ using Renumbering = std::function<std::int64_t(std::int64_t row)>;
 /// per column, so that memory is bounded and the order of writing does not depend
 /// on how the rows are divided among the shards.
 /// @param width        size of the second dimension, 1 if the table has none
-/// @param first_number first value of the scale of the rows
+/// @param first_number first value of the scale of the rows; none: the scale is left to the caller
 /// @param renumber     applied to the column `trial` of a table that has one
 void concatenate(hdf5::File& file, const layout::Table& table, std::span<const ShardInfo> shards,
-                 std::int64_t width, std::int64_t first_number, const Renumbering& renumber = {});
+                 std::int64_t width, std::optional<std::int64_t> first_number,
+                 const Renumbering& renumber = {});
 
 }  // namespace zerocount::shards

@@ -1,5 +1,7 @@
 #include "results/shards/merge.hpp"
 
+#include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -10,6 +12,7 @@
 #include "results/layout/table_io.hpp"
 #include "results/shards/concatenate.hpp"
 #include "results/shards/rig_tables.hpp"
+#include "results/shards/statistics_shard.hpp"
 #include "results/storage/durable_file.hpp"
 
 namespace zerocount::shards {
@@ -93,24 +96,60 @@ void write_points(hdf5::File& file, const study::Study& study) {
   }
 }
 
+/// Creates the file `part` with the description of the study.
+hdf5::File begin_file(const study::Study& study, const fs::path& part, layout::RowRange rows,
+                      const layout::Provenance& provenance) {
+  hdf5::File file = hdf5::File::create(part);
+  layout::write_header(file, layout::make_header(study, layout::FileKind::study, rows, provenance));
+  write_points(file, study);
+  return file;
+}
+
+void write_rig_descriptions(hdf5::File& file, const study::Study& study) {
+  write_profiles(file, study);
+  if (study.rigs > 0) write_rigs(file, study);
+}
+
+/// Writes the trials of the shards, whichever they have.
+void write_trial_tables(hdf5::File& file, std::span<const ShardInfo> shards, const study::Study& study,
+                        std::optional<std::int64_t> first_row, const Renumbering& renumber,
+                        const layout::MeasureTable& measures) {
+  concatenate(file, layout::trial_table(study.input_columns), shards, 1, first_row);
+  concatenate(file,
+              layout::on_axis(layout::outcome_table(layout::format_version, study.features, measures),
+                              study.units.axis),
+              shards, study.moves, first_row);
+  concatenate(file, layout::jerk_table(), shards, 1, 0, renumber);
+}
+
+/// Gives the trials in a file with some trials of its study their rows, found from point and index.
+void number_kept_trials(hdf5::File& file, const study::Study& study) {
+  layout::TableIo trials = layout::TableIo::open(file, layout::trial_table({}));
+  layout::TableIo outcomes = layout::TableIo::open(file, layout::verdict_table());
+  std::vector<std::int64_t> points, rows;
+  for (std::int64_t first = 0; first < trials.rows(); first += layout::chunk_elements) {
+    const std::int64_t count = std::min(layout::chunk_elements, trials.rows() - first);
+    points.resize(static_cast<std::size_t>(count));
+    rows.resize(points.size());
+    trials.column(0).read(first, count, points.data());
+    trials.column(1).read(first, count, rows.data());
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] += points[i] * study.trials;
+    trials.row_scale().write(first, count, rows.data());
+    outcomes.row_scale().write(first, count, rows.data());
+  }
+}
+
 /// Writes everything except the statistics and the completion mark.
 hdf5::WrittenValues write_trials_of(std::span<const ShardInfo> shards, const study::Study& study,
                                     const fs::path& part, layout::RowRange rows,
                                     const layout::Provenance& provenance, const Renumbering& renumber,
                                     const layout::MeasureTable& measures) {
-  hdf5::File file = hdf5::File::create(part);
-  layout::write_header(file, layout::make_header(study, layout::FileKind::study, rows, provenance));
-  write_points(file, study);
-  concatenate(file, layout::trial_table(study.input_columns), shards, 1, rows.first);
-  const parameters::AxisKind axis = study.units.axis;
-  concatenate(file,
-              layout::on_axis(layout::outcome_table(layout::format_version, study.features, measures), axis),
-              shards, study.moves, rows.first);
-  concatenate(file, layout::jerk_table(), shards, 1, 0, renumber);
-  write_profiles(file, study);
-  if (study.rigs > 0) write_rigs(file, study);
+  hdf5::File file = begin_file(study, part, rows, provenance);
+  write_trial_tables(file, shards, study, rows.first, renumber, measures);
+  write_rig_descriptions(file, study);
   if (!study.retained_trials.empty()) {
-    concatenate(file, layout::on_axis(layout::trace_table(study.features), axis), shards, 1, 0, renumber);
+    concatenate(file, layout::on_axis(layout::trace_table(study.features), study.units.axis), shards, 1, 0,
+                renumber);
   }
   return file.close();
 }
@@ -141,11 +180,9 @@ void write_point_statistics(hdf5::File& file, const study::Study& study,
   }
 }
 
-/// @param written contents of the file so far; returned with the added values
-hdf5::WrittenValues write_statistics(const fs::path& part, const study::Study& study, layout::RowRange rows,
-                                     hdf5::WrittenValues written,
-                                     const layout::StoredStatistics& statistics) {
-  hdf5::File file = hdf5::File::open_to_change(part, std::move(written));
+/// Writes what is known when all trials have been run, and the completion mark.
+void write_statistics(hdf5::File& file, const study::Study& study,
+                      const layout::StoredStatistics& statistics) {
   write_point_statistics(file, study, statistics);
   for (layout::StatisticTable table : statistics.tables) {
     for (layout::PointColumn& column : table.columns)
@@ -153,9 +190,26 @@ hdf5::WrittenValues write_statistics(const fs::path& part, const study::Study& s
     layout::write_statistic_table(file, table, study::point_count(study));
   }
   if (statistics.groups) statistics.groups(file);
-  if (study.rigs > 0 && rows == layout::all_rows(study)) write_rig_counts(file, study);
+}
+
+/// @param written contents of the file so far; returned with the added values
+hdf5::WrittenValues finish_study(const fs::path& part, const study::Study& study, layout::RowRange rows,
+                                 hdf5::WrittenValues written, const layout::StoredStatistics& statistics) {
+  hdf5::File file = hdf5::File::open_to_change(part, std::move(written));
+  write_statistics(file, study, statistics);
+  if (study.rigs > 0 && rows == layout::all_rows(study))
+    write_rig_counts(file, study, count_rig_successes(file, study));
   layout::mark_finished(file);
   return file.close();
+}
+
+/// The shards in order of rows. @throws Failure unless they cover `rows`.
+std::vector<ShardInfo> in_order(std::span<const ShardInfo> shards, layout::RowRange rows,
+                                const fs::path& output) {
+  std::vector<ShardInfo> ordered(shards.begin(), shards.end());
+  sort_by_rows(ordered);
+  require_cover(ordered, rows, output);
+  return ordered;
 }
 
 }  // namespace
@@ -168,23 +222,42 @@ std::vector<ShardInfo> merge_inputs(std::span<const fs::path> inputs, const stud
 }
 
 layout::FileHeader first_header(std::span<const fs::path> inputs) {
-  return reading::StudyFile(expand(inputs).front(), reading::Require::any_part).header();
+  return inspect_header(expand(inputs).front());
 }
 
 void merge_shards(std::span<const ShardInfo> shards, const study::Study& study, const fs::path& output,
                   layout::RowRange rows, const StatisticsOfPoints& statistics,
                   const layout::Provenance& provenance, const Renumbering& renumber,
                   const layout::MeasureTable& measures) {
-  std::vector<ShardInfo> ordered(shards.begin(), shards.end());
-  sort_by_rows(ordered);
-  require_cover(ordered, rows, output);
+  const std::vector<ShardInfo> ordered = in_order(shards, rows, output);
   const storage::UnfinishedFile part(output);
   hdf5::WrittenValues written = write_trials_of(ordered, study, part.path(), rows,
                                                 merged_provenance(ordered, provenance), renumber, measures);
   layout::StoredStatistics stored;
   if (statistics && rows == layout::all_rows(study))
     stored = statistics_of(part.path(), written, statistics, measures);
-  finish_results(output, write_statistics(part.path(), study, rows, std::move(written), stored));
+  finish_results(output, finish_study(part.path(), study, rows, std::move(written), stored));
+}
+
+void merge_statistics(std::span<const ShardInfo> shards, const study::Study& study, const fs::path& output,
+                      layout::RowRange rows, const SumsOfTrials& sums_of,
+                      const layout::Provenance& provenance) {
+  const std::vector<ShardInfo> ordered = in_order(shards, rows, output);
+  const SummedTrials summed = sums_of(ordered);
+  const storage::UnfinishedFile part(output);
+  hdf5::File file = begin_file(study, part.path(), rows, merged_provenance(ordered, provenance));
+  if (study.kept == study::Kept::failures) {
+    write_trial_tables(file, ordered, study, std::nullopt, {}, layout::measure_table());
+    number_kept_trials(file, study);
+  }
+  write_rig_descriptions(file, study);
+  write_sums(file, rows.first / study.trials, summed.sums);
+  if (rows == layout::all_rows(study)) {
+    write_statistics(file, study, summed.statistics);
+    if (study.rigs > 0) write_rig_counts(file, study, summed.rig_successes);
+  }
+  layout::mark_finished(file);
+  finish_results(output, file.close());
 }
 
 }  // namespace zerocount::shards

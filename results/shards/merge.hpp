@@ -8,9 +8,11 @@
 #include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/layout.hpp"
+#include "results/layout/point_sums.hpp"
 #include "results/layout/row_range.hpp"
 #include "results/reading/study_file.hpp"
 #include "results/shards/concatenate.hpp"
+#include "results/shards/rig_tables.hpp"
 #include "results/shards/shard.hpp"
 
 namespace zerocount::shards {
@@ -43,5 +45,20 @@ void merge_shards(std::span<const ShardInfo> shards, const study::Study& study,
                   const layout::Provenance& provenance = layout::current_provenance(),
                   const Renumbering& renumber = {},
                   const layout::MeasureTable& measures = layout::measure_table());
+
+/// What follows from the sums of some trials.
+struct SummedTrials {
+  std::vector<layout::PointSums> sums;  ///< [point, from that of the first trial]
+  layout::StoredStatistics statistics;  ///< of all trials of the study; otherwise empty, and so is the next
+  RigSuccesses rig_successes;
+};
+
+/// Adds the sums of shards, which are in order of rows.
+using SumsOfTrials = std::function<SummedTrials(std::span<const ShardInfo>)>;
+
+/// The same for shards of a study that keeps statistics in place of trials.
+void merge_statistics(std::span<const ShardInfo> shards, const study::Study& study,
+                      const std::filesystem::path& output, layout::RowRange rows, const SumsOfTrials& sums_of,
+                      const layout::Provenance& provenance = layout::current_provenance());
 
 }  // namespace zerocount::shards

@@ -57,13 +57,6 @@ void write_rotors(hdf5::File& file, const study::RealisedProfile& realised, cons
 
 using Flags = std::vector<std::int8_t>;
 
-/// The table of outcomes, reduced to the verdicts.
-layout::Table verdict_table() {
-  layout::Table table = layout::outcome_table();
-  std::erase_if(table.columns, [](const layout::Column& column) { return column.name != "outcome"; });
-  return table;
-}
-
 bool succeeded(Flags::const_iterator moves, std::int64_t count) {
   return std::all_of(moves, moves + count,
                      [](std::int8_t move) { return trial::is_success(static_cast<trial::Outcome>(move)); });
@@ -94,29 +87,37 @@ void write_rigs(hdf5::File& file, const study::Study& study) {
   }
 }
 
-void write_rig_counts(hdf5::File& file, const study::Study& study) {
-  const layout::TableIo verdicts = layout::TableIo::open(file, verdict_table());
+RigSuccesses count_rig_successes(const hdf5::File& file, const study::Study& study) {
+  const layout::TableIo verdicts = layout::TableIo::open(file, layout::verdict_table());
   const std::int64_t moves = verdicts.width();
-  const std::int64_t points = study::point_count(study);
-  layout::TableIo io = layout::TableIo::create(file, layout::rig_count_table(), points, study.rigs);
-  io.number_rows(0);
-  const std::vector<std::int64_t> trials(static_cast<std::size_t>(study.rigs),
-                                         study.open_loop ? 0 : study.trials / study.rigs);
   const std::int64_t at_once = layout::chunk_rows(moves);
+  RigSuccesses successes(static_cast<std::size_t>(study::point_count(study)),
+                         std::vector<std::int64_t>(static_cast<std::size_t>(study.rigs), 0));
   Flags flags;
-  for (std::int64_t point = 0; point < points; ++point) {
-    std::vector<std::int64_t> successes(static_cast<std::size_t>(study.rigs), 0);
+  for (std::size_t point = 0; point < successes.size(); ++point) {
+    const std::int64_t first_row = static_cast<std::int64_t>(point) * study.trials;
     for (std::int64_t first = 0; first < study.trials; first += at_once) {
       const std::int64_t count = std::min(at_once, study.trials - first);
       flags.resize(static_cast<std::size_t>(count * moves));
-      verdicts.column(0).read(point * study.trials + first, count, flags.data());
+      verdicts.column(0).read(first_row + first, count, flags.data());
       for (std::int64_t i = 0; i < count; ++i) {
         const auto rig = static_cast<std::size_t>(study::rig_of(study, first + i));
-        successes[rig] += succeeded(flags.begin() + i * moves, moves);
+        successes[point][rig] += succeeded(flags.begin() + i * moves, moves);
       }
     }
-    io.column(0).write(point, 1, successes.data());
-    io.column(1).write(point, 1, trials.data());
+  }
+  return successes;
+}
+
+void write_rig_counts(hdf5::File& file, const study::Study& study, const RigSuccesses& successes) {
+  layout::TableIo io =
+      layout::TableIo::create(file, layout::rig_count_table(), std::ssize(successes), study.rigs);
+  io.number_rows(0);
+  const std::vector<std::int64_t> trials(static_cast<std::size_t>(study.rigs),
+                                         study.open_loop ? 0 : study.trials / study.rigs);
+  for (std::size_t point = 0; point < successes.size(); ++point) {
+    io.column(0).write(static_cast<std::int64_t>(point), 1, successes[point].data());
+    io.column(1).write(static_cast<std::int64_t>(point), 1, trials.data());
   }
 }
 

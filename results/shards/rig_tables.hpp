@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "experiments/study/study.hpp"
 #include "results/hdf5/hdf5.hpp"
 
@@ -11,8 +14,13 @@ void write_profiles(hdf5::File& file, const study::Study& study);
 /// Writes the inputs that differ between the rigs of a study to /rig.
 void write_rigs(hdf5::File& file, const study::Study& study);
 
-/// Counts the successful trials of every rig at every design point, in a file that holds all trials, and
-/// writes them to /rig. A trial succeeds if all its moves end with a zero count.
-void write_rig_counts(hdf5::File& file, const study::Study& study);
+/// Successful trials, [point][rig]. A trial succeeds if all its moves end with a zero count.
+using RigSuccesses = std::vector<std::vector<std::int64_t>>;
+
+/// Counts them in a file that holds all trials.
+RigSuccesses count_rig_successes(const hdf5::File& file, const study::Study& study);
+
+/// Writes them to /rig, beside the trials that were judged.
+void write_rig_counts(hdf5::File& file, const study::Study& study, const RigSuccesses& successes);
 
 }  // namespace zerocount::shards

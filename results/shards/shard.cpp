@@ -12,6 +12,7 @@
 #include "results/layout/header.hpp"
 #include "results/layout/table_io.hpp"
 #include "results/reading/input_validation.hpp"
+#include "results/reading/statistics_file.hpp"
 #include "results/reading/study_file.hpp"
 #include "results/storage/checksum_trailer.hpp"
 #include "results/storage/durable_file.hpp"
@@ -34,12 +35,19 @@ void require_fit(const study::Study& study, std::int64_t first_row, std::span<co
   }
 }
 
+void write_row_numbers(layout::TableIo& io, std::span<const TrialResult> results) {
+  std::vector<std::int64_t> rows(results.size());
+  std::transform(results.begin(), results.end(), rows.begin(),
+                 [](const TrialResult& one) { return one.row; });
+  io.row_scale().write(0, std::ssize(rows), rows.data());
+}
+
 void write_trials(hdf5::File& file, const study::Study& study, std::span<const TrialResult> results,
                   hdf5::Compression compression) {
   const std::int64_t rows = std::ssize(results);
   layout::TableIo io =
       layout::TableIo::create(file, layout::trial_table(study.input_columns), rows, 1, compression);
-  io.number_rows(results.front().row);
+  write_row_numbers(io, results);
   const auto write = [&](std::size_t column, const auto& value_of) {
     std::vector<std::invoke_result_t<decltype(value_of), const TrialResult&>> values(results.size());
     std::transform(results.begin(), results.end(), values.begin(), value_of);
@@ -51,14 +59,15 @@ void write_trials(hdf5::File& file, const study::Study& study, std::span<const T
     write(2 + input, [input](const TrialResult& result) { return result.inputs[input]; });
 }
 
-/// Writes the table with these records; a row takes `width` of them.
+/// Writes the records of a table; a row takes as many of them as the table is wide.
 template <class Record>
-void write_table(hdf5::File& file, const layout::Table& table,
-                 const std::vector<layout::RecordField<Record>>& fields, const std::vector<Record>& records,
-                 std::int64_t width, std::int64_t first_number, hdf5::Compression compression) {
+layout::TableIo write_table(hdf5::File& file, const layout::Table& table,
+                            const std::vector<layout::RecordField<Record>>& fields,
+                            const std::vector<Record>& records, std::int64_t width,
+                            hdf5::Compression compression) {
   layout::TableIo io = layout::TableIo::create(file, table, std::ssize(records) / width, width, compression);
-  io.number_rows(first_number);
   layout::write_records(io, fields, 0, std::span<const Record>(records));
+  return io;
 }
 
 std::vector<trial::MoveOutcome> move_outcomes(std::span<const TrialResult> results) {
@@ -105,22 +114,44 @@ reading::StudyFile file_of_study(const fs::path& path, const study::Study& study
   return file;
 }
 
-ShardInfo info_of(const reading::StudyFile& file) {
+ShardInfo info_of(const reading::ResultsFile& file) {
   return {file.path(), file.rows()};
+}
+
+reading::StatisticsFile statistics_of_study(const fs::path& path, const study::Study& study) {
+  reading::StatisticsFile file(path, reading::Require::any_part);
+  layout::require_same_study(path, file.header(), study);
+  return file;
+}
+
+reading::ReportInput refuse_file(const fs::path& path) {
+  return [path](const std::string& problem) {
+    throw Failure(ExitCode::bad_data, fmt::format("{}: {}", path.string(), problem));
+  };
+}
+
+ShardInfo inspect_whole_statistics(const fs::path& path, const study::Study& study) {
+  const reading::StatisticsFile file = statistics_of_study(path, study);
+  if (!file.failures()) return info_of(file);
+  const reading::KeptTrials& failures = *file.failures();
+  failures.require_valid_values();
+  const std::int64_t at_once = layout::chunk_rows(failures.moves());
+  for (std::int64_t first = 0; first < failures.count(); first += at_once)
+    reading::check_inputs(failures, study, first, std::min(at_once, failures.count() - first),
+                          refuse_file(path));
+  return info_of(file);
 }
 
 /// Reads all values, too: the checksum of a file that was damaged before it was closed agrees with the
 /// damage.
 ShardInfo inspect_whole_shard(const fs::path& path, const study::Study& study) {
+  if (study.kept != study::Kept::trials) return inspect_whole_statistics(path, study);
   const reading::StudyFile file = file_of_study(path, study);
   file.require_valid_values();
   const std::int64_t at_once = layout::chunk_rows(file.moves());
-  for (std::int64_t first = file.rows().first; first < file.rows().end(); first += at_once) {
+  for (std::int64_t first = file.rows().first; first < file.rows().end(); first += at_once)
     reading::check_inputs(file, study, {first, std::min(at_once, file.rows().end() - first)},
-                          [&](const std::string& problem) {
-                            throw Failure(ExitCode::bad_data, fmt::format("{}: {}", path.string(), problem));
-                          });
-  }
+                          refuse_file(path));
   return info_of(file);
 }
 
@@ -128,6 +159,19 @@ ShardInfo inspect_whole_shard(const fs::path& path, const study::Study& study) {
 
 fs::path shard_path(const fs::path& directory, layout::RowRange rows) {
   return directory / fmt::format("trials-{:012}-{:012}.h5", rows.first, rows.end() - 1);
+}
+
+void write_trial_tables(hdf5::File& file, const study::Study& study, std::span<const TrialResult> results,
+                        hdf5::Compression compression, const layout::MeasureTable& measures) {
+  write_trials(file, study, results, compression);
+  const study::StudyFeatures& features = study.features;
+  layout::TableIo outcomes =
+      write_table(file, layout::outcome_table(layout::format_version, features, measures),
+                  layout::outcome_fields(layout::format_version, features, measures), move_outcomes(results),
+                  study.moves, compression);
+  write_row_numbers(outcomes, results);
+  write_table(file, layout::jerk_table(), layout::jerk_fields(), jerk_records(results), 1, compression)
+      .number_rows(0);
 }
 
 void write_shard(const fs::path& path, const study::Study& study, std::int64_t first_row,
@@ -138,15 +182,11 @@ void write_shard(const fs::path& path, const study::Study& study, std::int64_t f
   hdf5::File file = hdf5::File::create(part.path());
   layout::write_header(file, layout::make_header(study, layout::FileKind::shard,
                                                  {first_row, std::ssize(results)}, provenance));
-  write_trials(file, study, results, compression);
-  const study::StudyFeatures& features = study.features;
-  write_table(file, layout::outcome_table(layout::format_version, features, measures),
-              layout::outcome_fields(layout::format_version, features, measures), move_outcomes(results),
-              study.moves, first_row, compression);
-  write_table(file, layout::jerk_table(), layout::jerk_fields(), jerk_records(results), 1, 0, compression);
+  write_trial_tables(file, study, results, compression, measures);
   if (!study.retained_trials.empty()) {
-    write_table(file, layout::trace_table(features), layout::trace_fields(features), trace_records(results),
-                1, 0, compression);
+    write_table(file, layout::trace_table(study.features), layout::trace_fields(study.features),
+                trace_records(results), 1, compression)
+        .number_rows(0);
   }
   layout::mark_finished(file);
   finish_results(path, file.close());
@@ -161,6 +201,16 @@ void finish_results(const fs::path& path, const hdf5::WrittenValues& written) {
   storage::publish(path);
 }
 
+layout::FileHeader inspect_header(const fs::path& path, layout::Checksum checksum) {
+  layout::FileHeader header = layout::read_header(layout::open_results(path, checksum));
+  if (header.finished) return header;
+  throw Failure(ExitCode::bad_data, fmt::format("{}: damaged: it was never finished", path.string()));
+}
+
+bool keeps_trials(const fs::path& path) {
+  return inspect_header(path, layout::Checksum::not_yet).kept == study::Kept::trials;
+}
+
 std::vector<fs::path> shard_files(const fs::path& directory) {
   return files_in(directory, ".h5");
 }
@@ -172,6 +222,7 @@ void sort_by_rows(std::vector<ShardInfo>& shards) {
 }
 
 ShardInfo inspect_shard(const fs::path& path, const study::Study& study) {
+  if (study.kept != study::Kept::trials) return info_of(statistics_of_study(path, study));
   return info_of(file_of_study(path, study));
 }
 

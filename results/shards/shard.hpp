@@ -49,6 +49,11 @@ void write_shard(const std::filesystem::path& path, const study::Study& study, s
                  hdf5::Compression compression = shard_compression,
                  const layout::MeasureTable& measures = layout::measure_table());
 
+/// Writes /trial, /outcome and /jerk for these trials, in order of rows.
+void write_trial_tables(hdf5::File& file, const study::Study& study, std::span<const TrialResult> results,
+                        hdf5::Compression compression,
+                        const layout::MeasureTable& measures = layout::measure_table());
+
 /// A complete shard (or part) of the study.
 struct ShardInfo {
   std::filesystem::path path;
@@ -80,6 +85,16 @@ struct ShardSurvey {
 /// The regular files *.h5 in `directory`, sorted by name.
 /// @throws Failure (machine_failed) if the directory cannot be read.
 std::vector<std::filesystem::path> shard_files(const std::filesystem::path& directory);
+
+/// The header of a finished results file, part or shard. Without its checksum for those who only choose with
+/// it how to open the file.
+/// @throws as open_results and read_header do
+layout::FileHeader inspect_header(const std::filesystem::path& path,
+                                  layout::Checksum checksum = layout::Checksum::required);
+
+/// Whether a file is to be opened as one with its trials; otherwise it has sums. @throws as inspect_header
+/// does
+bool keeps_trials(const std::filesystem::path& path);
 
 /// Reads the whole shard and checks its checksum trailer, format, version, study, build and completion mark.
 /// @throws ForeignFile or another Failure (bad_data) if it cannot be used; see also open_results.

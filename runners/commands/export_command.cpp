@@ -3,7 +3,9 @@
 #include "analysis/iso230/repeatability_file.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/reading/export.hpp"
+#include "results/reading/statistics_file.hpp"
 #include "results/reading/study_file.hpp"
+#include "results/shards/shard.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
 #include "runners/status/status.hpp"
@@ -15,7 +17,8 @@ constexpr const char* export_help =
     "Writes the tables of a results file as CSV: points.csv, trials.csv, outcomes.csv,\n"
     "jerks.csv, profiles.csv if there are profiles, trace.csv if the study retains trials,\n"
     "levels.csv of an open-loop study, and four tables repeatability_….csv of one with a\n"
-    "sequence of moves. The header row has the units, such as settling_time [s]; columns without\n"
+    "sequence of moves. Of a file without its trials (keep), those that it has. The header row has the "
+    "units, such as settling_time [s]; columns without\n"
     "a unit are dimensionless. Numbers read back to the same double.\n"
     "\n"
     "Example: zerocount export gains.h5 -o gains-csv\n";
@@ -26,10 +29,15 @@ ExitCode export_file(const command_line::Arguments& arguments) {
     arguments.refuse(
         "option '--output': the tables are several files and cannot go to standard output; name a folder");
   }
-  const reading::StudyFile file(arguments.operands()[0]);
-  reading::export_csv(
-      file, directory, iso230::repeatability_exports(file),
-      arguments.has("force") ? reading::ExistingFiles::replace : reading::ExistingFiles::refuse);
+  const std::string& results = arguments.operands()[0];
+  const auto existing =
+      arguments.has("force") ? reading::ExistingFiles::replace : reading::ExistingFiles::refuse;
+  if (shards::keeps_trials(results)) {
+    const reading::StudyFile file(results);
+    reading::export_csv(file, directory, iso230::repeatability_exports(file), existing);
+  } else {
+    reading::export_csv(reading::StatisticsFile(results), directory, existing);
+  }
   status::tell("wrote the tables to {}\n", directory);
   return ExitCode::success;
 }

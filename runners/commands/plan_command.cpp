@@ -64,7 +64,7 @@ struct PlanRequest {
 
 /// Takes the standard deviation and the rate from the point of a pilot study whose rigs differ most.
 void measure_pilot(PlanRequest& request, const std::string& path) {
-  const summary::StudySummary summary = summary::summarise(reading::StudyFile(path));
+  const summary::StudySummary summary = summary::summarise_file(path);
   const measures::PointSummary* worst = nullptr;
   for (const measures::PointSummary& point : summary.points) {
     const double sd = point.rigs.success_sd;
@@ -287,7 +287,7 @@ ExitCode print_plan(const command_line::Arguments& arguments) {
     return print_equivalence_plan(arguments);
   }
   if (arguments.has("set")) arguments.refuse("option '--set' needs '--margin'");
-  const std::string format = arguments.one_of("format", {"table", "json"});
+  const std::string format = arguments.choice("format");
   const PlanRequest request = request_of(arguments);
   standard_output::write(format == "json" ? plan_json(request).dump(2) + "\n" : plan_text(request));
   return ExitCode::success;
@@ -309,7 +309,7 @@ Command plan_command() {
         {"rig-sd", "SD", "standard deviation of the success probability between rigs"},
         {"margin", "MEASURE=M", "largest accepted difference of two equal studies; may be repeated", true},
         {"set", "KEY=VALUE", "with --margin: override a manifest key; may be repeated", true},
-        {"format", "FORMAT", "table (default) or json"}},
+        command_line::format_option({"table", "json"})},
        0,
        1},
       "print how many trials a claim needs",

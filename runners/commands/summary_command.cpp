@@ -57,7 +57,7 @@ summary::StudySummary summary_of(const fs::path& path, double confidence, bool w
       if (!is_there(path)) throw;  // otherwise the run has ended in the meantime and removed its shards
     }
   }
-  summary::StudySummary summary = summary::summarise(reading::StudyFile(path), confidence, with_means);
+  summary::StudySummary summary = summary::summarise_file(path, confidence, with_means);
   if (const fs::path shards = layout::shards_directory(path); is_there(shards)) {
     status::tell("note: an unfinished run ({1}) will replace {0}; this is the summary of the present file\n",
                  path.string(), shards.string());
@@ -81,7 +81,7 @@ std::optional<ConfirmedBest> confirmed_best(const command_line::Arguments& argum
     return std::nullopt;
   }
   if (summary.unfinished) arguments.refuse("option '--confirm' needs a run that has ended");
-  const reading::StudyFile file(arguments.operands()[0]);
+  const reading::DescribedFile file(arguments.operands()[0]);
   status::tell("running {} new trials of the best point\n", *trials);
   const study_run::Confirmation confirmation =
       study_run::confirm_point(file, summary::best_point(summary.points), *trials, plugin_option(arguments));
@@ -131,7 +131,7 @@ nlohmann::ordered_json confirmation_json(const ConfirmedBest& best) {
 }
 
 ExitCode summarise_file(const command_line::Arguments& arguments) {
-  const std::string format = arguments.one_of("format", {"table", "json", "csv"});
+  const std::string format = arguments.choice("format");
   const double confidence =
       command_line::probability_option(arguments, "confidence").value_or(statistics::summary_confidence);
   const bool with_means = format != "table";  // the table shows no bounds of means
@@ -158,7 +158,7 @@ ExitCode summarise_file(const command_line::Arguments& arguments) {
 Command summary_command() {
   return {{"summary",
            "FILE",
-           {{"format", "FORMAT", "table (default), json or csv"},
+           {command_line::format_option({"table", "json", "csv"}),
             {"confirm", "N", "run the best point again with N new trials, and print what they show"},
             {"plugin", "LIBRARY", "for --confirm: the controller of a study that has one of its own"},
             {"confidence", "LEVEL", "of all bounds, between 0 and 1 (default 0.95)"}}},

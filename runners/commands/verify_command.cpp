@@ -28,7 +28,8 @@ constexpr const char* verify_help =
     "the trials, are those of the file (not of a shard); this needs room for a copy of the file in\n"
     "the folder for temporary files;\n"
     "trials run again: a random sample of the trials gives the recorded inputs, measures, jerks and\n"
-    "sample records, to the bit if this program on this kind of processor made the file;\n"
+    "sample records, to the bit if this program on this kind of processor made the file; of a file\n"
+    "that keeps failures, as many of these besides;\n"
     "shards: those of a folder are of one study, and no trial is in two of them;\n"
     "all trials: the number of trials that no shard of the folder has, if any (no failure).\n"
     "The exit code is 4 if a check fails, and 5 if a file cannot be read.\n"
@@ -74,7 +75,7 @@ ExitCode code_of(const std::vector<verification::CheckReport>& reports) {
 }
 
 ExitCode verify(const command_line::Arguments& arguments) {
-  const std::string format = arguments.one_of("format", {"table", "json"});
+  const std::string format = arguments.choice("format");
   verification::VerifySettings settings;
   settings.trials = arguments.whole_number("trials", 0, std::int64_t{1} << 53).value_or(default_trials);
   settings.seed = static_cast<std::uint64_t>(
@@ -105,7 +106,7 @@ Command verify_command() {
            {{"trials", "N", "trials to run again, of each file or of all shards of a folder (default 20)"},
             {"seed", "S", "of the choice of these trials (default 1)"},
             {"plugin", "LIBRARY", "the controller of a study that has one of its own"},
-            {"format", "FORMAT", "table (default) or json"}},
+            command_line::format_option({"table", "json"})},
            1,
            100000},
           "check results files, and run a sample of their trials again",

@@ -25,7 +25,7 @@ std::uint64_t fresh_seed(std::uint64_t seed) {
 }
 
 /// The study of the file with `trials` independent trials at each point and another seed.
-study::Study fresh_study(const reading::StudyFile& file, std::int64_t trials,
+study::Study fresh_study(const reading::ResultsFile& file, std::int64_t trials,
                          std::shared_ptr<const plugin::ControllerPlugin> plugin) {
   const study::Study recorded = layout::recorded_study(file.header(), file.path(), plugin);
   if (recorded.open_loop) {
@@ -60,7 +60,7 @@ std::int64_t successes_in(const study::Study& study, layout::RowRange rows) {
 
 }  // namespace
 
-Confirmation confirm_point(const reading::StudyFile& file, std::int64_t point, std::int64_t trials,
+Confirmation confirm_point(const reading::ResultsFile& file, std::int64_t point, std::int64_t trials,
                            std::shared_ptr<const plugin::ControllerPlugin> plugin) {
   const study::Study study = fresh_study(file, trials, std::move(plugin));
   if (study.plugin && study.plugin->functions == nullptr) {

@@ -5,7 +5,7 @@
 
 #include "core/plugin/controller_plugin.hpp"
 #include "experiments/study/study.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/results_file.hpp"
 
 namespace zerocount::study_run {
 
@@ -25,7 +25,7 @@ struct Confirmation {
 /// cores.
 /// @param plugin the user's controller, if the study has one
 /// @throws Failure (bad_input) for a study without targets, or whose plugin is not loaded.
-Confirmation confirm_point(const reading::StudyFile& file, std::int64_t point, std::int64_t trials,
+Confirmation confirm_point(const reading::ResultsFile& file, std::int64_t point, std::int64_t trials,
                            std::shared_ptr<const plugin::ControllerPlugin> plugin);
 
 }  // namespace zerocount::study_run

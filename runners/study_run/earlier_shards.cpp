@@ -1,13 +1,16 @@
 #include "runners/study_run/earlier_shards.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <system_error>
 
 #include <fmt/format.h>
 
+#include "analysis/summary/summed_point.hpp"
 #include "core/failure/failure.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/layout/header.hpp"
+#include "results/reading/statistics_file.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_run/study_differences.hpp"
 
@@ -19,7 +22,7 @@ namespace fs = std::filesystem;
 /// The differences to the shard's study if its header is readable; otherwise the problem itself.
 std::string why_foreign(const shards::ShardProblem& bad, const study::Study& study) {
   try {
-    const layout::FileHeader header = reading::StudyFile(bad.path, reading::Require::any_part).header();
+    const layout::FileHeader header = shards::inspect_header(bad.path);
     const std::vector<comparison::ManifestDifference> differences =
         study_differences(bad.path, header, study);
     return differences.empty() ? bad.problem : differences_text(differences);
@@ -32,12 +35,28 @@ std::string why_foreign(const shards::ShardProblem& bad, const study::Study& stu
 void require_same_plugin(const fs::path& shard, const study::Study& study) {
   std::optional<layout::FileHeader> header;
   try {
-    header = reading::StudyFile(shard, reading::Require::any_part).header();
+    header = shards::inspect_header(shard);
   } catch (const Failure&) {
     return;  // another format
   }
   if (study_differences(shard, *header, study).empty())
     layout::require_same_plugin(shard, *header, study.plugin.get());
+}
+
+/// Takes the shards whose sums cannot be those of trials from those that are sound.
+void find_wrong_sums(shards::ShardSurvey& survey, const study::Study& study) {
+  std::erase_if(survey.shards, [&](const shards::ShardInfo& shard) {
+    try {
+      const reading::StatisticsFile file(shard.path, reading::Require::any_part);
+      for (std::int64_t i = 0; i < file.points(); ++i)
+        summary::restored_point(file, study, file.first_point() + i);
+      return false;
+    } catch (const Failure& failure) {
+      if (failure.code() != ExitCode::bad_data) throw;
+      survey.problems.push_back({shard.path, failure.what(), shards::ShardProblem::Kind::damaged});
+      return true;
+    }
+  });
 }
 
 }  // namespace
@@ -57,6 +76,8 @@ EarlierShards choose_shards(const std::vector<shards::ShardInfo>& sound, layout:
 EarlierShards earlier_shards(const fs::path& directory, const study::Study& study, layout::RowRange wanted,
                              ForeignShards foreign, shards::Inspection inspection) {
   shards::ShardSurvey survey = shards::list_shards(directory, study, inspection);
+  if (study.kept != study::Kept::trials && inspection == shards::Inspection::values)
+    find_wrong_sums(survey, study);
   for (const shards::ShardProblem& bad : survey.problems) {
     if (bad.kind == shards::ShardProblem::Kind::foreign && foreign == ForeignShards::remove) {
       std::error_code ignored;

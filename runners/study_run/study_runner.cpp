@@ -1,10 +1,12 @@
 #include "runners/study_run/study_runner.hpp"
 
 #include <algorithm>
-#include <chrono>
+#include <cstddef>
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
@@ -17,12 +19,12 @@
 #include "core/trial/trial.hpp"
 #include "results/layout/table_io.hpp"
 #include "results/shards/merge.hpp"
+#include "runners/study_run/shard_clock.hpp"
+#include "runners/study_run/sums_writer.hpp"
 #include "runners/study_run/trial_runner.hpp"
 
 namespace zerocount::study_run {
 namespace {
-
-using Block = std::shared_ptr<std::vector<shards::TrialResult>>;
 
 /// Limits of a block. It takes a fraction of a second, so that interruptions are handled quickly and the
 /// threads end together. The batch engine needs many trials per block, because the last ones do not fill its
@@ -39,11 +41,6 @@ constexpr std::size_t max_trace_bytes_per_block = std::size_t{8} << 20;
 
 constexpr std::size_t max_trials_per_shard = 1 << 16;
 constexpr std::size_t max_bytes_per_shard = std::size_t{64} << 20;
-/// A shard is written after a tenth of the elapsed time, within these bounds. A crash then loses little, and
-/// a long run does not create thousands of files.
-constexpr std::chrono::duration<double> shortest_wait{0.5};
-constexpr std::chrono::duration<double> longest_wait{20.0};
-
 /// Bytes of the trace of a retained trial in memory.
 double bytes_of_trace(const study::Study& study) {
   return study.retained_trials.empty() ? 0.0 : samples_per_trial(study) * sizeof(trial::SampleRecord);
@@ -94,19 +91,18 @@ class BlockSource {
 /// wait twice as long.
 class ShardWriter {
  public:
-  using Clock = std::chrono::steady_clock;
-
   ShardWriter(const study::Study& study, std::filesystem::path directory)
       : study_(study), directory_(std::move(directory)), provenance_(layout::current_provenance()) {}
 
   void take(std::vector<shards::TrialResult>&& block) {
     if (block.empty()) return;
     if (!waiting_.empty() && block.front().row != waiting_.back().row + 1) flush();
-    if (waiting_.empty()) begun_ = Clock::now();
+    if (waiting_.empty()) clock_.begin_shard();
     for (const shards::TrialResult& result : block) bytes_ += bytes_of(result);
     waiting_.insert(waiting_.end(), std::make_move_iterator(block.begin()),
                     std::make_move_iterator(block.end()));
-    if (waiting_.size() < max_trials_per_shard && bytes_ < max_bytes_per_shard && !waited_enough()) return;
+    if (waiting_.size() < max_trials_per_shard && bytes_ < max_bytes_per_shard && !clock_.waited_enough())
+      return;
     const std::size_t in_chunks = trials_in_chunks();
     write(in_chunks > 0 ? in_chunks : waiting_.size());
   }
@@ -121,12 +117,6 @@ class ShardWriter {
   const study::Study& study_;
   std::filesystem::path directory_;
   layout::Provenance provenance_;
-
-  bool waited_enough() const {
-    const Clock::time_point now = Clock::now();
-    const std::chrono::duration<double> proportion = 0.1 * (now - run_begun_);
-    return now - begun_ >= std::clamp(proportion, shortest_wait, longest_wait);
-  }
 
   /// Number of the waiting trials up to the end of the last whole chunk of a whole study.
   std::size_t trials_in_chunks() const {
@@ -146,14 +136,13 @@ class ShardWriter {
     waiting_.erase(waiting_.begin(), waiting_.begin() + std::ssize(trials));
     bytes_ = 0;
     for (const shards::TrialResult& trial : waiting_) bytes_ += bytes_of(trial);
-    begun_ = Clock::now();
+    clock_.begin_shard();
   }
 
   std::vector<shards::TrialResult> waiting_;
   std::vector<shards::ShardInfo> written_;
   std::size_t bytes_{0};
-  Clock::time_point begun_;
-  Clock::time_point run_begun_{Clock::now()};
+  ShardClock clock_;
 };
 
 /// Number of trials per block in a run of `rows` trials.
@@ -164,6 +153,80 @@ std::int64_t block_size_of(const study::Study& study, std::int64_t rows, int thr
   const std::int64_t proportion = rows / (std::int64_t{4} * threads) + 1;
   return std::clamp(static_cast<std::int64_t>(size), std::int64_t{1},
                     std::min(limits.trials, std::max<std::int64_t>(proportion, 256)));
+}
+
+/// Runs the blocks of `ranges` in parallel. `digest` turns a block into what `take` gets, one at a time in
+/// order of rows.
+template <class Digest, class Take>
+void run_blocks(const study::Study& study, std::span<const layout::RowRange> ranges, int threads,
+                const std::stop_token& stop, const Digest& digest, const Take& take) {
+  namespace tbb = oneapi::tbb;
+  using Product = std::shared_ptr<std::invoke_result_t<Digest, TrialBlock&&>>;
+  BlockSource source(study, ranges, block_size_of(study, layout::total_rows(ranges), threads));
+  const auto next_block = [&](tbb::flow_control& control) -> layout::RowRange {
+    std::optional<layout::RowRange> block = stop.stop_requested() ? std::nullopt : source.next();
+    if (!block) {
+      control.stop();
+      return {};
+    }
+    return *block;
+  };
+  tbb::enumerable_thread_specific<TrialRunner> runners([&study] { return TrialRunner(study); });
+  const auto run_block = [&](layout::RowRange rows) -> Product {
+    try {
+      return std::make_shared<typename Product::element_type>(digest(runners.local().run_block(rows, stop)));
+    } catch (const trial::Interrupted&) {
+      return nullptr;  // the trials of the block are run again
+    }
+  };
+  const auto take_block = [&](const Product& product) {
+    if (product) take(std::move(*product));
+  };
+  const auto pipeline = [&] {
+    tbb::parallel_pipeline(
+        4 * static_cast<std::size_t>(threads),
+        tbb::make_filter<void, layout::RowRange>(tbb::filter_mode::serial_in_order, next_block) &
+            tbb::make_filter<layout::RowRange, Product>(tbb::filter_mode::parallel, run_block) &
+            tbb::make_filter<Product, void>(tbb::filter_mode::serial_in_order, take_block));
+  };
+  tbb::task_arena(threads).execute(pipeline);
+}
+
+FinishedTrials run_trials_kept(const study::Study& study, std::span<const layout::RowRange> ranges,
+                               const std::filesystem::path& directory, int threads,
+                               const std::function<void(std::int64_t)>& finished,
+                               const std::stop_token& stop) {
+  ShardWriter writer(study, directory);
+  std::vector<measures::TheoryPrediction> predictions(static_cast<std::size_t>(study::point_count(study)));
+  const auto take = [&](TrialBlock&& block) {
+    const auto trials = std::ssize(block.results);
+    const auto first_point = static_cast<std::size_t>(block.results.front().row / study.trials);
+    for (std::size_t i = 0; i < block.predictions.size(); ++i)
+      predictions[first_point + i] = predictions[first_point + i] + block.predictions[i];
+    writer.take(std::move(block.results));
+    finished(trials);
+  };
+  run_blocks(
+      study, ranges, threads, stop, [](TrialBlock&& block) { return std::move(block); }, take);
+  writer.flush();
+  return {writer.written(), std::move(predictions)};
+}
+
+FinishedTrials run_trials_summed(const study::Study& study, std::span<const layout::RowRange> ranges,
+                                 const std::filesystem::path& directory, int threads,
+                                 const std::function<void(std::int64_t)>& finished,
+                                 const std::stop_token& stop) {
+  SumsWriter writer(study, directory);
+  const auto take = [&](SummedBlock&& block) {
+    const std::int64_t trials = block.rows.count;
+    writer.take(std::move(block));
+    finished(trials);
+  };
+  run_blocks(
+      study, ranges, threads, stop, [&](TrialBlock&& block) { return sum_block(study, std::move(block)); },
+      take);
+  writer.flush();
+  return {writer.written(), {}};
 }
 
 }  // namespace
@@ -205,57 +268,26 @@ double peak_memory(const study::Study& study, double bytes_of_trial, double reco
 
 FinishedTrials run_trials(const study::Study& study, std::span<const layout::RowRange> ranges,
                           const std::filesystem::path& directory, const RunSettings& settings,
-                          std::stop_token stop) {
+                          const std::stop_token& stop) {
   namespace tbb = oneapi::tbb;
   const int threads = threads_to_use(settings.threads);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
-
-  BlockSource source(study, ranges, block_size_of(study, layout::total_rows(ranges), threads));
-  ShardWriter writer(study, directory);
-
-  const auto next_block = [&](tbb::flow_control& control) -> layout::RowRange {
-    std::optional<layout::RowRange> block = stop.stop_requested() ? std::nullopt : source.next();
-    if (!block) {
-      control.stop();
-      return {};
-    }
-    return *block;
-  };
-  tbb::enumerable_thread_specific<TrialRunner> runners([&study] { return TrialRunner(study); });
-  const auto run_block = [&](layout::RowRange rows) {
-    try {
-      return std::make_shared<std::vector<shards::TrialResult>>(runners.local().run(rows, stop));
-    } catch (const trial::Interrupted&) {
-      return std::make_shared<std::vector<shards::TrialResult>>();  // those of the block are run again
-    }
-  };
-  const auto write_block = [&](const Block& block) {
-    const auto trials = static_cast<std::int64_t>(block->size());
-    writer.take(std::move(*block));
+  const auto finished = [&](std::int64_t trials) {
     if (settings.finished) settings.finished(trials);
   };
-  const auto pipeline = [&] {
-    tbb::parallel_pipeline(
-        4 * static_cast<std::size_t>(threads),
-        tbb::make_filter<void, layout::RowRange>(tbb::filter_mode::serial_in_order, next_block) &
-            tbb::make_filter<layout::RowRange, Block>(tbb::filter_mode::parallel, run_block) &
-            tbb::make_filter<Block, void>(tbb::filter_mode::serial_in_order, write_block));
-  };
-  tbb::task_arena(threads).execute(pipeline);
-  writer.flush();
-  FinishedTrials finished{writer.written(), {}};
-  finished.predictions.resize(static_cast<std::size_t>(study::point_count(study)));
-  for (const TrialRunner& runner : runners) {
-    for (std::size_t point = 0; point < finished.predictions.size(); ++point)
-      finished.predictions[point] = finished.predictions[point] + runner.predictions()[point];
-  }
-  return finished;
+  return study.kept == study::Kept::trials
+             ? run_trials_kept(study, ranges, directory, threads, finished, stop)
+             : run_trials_summed(study, ranges, directory, threads, finished, stop);
 }
 
 void assemble(std::span<const shards::ShardInfo> shards, const study::Study& study,
               const std::filesystem::path& output, layout::RowRange rows,
               std::span<const measures::TheoryPrediction> predictions, const shards::Renumbering& renumber) {
+  if (study.kept != study::Kept::trials) {
+    assemble_statistics(shards, study, output, rows);
+    return;
+  }
   const auto statistics = [&](const reading::StudyFile& file) {
     return summary::stored_statistics(file, study, predictions);
   };

@@ -42,8 +42,9 @@ struct RunSettings {
 };
 
 struct FinishedTrials {
-  std::vector<shards::ShardInfo> shards;                ///< those written, in order of rows
-  std::vector<measures::TheoryPrediction> predictions;  ///< [point] for these trials
+  std::vector<shards::ShardInfo> shards;  ///< those written, in order of rows
+  /// [point] for these trials; empty if the shards have them
+  std::vector<measures::TheoryPrediction> predictions;
 };
 
 /// Runs the trials of `ranges` and writes them as shards into `directory`.
@@ -53,7 +54,7 @@ struct FinishedTrials {
 /// is requested, no new block starts, and the finished trials are written.
 FinishedTrials run_trials(const study::Study& study, std::span<const layout::RowRange> ranges,
                           const std::filesystem::path& directory, const RunSettings& settings,
-                          std::stop_token stop);
+                          const std::stop_token& stop);
 
 /// Joins shards into the results file `output`. A file with the whole study gets the statistics of all design
 /// points.

@@ -18,8 +18,10 @@
 #include "results/layout/layout.hpp"
 #include "results/shards/shard.hpp"
 #include "results/storage/durable_file.hpp"
+#include "runners/study_run/cost.hpp"
 #include "runners/study_run/deadline.hpp"
 #include "runners/study_run/study_runner.hpp"
+#include "runners/study_run/sums_writer.hpp"
 #include "runners/study_run/temporary_folder.hpp"
 #include "runners/study_run/trial_runner.hpp"
 
@@ -161,10 +163,78 @@ std::optional<StudySize> measured_size(const study::Study& study) {
   }
 }
 
+/// Numbers in the sums of a point, of trials that are numbered from 0.
+double numbers_of_sums(const study::Study& study, std::vector<shards::TrialResult> trials) {
+  const auto points = static_cast<std::size_t>((std::ssize(trials) - 1) / study.trials + 1);
+  const SummedBlock block =
+      sum_block(study, {std::move(trials), std::vector<measures::TheoryPrediction>(points)});
+  double numbers = 0.0;
+  for (const summary::SummedPoint& point : block.points) {
+    const layout::PointSums sums = point.sums();
+    numbers += static_cast<double>(sums.whole.size() + sums.real.size());
+  }
+  return numbers / static_cast<double>(points);
+}
+
+/// Bytes of the sums of a point in memory.
+struct SumBytes {
+  double of_block{0.0};  ///< of few trials, as threads hold them
+  double of_all{0.0};
+};
+
+SumBytes bytes_of_sums(const study::Study& study, const std::vector<shards::TrialResult>& trials) {
+  constexpr double growth = 4.0;  // distinct values that more trials add; measured
+  const double all = numbers_of_sums(study, trials);
+  const auto sampled = static_cast<double>(trials.size());
+  double of_rigs = 0.0;  // numbers of the rigs that no sampled trial is on
+  if (static_cast<double>(study.rigs) > sampled && trials.size() > 1) {
+    const std::vector<shards::TrialResult> half(trials.begin(), trials.begin() + std::ssize(trials) / 2);
+    const double per_rig =
+        (all - numbers_of_sums(study, half)) / (sampled - static_cast<double>(half.size()));
+    of_rigs = std::max(0.0, per_rig) * (static_cast<double>(study.rigs) - sampled);
+  }
+  return {all * sizeof(double), growth * (all + of_rigs) * sizeof(double)};
+}
+
+/// Shards of a run: one each 20 s, and more at its beginning.
+double shards_of_run(const study::Study& study) {
+  constexpr double at_the_beginning = 40.0, interval = 20.0;
+  return at_the_beginning + measure_cost(study).seconds() / interval +
+         static_cast<double>(study::point_count(study)) / max_points_of_shard;
+}
+
+/// The size of a study that keeps statistics, and perhaps failures.
+StudySize measure_summed_size(const TemporaryFolder& folder, const study::Study& study, int threads) {
+  constexpr double compressed = 0.2;  // of the bytes in memory; measured
+  constexpr double copies = 3.0;      // as sums that can be added to, as numbers, as they are written
+  constexpr double blocks_of_a_thread = 4.0;
+  const std::vector<shards::TrialResult> trials = sampled_trials(study);
+  const auto failed = std::count_if(trials.begin(), trials.end(), [](const shards::TrialResult& trial) {
+    return !trial::succeeded(trial.outcome.moves);
+  });
+  const double kept = study.kept == study::Kept::failures
+                          ? static_cast<double>(failed) / static_cast<double>(trials.size()) *
+                                static_cast<double>(study::trial_count(study))
+                          : 0.0;
+  const SumBytes bytes = bytes_of_sums(study, trials);
+  const double sums = bytes.of_all;
+  const auto points = static_cast<double>(study::point_count(study));
+  StudySize size;
+  size.file_bytes = table_bytes(study) + compressed * sums * points +
+                    kept * growth_of(folder, study, trials, hdf5::Compression::deflate).per_trial;
+  size.shard_bytes = compressed * sums * (shards_of_run(study) + points) +
+                     kept * growth_of(folder, study, trials, hdf5::Compression::none).per_trial;
+  size.memory_bytes = peak_memory(study, mean_bytes(trials), 0.0, threads) +
+                      blocks_of_a_thread * std::max(threads, 1) * bytes.of_block +
+                      copies * sums * std::min(points, double{max_points_of_shard}) + 2.0 * sums * points;
+  return size;
+}
+
 }  // namespace
 
 StudySize measure_size(const study::Study& study, int threads) {
   const TemporaryFolder folder;
+  if (study.kept != study::Kept::trials) return measure_summed_size(folder, study, threads);
   std::vector<shards::TrialResult> trials = sampled_trials(study);
   for (shards::TrialResult& trial : trials) trial.trace.clear();
   const Growth file = growth_of(folder, study, trials, hdf5::Compression::deflate);
@@ -186,7 +256,7 @@ void require_room(const fs::path& output, const study::Study& study, std::int64_
   const fs::space_info space = fs::space(folder, error);
   if (error) return;  // free space unknown; a failed write will be reported
   const auto available = static_cast<double>(space.available);
-  if (file_bytes_at_most(study) < available) return;
+  if (study.kept == study::Kept::trials && file_bytes_at_most(study) < available) return;
   const std::optional<StudySize> size = measured_size(study);
   if (!size) return;
   const double shards =

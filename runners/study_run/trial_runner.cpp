@@ -39,29 +39,39 @@ shards::TrialResult run_study_trial(const study::Study& study, std::int64_t row,
   return run_reference(study, row, trial_of_row(study, row), stop);
 }
 
-TrialRunner::TrialRunner(const study::Study& study)
-    : study_(&study), predictions_(static_cast<std::size_t>(study::point_count(study))) {
+TrialRunner::TrialRunner(const study::Study& study) : study_(&study) {
   if (study.engine == study::Engine::batch) engine_ = std::make_unique<batch::BatchEngine>();
 }
 
-study::StudyTrial TrialRunner::next_trial(std::int64_t row) {
+study::StudyTrial TrialRunner::next_trial(std::int64_t row, TrialBlock& block) {
   study::StudyTrial trial = trial_of_row(*study_, row);
-  predictions_[static_cast<std::size_t>(row / study_->trials)].add(measures::predict(trial.parameters));
+  const std::int64_t first_point = block.results.front().row / study_->trials;
+  const auto point = static_cast<std::size_t>(row / study_->trials - first_point);
+  block.predictions.resize(std::max(block.predictions.size(), point + 1));
+  block.predictions[point].add(measures::predict(trial.parameters));
   return trial;
 }
 
 std::vector<shards::TrialResult> TrialRunner::run(layout::RowRange rows, const std::stop_token& stop) {
-  if (engine_) return run_in_lanes(rows, stop);
-  std::vector<shards::TrialResult> results;
-  results.reserve(static_cast<std::size_t>(rows.count));
-  for (std::int64_t row = rows.first; row < rows.end(); ++row)
-    results.push_back(run_reference(*study_, row, next_trial(row), stop));
-  return results;
+  return run_block(rows, stop).results;
 }
 
-std::vector<shards::TrialResult> TrialRunner::run_in_lanes(layout::RowRange rows,
-                                                           const std::stop_token& stop) {
-  std::vector<shards::TrialResult> results(static_cast<std::size_t>(rows.count));
+TrialBlock TrialRunner::run_block(layout::RowRange rows, const std::stop_token& stop) {
+  TrialBlock block;
+  block.results.resize(static_cast<std::size_t>(rows.count));
+  if (rows.count > 0) block.results.front().row = rows.first;
+  if (engine_) {
+    run_in_lanes(rows, stop, block);
+    return block;
+  }
+  for (std::int64_t row = rows.first; row < rows.end(); ++row)
+    block.results[static_cast<std::size_t>(row - rows.first)] =
+        run_reference(*study_, row, next_trial(row, block), stop);
+  return block;
+}
+
+void TrialRunner::run_in_lanes(layout::RowRange rows, const std::stop_token& stop, TrialBlock& block) {
+  std::vector<shards::TrialResult>& results = block.results;
   std::vector<study::StudyTrial> trials;
   std::vector<std::size_t> places;  // indices of the trials in the results
   trials.reserve(results.size());
@@ -69,11 +79,11 @@ std::vector<shards::TrialResult> TrialRunner::run_in_lanes(layout::RowRange rows
   for (std::size_t i = 0; i < results.size(); ++i) {
     const std::int64_t row = rows.first + static_cast<std::int64_t>(i);
     if (is_retained(*study_, row % study_->trials)) {
-      results[i] = run_reference(*study_, row, next_trial(row), stop);
+      results[i] = run_reference(*study_, row, next_trial(row, block), stop);
       continue;
     }
     results[i].row = row;
-    trials.push_back(next_trial(row));
+    trials.push_back(next_trial(row, block));
     results[i].inputs = std::move(trials.back().inputs);
     places.push_back(i);
   }
@@ -88,7 +98,6 @@ std::vector<shards::TrialResult> TrialRunner::run_in_lanes(layout::RowRange rows
   };
   engine_->run(parameters, outcomes, observers);
   for (std::size_t i = 0; i < trials.size(); ++i) results[places[i]].outcome = std::move(outcomes[i]);
-  return results;
 }
 
 }  // namespace zerocount::study_run

@@ -15,26 +15,29 @@ namespace zerocount::study_run {
 /// True if the trials with this index, of all points, keep their traces.
 bool is_retained(const study::Study& study, std::int64_t index);
 
+/// Trials that follow one another.
+struct TrialBlock {
+  std::vector<shards::TrialResult> results;             ///< in order of rows
+  std::vector<measures::TheoryPrediction> predictions;  ///< [point, from that of the first trial]
+};
+
 /// Runs trials of a study on one thread with its engine, and returns the data of the results file. Trials
 /// with retained traces always run with the reference engine.
 class TrialRunner {
  public:
   explicit TrialRunner(const study::Study& study);
 
-  /// @returns one result per row, in order
   /// @throws trial::Interrupted if a stop is requested before the last trial ends
+  TrialBlock run_block(layout::RowRange rows, const std::stop_token& stop = {});
+  /// The results alone.
   std::vector<shards::TrialResult> run(layout::RowRange rows, const std::stop_token& stop = {});
 
-  /// [point] what the criteria predict of the trials run so far.
-  const std::vector<measures::TheoryPrediction>& predictions() const { return predictions_; }
-
  private:
-  study::StudyTrial next_trial(std::int64_t row);
-  std::vector<shards::TrialResult> run_in_lanes(layout::RowRange rows, const std::stop_token& stop);
+  study::StudyTrial next_trial(std::int64_t row, TrialBlock& block);
+  void run_in_lanes(layout::RowRange rows, const std::stop_token& stop, TrialBlock& block);
 
   const study::Study* study_;
   std::unique_ptr<batch::BatchEngine> engine_;
-  std::vector<measures::TheoryPrediction> predictions_;
 };
 
 }  // namespace zerocount::study_run

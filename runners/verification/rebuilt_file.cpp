@@ -40,7 +40,7 @@ void make(std::span<const shards::ShardInfo> trials, const study::Study& study,
 
 }  // namespace
 
-void check_rebuilt(CheckReport& report, const reading::StudyFile& file, const study::Study& study,
+void check_rebuilt(CheckReport& report, const reading::ResultsFile& file, const study::Study& study,
                    Equality equality) {
   if (file.header().kind == layout::FileKind::shard) return;
   add_check(report, "statistics", [&](Check& check, ProblemList& problems) {
@@ -53,7 +53,7 @@ void check_rebuilt(CheckReport& report, const reading::StudyFile& file, const st
     const std::filesystem::path rebuilt = folder.path() / "rebuilt.h5";
     const std::array<shards::ShardInfo, 1> trials{{{file.path(), file.rows()}}};
     make(trials, study, rebuilt, file.rows());
-    const reading::StudyFile other(rebuilt, reading::Require::any_part);
+    const reading::DescribedFile other(rebuilt, reading::Require::any_part);
     const bool exact = equality == Equality::bits;
     const double tolerance = exact ? 0.0 : tolerance_of_rounding;
     for (const reading::DatasetDifference& one : reading::differences(file.root(), other.root(), tolerance)) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "experiments/study/study.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/results_file.hpp"
 #include "runners/verification/check.hpp"
 #include "runners/verification/replay.hpp"
 
@@ -12,7 +12,7 @@ namespace zerocount::verification {
 ///
 /// Needs as much room in the folder for temporary files as the file takes. Files of an earlier version of the
 /// layout, and shards, which have nothing that follows, are skipped.
-void check_rebuilt(CheckReport& report, const reading::StudyFile& file, const study::Study& study,
+void check_rebuilt(CheckReport& report, const reading::ResultsFile& file, const study::Study& study,
                    Equality equality);
 
 }  // namespace zerocount::verification

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"
+#include "results/reading/statistics_file.hpp"
 #include "results/reading/study_file.hpp"
 #include "results/shards/shard.hpp"
 
@@ -36,5 +38,11 @@ std::vector<std::string> trace_differences(
 /// The same for a trial of a results file, against its record.
 std::vector<std::string> differences_from_record(const reading::StudyFile& file,
                                                  const shards::TrialResult& replayed);
+
+/// Of trials that follow one another, to those that a file keeps because they failed; a line each, with the
+/// number of the trial. None of a file that keeps no trials.
+std::vector<std::string> differences_from_failures(const reading::StatisticsFile& file,
+                                                   std::span<const shards::TrialResult> replayed,
+                                                   Equality equality = Equality::rounded);
 
 }  // namespace zerocount::verification

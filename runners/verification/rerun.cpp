@@ -57,6 +57,37 @@ void compare_range(const RecordedFile& recorded, layout::RowRange rows, const Re
   }
 }
 
+/// Runs trials in parallel, and gives the results range by range in order of rows.
+template <class Take>
+void run_in_tasks(const study::Study& study, std::span<const std::int64_t> rows, const Take& take) {
+  const std::vector<layout::RowRange> ranges = ranges_of(rows);
+  oneapi::tbb::enumerable_thread_specific<study_run::TrialRunner> runners(
+      [&study] { return study_run::TrialRunner(study); });
+  for (std::size_t first = 0; first < ranges.size(); first += tasks_at_once) {
+    const std::size_t count = std::min(tasks_at_once, ranges.size() - first);
+    std::vector<Results> results(count);
+    oneapi::tbb::parallel_for(std::size_t{0}, count,
+                              [&](std::size_t i) { results[i] = runners.local().run(ranges[first + i]); });
+    for (std::size_t i = 0; i < count; ++i) take(ranges[first + i], results[i]);
+  }
+}
+
+/// The rows, and as many failures: where few trials fail, hardly any is among the rows.
+std::vector<std::int64_t> with_failures(std::span<const std::int64_t> rows,
+                                        const reading::KeptTrials& failures, std::uint64_t seed) {
+  std::set<std::int64_t> chosen(rows.begin(), rows.end());
+  for (const std::int64_t position : sample_below(failures.count(), std::ssize(rows), seed))
+    chosen.insert(failures.rows(position, 1).front());
+  return {chosen.begin(), chosen.end()};
+}
+
+std::string detail_of(std::size_t run, std::int64_t trials, Equality equality) {
+  return fmt::format("{} of {}, equal {}", run, trials,
+                     equality == Equality::bits
+                         ? "to the bit"
+                         : "to a relative 1e-9 (run by another build or on another processor)");
+}
+
 }  // namespace
 
 std::vector<std::int64_t> sample_below(std::int64_t size, std::int64_t count, std::uint64_t seed) {
@@ -89,21 +120,27 @@ void check_trials(CheckReport& report, const reading::StudyFile& file, const stu
                   std::span<const std::int64_t> rows, Equality equality) {
   add_check(report, "trials run again", [&](Check& check, ProblemList& problems) {
     const RecordedFile recorded{file, study, study_run::places_of_records(file), equality};
-    const std::vector<layout::RowRange> ranges = ranges_of(rows);
-    oneapi::tbb::enumerable_thread_specific<study_run::TrialRunner> runners(
-        [&study] { return study_run::TrialRunner(study); });
-    for (std::size_t first = 0; first < ranges.size(); first += tasks_at_once) {
-      const std::size_t count = std::min(tasks_at_once, ranges.size() - first);
-      std::vector<Results> results(count);
-      oneapi::tbb::parallel_for(std::size_t{0}, count,
-                                [&](std::size_t i) { results[i] = runners.local().run(ranges[first + i]); });
-      for (std::size_t i = 0; i < count; ++i)
-        compare_range(recorded, ranges[first + i], results[i], problems);
+    run_in_tasks(study, rows, [&](layout::RowRange range, const Results& results) {
+      compare_range(recorded, range, results, problems);
+    });
+    check.detail = detail_of(rows.size(), file.rows().count, equality);
+  });
+}
+
+void check_kept_trials(CheckReport& report, const reading::StatisticsFile& file, const study::Study& study,
+                       std::span<const std::int64_t> rows, std::uint64_t seed, Equality equality) {
+  add_check(report, "trials run again", [&](Check& check, ProblemList& problems) {
+    if (!file.failures()) {
+      check.skipped = true;
+      check.detail = "the file keeps no trials";
+      return;
     }
-    check.detail = fmt::format("{} of {}, equal {}", rows.size(), file.rows().count,
-                               equality == Equality::bits ? "to the bit"
-                                                          : "to a relative 1e-9 (run by another build or on "
-                                                            "another processor)");
+    const std::vector<std::int64_t> chosen = with_failures(rows, *file.failures(), seed);
+    run_in_tasks(study, chosen, [&](layout::RowRange, const Results& results) {
+      for (std::string& difference : differences_from_failures(file, results, equality))
+        problems.add(std::move(difference));
+    });
+    check.detail = detail_of(chosen.size(), file.rows().count, equality);
   });
 }
 

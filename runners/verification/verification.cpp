@@ -9,8 +9,10 @@
 #include <fmt/format.h>
 
 #include "results/layout/header.hpp"
+#include "results/reading/statistics_file.hpp"
 #include "results/reading/study_file.hpp"
 #include "results/shards/shard.hpp"
+#include "runners/verification/failure_checks.hpp"
 #include "runners/verification/file_checks.hpp"
 #include "runners/verification/rebuilt_file.hpp"
 #include "runners/verification/rerun.hpp"
@@ -29,7 +31,9 @@ struct OpenedFile {
 };
 
 void require_plugin(const fs::path& path, const study::Study& study, const VerifySettings& settings) {
-  if (!study.plugin || study.plugin->functions != nullptr || settings.trials == 0) return;
+  if (!study.plugin || study.plugin->functions != nullptr || settings.trials == 0 ||
+      study.kept == study::Kept::statistics)
+    return;
   throw Failure(
       ExitCode::bad_input,
       fmt::format("zerocount verify: the controller of {} is the plugin {}, which is not loaded from "
@@ -46,6 +50,16 @@ Equality equality_of(const layout::FileHeader& header) {
   return same ? Equality::bits : Equality::rounded;
 }
 
+/// The checks of a file of statistics but the trials.
+void check_sums(CheckReport& report, const study::Study& study, Equality equality) {
+  std::optional<reading::StatisticsFile> file;
+  add_check(report, "datasets",
+            [&](Check&, ProblemList&) { file.emplace(report.path, reading::Require::any_part); });
+  if (!file) return;
+  check_failures(report, *file, study);
+  check_rebuilt(report, *file, study, equality);
+}
+
 /// All checks of one file but the trials.
 OpenedFile check_stored(const fs::path& path, const VerifySettings& settings) {
   OpenedFile opened{{path}, {}};
@@ -54,6 +68,11 @@ OpenedFile check_stored(const fs::path& path, const VerifySettings& settings) {
   std::optional<Described> described = check_header(report, settings.plugin);
   if (!described) return opened;
   require_plugin(path, described->study, settings);
+  if (described->study.kept != study::Kept::trials) {
+    check_sums(report, described->study, equality_of(described->header));
+    if (holds(report)) opened.described = std::move(described);
+    return opened;
+  }
   const std::optional<reading::StudyFile> file = check_tables(report, described->study);
   if (!file || !report.checks.back().problems.empty()) return opened;
   check_values(report, *file, described->study);
@@ -62,19 +81,24 @@ OpenedFile check_stored(const fs::path& path, const VerifySettings& settings) {
   return opened;
 }
 
-/// Runs trials of a file again. @param chosen numbers of the trials from the first of the file on
-void run_again(OpenedFile& opened, std::vector<std::int64_t> chosen) {
+/// Runs trials of a file again. @param chosen numbers of the trials from the first of the file on; as many
+/// failures are added, drawn with the seed, where the file keeps those alone
+void run_again(OpenedFile& opened, std::vector<std::int64_t> chosen, std::uint64_t seed) {
   if (!opened.described || chosen.empty()) return;
   const auto& [header, study] = *opened.described;
   for (std::int64_t& row : chosen) row += header.rows.first;
-  std::optional<reading::StudyFile> file;
   try {
-    file.emplace(opened.report.path, reading::Require::any_part);
+    const fs::path& path = opened.report.path;
+    if (study.kept == study::Kept::trials) {
+      check_trials(opened.report, reading::StudyFile(path, reading::Require::any_part), study, chosen,
+                   equality_of(header));
+    } else {
+      check_kept_trials(opened.report, reading::StatisticsFile(path, reading::Require::any_part), study,
+                        chosen, seed, equality_of(header));
+    }
   } catch (const Failure& failure) {  // it has changed since
     add_check(opened.report, "trials run again", [&](Check&, ProblemList&) { throw failure; });
-    return;
   }
-  check_trials(opened.report, *file, study, chosen, equality_of(header));
 }
 
 /// True if the file is a piece of the study of its folder: a shard, or a part in a folder of shards.
@@ -96,7 +120,7 @@ void run_shards_again(std::vector<OpenedFile>& files, const VerifySettings& sett
     const std::int64_t end = before + file.described->header.rows.count;
     std::vector<std::int64_t> own;
     for (; next != chosen.end() && *next < end; ++next) own.push_back(*next - before);
-    run_again(file, std::move(own));
+    run_again(file, std::move(own), settings.seed);
     before = end;
   }
 }
@@ -120,7 +144,8 @@ void verify_folder(const fs::path& folder, const VerifySettings& settings,
   run_shards_again(files, settings);
   for (OpenedFile& file : files) {
     if (file.described && !is_piece(file))
-      run_again(file, sample_below(file.described->header.rows.count, settings.trials, settings.seed));
+      run_again(file, sample_below(file.described->header.rows.count, settings.trials, settings.seed),
+                settings.seed);
     reports.push_back(std::move(file.report));
   }
   if (shards.empty()) return;
@@ -131,7 +156,8 @@ void verify_folder(const fs::path& folder, const VerifySettings& settings,
 void verify_file(const fs::path& path, const VerifySettings& settings, std::vector<CheckReport>& reports) {
   OpenedFile file = check_stored(path, settings);
   if (file.described)
-    run_again(file, sample_below(file.described->header.rows.count, settings.trials, settings.seed));
+    run_again(file, sample_below(file.described->header.rows.count, settings.trials, settings.seed),
+              settings.seed);
   reports.push_back(std::move(file.report));
 }
 

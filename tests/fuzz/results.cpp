@@ -9,7 +9,9 @@
 #include "analysis/iso230/repeatability_file.hpp"
 #include "analysis/summary/summary.hpp"
 #include "results/reading/export.hpp"
+#include "results/reading/statistics_file.hpp"
 #include "results/reading/study_file.hpp"
+#include "results/shards/shard.hpp"
 #include "tests/fuzz/expectation.hpp"
 #include "tests/fuzz/file_edits.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -19,12 +21,16 @@ namespace {
 using namespace zerocount;
 
 void export_tables(const std::filesystem::path& path, const std::filesystem::path& folder) {
+  if (!shards::keeps_trials(path)) {
+    reading::export_csv(reading::StatisticsFile(path), folder, reading::ExistingFiles::replace);
+    return;
+  }
   const reading::StudyFile file(path);
   reading::export_csv(file, folder, iso230::repeatability_exports(file), reading::ExistingFiles::replace);
 }
 
 void print_summary(const std::filesystem::path& path) {
-  const summary::StudySummary found = summary::summarise(reading::StudyFile(path));
+  const summary::StudySummary found = summary::summarise_file(path);
   fuzz::require_text(summary::summary_table(found));
   fuzz::require_text(summary::summary_json_text(found));
   summary::summary_csv(found);

@@ -8,9 +8,12 @@
 #include <vector>
 
 #include "analysis/summary/summary.hpp"
+#include "analysis/summary/summed_point.hpp"
 #include "results/layout/header.hpp"
+#include "results/reading/statistics_file.hpp"
 #include "results/reading/study_file.hpp"
 #include "results/shards/merge.hpp"
+#include "runners/study_run/study_runner.hpp"
 #include "tests/fuzz/expectation.hpp"
 #include "tests/fuzz/file_edits.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -19,7 +22,19 @@ namespace {
 
 using namespace zerocount;
 
+void read_sums(const std::filesystem::path& path) {
+  const reading::StatisticsFile file(path, reading::Require::any_part);
+  const study::Study study = layout::recorded_study(file.header(), path);
+  for (std::int64_t i = 0; i < file.points(); ++i)
+    summary::restored_point(file, study, file.first_point() + i);
+  if (file.failures()) file.failures()->require_valid_values();
+}
+
 void read_shard(const std::filesystem::path& path) {
+  if (!shards::keeps_trials(path)) {
+    read_sums(path);
+    return;
+  }
   const reading::StudyFile file(path, reading::Require::any_part);
   file.require_valid_values();
   for (std::int64_t first = 0; first < file.trace_count(); first += 1000)
@@ -30,8 +45,7 @@ void merge_shard(const std::filesystem::path& path, const std::filesystem::path&
   const std::vector<std::filesystem::path> inputs{path};
   const study::Study study = layout::recorded_study(shards::first_header(inputs), path);
   const std::vector<shards::ShardInfo> found = shards::merge_inputs(inputs, study);
-  shards::merge_shards(found, study, output, found.front().rows,
-                       [](const reading::StudyFile&) { return layout::StoredStatistics{}; });
+  study_run::assemble(found, study, output, found.front().rows);
 }
 
 }  // namespace

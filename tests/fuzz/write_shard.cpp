@@ -1,14 +1,15 @@
 // Writes a shard with all trials of a manifest: write_shard OUTPUT MANIFEST [KEY=VALUE...]
 
-#include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "experiments/manifest/load_study.hpp"
-#include "results/shards/shard.hpp"
+#include "results/layout/header.hpp"
 #include "runners/study_run/study_runner.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 int main(int count, char** words) {
   using namespace zerocount;
@@ -16,10 +17,11 @@ int main(int count, char** words) {
     const std::vector<std::string> arguments(words + 1, words + count);
     const study::Study study =
         manifest::load_study(arguments.at(1), {arguments.begin() + 2, arguments.end()});
-    std::vector<shards::TrialResult> results;
-    for (std::int64_t row = 0; row < study::trial_count(study); ++row)
-      results.push_back(study_run::run_study_trial(study, row));
-    shards::write_shard(arguments.at(0), study, 0, results);
+    const std::filesystem::path output = arguments.at(0);
+    const testing::TemporaryFolder folder;
+    const std::vector<layout::RowRange> all{layout::all_rows(study)};
+    const auto shards = study_run::run_trials(study, all, folder.path(), {}, {}).shards;
+    std::filesystem::copy_file(shards.at(0).path, output, std::filesystem::copy_options::overwrite_existing);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "write_shard: %s\n", error.what());
     return 1;

@@ -62,7 +62,7 @@ TEST(Levels, AreOfTheTrialsWhoseMotionWasNotLost) {
 
 TEST(Levels, HaveBoundsOfTheConfidenceAskedFor) {
   PointAccumulator point({.open_loop = true});
-  statistics::Moments positions;
+  statistics::MomentSums positions;
   for (int i = 0; i < 5; ++i) {
     positions.add(1e-4 + 1e-6 * i);
     point.add({{level_that(0.1, 1e-4 + 1e-6 * i)}}, {});
@@ -71,8 +71,8 @@ TEST(Levels, HaveBoundsOfTheConfidenceAskedFor) {
   const LevelStatistics usual = point.statistics().levels[0];
   for (const LevelField& field : level_fields()) {
     if (text::flat_name(field) == "position_low") {
-      EXPECT_EQ(field.value(wide), statistics::student_t(positions, 0.99).low);
-      EXPECT_EQ(field.value(usual), statistics::student_t(positions, 0.95).low);
+      EXPECT_EQ(field.value(wide), statistics::student_t(positions.moments(), 0.99).low);
+      EXPECT_EQ(field.value(usual), statistics::student_t(positions.moments(), 0.95).low);
     }
     if (text::flat_name(field) == "position_mean") {
       EXPECT_EQ(field.value(wide), field.value(usual));

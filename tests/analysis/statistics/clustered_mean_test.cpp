@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <random>
+#include <span>
 #include <vector>
 
 #include <boost/math/distributions/students_t.hpp>
@@ -17,7 +18,8 @@ constexpr random::RandomStream stream{{12, 34}, 5};
 
 ClusterTotals totals_of(const std::vector<double>& values) {
   ClusterTotals totals;
-  for (std::size_t i = 0; i < values.size(); ++i) totals.add(static_cast<std::int64_t>(i), values[i], 1.0);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    totals.add(static_cast<std::int64_t>(i), std::span(&values[i], 1));
   return totals;
 }
 
@@ -59,7 +61,7 @@ TEST(ClusteredMean, ValuesThatAreAlikeInTheirClusterCountOnce) {
   for (double& value : values) value = gamma(random);
   ClusterTotals tens;
   for (std::size_t i = 0; i < values.size(); ++i)
-    tens.add(static_cast<std::int64_t>(i), 10.0 * values[i], 10.0);
+    tens.add(static_cast<std::int64_t>(i), std::vector<double>(10, values[i]));
   const ConfidenceInterval single = clustered_mean_bounds(totals_of(values), stream);
   const ConfidenceInterval alike = clustered_mean_bounds(tens, stream);
   EXPECT_NEAR(alike.low, single.low, 1e-12);
@@ -73,7 +75,7 @@ TEST(ClusteredMean, ManyClustersAreGatheredIntoGroupsWithoutLoss) {
   for (double& value : values) value = exponential(random);
   const ClusterTotals totals = totals_of(values);
   EXPECT_EQ(std::ssize(totals.sums), max_clusters);
-  EXPECT_EQ(totals.clusters, 100'000);
+  EXPECT_EQ(totals.clusters(), 100'000);
   const ConfidenceInterval expected = student_t(moments_of(values));
   const ConfidenceInterval found = clustered_mean_bounds(totals, stream);
   EXPECT_NEAR(found.low, expected.low, 0.1 * (expected.high - expected.low));
@@ -103,7 +105,7 @@ TEST(ClusteredCount, WithoutAnEventHasTheBoundOfOneEventPerCluster) {
   EXPECT_NEAR(clustered_count_bounds(totals_of(std::vector<double>(9000, 0.0)), stream).high,
               -std::log(0.025) / 9000.0, 1e-12);  // also of more trials than groups
   ClusterTotals rigs;                             // 100 rigs of 30 trials are worth 100 trials
-  for (std::int64_t trial = 0; trial < 3000; ++trial) rigs.add(trial % 100, 0.0, 1.0);
+  for (std::int64_t trial = 0; trial < 3000; ++trial) rigs.add(trial % 100, std::vector<double>{0.0});
   EXPECT_NEAR(clustered_count_bounds(rigs, stream).high, -std::log(0.025) / 100.0, 1e-12);
 }
 

@@ -91,6 +91,19 @@ TEST(Proportion, NoneAndAllHaveTheirClosedForms) {
   }
 }
 
+// Both intervals tend to that of the normal distribution; they differ by some 1/n.
+TEST(Proportion, BoundsOfLargeStudiesAgreeWithOneAnother) {
+  for (std::int64_t n = 1'000'000'000; n <= 10'000'000'000'000; n *= 10) {
+    for (const double p : {1e-4, 0.3, 0.5, 0.999}) {
+      const auto k = std::llround(p * static_cast<double>(n));
+      const ConfidenceInterval exact = clopper_pearson(k, n), score = wilson(k, n);
+      const double close = 1e-2 * (score.high - score.low);
+      EXPECT_NEAR(exact.low, score.low, close) << k << " of " << n;
+      EXPECT_NEAR(exact.high, score.high, close) << k << " of " << n;
+    }
+  }
+}
+
 TEST(Proportion, NothingIsKnownWithoutTrials) {
   EXPECT_TRUE(std::isnan(rate(0, 0)));
   for (const ConfidenceInterval bounds : {clopper_pearson(0, 0), wilson(0, 0)}) {

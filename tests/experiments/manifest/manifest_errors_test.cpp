@@ -50,7 +50,7 @@ INSTANTIATE_TEST_SUITE_P(
              "alpha, lambda, n, breakaway, coulomb_ratio, stribeck_velocity, sigma0, sigma1, gms"},
         Case{"frictoin: {k1: 1}",
              "m.yaml:6:1: frictoin: unknown key, nearest known: friction; expected one of zerocount, name, "
-             "description, axis, travel, seed, trials, rigs, design, independent_points, retain, stop, "
+             "description, axis, travel, seed, trials, rigs, design, independent_points, retain, keep, stop, "
              "correlation, samples, observed, sweep, "
              "plant, "
              "friction, "
@@ -371,14 +371,14 @@ TEST(ManifestErrors, EveryRequiredKeyIsMissed) {
 }
 
 TEST(ManifestErrors, AMergeKeyIsAKeyLikeAnyOther) {
-  EXPECT_EQ(
-      failure_of(minimal_manifest("<<: {name: x}")),
-      "m.yaml:6:1: <<: unknown key, nearest known: dac; expected one of zerocount, name, description, "
-      "axis, travel, "
-      "seed, trials, rigs, design, independent_points, retain, stop, correlation, samples, observed, sweep, "
-      "plant, friction, "
-      "encoder, "
-      "dac, amplifier, controller, command, initial, verdict");
+  EXPECT_EQ(failure_of(minimal_manifest("<<: {name: x}")),
+            "m.yaml:6:1: <<: unknown key, nearest known: dac; expected one of zerocount, name, description, "
+            "axis, travel, "
+            "seed, trials, rigs, design, independent_points, retain, keep, stop, correlation, samples, "
+            "observed, sweep, "
+            "plant, friction, "
+            "encoder, "
+            "dac, amplifier, controller, command, initial, verdict");
 }
 
 TEST(ManifestErrors, ANewerManifestSaysSo) {
@@ -431,7 +431,8 @@ TEST(ManifestErrors, AllErrorsAreToldInTheOrderOfTheFile) {
       "m.yaml:9:1: sead: unknown key, nearest known: seed; expected one of zerocount, name, description, "
       "axis, travel, "
       "seed, "
-      "trials, rigs, design, independent_points, retain, stop, correlation, samples, observed, sweep, plant, "
+      "trials, rigs, design, independent_points, retain, keep, stop, correlation, samples, observed, sweep, "
+      "plant, "
       "friction, encoder, "
       "dac, "
       "amplifier, controller, "

@@ -61,6 +61,21 @@ TEST(StudySize, IsAboutWhatTheFilesTake) {
   }
 }
 
+// Many more rigs than trials are tried beforehand. Shards are written by the clock, and not judged.
+TEST(StudySize, OfSumsIsAboutWhatTheFileTakes) {
+  for (const std::string& manifest :
+       {small_manifest(1500, "keep: statistics\n"), small_manifest(800, "rigs: 50\nkeep: failures\n"),
+        small_manifest(6000, "rigs: 3000\nkeep: statistics\n")}) {
+    const TemporaryFolder folder;
+    folder.write("study.yaml", manifest);
+    SCOPED_TRACE(manifest);
+    const study_run::StudySize size =
+        study_run::measure_size(manifest::load_study(folder / "study.yaml", {}));
+    ASSERT_EQ(zerocount_program({"run", "study.yaml", "-o", "out.h5"}, folder.path()).code, 0);
+    expect_about(size.file_bytes, static_cast<double>(fs::file_size(folder / "out.h5")), "file");
+  }
+}
+
 /// Peak memory (bytes) of the largest program that the test has run.
 double peak_of_programs() {
   rusage children{};

@@ -1,0 +1,144 @@
+#include "results/reading/results_file.hpp"
+
+#include <cstddef>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/failure/failure.hpp"
+#include "results/layout/table_io.hpp"
+#include "results/reading/trial_tables.hpp"
+#include "results/reading/validation.hpp"
+
+namespace zerocount::reading {
+namespace {
+
+layout::FileHeader read_required(const hdf5::File& file, const std::filesystem::path& path, Require require) {
+  layout::FileHeader header = layout::read_header(file);
+  if (!header.finished && require != Require::unfinished) file.fail("it was never finished");
+  if (!header.complete && require == Require::complete) {
+    throw Failure(
+        ExitCode::bad_data,
+        fmt::format("{}: incomplete: it holds trials {} to {} of {}; run the others and join them with "
+                    "'zerocount merge'",
+                    path.string(), header.rows.first, header.rows.end() - 1, header.trials * header.points));
+  }
+  return header;
+}
+
+std::vector<double> read_doubles(const hdf5::Dataset& dataset) {
+  if (dataset.element() != hdf5::Element::float64 || dataset.extent().size() != 1)
+    dataset.fail("it should be numbers in one dimension");
+  std::vector<double> values(dataset.extent()[0]);
+  dataset.read(0, std::ssize(values), values.data());
+  return values;
+}
+
+/// Requires one value per design point.
+void require_points(const hdf5::Dataset& dataset, std::int64_t points) {
+  if (dataset.extent() == std::vector<hdf5::Size>{static_cast<hdf5::Size>(points)}) return;
+  dataset.fail(fmt::format("it should have one value for each of the {} design points", points));
+}
+
+/// The columns of /point with this role, and their names; none in a shard.
+std::vector<std::pair<std::string, hdf5::Dataset>> point_columns(const hdf5::File& file, std::int64_t points,
+                                                                 std::string_view role) {
+  std::vector<std::pair<std::string, hdf5::Dataset>> columns;
+  if (!file.contains("point")) return columns;
+  const hdf5::Group group = file.open_group("point");
+  for (const std::string& name : group.children()) {
+    hdf5::Dataset dataset = group.open_dataset(name);
+    if (!dataset.has_attribute("role") || dataset.text("role") != role) continue;
+    require_points(dataset, points);
+    columns.emplace_back(name, std::move(dataset));
+  }
+  return columns;
+}
+
+}  // namespace
+
+ResultsFile::ResultsFile(const std::filesystem::path& path, Require require)
+    : path_(path),
+      file_(layout::open_results(
+          path, require == Require::unfinished ? layout::Checksum::not_yet : layout::Checksum::required)),
+      header_(read_required(file_, path, require)) {}
+
+ResultsFile::ResultsFile(const std::filesystem::path& path, Require require, layout::Contents contents)
+    : ResultsFile(path, require) {
+  layout::require_contents(path, header_, contents);
+}
+
+std::vector<std::string> ResultsFile::point_labels() const {
+  if (!file_.contains("point")) return {};
+  const hdf5::Dataset labels = file_.open_group("point").open_dataset("label");
+  require_points(labels, header_.points);
+  return labels.read_texts();
+}
+
+std::vector<study::SweepAxis> ResultsFile::axes() const {
+  std::vector<study::SweepAxis> axes;
+  for (const auto& [name, dataset] : point_columns(file_, header_.points, "axis")) {
+    study::SweepAxis axis{
+        name, dataset.text("units"), dataset.text("long_name"), study::SweepAxis::Kind::number, {}, {}};
+    if (dataset.element() == hdf5::Element::text) {
+      axis.kind = study::SweepAxis::Kind::text;
+      axis.unit.clear();
+      axis.texts = dataset.read_texts();
+    } else {
+      axis.numbers = read_doubles(dataset);
+    }
+    axes.push_back(std::move(axis));
+  }
+  return axes;
+}
+
+std::vector<layout::PointColumn> ResultsFile::statistics() const {
+  std::vector<layout::PointColumn> statistics;
+  for (const auto& [name, dataset] : point_columns(file_, header_.points, "statistic"))
+    statistics.push_back({name, dataset.text("units"), dataset.text("long_name"), read_doubles(dataset)});
+  return statistics;
+}
+
+std::vector<layout::StatisticTable> ResultsFile::statistic_tables() const {
+  return layout::read_statistic_tables(file_);
+}
+
+std::vector<StoredProfile> ResultsFile::profiles() const {
+  std::vector<StoredProfile> profiles;
+  if (!has_profiles()) return profiles;
+  const hdf5::Group group = file_.open_group("profile");
+  for (const std::string& name : group.children()) {
+    const hdf5::Group folder = group.open_group(name);
+    const std::string unit = folder.open_dataset("value").text("units");
+    StoredProfile profile{name, unit, read_doubles(folder.open_dataset("theta")), {}};
+    profile.theta_unit = folder.open_dataset("theta").text("units");
+    const bool of_rigs = folder.contains("rig");
+    const layout::TableIo io = layout::TableIo::open(
+        file_, of_rigs ? layout::rotor_table(name, unit) : layout::profile_table(name, unit));
+    if (of_rigs) profile.rigs = io.rows();
+    profile.value = layout::read_column<double>(io, 0);
+    profiles.push_back(std::move(profile));
+  }
+  return profiles;
+}
+
+std::optional<StoredRigs> ResultsFile::rigs() const {
+  if (!file_.contains("rig")) return std::nullopt;
+  StoredRigs stored;
+  const hdf5::Group group = file_.open_group("rig");
+  stored.columns = read_input_columns(group);
+  const layout::TableIo io = layout::TableIo::open(file_, layout::rig_table(stored.columns));
+  stored.rigs = io.rows();
+  for (std::size_t column = 0; column < stored.columns.size(); ++column) {
+    stored.inputs.push_back(layout::read_column<double>(io, column));
+  }
+  if (!group.contains("success")) return stored;
+  const layout::TableIo counts = layout::TableIo::open(file_, layout::rig_count_table());
+  stored.success = layout::read_column<std::int64_t>(counts, 0);
+  stored.trials = layout::read_column<std::int64_t>(counts, 1);
+  validate_rigs(header_, counts, stored.success, stored.trials);
+  return stored;
+}
+
+}  // namespace zerocount::reading

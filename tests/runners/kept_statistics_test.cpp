@@ -1,0 +1,242 @@
+// Studies that keep statistics, or the trials that failed, in place of all trials.
+#include <algorithm>
+#include <csignal>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/runners/program.hpp"
+#include "tests/support/raw_hdf5.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::string_literals;
+
+class KeptStatistics : public ::testing::Test {
+ protected:
+  fs::path at(const std::string& name) const { return folder_.path() / name; }
+  ProgramResult program(const std::vector<std::string>& words) const {
+    return zerocount_program(words, folder_.path());
+  }
+  ProgramResult run(const std::string& output, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> words{"run", "study.yaml", "-q", "-o", output};
+    words.insert(words.end(), more.begin(), more.end());
+    ProgramResult result = program(words);
+    EXPECT_EQ(result.code, 0) << result.err;
+    return result;
+  }
+  std::string text_of(const std::string& name) const {
+    std::stringstream text;
+    text << std::ifstream(at(name)).rdbuf();
+    return text.str();
+  }
+  std::string summary(const std::string& file, const std::string& format = "json") const {
+    const ProgramResult result = program({"summary", file, "--format", format, "--confidence", "0.9"});
+    EXPECT_EQ(result.code, 0) << result.err;
+    return result.out;
+  }
+  void export_tables(const std::string& file, const std::string& folder) const {
+    const ProgramResult result = program({"export", file, "-o", folder});
+    ASSERT_EQ(result.code, 0) << result.err;
+  }
+
+  TemporaryFolder folder_;
+};
+
+struct StudyText {
+  const char* name;
+  std::string text;
+};
+void PrintTo(const StudyText& study, std::ostream* out) {
+  *out << study.name;
+}
+
+class StatisticsOfStudies : public KeptStatistics, public ::testing::WithParamInterface<StudyText> {};
+
+TEST_P(StatisticsOfStudies, AreThoseOfARunThatKeepsItsTrials) {
+  folder_.write("study.yaml", GetParam().text);
+  run("full.h5");
+  run("kept.h5", {"--set", "keep=statistics"});
+  EXPECT_TRUE(summary("kept.h5") == summary("full.h5"));
+  EXPECT_TRUE(summary("kept.h5", "table") == summary("full.h5", "table"));
+  export_tables("full.h5", "full");
+  export_tables("kept.h5", "kept");
+  for (const char* table : {"points.csv", "profiles.csv", "rigs.csv", "rig_counts.csv", "levels.csv"})
+    EXPECT_TRUE(text_of(std::string("kept/") + table) == text_of(std::string("full/") + table)) << table;
+  EXPECT_FALSE(fs::exists(at("kept/trials.csv")));
+}
+
+TEST_P(StatisticsOfStudies, DoNotDependOnHowTheTrialsWereDivided) {
+  const bool open_loop = GetParam().text.find("torque") != std::string::npos;
+  folder_.write("study.yaml", GetParam().text + (open_loop ? "keep: statistics\n" : "keep: failures\n"));
+  run("whole.h5", {"--threads", "1"});
+  run("threads.h5", {"--threads", "4"});
+  for (const char* part : {"1", "2", "3"})
+    run(std::string("part") + part + ".h5", {"--shard", std::string(part) + "/3"});
+  EXPECT_EQ(program({"merge", "part3.h5", "part1.h5", "part2.h5", "-o", "merged.h5"}).code, 0);
+  expect_same_datasets(at("threads.h5"), at("whole.h5"));
+  expect_same_datasets(at("merged.h5"), at("whole.h5"));
+}
+
+// The second of three parts is missing; some points may have no trial, and some only a part of theirs.
+TEST_P(StatisticsOfStudies, OfAnUnfinishedRunAreThoseOfARunThatKeepsItsTrials) {
+  folder_.write("study.yaml", GetParam().text);
+  for (const char* keep : {"trials", "statistics"}) {
+    const std::string name = keep;
+    fs::create_directory(at(name + ".h5.parts"));
+    for (const char* part : {"1", "3"})
+      run(name + ".h5.parts/part-" + part + "-of-3.h5", {"--set", "keep=" + name, "--shard", part + "/3"s});
+  }
+  EXPECT_TRUE(summary("statistics.h5") == summary("trials.h5"));
+  EXPECT_TRUE(summary("statistics.h5", "table") == summary("trials.h5", "table"));
+}
+
+const std::string torques =
+    "zerocount: 1\nname: torques\nseed: 3\ntrials: 90\nfriction: {k1: {uniform: [100, 160]}}\n"
+    "command: {torque: {levels: [0.01, -0.01, 0.02]}, hold: 0.1}\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    All, StatisticsOfStudies,
+    ::testing::Values(StudyText{"jerks", small_manifest(150)},
+                      StudyText{"rigs", small_manifest(150, "rigs: 30\n")}, StudyText{"open_loop", torques},
+                      StudyText{"rigs_in_open_loop", torques + "rigs: 9\n"},
+                      StudyText{"latin_hypercube", small_manifest(150, "design: latin_hypercube\n")}),
+    [](const auto& tested) { return tested.param.name; });
+
+TEST_F(KeptStatistics, OfARunThatWasInterruptedAreTheSame) {
+  folder_.write("study.yaml", small_manifest(25000, "keep: statistics\n"));
+  RunningProgram running({"run", "study.yaml", "-q", "-o", "out.h5"}, folder_.path());
+  while (!fs::exists(at("out.h5.shards")) || fs::is_empty(at("out.h5.shards")))
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  const ProgramResult status = program({"status", "out.h5"});
+  running.send(SIGINT);
+  EXPECT_EQ(running.wait(), 130);
+  EXPECT_NE(status.out.find("unfinished"), std::string::npos) << status.out << status.err;
+  run("out.h5");
+  run("whole.h5");
+  expect_same_datasets(at("out.h5"), at("whole.h5"));
+  EXPECT_NE(program({"run", "study.yaml", "-o", "out.h5"}).err.find("complete already"), std::string::npos);
+}
+
+/// The first of the elements that is `number`. @param bytes of the elements
+std::size_t index_of(std::int64_t number, const std::string& bytes) {
+  std::vector<std::int64_t> numbers(bytes.size() / sizeof number);
+  std::memcpy(numbers.data(), bytes.data(), bytes.size());
+  return static_cast<std::size_t>(std::find(numbers.begin(), numbers.end(), number) - numbers.begin());
+}
+
+// As by a faulty memory before the checksum was computed: the checksum is right, and a number of trials in
+// the sums is not.
+TEST_F(KeptStatistics, OfAnEarlierShardThatCannotBeAreComputedAgain) {
+  folder_.write("study.yaml", small_manifest(40, "keep: statistics\n"));
+  run("whole.h5");
+  fs::create_directory(at("out.h5.shards"));
+  run("out.h5.shards/wrong.h5", {"--shard", "1/2"});
+  change_element(at("out.h5.shards/wrong.h5"), "/sums/whole",
+                 index_of(40, *elements_of(at("out.h5.shards/wrong.h5"), "/sums/whole")));
+  const ProgramResult result = program({"run", "study.yaml", "-o", "out.h5"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.err.find("wrong.h5"), std::string::npos) << result.err;
+  expect_same_datasets(at("out.h5"), at("whole.h5"));
+}
+
+TEST_F(KeptStatistics, TakeAsMuchRoomForAnyNumberOfTrials) {
+  const auto bytes = [&](int trials) {
+    folder_.write("study.yaml", small_manifest(trials, "keep: statistics\n"));
+    run("out.h5", {"--force"});
+    return static_cast<double>(fs::file_size(at("out.h5")));
+  };
+  const double few = bytes(5000);
+  EXPECT_LT(bytes(50000), 1.3 * few);  // ten times as many have some more distinct values
+}
+
+std::vector<std::string> lines_of(const std::string& table) {
+  std::stringstream text(table);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST_F(KeptStatistics, WithFailuresHasThoseTrialsAndReplaysThem) {
+  folder_.write("study.yaml", small_manifest(200));
+  run("full.h5");
+  run("kept.h5", {"--set", "keep=failures"});
+  EXPECT_TRUE(summary("kept.h5") == summary("full.h5"));
+  export_tables("full.h5", "full");
+  export_tables("kept.h5", "kept");
+  const std::vector<std::string> all = lines_of(text_of("full/outcomes.csv"));
+  std::vector<std::string> failures{all.front()};
+  for (std::size_t i = 1; i < all.size(); ++i)  // one move each
+    if (all[i].find(",zero_count,") == std::string::npos) failures.push_back(all[i]);
+  ASSERT_GT(failures.size(), 10U);
+  ASSERT_LT(failures.size(), all.size());
+  EXPECT_TRUE(lines_of(text_of("kept/outcomes.csv")) == failures);
+  EXPECT_EQ(lines_of(text_of("kept/trials.csv")).size(), failures.size());
+  const std::string row = failures.back().substr(0, failures.back().find(','));
+  const std::string index = std::to_string(std::stoi(row) % 200);
+  const auto trace = [&](const std::string& trial) {
+    return program({"trace", "kept.h5", "--point", "1", "--trial", trial, "-o", "-"});
+  };
+  EXPECT_EQ(trace(index).code, 0) << trace(index).err;
+  const ProgramResult verified = program({"verify", "kept.h5", "--trials", "400"});
+  EXPECT_EQ(verified.code, 0) << verified.out;
+  EXPECT_NE(verified.out.find("400 of 400"), std::string::npos) << verified.out;
+  fs::copy_file(at("kept.h5"), at("success.h5"));
+  change_element(at("success.h5"), "/outcome/outcome", 0);  // from another outcome to zero_count
+  const ProgramResult success = program({"verify", "success.h5", "--trials", "1"});
+  EXPECT_EQ(success.code, 4) << success.out;
+  EXPECT_NE(success.out.find("kept as a failure"), std::string::npos) << success.out;
+  fs::copy_file(at("kept.h5"), at("jerks.h5"));
+  change_element(at("jerks.h5"), "/jerk/move", 0);
+  EXPECT_EQ(program({"verify", "jerks.h5", "--trials", "1"}).code, 4);
+  set_element(at("kept.h5"), "/outcome/holding_torque", failures.size() - 2, 1.0);
+  EXPECT_EQ(trace(index).code, 4);
+  EXPECT_EQ(program({"verify", "kept.h5", "--trials", "400"}).code, 4);
+}
+
+TEST_F(KeptStatistics, AreRefusedWhereTrialsAreNeeded) {
+  folder_.write("study.yaml", small_manifest(50, "keep: statistics\n"));
+  run("out.h5");
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"jerks", "out.h5"},
+                                                {"report", "out.h5", "-o", "out.html"},
+                                                {"sensitivity", "out.h5"},
+                                                {"compare", "out.h5", "out.h5"}}) {
+    const ProgramResult result = program(words);
+    EXPECT_EQ(result.code, 4) << words.front();
+    EXPECT_NE(result.err.find("keep: statistics"), std::string::npos) << result.err;
+  }
+  folder_.write("study.yaml", small_manifest(50, "keep: statistics\nretain: {trials: [0]}\n"));
+  const ProgramResult refused = program({"check", "study.yaml"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("expected keep: trials"), std::string::npos) << refused.err;
+}
+
+TEST_F(KeptStatistics, ThatCannotBeAreRefused) {
+  folder_.write("study.yaml", small_manifest(50, "keep: statistics\n"));
+  run("out.h5");
+  const std::size_t numbers = sizes_of_numbers(at("out.h5")).at("/sums/whole");
+  int refused = 0;
+  for (std::size_t i = 0; i < numbers; i += numbers / 40) {
+    fs::copy_file(at("out.h5"), at("changed.h5"), fs::copy_options::overwrite_existing);
+    change_element(at("changed.h5"), "/sums/whole", i);
+    const ProgramResult result = program({"summary", "changed.h5"});
+    EXPECT_TRUE(result.code == 0 || result.code == 4) << result.code << result.err;
+    refused += result.code == 4;
+  }
+  EXPECT_GT(refused, 0);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

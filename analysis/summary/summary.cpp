@@ -1,5 +1,6 @@
 #include "analysis/summary/summary.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -52,7 +53,9 @@ void require_consistent(const StudySummary& summary) {
 
 std::string unfinished_sentence(const StudySummary& summary) {
   if (!summary.unfinished) return {};
-  const std::int64_t without = summary.unfinished->points - std::ssize(summary.points);
+  const std::int64_t begun = std::ranges::count_if(
+      summary.points, [](const measures::PointSummary& point) { return point.trials > 0; });
+  const std::int64_t without = summary.unfinished->points - begun;
   return fmt::format(
       "unfinished: of the {} of {} trials that the run has finished so far{}", summary.unfinished->finished,
       summary.unfinished->trials,

@@ -11,6 +11,7 @@ namespace zerocount::summary {
 namespace {
 
 std::string interval_in_percent(const statistics::ConfidenceInterval& interval) {
+  if (std::isnan(interval.low)) return "–";
   return fmt::format("[{}]", text::percent_bounds(interval.low, interval.high));
 }
 

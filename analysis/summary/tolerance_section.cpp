@@ -85,6 +85,7 @@ std::string text_of(std::span<const measures::PointSummary> points, const std::v
   std::vector<std::vector<std::string>> cells{
       {"point", "what the trials show of all axes that the manifest describes"}};
   for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].trials == 0) continue;  // of an unfinished run
     cells.push_back({text::printable(labels[i]), statement(points[i])});
     if (points[i].rigs.tolerance.min_rigs > 0) {
       cells.back()[1] = statistics::tolerance_sentence(points[i].rigs.tolerance);

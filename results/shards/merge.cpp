@@ -46,6 +46,8 @@ void require_cover(std::span<const ShardInfo> shards, layout::RowRange rows, con
   std::int64_t next = rows.first;
   const ShardInfo* previous = nullptr;
   for (const ShardInfo& shard : shards) {
+    if (previous != nullptr && shard.path == previous->path)
+      fail(ExitCode::bad_data, shard.path, "is given twice");
     if (previous != nullptr && shard.rows.first < next) {
       fail(ExitCode::bad_data, shard.path,
            fmt::format("holds trials {} to {}, which overlap those of {}", shard.rows.first,

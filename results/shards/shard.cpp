@@ -108,20 +108,21 @@ std::vector<fs::path> files_in(const fs::path& directory, const char* extension)
   return files;
 }
 
-reading::StudyFile file_of_study(const fs::path& path, const study::Study& study) {
-  reading::StudyFile file(path, reading::Require::any_part);
-  layout::require_same_study(path, file.header(), study);
-  return file;
+/// @tparam File StudyFile, or StatisticsFile if the study does not keep its trials
+template <class File>
+File file_of_study(const fs::path& path, const study::Study& study) {
+  try {
+    File file(path, reading::Require::any_part);
+    layout::require_same_study(path, file.header(), study);
+    return file;
+  } catch (const layout::ForeignFile&) {  // it may be of another kind, being of another study
+    layout::require_same_study(path, inspect_header(path), study);
+    throw;
+  }
 }
 
 ShardInfo info_of(const reading::ResultsFile& file) {
   return {file.path(), file.rows()};
-}
-
-reading::StatisticsFile statistics_of_study(const fs::path& path, const study::Study& study) {
-  reading::StatisticsFile file(path, reading::Require::any_part);
-  layout::require_same_study(path, file.header(), study);
-  return file;
 }
 
 reading::ReportInput refuse_file(const fs::path& path) {
@@ -131,7 +132,7 @@ reading::ReportInput refuse_file(const fs::path& path) {
 }
 
 ShardInfo inspect_whole_statistics(const fs::path& path, const study::Study& study) {
-  const reading::StatisticsFile file = statistics_of_study(path, study);
+  const reading::StatisticsFile file = file_of_study<reading::StatisticsFile>(path, study);
   if (!file.failures()) return info_of(file);
   const reading::KeptTrials& failures = *file.failures();
   failures.require_valid_values();
@@ -146,7 +147,7 @@ ShardInfo inspect_whole_statistics(const fs::path& path, const study::Study& stu
 /// damage.
 ShardInfo inspect_whole_shard(const fs::path& path, const study::Study& study) {
   if (study.kept != study::Kept::trials) return inspect_whole_statistics(path, study);
-  const reading::StudyFile file = file_of_study(path, study);
+  const reading::StudyFile file = file_of_study<reading::StudyFile>(path, study);
   file.require_valid_values();
   const std::int64_t at_once = layout::chunk_rows(file.moves());
   for (std::int64_t first = file.rows().first; first < file.rows().end(); first += at_once)
@@ -222,8 +223,8 @@ void sort_by_rows(std::vector<ShardInfo>& shards) {
 }
 
 ShardInfo inspect_shard(const fs::path& path, const study::Study& study) {
-  if (study.kept != study::Kept::trials) return info_of(statistics_of_study(path, study));
-  return info_of(file_of_study(path, study));
+  if (study.kept != study::Kept::trials) return info_of(file_of_study<reading::StatisticsFile>(path, study));
+  return info_of(file_of_study<reading::StudyFile>(path, study));
 }
 
 ShardSurvey list_shards(const fs::path& directory, const study::Study& study, Inspection inspection) {

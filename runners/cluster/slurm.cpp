@@ -1,6 +1,7 @@
 #include "runners/cluster/slurm.hpp"
 
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,15 +12,20 @@
 namespace zerocount::cluster {
 namespace {
 
+/// The last line tells the consequence of those before.
+std::string_view last_line(std::string_view text) {
+  text = text.substr(0, text.find_last_not_of(" \n") + 1);
+  return text.substr(text.rfind('\n') + 1);
+}
+
 /// @returns the output of a command; nothing if it is not installed
 std::optional<std::string> output_of(const std::vector<std::string>& words) {
   const std::optional<child_process::ChildResult> result = child_process::run_child(words, "");
   if (!result) return std::nullopt;
   if (result->code == 0) return result->out;
-  std::string message = result->err;
-  while (message.ends_with('\n')) message.pop_back();
   throw Failure(ExitCode::machine_failed,
-                fmt::format("{}: exit code {}: {}", words.front(), result->code, message));
+                fmt::format("{} has failed with exit code {} (--dry-run shows the scripts): {}",
+                            words.front(), result->code, last_line(result->err)));
 }
 
 std::string required_output(const std::vector<std::string>& words) {

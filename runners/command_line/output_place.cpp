@@ -39,16 +39,9 @@ fs::path file_in_folder(const Arguments& arguments, std::string_view option) {
   return output;
 }
 
-/// @throws Failure (bad_input) if `output` is an input or another output.
-void require_apart(const Arguments& arguments, const fs::path& output, std::span<const fs::path> inputs,
-                   std::span<const fs::path> others) {
+/// @throws Failure (bad_input) if `output` is another output.
+void require_apart(const Arguments& arguments, const fs::path& output, std::span<const fs::path> others) {
   std::error_code error;
-  for (const fs::path& input : inputs) {
-    if (fs::equivalent(input, output, error)) {
-      arguments.refuse(
-          fmt::format("{} is read, and must not be written over; name another output", output.string()));
-    }
-  }
   for (const fs::path& other : others) {
     if (fs::weakly_canonical(fs::absolute(output), error) ==
         fs::weakly_canonical(fs::absolute(other), error)) {
@@ -85,13 +78,24 @@ std::optional<fs::path> text_place(const Arguments& arguments, std::string_view 
   return file_in_folder(arguments, option);
 }
 
+void require_no_input(const Arguments& arguments, const fs::path& output, std::span<const fs::path> inputs) {
+  std::error_code error;
+  for (const fs::path& input : inputs) {
+    if (fs::equivalent(input, output, error)) {
+      arguments.refuse(
+          fmt::format("{} is read, and must not be written over; name another output", output.string()));
+    }
+  }
+}
+
 void require_places(const Arguments& arguments, const std::vector<fs::path>& inputs,
                     const std::vector<fs::path>& outputs) {
   if (std::count_if(inputs.begin(), inputs.end(), yaml::is_standard_stream) > 1) {
     arguments.refuse("standard input (-) can be read only once");
   }
   for (std::size_t i = 0; i < outputs.size(); ++i) {
-    require_apart(arguments, outputs[i], inputs, std::span(outputs).first(i));
+    require_no_input(arguments, outputs[i], inputs);
+    require_apart(arguments, outputs[i], std::span(outputs).first(i));
     if (!yaml::is_standard_stream(outputs[i])) require_replaceable(arguments, outputs[i]);
   }
 }

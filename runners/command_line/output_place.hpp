@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -25,6 +26,10 @@ std::filesystem::path output_place(const Arguments& arguments);
 /// The text file of `option`, or "-" for standard output; nothing if the option is missing.
 /// @throws Failure as output_place.
 std::optional<std::filesystem::path> text_place(const Arguments& arguments, std::string_view option);
+
+/// @throws Failure (bad_input) if `output` is one of the inputs.
+void require_no_input(const Arguments& arguments, const std::filesystem::path& output,
+                      std::span<const std::filesystem::path> inputs);
 
 /// Checks the input and output files of a verb before any work; "-" means a standard stream.
 /// @throws Failure (bad_input) if two inputs are standard input, or if an output is an input, another

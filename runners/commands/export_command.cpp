@@ -14,12 +14,12 @@ namespace zerocount::commands {
 namespace {
 
 constexpr const char* export_help =
-    "Writes the tables of a results file as CSV: points.csv, trials.csv, outcomes.csv,\n"
-    "jerks.csv, profiles.csv if there are profiles, trace.csv if the study retains trials,\n"
-    "levels.csv of an open-loop study, and four tables repeatability_….csv of one with a\n"
-    "sequence of moves. Of a file without its trials (keep), those that it has. The header row has the "
-    "units, such as settling_time [s]; columns without\n"
-    "a unit are dimensionless. Numbers read back to the same double.\n"
+    "Writes the tables of a results file as CSV: points.csv, trials.csv, outcomes.csv and jerks.csv;\n"
+    "profiles.csv if there are profiles, rigs.csv and rig_counts.csv if there are rigs, trace.csv if the\n"
+    "study retains trials, levels.csv of an open-loop study, and four tables repeatability_….csv of one\n"
+    "with a sequence of moves. Of a file without its trials (keep), those that it has. The header row has\n"
+    "the units, such as settling_time [s]; columns without a unit are dimensionless. Numbers read back to\n"
+    "the same double.\n"
     "\n"
     "Example: zerocount export gains.h5 -o gains-csv\n";
 

@@ -101,7 +101,8 @@ void require_study_of_option(const command_line::Arguments& arguments, const stu
 RunRequest run_request(const command_line::Arguments& arguments) {
   RunRequest request;
   request.output = command_line::output_place(arguments);
-  const std::string& manifest = arguments.operands()[0];
+  const fs::path manifest = arguments.operands()[0];
+  command_line::require_no_input(arguments, request.output, {&manifest, 1});
   request.study = load_study(manifest, arguments);
   require_study_of_option(arguments, request.study);
   request.study.engine = engine_of(arguments, request.study);
@@ -121,13 +122,14 @@ study_run::ForeignShards foreign_shards(const RunRequest& request) {
   return request.force ? study_run::ForeignShards::remove : study_run::ForeignShards::refuse;
 }
 
-/// The usable shards that exist before the first trial is run.
+/// Makes the folder of the shards. @returns the usable shards that exist before the first trial is run
 study_run::EarlierShards prepare_shards(const RunRequest& request, const fs::path& directory,
                                         study_run::ExistingUse existing) {
   study_run::EarlierShards earlier =
       study_run::earlier_shards(directory, request.study, request.wanted, foreign_shards(request));
   const std::int64_t missing = layout::total_rows(shards::missing_ranges(earlier.usable, request.wanted));
   if (!request.force) study_run::require_room(request.output, request.study, missing);
+  storage::make_directory(directory);
   if (existing != study_run::ExistingUse::extend) return earlier;
   const reading::StudyFile file(request.output);
   if (!request.quiet) {
@@ -144,7 +146,6 @@ study_run::EarlierShards prepare_shards(const RunRequest& request, const fs::pat
 
 void run_rows(const RunRequest& request, study_run::ExistingUse existing, const std::stop_token& stop) {
   const fs::path directory = layout::shards_directory(request.output);
-  storage::make_directory(directory);
   study_run::EarlierShards earlier = prepare_shards(request, directory, existing);
   const layout::RowRange wanted = request.wanted;
   const std::vector<layout::RowRange> missing = shards::missing_ranges(earlier.usable, wanted);

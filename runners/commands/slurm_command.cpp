@@ -6,6 +6,7 @@
 #include <regex>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -81,8 +82,10 @@ std::vector<std::string> sbatch_options(const command_line::Arguments& arguments
           "option '--sbatch': '{}' is no option of sbatch, such as --sbatch=--partition=long", option));
     }
     if (is_reserved(option)) {
-      arguments.refuse(fmt::format("option '--sbatch': the scripts need {} themselves",
-                                   option.substr(0, option.find_first_of("= "))));
+      arguments.refuse(fmt::format(
+          "option '--sbatch': the scripts set {} themselves; --time and --cpus are options of this "
+          "command",
+          option.substr(0, option.find_first_of("= "))));
     }
   }
   return options;
@@ -137,8 +140,9 @@ std::int64_t largest_array(const command_line::Arguments& arguments) {
   return size.value_or(cluster::default_max_array_size);
 }
 
+/// What the options ask for; the elements are added when it is known which parts are missing.
 cluster::BatchRequest batch_request(const command_line::Arguments& arguments, const fs::path& output,
-                                    const study::Study& study, std::int64_t parts) {
+                                    const study::Study& study) {
   cluster::BatchRequest request;
   request.name = study.name;
   request.study_sha256 = study.study_sha256;
@@ -147,8 +151,6 @@ cluster::BatchRequest batch_request(const command_line::Arguments& arguments, co
   request.manifest = arguments.operands()[0];
   request.overrides = arguments.values("set");
   request.output = output;
-  request.job = cluster::array_job(parts, parts == 1 ? 1 : largest_array(arguments));
-  request.elements = cluster::elements_of(request.job, cluster::missing_parts(output, study, parts));
   request.at_once = arguments.whole_number("at-once", 1, max_tasks);
   request.cpus = arguments.whole_number("cpus", 1, 4096).value_or(1);
   request.time = time_limit(arguments);
@@ -218,14 +220,40 @@ void submit(const fs::path& output, const cluster::BatchRequest& request) {
   cluster::Submission submission{request.job.parts, request.study_sha256, {}};
   for (const Script& script : scripts_of(request)) {
     storage::replace_file(script.path, script.text);
-    submission.jobs.push_back(
-        cluster::submit(script.path, submission.jobs.empty() ? "" : submission.jobs.back()));
+    try {
+      submission.jobs.push_back(
+          cluster::submit(script.path, submission.jobs.empty() ? "" : submission.jobs.back()));
+    } catch (const Failure&) {
+      std::error_code ignored;
+      if (submission.jobs.empty()) fs::remove(script.path, ignored);
+      throw;
+    }
     standard_output::print("submitted: {} {} ({})\n", script.title, submission.jobs.back(),
                            script.path.string());
     cluster::write_submission(output, submission);
   }
   standard_output::print("watch:     squeue --jobs={}\n           zerocount status {}\n",
                          fmt::join(submission.jobs, ","), output.string());
+}
+
+/// Submits the parts that are not complete, and the merge.
+void submit_missing(const fs::path& output, const study::Study& study, cluster::BatchRequest& request) {
+  const fs::path directory = shards::parts_directory(output);
+  storage::make_directory(directory);
+  try {
+    const storage::OutputLock lock(cluster::submission_file(output));  // one command at a time
+    require_no_job(output);
+    cluster::prepare_parts(
+        output, study, request.job.parts,
+        request.replaces ? study_run::ForeignShards::remove : study_run::ForeignShards::refuse);
+    request.elements =
+        cluster::elements_of(request.job, cluster::missing_parts(output, study, request.job.parts));
+    submit(output, request);
+  } catch (const Failure&) {
+    std::error_code ignored;
+    fs::remove(directory, ignored);  // if there is nothing in it
+    throw;
+  }
 }
 
 ExitCode slurm(const command_line::Arguments& arguments) {
@@ -238,21 +266,17 @@ ExitCode slurm(const command_line::Arguments& arguments) {
     arguments.refuse("option '--at-once' goes with more than one part");
   command_line::require_places(arguments, {arguments.operands()[0]}, {output});
   const study::Study study = study_to_divide(arguments, parts);
+  cluster::BatchRequest request = batch_request(arguments, output, study);
   if (!arguments.has("dry-run")) require_no_job(output);
   require_same_division(output, parts);
-  if (arguments.has("dry-run")) {
-    for (const Script& script : scripts_of(batch_request(arguments, output, study, parts)))
-      standard_output::print("==> {} <==\n{}\n", script.path.string(), script.text);
+  request.job = cluster::array_job(parts, parts == 1 ? 1 : largest_array(arguments));
+  if (!arguments.has("dry-run")) {
+    submit_missing(output, study, request);
     return ExitCode::success;
   }
-  if (parts > 1) largest_array(arguments);  // where there is no Slurm nothing is made
-  storage::make_directory(shards::parts_directory(output));
-  const storage::OutputLock lock(cluster::submission_file(output));  // one command at a time
-  require_no_job(output);
-  cluster::prepare_parts(
-      output, study, parts,
-      arguments.has("force") ? study_run::ForeignShards::remove : study_run::ForeignShards::refuse);
-  submit(output, batch_request(arguments, output, study, parts));
+  request.elements = cluster::elements_of(request.job, cluster::missing_parts(output, study, parts));
+  for (const Script& script : scripts_of(request))
+    standard_output::print("==> {} <==\n{}\n", script.path.string(), script.text);
   return ExitCode::success;
 }
 

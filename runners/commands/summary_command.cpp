@@ -110,8 +110,8 @@ std::string chosen_text(const summary::StudySummary& summary, std::int64_t best)
 std::string confirmation_text(const summary::StudySummary& summary, const ConfirmedBest& best) {
   const study_run::Confirmation& confirmed = best.confirmation;
   return fmt::format(
-      "\n{}run anew with seed {}, everything drawn anew: {} of {} trials{} succeeded, {}, {} bounds [{}] % "
-      "(Clopper and\nPearson; the point was chosen before these trials, so that they need no correction)\n",
+      "\n{}run anew with seed {}, everything drawn anew: {} of {} trials{} succeeded, {}, {} bounds [{}] %\n"
+      "(Clopper and Pearson; the point was chosen before these trials, so that they need no correction)\n",
       chosen_text(summary, confirmed.point), confirmed.seed, confirmed.successes, confirmed.trials,
       confirmed.on_rigs ? ", each on a rig of its own," : "",
       text::percentage(confirmed.successes, confirmed.trials), text::percent(summary.confidence),

@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <optional>
 #include <string_view>
-#include <system_error>
 
 #include <fmt/format.h>
 
@@ -45,9 +44,7 @@ constexpr const char* trace_help =
 
 /// True if `path` is a results file, by its signature or by its name (the signature may be damaged).
 bool is_results_file(const std::string& path) {
-  std::error_code unknown;  // ignored: what cannot be read is reported where it is opened
-  const bool named = std::filesystem::path(path).extension() == ".h5";
-  return hdf5::is_hdf5_with_user_block(path) || (named && std::filesystem::is_regular_file(path, unknown));
+  return std::filesystem::path(path).extension() == ".h5" || hdf5::is_hdf5_with_user_block(path);
 }
 
 std::int64_t trial_option(const command_line::Arguments& arguments, const study::Study& study) {

@@ -88,7 +88,7 @@ EarlierShards earlier_shards(const fs::path& directory, const study::Study& stud
       require_same_plugin(bad.path, study);
       throw Failure(
           ExitCode::bad_input,
-          fmt::format("{}: holds another unfinished run, which this one must not touch ({}); finish that run "
+          fmt::format("{}: holds trials of another run, which this one must not touch ({}); finish that run "
                       "first, give another name with -o, or remove it with --force",
                       directory.string(), why_foreign(bad, study)));
     }

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/text/percent.hpp"
 #include "tests/runners/program.hpp"
 
 namespace zerocount::testing {
@@ -94,11 +95,11 @@ std::string percent(double proportion) {
   return fmt::format("{:.1f}", 100.0 * proportion);
 }
 
-/// The success rate of a point with its bounds, as the README has it.
+/// The success rate of a point with its bounds, as the table and the README have it.
 std::string success_of(const nlohmann::json& point) {
-  const auto part = [&point](const char* name) { return percent(point[name].get<double>()); };
-  return fmt::format("{} % [{}, {}]", part("success_rate"), part("success_rate_low"),
-                     part("success_rate_high"));
+  const auto part = [&point](const char* name) { return point[name].get<double>(); };
+  return fmt::format("{} % [{}]", percent(part("success_rate")),
+                     text::percent_bounds(part("success_rate_low"), part("success_rate_high")));
 }
 
 // The whole study, as the reader runs it.

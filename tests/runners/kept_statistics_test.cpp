@@ -223,6 +223,18 @@ TEST_F(KeptStatistics, AreRefusedWhereTrialsAreNeeded) {
   EXPECT_NE(refused.err.find("expected keep: trials"), std::string::npos) << refused.err;
 }
 
+TEST_F(KeptStatistics, AreNotJoinedWithTrials) {
+  folder_.write("study.yaml", small_manifest(50));
+  run("trials.h5", {"--shard", "1/2"});
+  run("statistics.h5", {"--shard", "2/2", "--set", "keep=statistics"});
+  for (const std::vector<std::string>& parts :
+       {std::vector<std::string>{"trials.h5", "statistics.h5"}, {"statistics.h5", "trials.h5"}}) {
+    const ProgramResult merged = program({"merge", parts[0], parts[1], "-o", "out.h5"});
+    EXPECT_EQ(merged.code, 4);
+    EXPECT_NE(merged.err.find(parts[1] + ": of another study"), std::string::npos) << merged.err;
+  }
+}
+
 TEST_F(KeptStatistics, ThatCannotBeAreRefused) {
   folder_.write("study.yaml", small_manifest(50, "keep: statistics\n"));
   run("out.h5");

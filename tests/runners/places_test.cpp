@@ -91,6 +91,8 @@ TEST_F(Places, AnInputIsNeverReplaced) {
   EXPECT_EQ(traced.code, 2) << traced.err;
   const ProgramResult merged = program({"merge", "part1.h5", "part2.h5", "-o", "part1.h5", "--force"});
   EXPECT_EQ(merged.code, 2) << merged.err;
+  const ProgramResult run = program({"run", "study.yaml", "-o", "./study.yaml", "--force"});
+  EXPECT_EQ(run.code, 2) << run.err;
   EXPECT_EQ(folder_.read("study.yaml"), small_manifest(40));
 }
 

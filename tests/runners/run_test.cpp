@@ -89,7 +89,10 @@ TEST_F(Run, GivesTheSameDatasetsInParts) {
   EXPECT_EQ(merged.code, 0) << merged.err;
   expect_same_datasets(at("whole.h5"), at("merged.h5"));
   EXPECT_EQ(run({"merge", "part3.h5", "part1.h5", "part2.h5", "-o", "merged.h5"}).code, 2);  // it exists
-  EXPECT_EQ(run({"merge", "part1.h5", "part1.h5", "part2.h5", "part3.h5", "-o", "twice.h5"}).code, 4);
+  const ProgramResult twice =
+      run({"merge", "part1.h5", "part1.h5", "part2.h5", "part3.h5", "-o", "twice.h5"});
+  EXPECT_EQ(twice.code, 4);
+  EXPECT_NE(twice.err.find("part1.h5: is given twice"), std::string::npos) << twice.err;
 }
 
 TEST_F(Run, SurvivesBeingKilledAtRandomMoments) {

@@ -1,4 +1,5 @@
 // `zerocount slurm` with stand-ins for the commands of Slurm; tests/slurm has a real one.
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -124,7 +125,9 @@ TEST_F(SlurmCommand, KeepsToOneDivision) {
 
 TEST_F(SlurmCommand, SaysWhatIsSubmittedWhereTheRestCannotBe) {
   const ProgramResult result = slurm({"--tasks", "2"}, {"LAST_JOB=71"});
-  expect_refusal(result, 5, "sbatch: exit code 1: sbatch: error: Batch job submission failed");
+  expect_refusal(
+      result, 5,
+      "sbatch has failed with exit code 1 (--dry-run shows the scripts): sbatch: error: Batch job");
   EXPECT_EQ(result.out, "submitted: array job of 2 elements 71 (out.h5.parts/array.sbatch)\n");
   folder_.write("bin/queue", "71\n");
   expect_refusal(slurm({"--tasks", "2"}), 2, "job 71 of this output is still in the queue");
@@ -143,7 +146,8 @@ TEST_F(SlurmCommand, MapsPartsToTheLargestArray) {
 }
 
 TEST_F(SlurmCommand, ShowsTheScriptsWithoutAController) {
-  stand_in("scontrol", "echo 'slurm_load_ctl_conf error: Unable to contact slurm controller' >&2; exit 1");
+  stand_in("scontrol",
+           "echo 'scontrol: error: DNS' >&2; echo 'scontrol: fatal: no configuration source' >&2; exit 1");
   const ProgramResult shown =
       slurm({"--tasks", "4", "--cpus", "2", "--sbatch=--partition=long", "--dry-run"});
   ASSERT_EQ(shown.code, 0) << shown.err;
@@ -151,15 +155,28 @@ TEST_F(SlurmCommand, ShowsTheScriptsWithoutAController) {
                            "#SBATCH --partition=long\n", "==> out.h5.parts/merge.sbatch <==\n"})
     EXPECT_NE(shown.out.find(line), std::string::npos) << line << shown.out;
   EXPECT_FALSE(fs::exists(folder_ / "out.h5.parts"));
-  expect_refusal(slurm({"--tasks", "4"}), 5, "scontrol: exit code 1: slurm_load_ctl_conf error");
+  const ProgramResult refused = slurm({"--tasks", "4"});
+  expect_refusal(refused, 5,
+                 "scontrol has failed with exit code 1 (--dry-run shows the scripts): scontrol: fatal:");
+  EXPECT_EQ(std::ranges::count(refused.err, '\n'), 1) << refused.err;
+}
+
+TEST_F(SlurmCommand, LeavesNothingWhereNothingWasSubmitted) {
+  expect_refusal(slurm({"--tasks", "2"}, {"LAST_JOB=70"}), 5, "Batch job submission failed");
+  EXPECT_FALSE(fs::exists(folder_ / "out.h5.parts"));
+  fs::remove(folder_ / "bin/sbatch");
+  expect_refusal(zerocount_program({"slurm", "study.yaml", "-o", "out.h5", "--tasks", "1"}, folder_.path(),
+                                   {"PATH=" + (folder_ / "bin").string()}),
+                 5, "Slurm is not installed here");
+  EXPECT_FALSE(fs::exists(folder_ / "out.h5.parts"));
 }
 
 TEST_F(SlurmCommand, RefusesWhatTheScriptsCannotHold) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
       {{"--sbatch=partition=long"}, "'partition=long' is no option of sbatch"},
-      {{"--sbatch=--array=0-3"}, "the scripts need --array themselves"},
-      {{"--sbatch=-a5"}, "the scripts need -a5 themselves"},
-      {{"--sbatch=--arr=5"}, "the scripts need --arr themselves"},
+      {{"--sbatch=--array=0-3"}, "the scripts set --array themselves"},
+      {{"--sbatch=-a5"}, "the scripts set -a5 themselves"},
+      {{"--sbatch=--arr=5"}, "the scripts set --arr themselves"},
       {{"--sbatch=--comment=a\nb"}, "is no option of sbatch"},
       {{"--time", ":::"}, "is no time of Slurm"},
       {{"--time", ""}, "is no time of Slurm"},
@@ -167,10 +184,11 @@ TEST_F(SlurmCommand, RefusesWhatTheScriptsCannotHold) {
       {{"--cpus", "0"}, "--cpus"},
       {{"--at-once", "0"}, "--at-once"}};
   for (const auto& [words, what] : cases) {
-    std::vector<std::string> all{"--tasks", "2", "--dry-run"};
+    std::vector<std::string> all{"--tasks", "2"};
     all.insert(all.end(), words.begin(), words.end());
     expect_refusal(slurm(all), 2, what);
   }
+  EXPECT_FALSE(fs::exists(folder_ / "out.h5.parts"));
   EXPECT_EQ(slurm({"--tasks", "2", "--dry-run", "--sbatch=--export=NONE", "--time", "1-12:30"}).code, 0);
   expect_refusal(slurm({"--tasks", "1", "--at-once", "2"}), 2, "--at-once");
   expect_refusal(slurm({"--tasks", "121"}), 2, "cannot make 121 parts");

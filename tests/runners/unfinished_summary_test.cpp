@@ -95,14 +95,23 @@ TEST_F(UnfinishedSummary, OfRigsLeavesOutTrialsThatOthersAreMissingBefore) {
 }
 
 TEST_F(UnfinishedSummary, WhereAPointHasNoTrialYetItsRatesAreUnknown) {
-  folder_.write("study.yaml", small_manifest(60));
-  finish_quarter(3);
-  const nlohmann::json summary = json_of("out.h5");
-  ASSERT_EQ(summary["points"].size(), 2U);
-  EXPECT_EQ(summary["points"][0]["trials"], 0);
-  EXPECT_TRUE(summary["points"][0]["success_rate"].is_null());
-  EXPECT_EQ(summary["points"][1]["trials"], 30);
-  EXPECT_EQ(program({"summary", "out.h5"}).code, 0);
+  const std::string observed = "observed: {low: {successes: 19, of: 20}, high: {successes: 0, of: 12}}\n";
+  for (const char* more : {"", "rigs: 30\n", "keep: statistics\n"}) {
+    SCOPED_TRACE(more);
+    folder_.write("study.yaml", small_manifest(60, more + observed));
+    fs::remove_all(at("out.h5.shards"));
+    finish_quarter(3);
+    const nlohmann::json summary = json_of("out.h5");
+    ASSERT_EQ(summary["points"].size(), 2U);
+    EXPECT_EQ(summary["points"][0]["trials"], 0);
+    EXPECT_TRUE(summary["points"][0]["success_rate"].is_null());
+    EXPECT_EQ(summary["points"][1]["trials"], 30);
+    const ProgramResult table = program({"summary", "out.h5"});
+    EXPECT_EQ(table.code, 0) << table.err;
+    EXPECT_NE(table.out.find("1 of 2 points have none yet"), std::string::npos) << table.out;
+    for (const char* text : {"nan", "in 0 trials"})
+      EXPECT_EQ(table.out.find(text), std::string::npos) << table.out;
+  }
 }
 
 TEST_F(UnfinishedSummary, IsThereWhileTheRunGoesOnAndAfterItWasInterrupted) {

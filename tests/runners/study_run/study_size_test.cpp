@@ -117,6 +117,7 @@ TEST(StudySize, ARunThatTheDiskCannotHoldIsRefusedBeforeItBegins) {
   const ProgramResult run = zerocount_program({"run", "study.yaml", "-o", "out.h5", "-q"}, folder.path());
   EXPECT_EQ(run.code, 5) << run.err;
   EXPECT_NE(run.err.find("free, and the run needs about"), std::string::npos) << run.err;
+  EXPECT_FALSE(fs::exists(folder.path() / "out.h5.shards"));
   EXPECT_NE(run.err.find("--force"), std::string::npos) << run.err;
   EXPECT_FALSE(fs::exists(folder / "out.h5"));
   const ProgramResult check = zerocount_program({"check", "study.yaml"}, folder.path());

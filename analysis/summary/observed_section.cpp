@@ -19,6 +19,7 @@ struct Comparison {
 };
 
 Comparison compare(const measures::PointSummary& point, const study::ObservedCounts& counts) {
+  if (point.judged == 0) return {counts, std::nullopt, "there is no simulated trial"};
   const statistics::Successes observed{counts.successes, counts.of};
   if (point.rigs.n == 0) {
     return {counts, statistics::fisher_test(observed, {point.outcomes.zero_count, point.judged}), {}};
@@ -102,6 +103,7 @@ nlohmann::ordered_json json_of(const measures::PointSummary& point, const std::o
 }
 
 std::string simulated_text(const measures::PointSummary& point) {
+  if (point.judged == 0) return "–";
   return fmt::format("{} of {}{}", text::percentage(point.outcomes.zero_count, point.judged), point.judged,
                      point.rigs.n > 0 ? fmt::format(" on {} rigs", point.rigs.n) : "");
 }

@@ -151,6 +151,13 @@ std::vector<text::TextColumn> loop_columns(const StudySummary& summary) {
   return columns;
 }
 
+/// Rigs that have trials; of an unfinished run, at the point with most of them.
+std::int64_t rigs_of(const StudySummary& summary) {
+  std::int64_t rigs = 0;
+  for (const measures::PointSummary& point : summary.points) rigs = std::max(rigs, point.rigs.n);
+  return rigs;
+}
+
 std::string design_line(const StudySummary& summary) {
   const study::StudyFeatures& features = summary.features;
   if (features.dependent_trials) {
@@ -163,7 +170,7 @@ std::string design_line(const StudySummary& summary) {
     line += fmt::format(
         ", {} rigs: bounds are of all rigs that the manifest describes, and more trials on the same "
         "rigs\nnarrow them only so far",
-        summary.points.front().rigs.n);
+        rigs_of(summary));
   }
   if (features.spread_trials) {
     line += fmt::format(

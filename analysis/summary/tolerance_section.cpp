@@ -52,7 +52,8 @@ layout::PointColumn column_of(std::span<const measures::PointSummary> points, st
 }
 
 bool on_rigs(std::span<const measures::PointSummary> points) {
-  return !points.empty() && points.front().claim.rigs > 0;
+  return std::ranges::any_of(points,
+                             [](const measures::PointSummary& point) { return point.claim.rigs > 0; });
 }
 
 std::vector<layout::PointColumn> columns_of(std::span<const measures::PointSummary> points) {

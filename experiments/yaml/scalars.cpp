@@ -188,12 +188,10 @@ std::optional<std::size_t> read_label(const Field& field, std::span<const std::s
   if (node.kind == YamlNode::Kind::scalar && label != labels.end()) {
     return static_cast<std::size_t>(label - labels.begin());
   }
-  const std::string expected = fmt::format("one of {}", fmt::join(labels, ", "));
-  if (node.kind == YamlNode::Kind::scalar) {
-    problems.add(field, fmt::format("{} is none of its words", in_quotes(node.text)), expected);
-  } else {
-    add_wrong_type(field, expected, problems);
-  }
+  const std::string what = node.kind == YamlNode::Kind::null
+                               ? describe(node)
+                               : fmt::format("{} is none of its words", in_quotes(flow_text(node)));
+  problems.add(field, what, fmt::format("one of {}", fmt::join(labels, ", ")));
   return std::nullopt;
 }
 

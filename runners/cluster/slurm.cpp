@@ -1,5 +1,6 @@
 #include "runners/cluster/slurm.hpp"
 
+#include <optional>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -12,35 +13,34 @@
 namespace zerocount::cluster {
 namespace {
 
-/// The last line tells the consequence of those before.
-std::string_view last_line(std::string_view text) {
-  text = text.substr(0, text.find_last_not_of(" \n") + 1);
-  return text.substr(text.rfind('\n') + 1);
+/// ": " and the lines of a message as one.
+std::string as_one_line(std::string_view text) {
+  std::string line;
+  std::istringstream lines{std::string(text)};
+  for (std::string part; std::getline(lines, part);) {
+    if (!part.empty()) line += (line.empty() ? ": " : "; ") + part;
+  }
+  return line;
 }
 
-/// @returns the output of a command; nothing if it is not installed
-std::optional<std::string> output_of(const std::vector<std::string>& words) {
-  const std::optional<child_process::ChildResult> result = child_process::run_child(words, "");
-  if (!result) return std::nullopt;
-  if (result->code == 0) return result->out;
+/// The output of a command.
+std::string output_of(const std::vector<std::string>& words) {
+  std::optional<child_process::ChildResult> result = child_process::run_child(words, "");
+  if (!result) {
+    throw Failure(ExitCode::machine_failed,
+                  fmt::format("{}: not found; Slurm is not installed here (--dry-run shows the scripts)",
+                              words.front()));
+  }
+  if (result->code == 0) return std::move(result->out);
   throw Failure(ExitCode::machine_failed,
-                fmt::format("{} has failed with exit code {} (--dry-run shows the scripts): {}",
-                            words.front(), result->code, last_line(result->err)));
-}
-
-std::string required_output(const std::vector<std::string>& words) {
-  if (std::optional<std::string> output = output_of(words)) return std::move(*output);
-  throw Failure(
-      ExitCode::machine_failed,
-      fmt::format("{}: not found; Slurm is not installed here (--dry-run shows the scripts)", words.front()));
+                fmt::format("{} has failed with exit code {} (--dry-run shows the scripts){}", words.front(),
+                            result->code, as_one_line(result->err)));
 }
 
 }  // namespace
 
-std::optional<std::int64_t> max_array_size() {
-  const std::optional<std::string> configuration = output_of({"scontrol", "show", "config"});
-  if (!configuration) return std::nullopt;
-  std::istringstream lines(*configuration);
+std::int64_t max_array_size() {
+  std::istringstream lines(output_of({"scontrol", "show", "config"}));
   for (std::string line; std::getline(lines, line);) {  // "MaxArraySize            = 1001"
     std::istringstream words(line);
     std::string name, equals;
@@ -51,7 +51,7 @@ std::optional<std::int64_t> max_array_size() {
 }
 
 std::vector<std::string> queued_jobs() {
-  std::istringstream lines(required_output({"squeue", "--noheader", "--format=%F"}));
+  std::istringstream lines(output_of({"squeue", "--noheader", "--format=%F"}));
   std::vector<std::string> jobs;
   for (std::string job; lines >> job;) jobs.push_back(job);
   return jobs;
@@ -61,7 +61,7 @@ std::string submit(const std::filesystem::path& script, const std::string& after
   std::vector<std::string> words{"sbatch", "--parsable"};
   if (!after.empty()) words.push_back("--dependency=afterany:" + after);
   words.push_back(script.string());
-  const std::string answer = required_output(words);
+  const std::string answer = output_of(words);
   return answer.substr(0, answer.find_first_of(";\n"));  // "12", or "12;cluster"
 }
 

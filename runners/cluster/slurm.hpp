@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,12 +12,11 @@ namespace zerocount::cluster {
 inline constexpr std::int64_t default_max_array_size = 1001;
 
 /// Limit of the number of elements of an array job, and of their numbers. 0 if there are no arrays.
-/// @returns nothing if Slurm is not installed here
-/// @throws Failure (machine_failed) with the message of Slurm.
-std::optional<std::int64_t> max_array_size();
+/// @throws Failure (machine_failed) if Slurm is not installed, or with its message.
+std::int64_t max_array_size();
 
 /// The numbers of all jobs that have not ended; of an array, that of its first element.
-/// @throws Failure (machine_failed) if Slurm is not installed, or with its message.
+/// @throws Failure (machine_failed) likewise.
 std::vector<std::string> queued_jobs();
 
 /// Submits a script. @param after number of the job after whose end it begins; empty: none

@@ -82,10 +82,9 @@ std::vector<std::string> sbatch_options(const command_line::Arguments& arguments
           "option '--sbatch': '{}' is no option of sbatch, such as --sbatch=--partition=long", option));
     }
     if (is_reserved(option)) {
-      arguments.refuse(fmt::format(
-          "option '--sbatch': the scripts set {} themselves; --time and --cpus are options of this "
-          "command",
-          option.substr(0, option.find_first_of("= "))));
+      arguments.refuse(
+          fmt::format("option '--sbatch': {} is for this command to decide, which has --time and --cpus",
+                      option.substr(0, option.find_first_of("= "))));
     }
   }
   return options;
@@ -125,19 +124,20 @@ study::Study study_to_divide(const command_line::Arguments& arguments, std::int6
   return study;
 }
 
-/// The largest array; where there is no Slurm to ask, that of its default configuration.
-std::int64_t largest_array(const command_line::Arguments& arguments) {
-  std::optional<std::int64_t> size;
+/// The largest array for so many parts; for --dry-run where there is no Slurm to ask, that of its default
+/// configuration.
+/// @throws Failure (machine_failed) if there is no Slurm, or none that runs arrays.
+std::int64_t largest_array(const command_line::Arguments& arguments, std::int64_t parts) {
+  std::int64_t size = cluster::default_max_array_size;
   try {
     size = cluster::max_array_size();
   } catch (const Failure&) {
     if (!arguments.has("dry-run")) throw;
   }
-  if (size == 0) {
-    throw Failure(ExitCode::machine_failed,
-                  "this Slurm has no array jobs (MaxArraySize is 0 in its configuration); use --tasks 1");
-  }
-  return size.value_or(cluster::default_max_array_size);
+  if (parts == 1) return 1;
+  if (size > 0) return size;
+  throw Failure(ExitCode::machine_failed,
+                "this Slurm has no array jobs (MaxArraySize is 0 in its configuration); use --tasks 1");
 }
 
 /// What the options ask for; the elements are added when it is known which parts are missing.
@@ -215,17 +215,24 @@ std::vector<Script> scripts_of(const cluster::BatchRequest& request) {
   return all;
 }
 
+/// Whether there is anything of this name, be it a link to nothing.
+bool has_entry(const fs::path& path) {
+  std::error_code ignored;
+  return fs::exists(fs::symlink_status(path, ignored));
+}
+
 /// Submits the scripts, and says and records each job as soon as there is one.
 void submit(const fs::path& output, const cluster::BatchRequest& request) {
   cluster::Submission submission{request.job.parts, request.study_sha256, {}};
   for (const Script& script : scripts_of(request)) {
+    const bool is_new = !has_entry(script.path);
     storage::replace_file(script.path, script.text);
     try {
       submission.jobs.push_back(
           cluster::submit(script.path, submission.jobs.empty() ? "" : submission.jobs.back()));
     } catch (const Failure&) {
       std::error_code ignored;
-      if (submission.jobs.empty()) fs::remove(script.path, ignored);
+      if (is_new && submission.jobs.empty()) fs::remove(script.path, ignored);
       throw;
     }
     standard_output::print("submitted: {} {} ({})\n", script.title, submission.jobs.back(),
@@ -239,6 +246,7 @@ void submit(const fs::path& output, const cluster::BatchRequest& request) {
 /// Submits the parts that are not complete, and the merge.
 void submit_missing(const fs::path& output, const study::Study& study, cluster::BatchRequest& request) {
   const fs::path directory = shards::parts_directory(output);
+  const bool is_new = !has_entry(directory);
   storage::make_directory(directory);
   try {
     const storage::OutputLock lock(cluster::submission_file(output));  // one command at a time
@@ -251,7 +259,7 @@ void submit_missing(const fs::path& output, const study::Study& study, cluster::
     submit(output, request);
   } catch (const Failure&) {
     std::error_code ignored;
-    fs::remove(directory, ignored);  // if there is nothing in it
+    if (is_new) fs::remove(directory, ignored);  // if there is nothing in it
     throw;
   }
 }
@@ -269,7 +277,7 @@ ExitCode slurm(const command_line::Arguments& arguments) {
   cluster::BatchRequest request = batch_request(arguments, output, study);
   if (!arguments.has("dry-run")) require_no_job(output);
   require_same_division(output, parts);
-  request.job = cluster::array_job(parts, parts == 1 ? 1 : largest_array(arguments));
+  request.job = cluster::array_job(parts, largest_array(arguments, parts));
   if (!arguments.has("dry-run")) {
     submit_missing(output, study, request);
     return ExitCode::success;

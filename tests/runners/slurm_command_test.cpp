@@ -102,6 +102,11 @@ TEST_F(SlurmCommand, DoesNotMixPartsOfStudies) {
   EXPECT_NE(run_element(1), 0);
   EXPECT_NE(folder_.read("element.log").find("another study than is asked for"), std::string::npos);
   expect_refusal(slurm({"--tasks", "2"}), 2, "trials");
+  fs::rename(folder_ / "bin/scontrol", folder_ / "bin/no-scontrol");
+  expect_refusal(zerocount_program({"slurm", "study.yaml", "-o", "out.h5", "--tasks", "2", "--force"},
+                                   folder_.path(), {"PATH=" + (folder_ / "bin").string()}),
+                 5, "Slurm is not installed here");
+  fs::rename(folder_ / "bin/no-scontrol", folder_ / "bin/scontrol");
   EXPECT_TRUE(fs::exists(folder_ / "out.h5.parts/part-1-of-2.h5"));
   EXPECT_NE(slurm({"--tasks", "2", "--force"}).out.find("array job of 2 elements"), std::string::npos);
   for (const int element : {0, 1}) ASSERT_EQ(run_element(element), 0) << folder_.read("element.log");
@@ -156,8 +161,9 @@ TEST_F(SlurmCommand, ShowsTheScriptsWithoutAController) {
     EXPECT_NE(shown.out.find(line), std::string::npos) << line << shown.out;
   EXPECT_FALSE(fs::exists(folder_ / "out.h5.parts"));
   const ProgramResult refused = slurm({"--tasks", "4"});
-  expect_refusal(refused, 5,
-                 "scontrol has failed with exit code 1 (--dry-run shows the scripts): scontrol: fatal:");
+  expect_refusal(
+      refused, 5,
+      "scontrol has failed with exit code 1 (--dry-run shows the scripts): scontrol: error: DNS; ");
   EXPECT_EQ(std::ranges::count(refused.err, '\n'), 1) << refused.err;
 }
 
@@ -171,12 +177,20 @@ TEST_F(SlurmCommand, LeavesNothingWhereNothingWasSubmitted) {
   EXPECT_FALSE(fs::exists(folder_ / "out.h5.parts"));
 }
 
+TEST_F(SlurmCommand, KeepsWhatWasThereWhereNothingWasSubmitted) {
+  fs::create_directory(folder_ / "before");
+  folder_.write("before/array.sbatch", "mine");
+  fs::create_directory_symlink("before", folder_ / "out.h5.parts");
+  expect_refusal(slurm({"--tasks", "2"}, {"LAST_JOB=70"}), 5, "Batch job submission failed");
+  EXPECT_TRUE(fs::exists(folder_ / "out.h5.parts/array.sbatch"));
+}
+
 TEST_F(SlurmCommand, RefusesWhatTheScriptsCannotHold) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
       {{"--sbatch=partition=long"}, "'partition=long' is no option of sbatch"},
-      {{"--sbatch=--array=0-3"}, "the scripts set --array themselves"},
-      {{"--sbatch=-a5"}, "the scripts set -a5 themselves"},
-      {{"--sbatch=--arr=5"}, "the scripts set --arr themselves"},
+      {{"--sbatch=--array=0-3"}, "--array is for this command to decide"},
+      {{"--sbatch=-a5"}, "-a5 is for this command to decide"},
+      {{"--sbatch=--arr=5"}, "--arr is for this command to decide"},
       {{"--sbatch=--comment=a\nb"}, "is no option of sbatch"},
       {{"--time", ":::"}, "is no time of Slurm"},
       {{"--time", ""}, "is no time of Slurm"},

@@ -105,8 +105,8 @@ INSTANTIATE_TEST_SUITE_P(
              "m.yaml:6:9: design: 'random' is none of its words; expected one of monte_carlo, "
              "latin_hypercube, "
              "sobol, saltelli"},
-        Case{"design: []",
-             "m.yaml:6:9: design: a list stands here; expected one of monte_carlo, latin_hypercube, sobol, "
+        Case{"design: ~",
+             "m.yaml:6:9: design: the value is empty; expected one of monte_carlo, latin_hypercube, sobol, "
              "saltelli"},
         Case{"independent_points: 1",
              "m.yaml:6:21: independent_points: '1' is not a truth value; expected true or false"},

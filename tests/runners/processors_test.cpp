@@ -56,12 +56,12 @@ class EveryProcessor : public ::testing::TestWithParam<ShortStudy> {};
 
 TEST_P(EveryProcessor, GivesTheSameTrials) {
   const TemporaryFolder folder;
-  const auto& [name, trials] = GetParam();
-  const std::string manifest = fmt::format("{}/{}.yaml", ZEROCOUNT_MANIFESTS, name);
+  const ShortStudy& study = GetParam();
+  const std::string manifest = fmt::format("{}/{}.yaml", ZEROCOUNT_MANIFESTS, study.name);
   const auto run = [&](const char* output, const std::vector<std::string>& environment) {
-    const ProgramResult result =
-        zerocount_program({"run", manifest, "--set", fmt::format("trials={}", trials), "-q", "-o", output},
-                          folder.path(), environment);
+    const ProgramResult result = zerocount_program(
+        {"run", manifest, "--set", fmt::format("trials={}", study.trials), "-q", "-o", output}, folder.path(),
+        environment);
     EXPECT_EQ(result.code, 0) << result.err;
   };
   run("this.h5", {});

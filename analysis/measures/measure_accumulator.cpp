@@ -36,19 +36,13 @@ bool is_known(const layout::Measure& measure, std::int64_t version) {
   return measure.file.since <= version || !std::isnan(measure.file.before);
 }
 
-/// Whether `total` is the sum of counts of 0 or more.
+/// Whether no count is negative and all add up to `total`.
 bool is_sum_of(const std::vector<std::int64_t>& counts, std::int64_t total) {
   for (const std::int64_t count : counts) {
     if (count < 0 || count > total) return false;
     total -= count;
   }
   return total == 0;
-}
-
-/// Whether each of the counts is from 0 to `most`.
-bool are_all_within(const std::vector<std::int64_t>& counts, std::int64_t most) {
-  return std::all_of(counts.begin(), counts.end(),
-                     [most](std::int64_t count) { return count >= 0 && count <= most; });
 }
 
 }  // namespace
@@ -125,7 +119,7 @@ bool MeasureAccumulator::has_sound_qualities(std::int64_t moves) const {
   if (std::ssize(by_move_) != moves || judged_.size() != rigs || hits_.size() != rigs) return false;
   for (std::size_t rig = 0; rig < rigs; ++rig)
     if (hits_[rig] < 0 || hits_[rig] > judged_[rig]) return false;
-  return is_sum_of(judged_, trials_) && are_all_within(by_move_, trials_);
+  return is_sum_of(judged_, trials_) && statistics::are_counts(by_move_, trials_);
 }
 
 bool MeasureAccumulator::has_sound_totals() const {

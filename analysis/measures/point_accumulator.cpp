@@ -67,14 +67,6 @@ void add_each(std::vector<Summand>& sums, const std::vector<Summand>& added) {
   for (std::size_t i = 0; i < added.size(); ++i) sums[i] += added[i];
 }
 
-/// Whether each of the counts is from 0 to `most`.
-bool are_within(const OutcomeCounts& counts, std::int64_t most) {
-  const std::array all{counts.zero_count,  counts.one_count, counts.off_target,
-                       counts.oscillating, counts.nonfinite, counts.open_loop};
-  return std::all_of(all.begin(), all.end(),
-                     [most](std::int64_t count) { return count >= 0 && count <= most; });
-}
-
 }  // namespace
 
 OutcomeCounts& OutcomeCounts::operator+=(const OutcomeCounts& other) {
@@ -303,7 +295,9 @@ bool PointAccumulator::is_sound(std::int64_t moves) const {
 bool PointAccumulator::has_sound_counts(std::int64_t moves) const {
   constexpr std::int64_t most_trials = std::int64_t{1} << 53;  // sums of counts up to this do not overflow
   const auto complete = [this](const OutcomeCounts& counts) {
-    return are_within(counts, counted_.trials) && counts.total() == counted_.trials;
+    const std::array all{counts.zero_count,  counts.one_count, counts.off_target,
+                         counts.oscillating, counts.nonfinite, counts.open_loop};
+    return statistics::are_counts(all, counted_.trials) && counts.total() == counted_.trials;
   };
   return counted_.trials > 0 && counted_.trials <= most_trials && counted_.moves % moves == 0 &&
          counted_.moves / moves == counted_.trials && complete(counted_.outcomes) &&

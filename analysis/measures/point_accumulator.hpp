@@ -61,7 +61,7 @@ class MeasureAccumulator {
     archive(self.trials_, self.moments_, self.clusters_, self.totals_, self.by_move_, self.judged_,
             self.hits_);
   }
-  /// Whether what transfer() has read can be the sums of this measure. @param moves of each of the trials
+  /// Whether the restored sums are possible for this measure. @param moves number of moves of each trial
   bool is_sound(std::int64_t trials, std::int64_t moves) const;
 
  private:

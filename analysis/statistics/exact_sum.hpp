@@ -37,7 +37,7 @@ class ExactSum {
   }
 
  private:
-  /// Whether the digits that were read can be those that transfer() writes.
+  /// Whether the restored digits and their places are within their ranges.
   bool is_sound() const;
   /// Brings the digits into the one form that stands for the number, whatever it was the sum of.
   void normalise();

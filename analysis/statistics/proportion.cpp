@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <exception>
 #include <numeric>
 
+#include <boost/math/policies/error_handling.hpp>
 #include <boost/math/special_functions/beta.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <fmt/format.h>
@@ -31,7 +31,7 @@ template <class Inverse, class Excess>
 double inverse_of_beta(const Inverse& inverse, double a, double b, const Excess& excess) {
   try {
     return inverse();
-  } catch (const std::exception&) {
+  } catch (const boost::math::evaluation_error&) {
     constexpr double standard_deviations = 40.0;  // beyond any tail that a confidence gives
     constexpr int bits = 52;
     const double mean = a / (a + b);

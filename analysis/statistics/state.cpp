@@ -1,8 +1,14 @@
 #include "analysis/statistics/state.hpp"
 
+#include <algorithm>
+
 #include "core/failure/failure.hpp"
 
 namespace zerocount::statistics {
+
+bool are_counts(std::span<const std::int64_t> counts, std::int64_t most) {
+  return std::ranges::all_of(counts, [most](std::int64_t count) { return count >= 0 && count <= most; });
+}
 
 void StateReader::fail() {
   throw Failure(ExitCode::bad_data, "the sums of a design point are not those of this study");

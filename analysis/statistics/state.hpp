@@ -16,6 +16,9 @@
 /// A vector or map is preceded by the number of its elements.
 namespace zerocount::statistics {
 
+/// Whether no count is negative or above `most`.
+bool are_counts(std::span<const std::int64_t> counts, std::int64_t most);
+
 struct State {
   std::vector<std::int64_t> whole;
   std::vector<double> real;

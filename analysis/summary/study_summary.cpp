@@ -85,7 +85,7 @@ void shorten(StudySummary& summary, std::size_t points) {
   }
 }
 
-/// Whether the trials of a point are those of the study only together, or from the first on.
+/// Whether the statistics of a point need its trials from the first on, without gaps.
 bool depend_on_order(const study::Study& study) {
   return study.rigs > 0 || study.design != study::Design::monte_carlo;
 }

@@ -86,6 +86,7 @@ std::string summary_csv(const StudySummary& summary);
 StudySummary summarise(const reading::StudyFile& file, double confidence = statistics::summary_confidence,
                        bool bootstrap = false);
 
+/// The same from the sums of a file that keeps statistics.
 StudySummary summarise(const reading::StatisticsFile& file,
                        double confidence = statistics::summary_confidence, bool bootstrap = false);
 /// The same of the file `path`, whatever it keeps.

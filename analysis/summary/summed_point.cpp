@@ -19,12 +19,11 @@ measures::MoveKind kind_of(const study::Study& study) {
 }
 
 bool is_possible(const measures::TheoryPrediction& prediction) {
-  const std::int64_t trials = prediction.trials;
-  return std::ranges::all_of(std::array{prediction.stable, prediction.unstable, prediction.outside},
-                             [&](std::int64_t count) { return count >= 0 && count <= trials; });
+  return statistics::are_counts(std::array{prediction.stable, prediction.unstable, prediction.outside},
+                                prediction.trials);
 }
 
-/// Whether the counts can be those of a number of moves.
+/// Whether the counts are possible for this number of moves.
 bool is_possible(const UndecidedSums& sums, std::int64_t moves) {
   return sums.counts.moves == moves && sums.needed_holds.size <= moves &&
          std::ranges::all_of(measures::undecided_counts, [&](const measures::UndecidedCount& each) {

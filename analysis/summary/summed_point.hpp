@@ -15,8 +15,8 @@
 
 namespace zerocount::summary {
 
-/// Everything that is summed over trials of one design point. Sums of some trials and of those that follow
-/// them, added, are the sums of all, to the bit.
+/// All sums over trials of one design point. The sums of two ranges of trials that follow one another, added,
+/// equal the sums of both to the bit (docs/scaling.md: up to how many trials).
 class SummedPoint {
  public:
   /// @param study stays as long as this. @param first_trial index at the point of the first that is added
@@ -47,7 +47,7 @@ class SummedPoint {
   measures::TheoryPrediction prediction_;
 };
 
-/// What follows from the sums of the trials of a study.
+/// The results of StudySums, by point.
 struct SummedStudy {
   std::vector<measures::PointSummary> points;           ///< [point, from the first on] if collected
   std::vector<measures::TheoryPrediction> predictions;  ///< likewise
@@ -55,12 +55,12 @@ struct SummedStudy {
   std::vector<layout::PointSums> sums;                  ///< likewise
 };
 
-/// Whether sums are collected for another file, or only what follows from them.
 /// The sums of a point of a file.
 /// @throws Failure (bad_data) with file and point where they cannot be those of its trials
 SummedPoint restored_point(const reading::StatisticsFile& file, const study::Study& study,
                            std::int64_t point);
 
+/// What StudySums collects of each point.
 enum class Collected {
   statistics,
   sums,  ///< those of a part: rigs without a trial have no statistics
@@ -80,7 +80,7 @@ class StudySums {
   /// @throws Failure (bad_data) where the sums cannot be those of the trials
   void add(const reading::StatisticsFile& file, std::int64_t point);
   void add(const reading::StatisticsFile& file);
-  /// Of the points up to the last that has trials. Ends the adding.
+  /// @returns the results of the points up to the last with trials; nothing may be added afterwards
   /// @throws Failure (bad_data) where no statistics follow from the sums
   SummedStudy sum();
 

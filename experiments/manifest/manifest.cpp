@@ -223,7 +223,7 @@ void read_kept(Manifest& m) {
     m.study.kept = static_cast<study::Kept>(*kept);
 }
 
-// What needs every trial when all have been run.
+// Refuses other keys that need every trial after the run.
 void check_kept(Manifest& m) {
   if (m.study.kept == study::Kept::trials) return;
   const auto refuse = [&](std::string_view what, const char* expected) {

@@ -35,7 +35,7 @@ bool is_dirty(const Provenance& provenance);
 
 enum class FileKind { study, shard };
 
-/// What a file holds of each trial, or of all together.
+/// What a results file holds: its trials, or sums of them.
 enum class Contents {
   trials,     ///< every trial
   statistics  ///< the sums that the statistics of each design point follow from, and perhaps the failures

@@ -46,7 +46,7 @@ void merge_shards(std::span<const ShardInfo> shards, const study::Study& study,
                   const Renumbering& renumber = {},
                   const layout::MeasureTable& measures = layout::measure_table());
 
-/// What follows from the sums of some trials.
+/// The sums of consecutive trials, and the statistics computed from them.
 struct SummedTrials {
   std::vector<layout::PointSums> sums;  ///< [point, from that of the first trial]
   layout::StoredStatistics statistics;  ///< of all trials of the study; otherwise empty, and so is the next

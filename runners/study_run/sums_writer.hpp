@@ -16,7 +16,7 @@
 
 namespace zerocount::study_run {
 
-/// What a study that keeps statistics keeps of some trials that follow one another.
+/// The sums of consecutive trials, for a study that keeps statistics.
 struct SummedBlock {
   layout::RowRange rows;
   std::vector<summary::SummedPoint> points;     ///< from that of the first trial on

@@ -67,6 +67,16 @@ JerkingTrial random_trial(testing::Draws& draws, std::size_t moves, bool open_lo
   return trial;
 }
 
+/// The sums of 50 trials.
+PointAccumulator random_point(testing::Draws& draws, const MoveKind& kind, std::size_t moves) {
+  PointAccumulator point(kind);
+  for (int i = 0; i < 50; ++i) {
+    const JerkingTrial trial = random_trial(draws, moves, kind.open_loop);
+    point.add(trial.outcome, trial.jerks);
+  }
+  return point;
+}
+
 /// The bits of every statistic of the point: those of its row, bounds of means, and of its levels.
 std::vector<std::uint64_t> all_statistics(const PointAccumulator& point) {
   StatisticsOptions options;
@@ -128,11 +138,7 @@ TEST(DividedPoint, HasTheStatisticsOfTheWhole) {
 
 TEST(DividedPoint, RefusesTheStateOfAnotherKindOfPoint) {
   testing::Draws draws(2305);
-  PointAccumulator point;
-  for (int i = 0; i < 50; ++i) {
-    const JerkingTrial trial = random_trial(draws, 2, false);
-    point.add(trial.outcome, trial.jerks);
-  }
+  const PointAccumulator point = random_point(draws, {}, 2);
   const statistics::State state = point.state();
   PointAccumulator other(MoveKind{.rigs = 5});
   EXPECT_THROW(other.restore(state.whole, state.real, 2), Failure);
@@ -144,11 +150,7 @@ TEST(DividedPoint, RefusesTheStateOfAnotherKindOfPoint) {
 
 TEST(DividedPoint, RefusesCountsThatCancel) {
   testing::Draws draws(2306);
-  PointAccumulator point;
-  for (int i = 0; i < 50; ++i) {
-    const JerkingTrial trial = random_trial(draws, 1, false);
-    point.add(trial.outcome, trial.jerks);
-  }
+  const PointAccumulator point = random_point(draws, {}, 1);
   statistics::State state = point.state();
   constexpr std::size_t zero_count = 2, one_count = 3;  // after trials and moves
   state.whole[zero_count] += state.whole[one_count] + 8;
@@ -163,12 +165,7 @@ TEST(DividedPoint, OfAnyNumbersIsRefusedOrHasStatistics) {
   constexpr int rounds = 400;
   for (int round = 0; round < rounds; ++round) {
     const MoveKind kind{.open_loop = round % 5 == 4, .rigs = round % 2 == 1 ? 7 : 0};
-    PointAccumulator point(kind);
-    for (int i = 0; i < 40; ++i) {
-      const JerkingTrial trial = random_trial(draws, 2, kind.open_loop);
-      point.add(trial.outcome, trial.jerks);
-    }
-    statistics::State changed = point.state();
+    statistics::State changed = random_point(draws, kind, 2).state();
     const auto place =
         static_cast<std::size_t>(draws.uniform(0.0, static_cast<double>(changed.whole.size())));
     const std::int64_t before = changed.whole[place];

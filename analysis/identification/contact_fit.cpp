@@ -5,7 +5,6 @@
 #include <numbers>
 #include <utility>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include "analysis/identification/reading_replicates.hpp"

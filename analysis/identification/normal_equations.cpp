@@ -1,6 +1,5 @@
-#include <Eigen/Cholesky>
-
 #include "analysis/identification/joint_fit.hpp"
+#include "core/numerics/dense.hpp"
 
 namespace zerocount::identification {
 
@@ -24,8 +23,7 @@ NormalEquations normal_equations(const FittedModel& model, const Observations& o
 
 Eigen::MatrixXd textbook_covariance(const FittedModel& model, const Observations& observations,
                                     const FitSetting& setting) {
-  const Eigen::MatrixXd matrix = normal_equations(model, observations, setting).matrix;
-  return matrix.llt().solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
+  return numerics::inverse_of_positive_definite(normal_equations(model, observations, setting).matrix);
 }
 
 NormalEquationsSum::NormalEquationsSum(std::size_t records, const FitSetting& setting) : setting_(setting) {

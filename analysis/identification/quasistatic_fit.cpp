@@ -5,8 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Cholesky>
 #include <oneapi/tbb/parallel_for.h>
+
+#include "core/numerics/dense.hpp"
 
 namespace zerocount::identification {
 namespace {
@@ -161,7 +162,8 @@ class SlowPartsFit {
         Eigen::MatrixXd damped = matrix;
         damped.diagonal() += damping * matrix.diagonal();
         damped.diagonal().array() += 1e-12 * scale + std::numeric_limits<double>::min();
-        const Eigen::VectorXd change = damped.llt().solve(gradient).cwiseMin(max_step).cwiseMax(-max_step);
+        const Eigen::VectorXd change =
+            numerics::solve_positive_definite(damped, gradient).cwiseMin(max_step).cwiseMax(-max_step);
         ContactPoint tried = point;
         for (Eigen::Index i = 0, j = 0; j < contact_dimension; ++j) {
           if (free[static_cast<std::size_t>(j)]) tried[j] += change[i++];

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "core/numerics/dense.hpp"
 #include "core/random/random_numbers.hpp"
 #include "core/random/variates.hpp"
 
@@ -58,7 +58,7 @@ std::vector<double> residuals_along(const FittedModel& model,
   for (std::size_t r = 0; r < observations.size(); ++r) {
     const RecordMotion& motion = model.motions[r];
     for (const AngleObservation& observation : observations[r]) {
-      double modelled = mean_over(observation, *paths[r]).value();
+      double modelled = mean_over(observation, *paths[r]);
       if (step.size() > 0) {
         modelled += (mean_over(observation, motion.sensitivity) * step.head<contact_dimension>()).value() +
                     step[contact_dimension + static_cast<Eigen::Index>(r)];
@@ -85,7 +85,7 @@ ReadingReplicates replicate_readings(std::span<const TestRecord> records, const 
   for (std::size_t r = 0; r < records.size(); ++r)
     observe(records[r], model.motions[r].path, readings_of(records[r]), noise[r], observations[r]);
   const Eigen::MatrixXd matrix = normal_equations(model, observations, setting).matrix;
-  const Eigen::LLT<Eigen::MatrixXd> root(matrix);
+  const Eigen::MatrixXd root = numerics::cholesky_factor(matrix);
 
   ReadingReplicates result;
   result.errors.resize(static_cast<Eigen::Index>(replicates), matrix.rows());
@@ -93,7 +93,8 @@ ReadingReplicates replicate_readings(std::span<const TestRecord> records, const 
   oneapi::tbb::parallel_for(std::size_t{0}, replicates, [&](std::size_t i) {
     ReplicateNoise random(first + i);
     // The textbook covariance is matrix⁻¹. With matrix = L·Lᵀ, L⁻ᵀz has this covariance.
-    const Eigen::VectorXd away = truth_spread * root.matrixU().solve(random.next(matrix.rows()));
+    const Eigen::VectorXd away =
+        truth_spread * numerics::solve_transposed_factor(root, random.next(matrix.rows()));
     NormalEquationsSum sum(records.size(), setting);
     Observations read(records.size());
     std::vector<Eigen::VectorXd> paths(records.size());
@@ -115,7 +116,7 @@ ReadingReplicates replicate_readings(std::span<const TestRecord> records, const 
       if (setting.free[static_cast<std::size_t>(j)])
         equations.gradient[j] += random.next() / setting.prior_spread;
     }
-    const Eigen::VectorXd error = equations.matrix.llt().solve(equations.gradient);
+    const Eigen::VectorXd error = numerics::solve_positive_definite(equations.matrix, equations.gradient);
     result.errors.row(static_cast<Eigen::Index>(i)) = error;
     result.residuals[i] = residual_statistics(residuals_along(model, path_of, read, error));
   });

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include "core/failure/failure.hpp"
 #include "core/friction/law.hpp"
+#include "core/numerics/dense.hpp"
 
 namespace zerocount::law_identification {
 namespace {
@@ -231,14 +231,14 @@ LawErrors errors_of(Records records, const LawModel& model, const LawFit& fit) {
   for (std::size_t r = 0; r < records.size(); ++r) {
     textbook.add(r, fit.observations[r], fit.motions[r].path, fit.motions[r].sensitivity);
   }
-  const Eigen::LLT<Eigen::MatrixXd> root(textbook.matrix);
+  const Eigen::MatrixXd root = numerics::cholesky_factor(textbook.matrix);
   LawErrors result;
   result.errors.resize(replicates, dimension_of(model));
   std::vector<identification::ResidualStatistics> residuals(replicates);
   oneapi::tbb::parallel_for(std::size_t{0}, replicates, [&](std::size_t i) {
     identification::ReplicateNoise random(i);
-    const Eigen::VectorXd away =
-        identification::truth_spread * root.matrixU().solve(random.next(textbook.matrix.rows()));
+    const Eigen::VectorXd away = identification::truth_spread *
+                                 numerics::solve_transposed_factor(root, random.next(textbook.matrix.rows()));
     LawNormalEquations equations(model, records.size());
     Observations read(records.size());
     std::vector<Eigen::VectorXd> paths = paths_of(fit.motions);
@@ -253,7 +253,7 @@ LawErrors errors_of(Records records, const LawModel& model, const LawFit& fit) {
     for (Eigen::Index j = 0; j < dimension_of(model); ++j) {
       if (model.free[static_cast<std::size_t>(j)]) equations.gradient[j] += random.next() / prior_spread;
     }
-    const Eigen::VectorXd error = equations.matrix.llt().solve(equations.gradient);
+    const Eigen::VectorXd error = numerics::solve_positive_definite(equations.matrix, equations.gradient);
     result.errors.row(static_cast<Eigen::Index>(i)) = error.head(dimension_of(model));
     residuals[i] = identification::residual_statistics(residuals_after(fit.motions, paths, read, error));
   });

@@ -3,11 +3,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-
 #include "analysis/sensitivity/factor_matrix.hpp"
 #include "analysis/statistics/normal.hpp"
+#include "core/numerics/dense.hpp"
 
 namespace zerocount::sensitivity {
 namespace {
@@ -35,13 +33,12 @@ struct Curvature {
 Curvature curvature_at(const Eigen::MatrixXd& z, const Eigen::VectorXd& yes, const Eigen::VectorXd& b) {
   const Eigen::ArrayXd p = 1.0 / (1.0 + (-(z * b).array()).exp());
   const Eigen::VectorXd weights = p * (1.0 - p);
-  return {z.transpose() * (yes - p.matrix()), z.transpose() * (weights.asDiagonal() * z)};
+  return {z.transpose() * (yes - p.matrix()), numerics::transposed_product(z, weights.asDiagonal() * z)};
 }
 
 bool is_flat(const Eigen::MatrixXd& information) {
-  const Eigen::VectorXd values =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(information, Eigen::EigenvaluesOnly).eigenvalues();
-  return !(values(0) > flattest * static_cast<double>(information.rows()) * values(values.size() - 1));
+  const Eigen::VectorXd values = numerics::eigenvalues(information).real();
+  return !(values.minCoeff() > flattest * static_cast<double>(information.rows()) * values.maxCoeff());
 }
 
 // The coefficients of the greatest likelihood; empty where the steps do not end.
@@ -53,7 +50,7 @@ Eigen::VectorXd max_likelihood(const Eigen::MatrixXd& z, const Eigen::VectorXd& 
   for (int step = 0; step < max_steps; ++step) {
     const Curvature curvature = curvature_at(z, yes, b);
     if (is_flat(curvature.information)) return {};
-    Eigen::VectorXd change = curvature.information.ldlt().solve(curvature.gradient);
+    Eigen::VectorXd change = numerics::solve_positive_definite(curvature.information, curvature.gradient);
     if (change.lpNorm<Eigen::Infinity>() < min_step * (1.0 + b.lpNorm<Eigen::Infinity>())) return b;
     double reached = log_likelihood((z * (b + change)).array(), yes.array());
     for (int halving = 0;
@@ -87,7 +84,7 @@ LogisticFit logistic_fit(const Eigen::MatrixXd& x, const Eigen::VectorXd& yes, d
   fit.status = b.size() > 0 ? LogisticFit::Status::fitted : LogisticFit::Status::separated;
   if (fit.status == LogisticFit::Status::separated) return fit;
   const Eigen::MatrixXd information = curvature_at(z, yes, b).information;
-  const Eigen::MatrixXd covariance = information.ldlt().solve(Eigen::MatrixXd::Identity(z.cols(), z.cols()));
+  const Eigen::MatrixXd covariance = numerics::inverse_of_positive_definite(information);
   const double quantile = statistics::two_sided_normal_quantile(confidence);
   const auto bounded = [&](Eigen::Index i) {
     const double half = quantile * std::sqrt(covariance(i, i));

@@ -3,10 +3,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include <Eigen/Cholesky>
-
 #include "analysis/sensitivity/factor_matrix.hpp"
 #include "analysis/sensitivity/rank_correlation.hpp"
+#include "core/numerics/dense.hpp"
 
 namespace zerocount::sensitivity {
 namespace {
@@ -54,9 +53,8 @@ std::vector<BoundedNumber> partial_rank_correlations(const Eigen::MatrixXd& x, s
 
   // With Q the inverse of XᵀX, what is left of column j is X·Q_j/Q_jj, and of y when all columns but j are
   // taken from it, the remainder of the full regression plus its part along that.
-  const Eigen::LLT<Eigen::MatrixXd> normal_equations(ranks.transpose() * ranks);
   const Eigen::MatrixXd inverse =
-      normal_equations.solve(Eigen::MatrixXd::Identity(ranks.cols(), ranks.cols()));
+      numerics::inverse_of_positive_definite(numerics::transposed_product(ranks, ranks));
   const Eigen::VectorXd slopes = inverse * (ranks.transpose() * ranks_y);
   const Eigen::VectorXd remainder = ranks_y - ranks * slopes;
   const auto freedom = static_cast<double>(ranks.rows() - ranks.cols() - 2);

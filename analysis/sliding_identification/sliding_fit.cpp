@@ -5,7 +5,6 @@
 #include <map>
 #include <utility>
 
-#include <Eigen/Dense>
 #include <ceres/cost_function.h>
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
@@ -13,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
+#include "core/numerics/dense.hpp"
 
 namespace zerocount::sliding_identification {
 namespace {
@@ -109,7 +109,7 @@ double solve(std::vector<FittedWindow>& windows, SlidingPoint& point, const Free
 
 /// Columns of a matrix beyond what the columns of another explain.
 Eigen::MatrixXd beyond(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& local) {
-  return columns - local * local.colPivHouseholderQr().solve(columns);
+  return columns - numerics::product(local, numerics::least_squares(local, columns));
 }
 
 /// Contribution of one window to the estimating equations, its initial state eliminated.
@@ -135,7 +135,7 @@ WindowScore score_of(const FittedWindow& fitted, const SlidingPoint& point) {
       beyond(motion.slopes.leftCols<sliding_dimension>() / record.resolution, local);
   parabola = -slopes.col(offset_torque);
   return {{fitted.record, fitted.window->stroke},
-          slopes.transpose() * slopes,
+          numerics::transposed_product(slopes, slopes),
           slopes.transpose() * residual,
           parabola.dot(residual) / std::max(parabola.squaredNorm(), std::numeric_limits<double>::min())};
 }
@@ -182,8 +182,7 @@ Eigen::MatrixXd jackknife(const ScaledParameters& parameters, const Covariance& 
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(parameters.scale.size(), parameters.scale.size());
   for (const ClusterScore& cluster : clusters) {
     const Eigen::MatrixXd others = parameters.scaled(Covariance(information - cluster.information));
-    const Eigen::VectorXd change =
-        others.completeOrthogonalDecomposition().solve(parameters.scaled(cluster.score));
+    const Eigen::VectorXd change = numerics::least_squares(others, parameters.scaled(cluster.score));
     sum += change * change.transpose();
   }
   return (groups - 1.0) / groups * sum;
@@ -219,7 +218,7 @@ SlidingPoint starting_point(std::span<const SlidingRecord> records, bool both_di
       }
     }
   }
-  const Eigen::VectorXd found = normal.completeOrthogonalDecomposition().solve(right);
+  const Eigen::VectorXd found = numerics::least_squares(normal, right);
   if (!(found[0] > 0.0)) {
     throw Failure(
         ExitCode::bad_data,
@@ -267,8 +266,7 @@ SlidingFit fit_sliding(std::span<const SlidingRecord> records, const SlidingPoin
       std::max(1.0, static_cast<double>(fit.samples) - 2.0 * static_cast<double>(fit.windows) -
                         static_cast<double>(parameters.index.size()));
   const Eigen::MatrixXd independent =
-      fit.squares / freedom *
-      parameters.scaled(information).completeOrthogonalDecomposition().pseudoInverse();
+      fit.squares / freedom * numerics::pseudo_inverse(parameters.scaled(information));
   Eigen::MatrixXd covariance = enlarged(independent, jackknife(parameters, information, by_window));
   constexpr std::size_t min_strokes = 12;  // with fewer the variance between strokes is known too badly
   if (fit.strokes >= min_strokes) {
@@ -302,7 +300,7 @@ double stribeck_gain(std::span<const SlidingRecord> records, const SlidingFit& f
   const Eigen::MatrixXd scaled =
       scale.cwiseInverse().asDiagonal() * information * scale.cwiseInverse().asDiagonal();
   const Eigen::VectorXd right = total.cwiseQuotient(scale);
-  const Eigen::VectorXd step = scaled.completeOrthogonalDecomposition().solve(right);
+  const Eigen::VectorXd step = numerics::least_squares(scaled, right);
   return step[stribeck_excess] > 0.0 ? right.dot(step) : 0.0;
 }
 

@@ -2,8 +2,7 @@
 
 #include <numbers>
 
-#include <Eigen/Dense>
-#include <unsupported/Eigen/MatrixFunctions>
+#include "core/numerics/dense.hpp"
 
 namespace zerocount::theory {
 
@@ -62,7 +61,7 @@ HeldPlant hold_plant(double stiffness, double damping, const motion::PlantParame
     unit[i] = (i % 2 == 0 ? 1.0 : T) / count_angle;
   generator = T * (unit.asDiagonal() * generator * unit.cwiseInverse().asDiagonal());
   const Eigen::Index states = generator.rows() - 1;
-  const Eigen::MatrixXd flow = generator.exp();
+  const Eigen::MatrixXd flow = numerics::matrix_exponential(generator);
   return {flow.topLeftCorner(states, states), drive.gain * flow.topRightCorner(states, 1)};
 }
 

@@ -6,11 +6,9 @@
 #include <functional>
 #include <numbers>
 
-#include <Eigen/Dense>
-#include <unsupported/Eigen/MatrixFunctions>
-
 #include "core/loop/controller.hpp"
 #include "core/loop/encoder.hpp"
+#include "core/numerics/dense.hpp"
 #include "core/theory/describing_function.hpp"
 #include "core/theory/gains.hpp"
 #include "core/theory/linear_loop.hpp"
@@ -95,20 +93,23 @@ struct SlideEnd {
 
 std::optional<SlideEnd> slide_end(const Eigen::Matrix3d& generator, double stiffness, double excess) {
   Eigen::Vector3d state(-1.0, 0.0, excess - stiffness);
-  const double interval = 0.02 / generator.eigenvalues().cwiseAbs().maxCoeff();
-  const Eigen::Matrix3d flow = (generator * interval).eval().exp();
+  const double interval = 0.02 / numerics::spectral_radius(generator);
+  const Eigen::Matrix3d flow = numerics::matrix_exponential(generator * interval);
   constexpr int max_steps = 200000;
   for (int k = 0; k < max_steps; ++k) {
     const Eigen::Vector3d next = flow * state;
     if (k > 0 && next[1] <= 0.0) {
-      const auto velocity = [&](double t) { return ((generator * t).eval().exp() * state)[1]; };
+      const auto after = [&](double t) -> Eigen::Vector3d {
+        return Eigen::Matrix3d(numerics::matrix_exponential(generator * t)) * state;
+      };
+      const auto velocity = [&](double t) { return after(t)[1]; };
       double low = 0.0;
       double high = interval;
       for (int i = 0; i < 50; ++i) {
         const double middle = 0.5 * (low + high);
         (velocity(middle) > 0.0 ? low : high) = middle;
       }
-      const Eigen::Vector3d end = (generator * high).eval().exp() * state;
+      const Eigen::Vector3d end = after(high);
       return SlideEnd{end[0], end[2], k * interval + high};
     }
     state = next;
@@ -184,7 +185,7 @@ std::optional<LimitCycle> stick_slip_cycle(const friction::FrictionParameters& c
     const std::optional<SlideEnd> end = slide_end(generator, gains.kp, excess);
     return end ? end->x - 1.0 : -1.0;  // it creeps up to its target without end
   };
-  const double scale = gains.kp + gains.ki / generator.eigenvalues().cwiseAbs().maxCoeff();  // N m/rad
+  const double scale = gains.kp + gains.ki / numerics::spectral_radius(generator);  // N m/rad
   const double lowest = 1e-6 * scale;
   const double highest = 1e6 * scale;
   if (beyond(lowest) >= 0.0 || beyond(highest) < 0.0) return std::nullopt;

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Dense>
+#include "core/numerics/dense.hpp"
 
 namespace zerocount::theory {
 namespace {
@@ -128,13 +128,13 @@ Eigen::MatrixXd loop_map(const HeldPlant& plant, const loop::LinearChain& contro
 }
 
 double spectral_radius(const HeldPlant& plant, const loop::LinearChain& controller, int delay) {
-  return loop_map(plant, controller, delay).eigenvalues().cwiseAbs().maxCoeff();
+  return numerics::spectral_radius(loop_map(plant, controller, delay));
 }
 
 Complex open_loop(Complex z, const HeldPlant& plant, const loop::LinearChain& controller, int delay) {
   const Eigen::Index states = plant.A.rows();
   const Eigen::MatrixXcd resolvent = z * Eigen::MatrixXcd::Identity(states, states) - plant.A;
-  const Eigen::VectorXcd response = resolvent.fullPivLu().solve(plant.b.cast<Complex>());
+  const Eigen::VectorXcd response = numerics::solve(resolvent, plant.b.cast<Complex>());
   return controller_response(z, controller) * std::pow(z, -delay) * response(0);
 }
 

@@ -7,8 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include <Eigen/Dense>
-
+#include "core/numerics/dense.hpp"
 #include "core/theory/linear_loop.hpp"
 
 namespace zerocount::theory {
@@ -39,7 +38,7 @@ void add_angles_of(const std::vector<double>& c, std::vector<double>& angles) {
     companion(0, i) = -first[i + 1] / *first;
     if (i > 0) companion(i, i - 1) = 1.0;
   }
-  for (const Complex z : companion.eigenvalues()) add_angles_around(z, angles);
+  for (const Complex z : numerics::eigenvalues(companion)) add_angles_around(z, angles);
 }
 
 /// The angle between low and high at which `sign` changes.
@@ -62,7 +61,7 @@ std::vector<double> search_angles(const FrozenLoop& loop) {
   constexpr double highest = (1.0 - 1e-9) * half_turn;
   std::vector<double> angles;
   for (int i = 0; i <= points; ++i) angles.push_back(lowest * std::pow(highest / lowest, double(i) / points));
-  for (const Complex z : loop.plant.A.eigenvalues()) add_angles_around(z, angles);
+  for (const Complex z : numerics::eigenvalues(loop.plant.A)) add_angles_around(z, angles);
   for (const loop::LinearBlock& stage : loop.controller) {
     for (const loop::SignalPath& path : stage) {
       add_angles_of(path.transfer.a, angles);

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Dense>
-
 #include "core/loop/controller.hpp"
+#include "core/numerics/dense.hpp"
 #include "core/theory/gains.hpp"
 #include "core/theory/linear_loop.hpp"
 
@@ -57,9 +56,8 @@ double slowest_time_constant(double stiffness, const motion::PlantParameters& pl
                              const loop::EncoderParameters& encoder,
                              const loop::ControllerParameters& controller, const LinearDrive& drive) {
   const HeldPlant held = presliding_plant(stiffness, plant, encoder, controller, drive);
-  const Eigen::VectorXcd eigenvalues =
-      loop_map(held, loop::linear_chain(controller, loop::fine_resolution(encoder)), controller.delay)
-          .eigenvalues();
+  const Eigen::VectorXcd eigenvalues = numerics::eigenvalues(
+      loop_map(held, loop::linear_chain(controller, loop::fine_resolution(encoder)), controller.delay));
   if (!(eigenvalues.cwiseAbs().maxCoeff() < 1.0 - edge_of_stability))
     return std::numeric_limits<double>::infinity();
   double slowest = 0.0;

@@ -4,19 +4,18 @@
 #include <array>
 #include <string_view>
 
-#include <Eigen/Cholesky>
 #include <boost/math/distributions/normal.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include "core/numerics/dense.hpp"
 
 namespace zerocount::study {
 
 std::optional<Eigen::MatrixXd> cholesky_factor(const Eigen::MatrixXd& correlations) {
   constexpr double smallest_pivot = 1e-6;  // of L: below it a value would follow from the others
-  const Eigen::LLT<Eigen::MatrixXd> decomposition(correlations);
-  if (decomposition.info() != Eigen::Success) return std::nullopt;
-  Eigen::MatrixXd factor = decomposition.matrixL();
-  if (factor.diagonal().minCoeff() < smallest_pivot) return std::nullopt;
+  Eigen::MatrixXd factor = numerics::cholesky_factor(correlations);
+  if (!(factor.diagonal().minCoeff() >= smallest_pivot)) return std::nullopt;
   return factor;
 }
 

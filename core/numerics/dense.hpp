@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+
+/// Decompositions of dense matrices. Eigen's own headers for them, <Eigen/Dense> and the like, belong in
+/// dense.cpp only: each file that instantiates a decomposition takes the compiler many seconds.
+///
+/// Sizes are rows × columns. A right-hand side b is one column or several.
+namespace zerocount::numerics {
+
+/// Eigenvalues of a square matrix, in no particular order.
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& a);
+
+/// max |eigenvalue| of a square matrix.
+double spectral_radius(const Eigen::MatrixXd& a);
+
+/// exp(A) = Σ Aᵏ/k! of a square matrix.
+Eigen::MatrixXd matrix_exponential(const Eigen::MatrixXd& a);
+
+/// L of A = L·Lᵀ, lower triangular; NaN throughout if A is not positive definite.
+Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& a);
+
+/// A⁻¹·b of a positive definite A, by A = L·Lᵀ.
+Eigen::MatrixXd solve_positive_definite(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
+/// A⁻¹ of a positive definite A.
+Eigen::MatrixXd inverse_of_positive_definite(const Eigen::MatrixXd& a);
+
+/// L⁻ᵀ·b, L a lower triangular factor of cholesky_factor().
+Eigen::VectorXd solve_transposed_factor(const Eigen::MatrixXd& factor, const Eigen::VectorXd& b);
+
+/// A⁻¹·b of a complex square matrix.
+Eigen::VectorXcd solve(const Eigen::MatrixXcd& a, const Eigen::VectorXcd& b);
+
+/// x of minimal |x| among those of minimal |A·x − b|, for A of any shape and rank.
+Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
+/// The Moore–Penrose inverse.
+Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a);
+
+/// A·B.
+Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
+/// Aᵀ·B.
+Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
+}  // namespace zerocount::numerics

@@ -7,10 +7,15 @@ set(zerocount_elementary_functions
   tgamma)
 list(TRANSFORM zerocount_elementary_functions PREPEND -fno-builtin-)
 
-# zerocount_target(<target>): sets the options of all targets: C++20, warnings, and no contraction of a·b + c into a fused
+# What a target is optimised for. trial: the loops of a trial; -O3, by the build type. numbers: statistics, draws, files. text:
+# manifests, tables, pages, commands, and most tests: compiling them takes longer than running them.
+set(zerocount_optimisation_numbers -O2)
+set(zerocount_optimisation_text -Og)
+
+# zerocount_target(<target> <optimisation>): sets the options of all targets: C++20, warnings, and no contraction of a·b + c into a fused
 # operation. Every build must give the same bits, because the quantisers of the loop turn a last-bit difference into a different
 # count.
-function(zerocount_target target)
+function(zerocount_target target optimisation)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion)
@@ -23,12 +28,8 @@ function(zerocount_target target)
   if(ZEROCOUNT_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
-  # Only core determines the run time of a trial, and its kernels have their own options. Elsewhere, and most of all in tests,
-  # compile time matters more.
-  if(target MATCHES "tests?$")
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
-  elseif(NOT target MATCHES "^zerocount_core_")
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O2>)
+  if(DEFINED zerocount_optimisation_${optimisation})
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${zerocount_optimisation_${optimisation}}>)
   endif()
   if(ZEROCOUNT_NATIVE)
     # GCC 12 warns about its own AVX-512 intrinsics (GCC bug 105593); the option depends on the optimisation level.
@@ -52,6 +53,29 @@ function(zerocount_target target)
     # Threads may lose counts of one another. With atomic counts, or without optimisation, the tests take hours.
     target_compile_options(${target} PRIVATE --coverage -O1)
     target_link_options(${target} PUBLIC --coverage)
+  endif()
+endfunction()
+
+# zerocount_precompiled(<name> <header> <optimisation> <library>...): a precompiled header for targets of this optimisation. Only for
+# GCC, with which it is tried. ccache needs the option of the preprocessor.
+function(zerocount_precompiled name header optimisation)
+  if(NOT ZEROCOUNT_PRECOMPILED)
+    return()
+  endif()
+  set(source "${CMAKE_BINARY_DIR}/precompiled/${name}.cpp")
+  file(CONFIGURE OUTPUT "${source}" CONTENT "")
+  add_library(zerocount_precompiled_${name} OBJECT "${source}")
+  target_link_libraries(zerocount_precompiled_${name} PRIVATE ${ARGN})
+  zerocount_target(zerocount_precompiled_${name} ${optimisation})
+  target_compile_options(zerocount_precompiled_${name} PRIVATE -fpch-preprocess)
+  target_precompile_headers(zerocount_precompiled_${name} PRIVATE "${CMAKE_SOURCE_DIR}/cmake/${header}")
+endfunction()
+
+# zerocount_use_precompiled(<target> <name>): lets a target use that precompiled header where there is one.
+function(zerocount_use_precompiled target name)
+  if(TARGET zerocount_precompiled_${name})
+    target_precompile_headers(${target} REUSE_FROM zerocount_precompiled_${name})
+    target_compile_options(${target} PRIVATE -fpch-preprocess)
   endif()
 endfunction()
 
@@ -109,10 +133,10 @@ function(zerocount_install target folder)
     FILES_MATCHING PATTERN "*.hpp")
 endfunction()
 
-# zerocount_folder(SOURCES ... [ALONE ...] LINKS ...): makes the folder of this CMakeLists.txt a library; core/friction becomes the
-# target zerocount::core::friction. ALONE: sources with their own compile options.
+# zerocount_folder([NUMBERS] SOURCES ... [ALONE ...] LINKS ...): makes the folder of this CMakeLists.txt a library; core/friction becomes the
+# target zerocount::core::friction. NUMBERS: its run time matters. ALONE: sources with their own compile options.
 function(zerocount_folder)
-  cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "NUMBERS" "" "SOURCES;ALONE;LINKS" ${ARGN})
   file(RELATIVE_PATH folder "${CMAKE_SOURCE_DIR}" "${CMAKE_CURRENT_SOURCE_DIR}")
   string(MAKE_C_IDENTIFIER "zerocount_${folder}" target)
   string(REPLACE "/" "::" alias "zerocount::${folder}")
@@ -120,7 +144,14 @@ function(zerocount_folder)
     zerocount_units(units 12 ${ARG_SOURCES})
     add_library(${target} STATIC ${units} ${ARG_ALONE})
     target_link_libraries(${target} PUBLIC ${ARG_LINKS})
-    zerocount_target(${target})
+    set(optimisation text)
+    if(folder MATCHES "^core/")
+      set(optimisation trial)
+    elseif(ARG_NUMBERS)
+      set(optimisation numbers)
+    endif()
+    zerocount_target(${target} ${optimisation})
+    zerocount_use_precompiled(${target} ${optimisation})
     zerocount_includes(${target} PUBLIC "${folder}")
   else()
     add_library(${target} INTERFACE)
@@ -144,15 +175,20 @@ function(zerocount_layer)
   endforeach()
 endfunction()
 
-# zerocount_test(<name> [THREADED] SOURCES ... [ALONE ...] LINKS ...): one GoogleTest executable; each of its tests is a CTest test.
+# zerocount_test(<name> [THREADED] [NUMBERS] SOURCES ... [ALONE ...] LINKS ...): one GoogleTest executable; each of its tests is a CTest test.
 # Those named DISABLED_, the long versions of others, are together the long test Long.<name>. THREADED: the thread sanitizer runs
 # them too; the target threaded_tests builds them.
 function(zerocount_test name)
-  cmake_parse_arguments(ARG "THREADED" "" "SOURCES;ALONE;LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "THREADED;NUMBERS" "" "SOURCES;ALONE;LINKS" ${ARGN})
   zerocount_units(${name}_units 6 ${ARG_SOURCES})
   add_executable(${name} ${${name}_units} ${ARG_ALONE})
   target_link_libraries(${name} PRIVATE ${ARG_LINKS} GTest::gtest_main)
-  zerocount_target(${name})
+  if(ARG_NUMBERS)
+    zerocount_target(${name} numbers)
+  else()
+    zerocount_target(${name} text)
+    zerocount_use_precompiled(${name} tests)
+  endif()
   target_compile_options(${name} PRIVATE -Wno-shadow)  # for constants of test files in the same unit
   set(properties TIMEOUT 600)
   if(ZEROCOUNT_SANITIZE)

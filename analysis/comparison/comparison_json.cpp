@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/comparison/comparison_report.hpp"
-#include "analysis/text/report_field.hpp"
+#include "analysis/text/report_json.hpp"
 
 namespace zerocount::comparison {
 namespace {

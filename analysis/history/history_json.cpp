@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/history/series.hpp"
-#include "analysis/text/report_field.hpp"
+#include "analysis/text/report_json.hpp"
 
 namespace zerocount::history {
 namespace {

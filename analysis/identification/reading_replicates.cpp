@@ -58,7 +58,7 @@ std::vector<double> residuals_along(const FittedModel& model,
   for (std::size_t r = 0; r < observations.size(); ++r) {
     const RecordMotion& motion = model.motions[r];
     for (const AngleObservation& observation : observations[r]) {
-      double modelled = mean_over(observation, *paths[r]);
+      double modelled = mean_over(observation, *paths[r]).value();
       if (step.size() > 0) {
         modelled += (mean_over(observation, motion.sensitivity) * step.head<contact_dimension>()).value() +
                     step[contact_dimension + static_cast<Eigen::Index>(r)];

@@ -8,6 +8,10 @@
 
 namespace zerocount::identification {
 
+inline Eigen::Map<const Eigen::VectorXd> readings_of(const TestRecord& record) {
+  return {record.reading.data(), static_cast<Eigen::Index>(record.reading.size())};
+}
+
 /// Derivatives of a path with respect to the coordinates, [sample, coordinate].
 using PathSensitivity = Eigen::Matrix<double, Eigen::Dynamic, coordinate_count, Eigen::RowMajor>;
 

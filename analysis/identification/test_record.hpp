@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "core/motion/plant_start.hpp"
 #include "core/motion/torque_course.hpp"
 
@@ -85,10 +83,6 @@ inline bool is_excluded(const TestRecord& record, std::size_t sample) {
 inline std::size_t used_samples(const TestRecord& record) {
   const auto masked = std::count(record.excluded.begin(), record.excluded.end(), true);
   return sample_count(record) - static_cast<std::size_t>(masked);
-}
-
-inline Eigen::Map<const Eigen::VectorXd> readings_of(const TestRecord& record) {
-  return {record.reading.data(), static_cast<Eigen::Index>(record.reading.size())};
 }
 
 /// Mean distance of the angle from its reading, in the record's unit: half a count, or 0 without counts.

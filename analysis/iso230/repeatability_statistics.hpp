@@ -14,6 +14,10 @@
 #include "analysis/statistics/unknown.hpp"
 #include "analysis/text/report_field.hpp"
 
+namespace zerocount::measures {
+struct SummarySection;
+}
+
 namespace zerocount::iso230 {
 
 /// How a value is distributed over the trials of a design point for which it is defined: n, mean, max, median

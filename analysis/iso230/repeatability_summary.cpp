@@ -6,7 +6,8 @@
 
 #include "analysis/iso230/repeatability_columns.hpp"
 #include "analysis/iso230/repeatability_statistics.hpp"
-#include "analysis/text/report_field.hpp"
+#include "analysis/measures/summary_section.hpp"
+#include "analysis/text/report_json.hpp"
 
 namespace zerocount::iso230 {
 namespace {

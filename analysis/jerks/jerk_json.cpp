@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "analysis/jerks/jerk_report.hpp"
-#include "analysis/text/report_field.hpp"
+#include "analysis/text/report_json.hpp"
 
 namespace zerocount::jerks {
 namespace {

@@ -7,8 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/measures/theory_prediction.hpp"
 #include "analysis/text/report_field.hpp"
@@ -47,15 +45,6 @@ std::vector<layout::PointColumn> prediction_columns(std::span<const TheoryPredic
 /// @throws Failure (bad_data), with `file` in the message, where a column is missing or holds no proportions.
 std::vector<TheoryPrediction> predictions_of(std::span<const layout::PointColumn> columns,
                                              std::int64_t trials, const std::filesystem::path& file);
-
-/// A part of a summary that only some studies have, made apart from the rest.
-struct SummarySection {
-  std::string key;                           ///< its name in the JSON of each point
-  std::vector<nlohmann::ordered_json> json;  ///< [point]
-  std::vector<layout::PointColumn> columns;  ///< of the CSV: a value per point
-  std::string text;                          ///< below the table, whole lines
-  bool open{false};                          ///< the report shows the text at once: it is a result
-};
 
 /// One number of PointSummary as it is reported.
 using StatisticField = text::ReportField<PointSummary>;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "analysis/measures/trial_loops.hpp"
 #include "analysis/report/bode_curve.hpp"

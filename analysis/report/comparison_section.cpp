@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "analysis/comparison/comparison_report.hpp"
 #include "analysis/comparison/gate_rules.hpp"

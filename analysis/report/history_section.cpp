@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "analysis/report/html.hpp"
 #include "analysis/report/report_sections.hpp"

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "analysis/text/text.hpp"
 #include "core/text/utf8.hpp"

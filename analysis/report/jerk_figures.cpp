@@ -2,6 +2,7 @@
 #include <cstddef>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "analysis/jerks/jerk_statistics.hpp"
 #include "analysis/report/report_figures.hpp"

@@ -1,6 +1,7 @@
 #include "analysis/report/report.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "analysis/report/embedded_files.hpp"
 #include "analysis/report/html.hpp"

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "analysis/report/criterion_curves.hpp"
 #include "analysis/report/report_figures.hpp"

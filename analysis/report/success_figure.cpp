@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "analysis/report/report_figures.hpp"
 #include "analysis/report/reported_study.hpp"

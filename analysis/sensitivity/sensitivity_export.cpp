@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/sensitivity/sensitivity.hpp"
-#include "analysis/text/report_field.hpp"
+#include "analysis/text/report_json.hpp"
 #include "results/reading/csv.hpp"
 
 namespace zerocount::sensitivity {

@@ -7,10 +7,9 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "analysis/measures/point_columns.hpp"
 #include "analysis/measures/point_statistics.hpp"
+#include "analysis/measures/summary_section.hpp"
 #include "analysis/measures/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"

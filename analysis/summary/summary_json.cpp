@@ -6,7 +6,7 @@
 #include "analysis/measures/point_columns.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/summary/summary_parts.hpp"
-#include "analysis/text/report_field.hpp"
+#include "analysis/text/report_json.hpp"
 #include "results/layout/layout.hpp"
 
 namespace zerocount::summary {

@@ -5,7 +5,7 @@
 
 #include "analysis/measures/point_columns.hpp"
 #include "analysis/summary/summary_parts.hpp"
-#include "analysis/text/report_field.hpp"
+#include "analysis/text/report_json.hpp"
 
 namespace zerocount::summary {
 namespace {

@@ -139,15 +139,15 @@ std::vector<std::uint32_t> slots_of(const std::vector<Pair>& pairs, const study:
   return slots;
 }
 
-Eigen::MatrixXd matrix_of(const std::vector<Pair>& pairs, const std::vector<std::uint32_t>& slots) {
+study::SquareMatrix matrix_of(const std::vector<Pair>& pairs, const std::vector<std::uint32_t>& slots) {
   const auto place = [&](std::uint32_t slot) {
-    return static_cast<Eigen::Index>(std::find(slots.begin(), slots.end(), slot) - slots.begin());
+    return static_cast<std::size_t>(std::find(slots.begin(), slots.end(), slot) - slots.begin());
   };
-  const auto size = static_cast<Eigen::Index>(slots.size());
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(size, size);
+  study::SquareMatrix matrix(slots.size(), std::vector<double>(slots.size(), 0.0));
+  for (std::size_t i = 0; i < slots.size(); ++i) matrix[i][i] = 1.0;
   for (const Pair& pair : pairs) {
-    matrix(place(pair.first), place(pair.second)) = pair.coefficient;
-    matrix(place(pair.second), place(pair.first)) = pair.coefficient;
+    matrix[place(pair.first)][place(pair.second)] = pair.coefficient;
+    matrix[place(pair.second)][place(pair.first)] = pair.coefficient;
   }
   return matrix;
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "experiments/distributions/distribution_forms.hpp"
 #include "experiments/manifest/drawn_per.hpp"

@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 
+#include <Eigen/Core>
 #include <boost/math/distributions/normal.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,22 +13,30 @@
 
 namespace zerocount::study {
 
-std::optional<Eigen::MatrixXd> cholesky_factor(const Eigen::MatrixXd& correlations) {
+std::optional<SquareMatrix> cholesky_factor(const SquareMatrix& correlations) {
   constexpr double smallest_pivot = 1e-6;  // of L: below it a value would follow from the others
-  Eigen::MatrixXd factor = numerics::cholesky_factor(correlations);
-  if (!(factor.diagonal().minCoeff() >= smallest_pivot)) return std::nullopt;
+  const auto size = static_cast<Eigen::Index>(correlations.size());
+  Eigen::MatrixXd matrix(size, size);
+  for (Eigen::Index i = 0; i < size; ++i)
+    matrix.row(i) = Eigen::RowVectorXd::Map(correlations[static_cast<std::size_t>(i)].data(), size);
+  matrix = numerics::cholesky_factor(matrix);
+  if (!(matrix.diagonal().minCoeff() >= smallest_pivot)) return std::nullopt;
+  SquareMatrix factor = correlations;
+  for (Eigen::Index i = 0; i < size; ++i)
+    Eigen::RowVectorXd::Map(factor[static_cast<std::size_t>(i)].data(), size) = matrix.row(i);
   return factor;
 }
 
 double copula_uniform(const GaussianCopula& copula, std::size_t member,
                       const std::function<double(std::size_t)>& independent) {
-  const auto row = static_cast<Eigen::Index>(member);
-  if (copula.factor.row(row).head(row).isZero(0.0)) return independent(member);
+  const std::vector<double>& row = copula.factor[member];
+  if (std::all_of(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(member),
+                  [](double x) { return x == 0.0; }))
+    return independent(member);
   const boost::math::normal standard;
   double score = 0.0;
   for (std::size_t j = 0; j <= member; ++j) {
-    const double weight = copula.factor(row, static_cast<Eigen::Index>(j));
-    if (weight != 0.0) score += weight * boost::math::quantile(standard, independent(j));
+    if (row[j] != 0.0) score += row[j] * boost::math::quantile(standard, independent(j));
   }
   return std::clamp(boost::math::cdf(standard, score), 0x1p-53, 1.0 - 0x1p-53);
 }

@@ -11,6 +11,7 @@
 
 #include "analysis/statistics/unknown.hpp"
 #include "analysis/summary/summary.hpp"
+#include "analysis/text/report_json.hpp"
 #include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
 #include "runners/commands/commands.hpp"

@@ -9,7 +9,7 @@
 #include "analysis/summary/best_point.hpp"
 #include "analysis/summary/summary.hpp"
 #include "analysis/text/percent.hpp"
-#include "analysis/text/report_field.hpp"
+#include "analysis/text/report_json.hpp"
 #include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"

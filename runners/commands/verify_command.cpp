@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/text/report_field.hpp"
+#include "analysis/text/report_json.hpp"
 #include "analysis/text/text.hpp"
 #include "runners/commands/commands.hpp"
 #include "runners/commands/plugin_option.hpp"

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "analysis/iso230/repeatability_statistics.hpp"
 #include "analysis/summary/summary.hpp"

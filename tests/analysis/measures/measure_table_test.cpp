@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "analysis/comparison/measure_comparison.hpp"
 #include "analysis/measures/point_columns.hpp"

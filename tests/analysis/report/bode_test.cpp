@@ -8,6 +8,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "analysis/report/bode_curve.hpp"
 #include "analysis/report/report.hpp"

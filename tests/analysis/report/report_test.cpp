@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/report/report_figures.hpp"

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "analysis/measures/point_accumulator.hpp"
 #include "analysis/measures/point_columns.hpp"

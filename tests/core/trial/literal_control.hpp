@@ -4,7 +4,7 @@
 
 #include "core/trial/trial.hpp"
 
-/// What a controller decides, worked out anew from core/README.md and the recorded samples of a whole trial
+/// What a controller decides, worked out anew from core/loop/equations.md and the recorded samples of a whole trial
 /// at once: nothing is carried from sample to sample but where the equation itself does.
 namespace zerocount::testing {
 

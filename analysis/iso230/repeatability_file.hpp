@@ -6,7 +6,7 @@
 #include "results/reading/export.hpp"
 #include "results/reading/study_file.hpp"
 
-/// The group /repeatability of a results file, described in results/README.md.
+/// The group /repeatability of a results file, described in results/repeatability.md.
 namespace zerocount::iso230 {
 
 /// Adds the group to a file that holds all trials of a study with a sequence: the values of ISO 230-2 of

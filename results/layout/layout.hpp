@@ -17,7 +17,7 @@
 #include "results/hdf5/hdf5.hpp"
 
 /// The layout of results files: the one description from which the writer, the reader, the CSV export and the
-/// test of the format's documentation (results/README.md) all derive.
+/// test of the format's documentation (results/datasets.md) all derive.
 namespace zerocount::layout {
 
 /// Version of the layout that is written. A file with a higher number was written by a later program, and is

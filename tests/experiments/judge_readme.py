@@ -1,4 +1,4 @@
-"""The Python code of experiments/README.md reproduces the draws of studies, and prints the number that it says."""
+"""The Python code of docs/manifest/random-numbers.md reproduces the draws of studies, and prints the number that it says."""
 
 import contextlib
 import io
@@ -10,8 +10,9 @@ import sys
 
 
 def main():
-    answers, readme = sys.argv[1], pathlib.Path(sys.argv[2]).parent / "README.md"
-    blocks = re.findall(r"^```(\w+)\n(.*?)^```$", readme.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
+    answers, pages = sys.argv[1], pathlib.Path(sys.argv[2]).parents[1] / "docs" / "manifest"
+    text = "".join((pages / name).read_text(encoding="utf-8") for name in ("README.md", "random-numbers.md"))
+    blocks = re.findall(r"^```(\w+)\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
     manifest = next(text for language, text in blocks if language == "yaml")
     code = next(text for language, text in blocks if language == "python")
 

@@ -1,4 +1,4 @@
-// experiments/README.md describes the language as it is.
+// The pages of docs/manifest describe the language as it is.
 
 #include <algorithm>
 #include <fstream>
@@ -10,7 +10,6 @@
 
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
-#include "experiments/manifest/parameter_listing.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
@@ -22,17 +21,21 @@ struct Block {
   std::string text;
 };
 
-std::string readme() {
-  std::ifstream file(ZEROCOUNT_EXPERIMENTS_README);
+/// All pages, the first one first.
+std::string pages() {
   std::ostringstream text;
-  text << file.rdbuf();
+  for (const char* name : {"README", "controller-and-command", "random-numbers", "trials", "values"}) {
+    std::ifstream file(fmt::format("{}/{}.md", ZEROCOUNT_MANIFEST_PAGES, name));
+    EXPECT_TRUE(file) << name;
+    text << file.rdbuf();
+  }
   return text.str();
 }
 
 /// What stands between fences, with the word behind the opening fence.
 std::vector<Block> fenced_blocks() {
   std::vector<Block> blocks;
-  std::istringstream text(readme());
+  std::istringstream text(pages());
   bool inside = false;
   for (std::string line; std::getline(text, line);) {
     if (line.rfind("```", 0) != 0) {
@@ -66,21 +69,15 @@ std::size_t index_of_block(const std::vector<Block>& blocks, std::string_view st
   return static_cast<std::size_t>(found - blocks.begin());
 }
 
-TEST(ExperimentsReadme, HasTheTablesAsTheProgramPrintsThem) {
-  EXPECT_NE(readme().find(manifest::parameters_as_markdown()), std::string::npos)
-      << "expected the output of 'zerocount parameters --format markdown':\n"
-      << manifest::parameters_as_markdown();
-}
-
-/// The study of a manifest in the README, whose samples are the table in it.
-study::Study study_in_readme(const std::string& text) {
+/// The study of a manifest in the pages, whose samples are the table in it.
+study::Study study_in_pages(const std::string& text) {
   const std::vector<Block> blocks = fenced_blocks();
   const auto table =
       std::find_if(blocks.begin(), blocks.end(), [](const Block& b) { return b.language == "csv"; });
   return manifest::parse_study(text, "m.yaml", {}, manifest::known_companions(nullptr, table->text));
 }
 
-TEST(ExperimentsReadme, ItsManifestsAreUnderstoodWithoutWarnings) {
+TEST(ManifestPages, TheirManifestsAreUnderstoodWithoutWarnings) {
   int whole = 0;
   int parts = 0;
   for (const Block& block : fenced_blocks()) {
@@ -88,14 +85,14 @@ TEST(ExperimentsReadme, ItsManifestsAreUnderstoodWithoutWarnings) {
     const bool is_whole = starts_with(block.text, "zerocount:");
     ++(is_whole ? whole : parts);
     EXPECT_NO_THROW(
-        EXPECT_TRUE(study_in_readme(is_whole ? block.text : completed(block.text)).warnings.empty()))
+        EXPECT_TRUE(study_in_pages(is_whole ? block.text : completed(block.text)).warnings.empty()))
         << block.text;
   }
   EXPECT_EQ(whole, 1);
   EXPECT_EQ(parts, 12);
 }
 
-TEST(ExperimentsReadme, TheFirstManifestUsesEverySection) {
+TEST(ManifestPages, TheFirstManifestUsesEverySection) {
   const study::Study study = study_of(fenced_blocks().front().text);
   EXPECT_EQ(study::point_count(study), 6);
   EXPECT_EQ(study.moves, 2);
@@ -104,7 +101,7 @@ TEST(ExperimentsReadme, TheFirstManifestUsesEverySection) {
   EXPECT_EQ(study.observed.size(), 3u);
 }
 
-TEST(ExperimentsReadme, ListsThePointsOfItsSweepInOrder) {
+TEST(ManifestPages, ListThePointsOfTheirSweepInOrder) {
   const std::vector<Block> blocks = fenced_blocks();
   const std::size_t sweep = index_of_block(blocks, "sweep:");
   ASSERT_LT(sweep + 1, blocks.size());
@@ -114,7 +111,7 @@ TEST(ExperimentsReadme, ListsThePointsOfItsSweepInOrder) {
   EXPECT_EQ(blocks[sweep + 1].text, listed);
 }
 
-TEST(ExperimentsReadme, ShowsTheErrorsOfItsBadManifest) {
+TEST(ManifestPages, ShowTheErrorsOfTheirBadManifest) {
   const std::vector<Block> blocks = fenced_blocks();
   const std::size_t bad = index_of_block(blocks, "# bad.yaml");
   ASSERT_LT(bad + 1, blocks.size());
@@ -139,8 +136,8 @@ std::string names_in_order_of_dimension(std::size_t first) {
   return listed;
 }
 
-TEST(ExperimentsReadme, NamesTheSobolDimensionsInOrder) {
-  std::string text = readme();
+TEST(ManifestPages, NameTheSobolDimensionsInOrder) {
+  std::string text = pages();
   std::replace(text.begin(), text.end(), '\n', ' ');
   for (const std::size_t first : {std::size_t{0}, parameters::first_sobol_dimension_beyond_moves}) {
     const std::string listed = names_in_order_of_dimension(first);

@@ -13,7 +13,7 @@ import time
 import h5py
 
 RUN = ["run", "study.yaml", "-o", "out.h5"]
-TRAILER = 87  # bytes of the checksum trailer, see results/README.md
+TRAILER = 87  # bytes of the checksum trailer, see results/integrity.md
 LONGEST = 120  # s: a command that takes longer hangs
 
 MANIFEST = """zerocount: 1

@@ -90,7 +90,7 @@ TEST_F(OpenLoop, SampleRecordsHaveNoTarget) {
   EXPECT_EQ(run({"trace", "loads.h5", "--point", "1", "--trial", "3"}).code, 0);
 }
 
-// results/README.md, /trace/code.
+// results/datasets.md, /trace/code.
 TEST_F(OpenLoop, SampleRecordsOfAnExactTorqueHaveNoCode) {
   ASSERT_EQ(run({"run", "loads.yaml", "-o", "exact.h5", "--set", "command.torque.through=exact"}).code, 0);
   const reading::StudyFile file(folder / "exact.h5");

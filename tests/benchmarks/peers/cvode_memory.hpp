@@ -13,7 +13,7 @@ namespace zerocount::testing {
 enum class CvodeMethod { adams, bdf };
 enum class CvodeSolver { fixed_point, newton };
 
-/// How exactly CVODE integrates. tests/benchmarks/README.md says how these were chosen.
+/// How exactly CVODE integrates. tests/benchmarks/peers.md says how these were chosen.
 struct CvodeSettings {
   CvodeMethod method{CvodeMethod::adams};
   CvodeSolver solver{CvodeSolver::fixed_point};

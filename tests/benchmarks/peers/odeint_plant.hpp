@@ -8,7 +8,7 @@
 
 namespace zerocount::testing {
 
-/// How exactly Boost.odeint integrates. tests/benchmarks/README.md says how these were chosen.
+/// How exactly Boost.odeint integrates. tests/benchmarks/peers.md says how these were chosen.
 struct OdeintSettings {
   double tolerance{5e-13};       ///< largest local error of a step, rad
   double after_breakaway{30.0};  ///< by how much it is larger after the first breakaway

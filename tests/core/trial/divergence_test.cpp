@@ -1,5 +1,5 @@
-// Early decision, by core/README.md: where a trial is ended, that it is the beginning of the trial that is
-// not ended, and that the outcomes of the paper's loops stay what they are.
+// Early decision, by core/trial/measures.md: where a trial is ended, that it is the beginning of the trial
+// that is not ended, and that the outcomes of the paper's loops stay what they are.
 #include "core/trial/divergence.hpp"
 
 #include <algorithm>

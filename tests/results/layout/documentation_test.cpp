@@ -21,7 +21,7 @@ std::string trimmed(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" `") - first + 1);
 }
 
-/// The cells of the table in README.md whose head begins with `head`.
+/// The cells of the table in datasets.md whose head begins with `head`.
 Rows documented(const std::string& head) {
   std::istringstream text(read_bytes(ZEROCOUNT_FORMAT_DOCUMENTATION));
   Rows rows;

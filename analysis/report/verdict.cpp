@@ -211,8 +211,8 @@ struct DecidedPoints {
 void add_theory(std::vector<std::string>& lines, const ReportedStudy& reported) {
   DecidedPoints stable, beyond;
   for (std::size_t i = 0; i < reported.summary.predictions.size(); ++i) {
-    const measures::TheoryPrediction& prediction = reported.summary.predictions[i];
-    if (measures::predicted_trials(prediction) == 0) continue;
+    const theory::PointPrediction& prediction = reported.summary.predictions[i];
+    if (theory::predicted_trials(prediction) == 0) continue;
     if (prediction.stable == prediction.trials) stable.add(reported.summary.points[i]);
     if (prediction.unstable == prediction.trials) beyond.add(reported.summary.points[i]);
   }

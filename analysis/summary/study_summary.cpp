@@ -135,15 +135,15 @@ class TrialsSoFar {
     statistics_.add(shard, rows);
     undecided_.add(shard, rows);
     const auto index = static_cast<std::size_t>(point);
-    predictions_[index] = predictions_[index] + prediction_of(study_, rows);
+    predictions_[index] = predictions_[index] + theory::prediction_of(study_, rows);
     counts_[index] += rows.count;
     count_ += rows.count;
   }
 
   const study::Study& study_;
   bool in_order_;
-  std::vector<std::int64_t> counts_;                     ///< [point]
-  std::vector<measures::TheoryPrediction> predictions_;  ///< [point]
+  std::vector<std::int64_t> counts_;                  ///< [point]
+  std::vector<theory::PointPrediction> predictions_;  ///< [point]
   std::int64_t count_{0};
   std::int64_t next_row_{0};  ///< after the rows of all files
   StudyAccumulator statistics_;

@@ -10,7 +10,7 @@
 #include "analysis/measures/point_columns.hpp"
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/measures/summary_section.hpp"
-#include "analysis/measures/theory_prediction.hpp"
+#include "analysis/theory/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"
 #include "results/reading/statistics_file.hpp"
@@ -27,16 +27,16 @@ struct UnfinishedStudy {
 
 /// The summary of a study. Vectors by point have the length of `points`.
 struct StudySummary {
-  std::string name;                                   ///< of the study
-  std::vector<std::string> labels;                    ///< [point]
-  std::vector<study::SweepAxis> axes;                 ///< each with a value per point
-  std::map<std::string, std::string> observed;        ///< point label → what was observed on the real rig
-  std::string design{"monte_carlo"};                  ///< its word in the manifest
-  double confidence{statistics::summary_confidence};  ///< of all bounds
-  std::vector<measures::PointSummary> points;         ///< [point]
-  std::vector<measures::TheoryPrediction> predictions{};  ///< [point], or empty where not computed
-  study::StudyFeatures features{};                        ///< what the table has columns for
-  std::optional<UnfinishedStudy> unfinished{};            ///< where the run has not ended
+  std::string name;                                    ///< of the study
+  std::vector<std::string> labels;                     ///< [point]
+  std::vector<study::SweepAxis> axes;                  ///< each with a value per point
+  std::map<std::string, std::string> observed;         ///< point label → what was observed on the real rig
+  std::string design{"monte_carlo"};                   ///< its word in the manifest
+  double confidence{statistics::summary_confidence};   ///< of all bounds
+  std::vector<measures::PointSummary> points;          ///< [point]
+  std::vector<theory::PointPrediction> predictions{};  ///< [point], or empty where not computed
+  study::StudyFeatures features{};                     ///< what the table has columns for
+  std::optional<UnfinishedStudy> unfinished{};         ///< where the run has not ended
   std::vector<measures::SummarySection> sections{};
 
   /// The measures that the points have statistics of.

@@ -27,11 +27,11 @@ const layout::PointColumn& find_column(std::span<const layout::PointColumn> colu
   return *found;
 }
 
-/// How many of `trials` are the proportion: a whole number, because proportions are made by rate().
+/// The number of trials behind a proportion that rate() computed.
 std::int64_t trials_of_proportion(double proportion, std::int64_t trials, std::string_view name,
                                   const std::filesystem::path& file) {
   if (!(proportion >= 0.0 && proportion <= 1.0))
-    fail(file, name, fmt::format("{} is no proportion of trials", proportion));
+    fail(file, name, fmt::format("{} is not a proportion of trials", proportion));
   return std::llround(proportion * static_cast<double>(trials));
 }
 

@@ -49,7 +49,8 @@ std::vector<theory::PointPrediction> predictions_of(std::span<const layout::Poin
 /// One number of PointSummary as it is reported.
 using StatisticField = text::ReportField<PointSummary>;
 
-/// Those of a study with these features, in the order of the report: what only some studies have comes last.
+/// The fields of a study with these features, in the order of the report. Fields of some studies only come
+/// last.
 std::vector<StatisticField> statistic_fields(const study::StudyFeatures& features = {},
                                              const layout::MeasureTable& measures = layout::measure_table());
 

@@ -81,7 +81,7 @@ std::int64_t add_jerks(FigureData& data, const reading::StudyFile& file, const J
   return left_out;
 }
 
-/// What the directions of the jerks say of their cause.
+/// The cause of the jerks that their directions suggest.
 std::string direction_sentence(const statistics::ClusteredProportion& agreement) {
   const std::string proportion = text::percentage(agreement.hits, agreement.events);
   if (agreement.hits == agreement.events)

@@ -59,7 +59,7 @@ std::string claim_text(const ReportedStudy& reported, std::int64_t best) {
   if (!reported.summary.features.dependent_trials)
     return statistics::claim_sentence(claim_of_best(reported, best));
   const measures::PointSummary& point = point_of(reported, best);
-  return fmt::format("{} of the trials succeeded ({}), which is no statement about all axes",
+  return fmt::format("{} of the trials succeeded ({}), which says nothing about all axes",
                      text::percentage(point.outcomes.zero_count, point.trials),
                      of_all(point.outcomes.zero_count, point.trials));
 }

@@ -67,7 +67,7 @@ class JerkStream {
 
   const reading::StudyFile& file_;
   std::int64_t end_;   ///< position in the table
-  std::int64_t read_;  ///< likewise: of the first that is not in the block
+  std::int64_t read_;  ///< index of the first jerk that is not in the block
   std::vector<layout::JerkRecord> block_;
   std::size_t next_{0};
   std::vector<trial::Jerk> taken_;

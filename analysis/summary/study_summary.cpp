@@ -225,7 +225,7 @@ StudySummary summary_of_pieces(const std::filesystem::path& output, double confi
   throw Failure(ExitCode::bad_data, fmt::format("{}: no trial of this run is finished yet", output.string()));
 }
 
-/// The summary but for its points and their sections.
+/// The summary without its points and their sections.
 StudySummary summary_of(const reading::ResultsFile& file, const study::Study& study, double confidence) {
   StudySummary summary = summary_of(study, confidence);
   summary.name = file.header().name;
@@ -239,6 +239,11 @@ StudySummary summary_of(const reading::ResultsFile& file, const study::Study& st
 
 StudySummary summarise(const reading::StudyFile& file, double confidence, bool bootstrap) {
   const study::Study study = layout::recorded_study(file.header(), file.path());
+  if (file.moves() != study.moves) {
+    throw Failure(ExitCode::bad_data,
+                  fmt::format("{}: damaged: its trials have {} moves, and its manifest {}",
+                              file.path().string(), file.moves(), study.moves));
+  }
   StudySummary summary = summary_of(file, study, confidence);
   summary.points = study_statistics(file, study, confidence, bootstrap);
   UndecidedAccumulator undecided(study);

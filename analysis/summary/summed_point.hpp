@@ -50,9 +50,9 @@ class SummedPoint {
 /// The results of StudySums, by point.
 struct SummedStudy {
   std::vector<measures::PointSummary> points;        ///< [point, from the first on] if collected
-  std::vector<theory::PointPrediction> predictions;  ///< likewise
-  std::vector<measures::UndecidedMoves> undecided;   ///< likewise
-  std::vector<layout::PointSums> sums;               ///< likewise
+  std::vector<theory::PointPrediction> predictions;  ///< as `points`
+  std::vector<measures::UndecidedMoves> undecided;   ///< as `points`
+  std::vector<layout::PointSums> sums;               ///< as `points`
 };
 
 /// The sums of a point of a file.
@@ -60,7 +60,7 @@ struct SummedStudy {
 SummedPoint restored_point(const reading::StatisticsFile& file, const study::Study& study,
                            std::int64_t point);
 
-/// What StudySums collects of each point.
+/// Results that StudySums collects of each point.
 enum class Collected {
   statistics,
   sums,  ///< those of a part: rigs without a trial have no statistics

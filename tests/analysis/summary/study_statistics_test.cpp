@@ -17,6 +17,7 @@
 #include "experiments/manifest/load_study.hpp"
 #include "results/reading/study_file.hpp"
 #include "tests/analysis/study_files.hpp"
+#include "tests/results/failures.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/version_1_file.hpp"
 
@@ -215,6 +216,17 @@ TEST(Summarise, ReadsAFileOfFormatVersion1) {
   EXPECT_TRUE(json["points"][0]["true_error"]["max"].is_null());
 }
 
+TEST(Summarise, RefusesAFileWhoseManifestHasAnotherNumberOfMoves) {
+  study::Study study = two_gains();
+  ++study.moves;
+  const testing::TemporaryFolder folder;
+  testing::write_study_file(folder / "study.h5", study, random_trials(study),
+                            measures::prediction_columns(theory::study_predictions(study)));
+  testing::expect_failure(ExitCode::bad_data,
+                          "study.h5: damaged: its trials have 2 moves, and its manifest 1",
+                          [&] { summarise(reading::StudyFile(folder / "study.h5")); });
+}
+
 TEST(Summarise, RefusesAFileWithoutWhatTheCriteriaSay) {
   const study::Study study = two_gains();
   const testing::TemporaryFolder folder;
@@ -231,7 +243,7 @@ TEST(Summarise, RefusesAFileWithoutWhatTheCriteriaSay) {
   };
   std::vector<layout::PointColumn> columns = measures::prediction_columns(theory::study_predictions(study));
   columns[0].values[1] = 1.5;
-  expect_bad(columns, "bad.h5: damaged: /point/predicted_stable_share: 1.5 is no proportion");
+  expect_bad(columns, "bad.h5: damaged: /point/predicted_stable_share: 1.5 is not a proportion");
   columns.erase(columns.begin());
   expect_bad(columns, "bad.h5: damaged: /point/predicted_stable_share: the dataset is missing");
 }

@@ -61,7 +61,7 @@ std::string log_entry(const layout::FileHeader& header, const std::string& sha25
 }
 
 /// The present text of the log, to which more can be appended.
-/// @throws Failure (bad_data) where it is no log.
+/// @throws Failure (bad_data) where it is not a log.
 std::string log_so_far(const fs::path& path) {
   std::string log = bytes_of(path);
   if (log.empty()) return log;
@@ -69,10 +69,11 @@ std::string log_so_far(const fs::path& path) {
   const yaml::YamlPointer entries = yaml::parse_yaml(log, path.string(), false, problems);
   const bool is_list = problems.empty() && entries && entries->kind == yaml::YamlNode::Kind::list;
   if (is_list && log.back() == '\n') return log;
-  throw Failure(ExitCode::bad_data,
-                fmt::format("{}: is no log of baselines that another entry can be put after; expected a YAML "
-                            "list that ends with a line break: mend it, or take it away",
-                            path.string()));
+  throw Failure(
+      ExitCode::bad_data,
+      fmt::format("{}: cannot append to this baseline log: expected a YAML list ending in a newline. "
+                  "Repair or delete the file",
+                  path.string()));
 }
 
 }  // namespace
@@ -104,7 +105,7 @@ BaselineUpdate update_baseline(const fs::path& file, const fs::path& output, con
   }
   if (layout::is_dirty(header.provenance)) {
     update.warnings.push_back(fmt::format(
-        "{} was made by a build with changes that were not committed: nobody else can make it again",
+        "{} was made by a build with changes that were not committed: nobody else can reproduce it",
         file.string()));
   }
   storage::OutputFile record(baseline_log(output));

@@ -18,7 +18,7 @@ std::filesystem::path baseline_log(const std::filesystem::path& baseline);
 
 /// Makes a whole results file the baseline `output`, byte by byte, and records the reason first: a baseline
 /// without its record is never left behind.
-/// @throws Failure where `file` is no whole results file, or something cannot be written
+/// @throws Failure where `file` is not a complete results file, or something cannot be written
 BaselineUpdate update_baseline(const std::filesystem::path& file, const std::filesystem::path& output,
                                const std::string& reason);
 

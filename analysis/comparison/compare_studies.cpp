@@ -156,7 +156,7 @@ struct ComparedData {
   std::int64_t baseline_rigs{0};
   std::int64_t current_rigs{0};
   std::int64_t baseline_trials{0};  ///< of each point that are compared, its first
-  std::int64_t current_trials{0};   ///< likewise
+  std::int64_t current_trials{0};   ///< of the current file
 };
 
 /// The most trials of each point that are compared.

@@ -34,8 +34,8 @@ Json file_json(const ComparedFile& file) {
 Json measure_json(const MeasureComparison& measure) {
   return {{"measure", measure.measure},
           {"unit", measure.unit},
-          {"verdict", word_of(measure.change)},
-          {"gate", word_of(measure.verdict)},
+          {"verdict", to_string(measure.change)},
+          {"gate", to_string(measure.verdict)},
           {"baseline", measure.baseline},
           {"current", measure.current},
           {"baseline_n", measure.baseline_n},
@@ -60,7 +60,7 @@ Json requirement_json(const RequirementResult& requirement) {
   return {{"require", requirement.text},
           {"quantity", requirement.quantity},
           {"unit", requirement.unit},
-          {"verdict", word_of(requirement.verdict)},
+          {"verdict", to_string(requirement.verdict)},
           {"limit", requirement.limit},
           {"value", requirement.value},
           {"n", requirement.n},
@@ -76,7 +76,7 @@ Json undecided_json(const measures::UndecidedMoves& moves) {
 
 Json point_json(const PointComparison& point) {
   Json json{{"label", point.label},
-            {"verdict", word_of(point.verdict)},
+            {"verdict", to_string(point.verdict)},
             {"baseline_point", point.baseline_point},
             {"current_point", point.current_point},
             {"baseline_trials", point.baseline_trials},
@@ -97,12 +97,12 @@ Json point_json(const PointComparison& point) {
 std::string comparison_json(const StudyComparison& comparison) {
   const VerdictCounts counts = count_verdicts(comparison);
   Json json{
-      {"verdict", word_of(comparison.verdict)},
+      {"verdict", to_string(comparison.verdict)},
       {"sentence", verdict_sentence(comparison)},
       {"baseline", file_json(comparison.baseline)},
       {"current", file_json(comparison.current)},
       {"baseline_label", comparison.baseline_label.empty() ? Json(nullptr) : Json(comparison.baseline_label)},
-      {"layer", word_of(comparison.layer)},
+      {"layer", to_string(comparison.layer)},
       {"layer_reason", comparison.layer_reason},
       {"equal_to_the_bit", comparison.equal_to_the_bit},
       {"first_difference", comparison.first_difference},

@@ -19,7 +19,7 @@ std::string element_of(GateVerdict verdict, const std::string& message) {
   switch (verdict) {
     case GateVerdict::regression:
     case GateVerdict::changed:
-      return fmt::format("<failure type=\"{}\" message=\"{}\"/>", word_of(verdict), xml(message));
+      return fmt::format("<failure type=\"{}\" message=\"{}\"/>", to_string(verdict), xml(message));
     case GateVerdict::inconclusive:
       return fmt::format("<error type=\"inconclusive\" message=\"{}\"/>", xml(message));
     case GateVerdict::passed:

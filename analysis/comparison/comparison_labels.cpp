@@ -10,7 +10,7 @@
 
 namespace zerocount::comparison {
 
-std::string_view word_of(GateVerdict verdict) {
+std::string_view to_string(GateVerdict verdict) {
   switch (verdict) {
     case GateVerdict::passed:
       return "passed";
@@ -26,7 +26,7 @@ std::string_view word_of(GateVerdict verdict) {
   return "not measured";
 }
 
-std::string_view word_of(ChangeVerdict change) {
+std::string_view to_string(ChangeVerdict change) {
   switch (change) {
     case ChangeVerdict::worse:
       return "worse";
@@ -44,7 +44,7 @@ std::string_view word_of(ChangeVerdict change) {
   return "not measured";
 }
 
-std::string_view word_of(ComparisonLayer layer) {
+std::string_view to_string(ComparisonLayer layer) {
   if (layer == ComparisonLayer::bits) return "bits";
   return layer == ComparisonLayer::paired ? "paired" : "two_samples";
 }
@@ -131,7 +131,7 @@ std::string answer_text(const StudyComparison& comparison) {
     for (const MeasureComparison& measure : point.measures) {
       if (measure.change == change) names.push_back(measure.measure);
     }
-    return names.empty() ? "" : fmt::format("; {}: {}", word_of(change), fmt::join(names, ", "));
+    return names.empty() ? "" : fmt::format("; {}: {}", to_string(change), fmt::join(names, ", "));
   };
   std::string text =
       fmt::format("{} against {}", text::printable(point.label), text::printable(comparison.baseline_label));

@@ -11,13 +11,13 @@
 namespace zerocount::comparison {
 
 /// "passed", "regression", "changed", "inconclusive" or "not measured".
-std::string_view word_of(GateVerdict verdict);
+std::string_view to_string(GateVerdict verdict);
 
 /// "worse", "better", "equivalent", "not worse", "undecided" or "not measured".
-std::string_view word_of(ChangeVerdict change);
+std::string_view to_string(ChangeVerdict change);
 
 /// "bits", "paired" or "two_samples".
-std::string_view word_of(ComparisonLayer layer);
+std::string_view to_string(ComparisonLayer layer);
 
 /// Measures and requirements by their verdicts, and measures by their change.
 struct VerdictCounts {

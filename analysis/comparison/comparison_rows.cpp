@@ -66,7 +66,7 @@ ComparisonRow row_of(const PointComparison& point, const MeasureComparison& meas
   row.margin = (measure.changed_fails ? "± " : "") + text(measure.margin);
   row.detects = text(measure.detectable_change);
   row.p = p_text(shown_p(measure));
-  row.verdict = word_of(measure.change);
+  row.verdict = to_string(measure.change);
   row.gate = measure.verdict;
   row.note = remarks(measure.note, undecided_remark(point, measure.measure), measure.trials_to_decide,
                      margins_remark(measure, max_trials));
@@ -87,7 +87,7 @@ ComparisonRow row_of(const PointComparison& point, const RequirementResult& requ
                         : interval_text(requirement.bounds, requirement.quantity, requirement.unit);
   row.margin = fmt::format("{} {}", requirement.at_least ? "≥" : "≤", text(requirement.limit));
   row.p = "–";
-  row.verdict = word_of(requirement.verdict);
+  row.verdict = to_string(requirement.verdict);
   row.detects = "–";
   row.gate = requirement.verdict;
   row.note = remarks("", undecided_remark(point, requirement.quantity), requirement.trials_to_decide, "");
@@ -128,7 +128,7 @@ std::vector<std::pair<std::string, std::string>> comparison_facts(const StudyCom
     facts.emplace_back("baseline", file_text(comparison.baseline, comparison.baseline.header.points));
     facts.emplace_back("file", file_text(comparison.current, comparison.current.header.points));
   }
-  facts.emplace_back("compared", fmt::format("{}: {}", word_of(comparison.layer), comparison.layer_reason));
+  facts.emplace_back("compared", fmt::format("{}: {}", to_string(comparison.layer), comparison.layer_reason));
   if (!comparison.first_difference.empty())
     facts.emplace_back("first difference", comparison.first_difference);
   for (const ManifestDifference& difference : comparison.manifest_differences) {

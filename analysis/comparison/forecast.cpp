@@ -18,14 +18,14 @@ namespace zerocount::comparison {
 namespace {
 
 constexpr double factor_step = 1.4;    ///< between the numbers of trials that are tried
-constexpr double slab_variance = 9.0;  ///< of effects that are not nil, in units of the standard error
+constexpr double slab_variance = 9.0;  ///< of effects that are not zero, in units of the standard error
 constexpr int expectation_steps = 40;
 constexpr double jeffreys_shape = 0.5;  ///< weight of a kind of unit that was not seen, in units
 
 /// An assumption about the true effects.
 enum class Truth {
   as_seen,    ///< as seen, with their uncertainty
-  some_nil,   ///< likewise, but some are nil
+  some_zero,  ///< the effects seen, but some are zero
   no_effect,  ///< two studies of one population, and what was seen is of one of them
 };
 
@@ -49,7 +49,9 @@ struct SimulatedComparison {
 class Simulator {
  public:
   Simulator(const ForecastSamples& samples, const ForecastOptions& options)
-      : samples_(samples), options_(options), nil_(nil_of(samples.measures(), options.confidence)) {}
+      : samples_(samples),
+        options_(options),
+        zero_probabilities_(zero_probabilities_of(samples.measures(), options.confidence)) {}
 
   double trials() const {
     return static_cast<double>(std::max(samples_.trials_of(0), samples_.trials_of(1)));
@@ -71,8 +73,8 @@ class Simulator {
     std::vector<SimulatedComparison> outcomes;
     for (const Truth truth : truths) {
       std::vector<TestedMeasure> tested;
-      for (std::size_t i = 0; i < nil_.size(); ++i)
-        tested.push_back(tested_measure(i, population, sums[i], is_nil(i, truth, simulation)));
+      for (std::size_t i = 0; i < zero_probabilities_.size(); ++i)
+        tested.push_back(tested_measure(i, population, sums[i], is_zero(i, truth, simulation)));
       decide(tested, options_.false_discovery_rate);
       outcomes.push_back(outcome_of(tested, requirements, truth));
     }
@@ -80,7 +82,8 @@ class Simulator {
   }
 
  private:
-  static std::vector<double> nil_of(const std::vector<ForecastMeasure>& measures, double confidence) {
+  static std::vector<double> zero_probabilities_of(const std::vector<ForecastMeasure>& measures,
+                                                   double confidence) {
     std::vector<double> z;
     for (const ForecastMeasure& measure : measures) {
       const TestedMeasure& found = measure.found;
@@ -88,7 +91,7 @@ class Simulator {
           (found.bounds.high - found.bounds.low) / 2.0 / statistics::normal_quantile(confidence);
       z.push_back(error > 0.0 ? found.effect / error : 0.0);
     }
-    return nil_probabilities(z);
+    return zero_difference_probabilities(z);
   }
 
   double more_units(std::size_t file, double trials) const {
@@ -110,11 +113,11 @@ class Simulator {
     return poisson_number(mean, continuation_bits(simulation, stream, point, ContinuationDraw::unseen_units));
   }
 
-  bool is_nil(std::size_t measure, Truth truth, std::uint32_t simulation) const {
-    if (truth != Truth::some_nil) return false;
+  bool is_zero(std::size_t measure, Truth truth, std::uint32_t simulation) const {
+    if (truth != Truth::some_zero) return false;
     const double u =
         random::open_uniform(continuation_bits(simulation, 0, measure, ContinuationDraw::nil_effect));
-    return u < nil_[measure];
+    return u < zero_probabilities_[measure];
   }
 
   /// The sums over the further units of each measure.
@@ -132,9 +135,9 @@ class Simulator {
     return all;
   }
 
-  TestedMeasure tested_measure(std::size_t i, const FileWeights& population, FileSums sums, bool nil) const {
+  TestedMeasure tested_measure(std::size_t i, const FileWeights& population, FileSums sums, bool zero) const {
     const JudgedMeasure& measure = samples_.measures()[i].sums;
-    if (nil) measure.remove_effect(sums, measure.weighted(population));
+    if (zero) measure.remove_effect(sums, measure.weighted(population));
     if (!samples_.one_sample()) {
       const FileSums seen = measure.seen();
       for (std::size_t file = 0; file < sums.size(); ++file) {
@@ -142,7 +145,7 @@ class Simulator {
       }
     }
     TestedMeasure tested = samples_.measures()[i].found;
-    const QuickResult result = measure.test(sums, options_.confidence, !nil);
+    const QuickResult result = measure.test(sums, options_.confidence, !zero);
     tested.effect = result.effect;
     tested.bounds = result.bounds;
     tested.p = result.p;
@@ -195,7 +198,7 @@ class Simulator {
 
   const ForecastSamples& samples_;
   ForecastOptions options_;
-  std::vector<double> nil_;  ///< [measure] probability that its effect is nil
+  std::vector<double> zero_probabilities_;  ///< [measure] probability that its effect is zero
 };
 
 /// Proportions of the simulations that decide, with so many trials.
@@ -293,8 +296,8 @@ Forecast search(const Simulator& simulator, const std::vector<Truth>& truths,
 
 }  // namespace
 
-std::vector<double> nil_probabilities(const std::vector<double>& z) {
-  std::vector<double> nil(z.size(), 0.5);
+std::vector<double> zero_difference_probabilities(const std::vector<double>& z) {
+  std::vector<double> zero(z.size(), 0.5);
   const auto measures = static_cast<double>(z.size());
   double weight = 0.5;
   for (int step = 0; step < expectation_steps; ++step) {
@@ -303,12 +306,12 @@ std::vector<double> nil_probabilities(const std::vector<double>& z) {
       const double none = weight * std::exp(-0.5 * z[i] * z[i]);
       const double some = (1.0 - weight) * std::exp(-0.5 * z[i] * z[i] / (1.0 + slab_variance)) /
                           std::sqrt(1.0 + slab_variance);
-      nil[i] = none / (none + some);
-      sum += nil[i];
+      zero[i] = none / (none + some);
+      sum += zero[i];
     }
     weight = (sum + 1.0) / (measures + 2.0);
   }
-  return nil;
+  return zero;
 }
 
 ForecastSamples::ForecastSamples(std::array<std::int64_t, 2> units, bool one_sample)
@@ -340,7 +343,7 @@ void ForecastSamples::require_units(std::int64_t units, std::size_t file) const 
 }
 
 Forecast forecast_decision(const ForecastSamples& samples, const ForecastOptions& options) {
-  return search(Simulator(samples, options), {Truth::as_seen, Truth::some_nil}, options);
+  return search(Simulator(samples, options), {Truth::as_seen, Truth::some_zero}, options);
 }
 
 Forecast forecast_equivalence(const ForecastSamples& pilot, const ForecastOptions& options) {

@@ -72,7 +72,7 @@ struct ForecastOptions {
   double probability{0.8};            ///< with which the number of trials decides
   int simulations{400};               ///< of each number of trials
   double min_factor{1.0};    ///< the fewest trials that are tried, as a multiple of those that there are
-  double max_factor{100.0};  ///< the most trials that are tried, likewise
+  double max_factor{100.0};  ///< the most trials that are tried, as such a multiple
 };
 
 /// The forecast of one judgement.
@@ -94,8 +94,8 @@ struct Forecast {
 ///
 /// The number must suffice under two assumptions of what the sample leaves open:
 /// - the true effects are those that were seen, with their uncertainty;
-/// - likewise, but each effect is nil with the probability that the effects of all measures together give it
-///   (a two-group mixture: Efron et al., Journal of the American Statistical Association 96 (2001), 1151).
+/// - the effects seen, but each is zero with the probability that the effects of all measures together give
+///   it (a two-group mixture: Efron et al., Journal of the American Statistical Association 96 (2001), 1151).
 /// The first by itself promises decisions by regressions that are not there; the second misses small
 /// changes. Its measured accuracy: accuracy.md.
 ///
@@ -107,9 +107,9 @@ Forecast forecast_decision(const ForecastSamples& samples, const ForecastOptions
 /// @param pilot one sample: the trials of the study
 Forecast forecast_equivalence(const ForecastSamples& pilot, const ForecastOptions& options);
 
-/// For each measure the probability that its effect is nil: with z = e/s, the posterior of a mixture of
+/// For each measure the probability that its effect is zero: with z = e/s, the posterior of a mixture of
 /// N(0, 1) and N(0, 1 + 3²), whose weights are estimated from all z by expectation maximisation, with one
 /// measure more of each kind.
-std::vector<double> nil_probabilities(const std::vector<double>& z);
+std::vector<double> zero_difference_probabilities(const std::vector<double>& z);
 
 }  // namespace zerocount::comparison

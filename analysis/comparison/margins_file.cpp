@@ -38,7 +38,7 @@ bool read_changed_fails(const yaml::Field& field, yaml::Problems& problems) {
   if (!word) return false;
   if (*word != "worse" && *word != "changed") {
     problems.add(field.node->place, field.path,
-                 fmt::format("{} is no kind of failure", yaml::in_quotes(*word)), "worse or changed");
+                 fmt::format("{} is not a kind of failure", yaml::in_quotes(*word)), "worse or changed");
   }
   return *word == "changed";
 }
@@ -128,7 +128,7 @@ std::optional<Requirement> read_requirement(const yaml::Field& field, yaml::Prob
   }
   const bool proportion = requirement.quantity->kind == RequirementKind::proportion;
   if (proportion && (requirement.limit < 0.0 || requirement.limit > 1.0)) {
-    return refuse(fmt::format("{} is no proportion", number), "a number from 0 to 1");
+    return refuse(fmt::format("{} is not a proportion", number), "a number from 0 to 1");
   }
   if (!proportion && requirement.at_least) {
     return refuse(fmt::format("a least {} is asked for", requirement.quantity->name), "≤ and a limit");
@@ -180,7 +180,7 @@ void read_measures(const yaml::Field& field, std::vector<std::string>& measures,
     if (!name) continue;
     if (!find_gate_measure(*name)) {
       problems.add(item.node->place, item.path,
-                   fmt::format("{} is no measure, nearest known: {}", yaml::in_quotes(*name),
+                   fmt::format("unknown measure {}, nearest known: {}", yaml::in_quotes(*name),
                                yaml::nearest_name(*name, known)),
                    expected);
     }

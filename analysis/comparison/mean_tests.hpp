@@ -14,11 +14,11 @@ struct MeanDifference {
   double degrees_of_freedom{0.0};
 };
 
-/// Of pairs: the mean of their differences.
+/// Paired samples: the mean of the differences.
 /// @param differences two or more
 MeanDifference mean_difference(std::span<const double> differences);
 
-/// Of two independent samples with variances of their own (Welch, Biometrika 34 (1947), 28): current −
+/// Two independent samples with variances of their own (Welch, Biometrika 34 (1947), 28): current −
 /// baseline.
 /// @param baseline two or more, @param current two or more
 MeanDifference mean_difference(std::span<const double> baseline, std::span<const double> current);

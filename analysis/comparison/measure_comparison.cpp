@@ -92,7 +92,7 @@ ComparedValues compared_failures(const PointTrials& baseline, const PointTrials&
   return rig_values(values, baseline.rigs, current.rigs);
 }
 
-/// @param baseline 1 for each trial that failed. @param current likewise
+/// @param baseline, current 1 for each trial that failed, else 0
 PairedFailures paired_failures(const std::vector<double>& baseline, const std::vector<double>& current) {
   PairedFailures failures;
   failures.pairs = std::ssize(baseline);
@@ -199,7 +199,7 @@ void compare_proportion_over_rigs(MeasureComparison& result, const GateMeasure& 
   test_means(result, failures, 1.0, paired, confidence);
 }
 
-/// Of measures that are worse where they are less, the negative, so that larger is worse.
+/// The value with the sign with which larger is worse.
 MeasureSample sample_of_mean(const GateMeasure& measure, const PointTrials& baseline,
                              const PointTrials& current, bool paired) {
   ComparedValues values =

@@ -21,7 +21,7 @@ double score(const PairedFailures& failures, double difference) {
   const double linear = -b - c + (2.0 * n - b + c) * difference;
   const double constant = -c * difference * (1.0 - difference);
   const double root = std::sqrt(std::max(0.0, linear * linear - 8.0 * n * constant));
-  // Of the two forms of the positive root, the one that does not cancel.
+  // This form of the positive root has no cancellation.
   const double proportion = linear > 0.0 ? -2.0 * constant / (root + linear) : (root - linear) / (4.0 * n);
   const double variance = n * (2.0 * proportion + difference * (1.0 - difference));
   const double distance = b - c - n * difference;

@@ -1,26 +1,25 @@
 #include "analysis/history/database.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <map>
-#include <string_view>
+#include <string>
 #include <system_error>
 
+#include <SQLiteCpp/VariadicBind.h>
 #include <fmt/format.h>
 
-#include "analysis/history/sqlite.hpp"
+#include "analysis/history/sqlite_failure.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::history {
 namespace {
 
-using sqlite::Connection;
-using sqlite::Statement;
+using SQLite::Database;
+using SQLite::Statement;
 
 constexpr double wait_seconds = 60.0;
 constexpr std::int64_t application_id = 0x7a636869;  ///< "zchi": tells a history from other SQLite files
 
-constexpr std::string_view schema_sql = R"(
+constexpr const char* schema_sql = R"(
 CREATE TABLE run (
   id INTEGER PRIMARY KEY,
   study TEXT NOT NULL,
@@ -62,102 +61,122 @@ CREATE VIEW history AS
   FROM value JOIN run ON run.id = value.run ORDER BY run.created, run.id, value.point, value.measure;
 )";
 
-std::string_view word_of(statistics::MeasurementKind kind) {
+std::string to_string(statistics::MeasurementKind kind) {
   return kind == statistics::MeasurementKind::proportion ? "proportion" : "mean";
 }
 
-[[noreturn]] void fail_foreign(const Connection& connection) {
+[[noreturn]] void fail_foreign(const Database& database) {
   throw Failure(ExitCode::bad_data,
-                fmt::format("{}: is an SQLite database, but no history of zerocount; name "
+                fmt::format("{}: an SQLite database, but not a history of zerocount; name "
                             "another file",
-                            connection.path().string()));
+                            database.getFilename()));
 }
 
-/// True if the file is a new database, without anything in it.
-/// @throws Failure (bad_data) where it is no history that this program knows.
-bool is_new(const Connection& connection) {
-  const std::int64_t application = connection.whole_number("PRAGMA application_id");
-  const std::int64_t version = connection.whole_number("PRAGMA user_version");
-  const bool empty = connection.whole_number("SELECT count(*) FROM sqlite_schema") == 0;
+/// The number that `sql` gives in one row.
+std::int64_t number_of(Database& database, const char* sql) {
+  return database.execAndGet(sql).getInt64();
+}
+
+/// True if the database is new and empty.
+/// @throws Failure (bad_data) unless it is a history that this program can read.
+bool is_new(Database& database) {
+  const std::int64_t application = number_of(database, "PRAGMA application_id");
+  const std::int64_t version = number_of(database, "PRAGMA user_version");
+  const bool empty = number_of(database, "SELECT count(*) FROM sqlite_schema") == 0;
   if (empty && application == 0 && version == 0) return true;
-  if (application != application_id) fail_foreign(connection);
+  if (application != application_id) fail_foreign(database);
   if (version > schema_version) {
     throw Failure(ExitCode::bad_data,
-                  fmt::format("{}: is a history of version {}, and this program knows up to {}; use a newer "
+                  fmt::format("{}: a history of version {}, and this program knows up to {}; use a newer "
                               "zerocount",
-                              connection.path().string(), version, schema_version));
+                              database.getFilename(), version, schema_version));
   }
-  if (version != schema_version) connection.fail_damaged();
+  require_undamaged(version == schema_version);
   return false;
 }
 
-void require_undamaged(const Connection& connection) {
-  Statement check = connection.prepare("PRAGMA quick_check(1)");
-  if (!check.step() || check.text(0) != "ok") connection.fail_damaged();
+void check_pages(Database& database) {
+  require_undamaged(database.execAndGet("PRAGMA quick_check(1)").getString() == "ok");
 }
 
-void make_tables(const Connection& connection) {
-  connection.execute(std::string(schema_sql));
-  connection.execute(fmt::format("PRAGMA application_id = {}", application_id));
-  connection.execute(fmt::format("PRAGMA user_version = {}", schema_version));
+void make_tables(Database& database) {
+  database.exec(schema_sql);
+  database.exec(fmt::format("PRAGMA application_id = {}", application_id));
+  database.exec(fmt::format("PRAGMA user_version = {}", schema_version));
 }
 
-std::int64_t insert_run(const Connection& connection, const RunRecord& run) {
-  Statement insert = connection.prepare(
+std::int64_t insert_run(Database& database, const RunRecord& run) {
+  Statement insert(
+      database,
       "INSERT INTO run (study, series_sha256, study_sha256, file_sha256, seed, trials, zerocount_version, "
       "git_commit, created, verdict, layer, baseline_created, baseline_commit) "
       "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  insert.bind(0, run.study).bind(1, run.series_sha256).bind(2, run.study_sha256).bind(3, run.file_sha256);
-  insert.bind(4, run.seed).bind(5, run.trials).bind(6, run.zerocount_version).bind(7, run.git_commit);
-  insert.bind(8, run.created);
+  SQLite::bind(insert, run.study, run.series_sha256, run.study_sha256, run.file_sha256, run.seed, run.trials,
+               run.zerocount_version, run.git_commit, run.created);
   if (const auto& compared = run.comparison) {
-    insert.bind(9, compared->verdict).bind(10, compared->layer);
-    insert.bind(11, compared->baseline_created).bind(12, compared->baseline_commit);
+    insert.bind(10, compared->verdict);
+    insert.bind(11, compared->layer);
+    insert.bind(12, compared->baseline_created);
+    insert.bind(13, compared->baseline_commit);
   }
-  insert.step();
-  return connection.last_row();
+  insert.exec();
+  return database.getLastInsertRowid();
 }
 
-void insert_values(const Connection& connection, std::int64_t id, const RunRecord& run) {
-  Statement insert = connection.prepare(
+/// SQLite stores NaN as NULL.
+void insert_values(Database& database, std::int64_t id, const RunRecord& run) {
+  Statement insert(
+      database,
       "INSERT INTO value (run, point, measure, unit, kind, value, low, high, n, verdict, baseline, effect, "
       "effect_low, effect_high, margin, p) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   for (const RunValue& value : run.values) {
-    insert.bind(0, id).bind(1, value.point).bind(2, value.measure).bind(3, value.unit);
-    insert.bind(4, word_of(value.kind)).bind(5, value.value);
-    insert.bind(6, value.bounds.low).bind(7, value.bounds.high).bind(8, value.n);
     const ValueComparison compared = value.comparison.value_or(ValueComparison{});
-    if (value.comparison) {
-      insert.bind(9, compared.verdict);
-    } else {
-      insert.bind_null(9);
-    }
-    insert.bind(10, compared.baseline).bind(11, compared.effect).bind(12, compared.bounds.low);
-    insert.bind(13, compared.bounds.high).bind(14, compared.margin).bind(15, compared.p);
-    insert.step();
+    SQLite::bind(insert, id, value.point, value.measure, value.unit, to_string(value.kind), value.value,
+                 value.bounds.low, value.bounds.high, value.n, compared.verdict, compared.baseline,
+                 compared.effect, compared.bounds.low, compared.bounds.high, compared.margin, compared.p);
+    if (!value.comparison) insert.bind(10);  // NULL
+    insert.exec();
     insert.reset();
   }
 }
 
-RunRecord run_of(const Statement& row) {
-  RunRecord run{row.text(1),  row.text(2), row.text(3), row.text(4), row.text(5),
-                row.whole(6), row.text(7), row.text(8), row.text(9)};
-  if (!row.is_null(10))
-    run.comparison = RunComparison{row.text(10), row.text(11), row.text(12), row.text(13)};
+std::string text(Statement& row, int column) {
+  require_undamaged(row.getColumn(column).isText());
+  return row.getColumn(column).getString();
+}
+
+std::int64_t integer(Statement& row, int column) {
+  require_undamaged(row.getColumn(column).isInteger());
+  return row.getColumn(column).getInt64();
+}
+
+/// NaN for NULL.
+double number(Statement& row, int column) {
+  const SQLite::Column value = row.getColumn(column);
+  if (value.isNull()) return statistics::unknown;
+  require_undamaged(value.isFloat() || value.isInteger());
+  return value.getDouble();
+}
+
+RunRecord run_of(Statement& row) {
+  RunRecord run{text(row, 1),    text(row, 2), text(row, 3), text(row, 4), text(row, 5),
+                integer(row, 6), text(row, 7), text(row, 8), text(row, 9)};
+  if (!row.isColumnNull(10))
+    run.comparison = RunComparison{text(row, 10), text(row, 11), text(row, 12), text(row, 13)};
   return run;
 }
 
-RunValue value_of(const Statement& row) {
-  RunValue value{row.text(1), row.text(2), row.text(3)};
-  if (row.text(4) == word_of(statistics::MeasurementKind::proportion))
+RunValue value_of(Statement& row) {
+  RunValue value{text(row, 1), text(row, 2), text(row, 3)};
+  if (text(row, 4) == to_string(statistics::MeasurementKind::proportion))
     value.kind = statistics::MeasurementKind::proportion;
-  value.value = row.number(5);
-  value.bounds = {row.number(6), row.number(7)};
-  value.n = row.whole(8);
-  if (row.is_null(9)) return value;
+  value.value = number(row, 5);
+  value.bounds = {number(row, 6), number(row, 7)};
+  value.n = integer(row, 8);
+  if (row.isColumnNull(9)) return value;
   value.comparison =
-      ValueComparison{row.text(9),    row.number(10), row.number(11), {row.number(12), row.number(13)},
-                      row.number(14), row.number(15)};
+      ValueComparison{text(row, 9),    number(row, 10), number(row, 11), {number(row, 12), number(row, 13)},
+                      number(row, 14), number(row, 15)};
   return value;
 }
 
@@ -167,70 +186,82 @@ struct KnownRun {
   bool compared{false};
 };
 
-std::optional<KnownRun> find_run(const Connection& connection, const std::string& file_sha256) {
-  Statement find = connection.prepare("SELECT id, verdict FROM run WHERE file_sha256 = ?");
-  find.bind(0, file_sha256);
-  if (!find.step()) return std::nullopt;
-  return KnownRun{find.whole(0), !find.is_null(1)};
+std::optional<KnownRun> find_run(Database& database, const std::string& file_sha256) {
+  Statement find(database, "SELECT id, verdict FROM run WHERE file_sha256 = ?");
+  find.bind(1, file_sha256);
+  if (!find.executeStep()) return std::nullopt;
+  return KnownRun{integer(find, 0), !find.isColumnNull(1)};
 }
 
-void remove_run(const Connection& connection, std::int64_t id) {
+void remove_run(Database& database, std::int64_t id) {
   for (const char* const sql : {"DELETE FROM value WHERE run = ?", "DELETE FROM run WHERE id = ?"}) {
-    Statement remove = connection.prepare(sql);
-    remove.bind(0, id).step();
+    Statement remove(database, sql);
+    remove.bind(1, id);
+    remove.exec();
   }
 }
 
-}  // namespace
-
-Addition add_run(const std::filesystem::path& database, const RunRecord& run) {
-  const Connection connection(database, Connection::Mode::create, wait_seconds);
-  sqlite::Transaction transaction(connection);
+Addition add_to(Database& database, const RunRecord& run) {
+  SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
   Addition addition = Addition::added;
-  if (is_new(connection)) {
-    make_tables(connection);
+  if (is_new(database)) {
+    make_tables(database);
   } else {
-    require_undamaged(connection);
-    if (const std::optional<KnownRun> known = find_run(connection, run.file_sha256)) {
+    check_pages(database);
+    if (const std::optional<KnownRun> known = find_run(database, run.file_sha256)) {
       if (known->compared || !run.comparison) return Addition::already_there;
-      remove_run(connection, known->id);
+      remove_run(database, known->id);
       addition = Addition::comparison_added;
     }
   }
-  insert_values(connection, insert_run(connection, run), run);
+  insert_values(database, insert_run(database, run), run);
   transaction.commit();
   return addition;
 }
 
-std::vector<RunRecord> read_runs(const std::filesystem::path& database) {
-  std::error_code error;
-  if (!std::filesystem::exists(database, error)) {
-    throw Failure(
-        ExitCode::bad_input,
-        fmt::format("{}: there is no such history; 'zerocount history add' makes it", database.string()));
-  }
-  const Connection connection(database, Connection::Mode::existing, wait_seconds);
-  connection.execute("BEGIN");  // all that follows sees one state
-  if (is_new(connection)) fail_foreign(connection);
-  require_undamaged(connection);
+std::vector<RunRecord> runs_of(Database& database) {
+  const SQLite::Transaction transaction(database);  // all that follows reads one state
+  if (is_new(database)) fail_foreign(database);
+  check_pages(database);
   std::vector<RunRecord> runs;
   std::map<std::int64_t, std::size_t> places;  // [id]
-  Statement rows = connection.prepare(
+  Statement rows(
+      database,
       "SELECT id, study, series_sha256, study_sha256, file_sha256, seed, trials, zerocount_version, "
-      "git_commit, "
-      "created, verdict, layer, baseline_created, baseline_commit FROM run ORDER BY created, id");
-  while (rows.step()) {
-    places[rows.whole(0)] = runs.size();
+      "git_commit, created, verdict, layer, baseline_created, baseline_commit FROM run ORDER BY created, id");
+  while (rows.executeStep()) {
+    places[integer(rows, 0)] = runs.size();
     runs.push_back(run_of(rows));
   }
-  Statement values = connection.prepare(
+  Statement values(
+      database,
       "SELECT run, point, measure, unit, kind, value, low, high, n, verdict, baseline, effect, effect_low, "
       "effect_high, margin, p FROM value ORDER BY rowid");
-  while (values.step()) {
-    const auto place = places.find(values.whole(0));
-    if (place == places.end()) connection.fail_damaged();
+  while (values.executeStep()) {
+    const auto place = places.find(integer(values, 0));
+    require_undamaged(place != places.end());
     runs[place->second].values.push_back(value_of(values));
   }
+  return runs;
+}
+
+}  // namespace
+
+Addition add_run(const std::filesystem::path& path, const RunRecord& run) {
+  Addition addition{};
+  with_database(path, SQLite::OPEN_CREATE, wait_seconds,
+                [&](Database& database) { addition = add_to(database, run); });
+  return addition;
+}
+
+std::vector<RunRecord> read_runs(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: no such history; 'zerocount history add' makes it", path.string()));
+  }
+  std::vector<RunRecord> runs;
+  with_database(path, 0, wait_seconds, [&](Database& database) { runs = runs_of(database); });
   return runs;
 }
 

@@ -24,7 +24,7 @@ namespace zerocount::iso230 {
 /// and p95 with order-statistic bounds.
 using ValueStatistics = measures::MeasureStatistics;
 
-/// Of values in any order; those that are NaN are left out.
+/// @param values in any order; NaN is left out
 ValueStatistics statistics_of(std::vector<double> values, double confidence = statistics::summary_confidence);
 
 /// One number of ValueStatistics as it is reported, under "<value>_<name>" where there are no groups.

@@ -9,7 +9,7 @@
 /// Test for a trend in the intervals between the jerks of a move: Laplace's statistic, calibrated by
 /// permuting the intervals.
 ///
-/// Of the m intervals d₁ … d_m between the jerks of a move, jerk j after the first begins at T_j = d₁ + … +
+/// d₁ … d_m are the intervals between the jerks of a move. Jerk j after the first begins at T_j = d₁ + … +
 /// d_j. Laplace's statistic is ΣT_j = Σ(m + 1 − i)·dᵢ: small if jerks come early, that is, if the intervals
 /// grow (Cox and Lewis, The Statistical Analysis of Series of Events, 1966, section 3.3, here up to the last
 /// event).

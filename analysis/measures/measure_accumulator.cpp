@@ -104,15 +104,15 @@ MeasureAccumulator& MeasureAccumulator::operator+=(const MeasureAccumulator& nex
   return *this;
 }
 
-bool MeasureAccumulator::is_sound(std::int64_t trials, std::int64_t moves) const {
+bool MeasureAccumulator::is_valid(std::int64_t trials, std::int64_t moves) const {
   const bool is_reported = !reported_->texts.empty();
   if (trials_ != (is_reported ? trials : 0)) return false;
   const std::int64_t all_moves = trials * moves;
-  return has_sound_qualities(moves) && has_sound_totals() && moments_.n >= 0 && moments_.nonfinite >= 0 &&
+  return has_valid_qualities(moves) && has_valid_totals() && moments_.n >= 0 && moments_.nonfinite >= 0 &&
          moments_.n <= all_moves - moments_.nonfinite && clusters_.size() <= all_moves;
 }
 
-bool MeasureAccumulator::has_sound_qualities(std::int64_t moves) const {
+bool MeasureAccumulator::has_valid_qualities(std::int64_t moves) const {
   if (!layout::is_quality(*measure_) || trials_ == 0)
     return by_move_.empty() && judged_.empty() && hits_.empty();
   const auto rigs = static_cast<std::size_t>(std::max<std::int64_t>(kind_.rigs, 1));
@@ -122,7 +122,7 @@ bool MeasureAccumulator::has_sound_qualities(std::int64_t moves) const {
   return is_sum_of(judged_, trials_) && statistics::are_counts(by_move_, trials_);
 }
 
-bool MeasureAccumulator::has_sound_totals() const {
+bool MeasureAccumulator::has_valid_totals() const {
   if (totals_.sums.empty()) return totals_.numbers.empty() && totals_.added.empty();
   return totals_.sums.size() <= statistics::max_clusters && totals_.sums.size() == totals_.numbers.size() &&
          totals_.sums.size() == totals_.added.size() && is_sum_of(totals_.added, trials_) &&

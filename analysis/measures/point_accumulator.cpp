@@ -278,35 +278,36 @@ void PointAccumulator::transfer(Self& self, Archive& archive) {
   }
 }
 
-bool PointAccumulator::is_sound(std::int64_t moves) const {
-  const auto sound = [](const std::vector<MeasureAccumulator>& measures, std::int64_t trials,
-                        std::int64_t moves_of_trial) {
+bool PointAccumulator::is_valid(std::int64_t moves) const {
+  const auto are_valid = [](const std::vector<MeasureAccumulator>& measures, std::int64_t trials,
+                            std::int64_t moves_of_trial) {
     return std::all_of(measures.begin(), measures.end(),
-                       [&](const auto& one) { return one.is_sound(trials, moves_of_trial); });
+                       [&](const auto& one) { return one.is_valid(trials, moves_of_trial); });
   };
-  if (!has_sound_counts(moves) || !has_sound_jerks() || !has_sound_rigs()) return false;
+  if (!has_valid_counts(moves) || !has_valid_jerks() || !has_valid_rigs()) return false;
   for (std::size_t level = 0; level < levels_.size(); ++level) {
     const std::int64_t lost = lost_in_levels_[level];
-    if (lost < 0 || lost > counted_.trials || !sound(levels_[level], counted_.trials - lost, 1)) return false;
+    if (lost < 0 || lost > counted_.trials || !are_valid(levels_[level], counted_.trials - lost, 1))
+      return false;
   }
-  return sound(measures_, counted_.trials, moves);
+  return are_valid(measures_, counted_.trials, moves);
 }
 
-bool PointAccumulator::has_sound_counts(std::int64_t moves) const {
-  constexpr std::int64_t most_trials = std::int64_t{1} << 53;  // sums of counts up to this do not overflow
+bool PointAccumulator::has_valid_counts(std::int64_t moves) const {
+  constexpr std::int64_t max_trials = std::int64_t{1} << 53;  // sums of counts up to this do not overflow
   const auto complete = [this](const OutcomeCounts& counts) {
     const std::array all{counts.zero_count,  counts.one_count, counts.off_target,
                          counts.oscillating, counts.nonfinite, counts.open_loop};
     return statistics::are_counts(all, counted_.trials) && counts.total() == counted_.trials;
   };
-  return counted_.trials > 0 && counted_.trials <= most_trials && counted_.moves % moves == 0 &&
+  return counted_.trials > 0 && counted_.trials <= max_trials && counted_.moves % moves == 0 &&
          counted_.moves / moves == counted_.trials && complete(counted_.outcomes) &&
          std::ssize(counted_.by_move) == moves &&
          std::all_of(counted_.by_move.begin(), counted_.by_move.end(), complete) &&
          trial_settling_times_.size() == (kind_.open_loop ? 0 : counted_.trials);
 }
 
-bool PointAccumulator::has_sound_jerks() const {
+bool PointAccumulator::has_valid_jerks() const {
   const auto within = [](std::int64_t count, std::int64_t most) { return count >= 0 && count <= most; };
   return jerks_ >= 0 && within(counted_.jerks_agreeing, jerks_) && within(one_count_jerks_, jerks_) &&
          jerk_intervals_.size <= jerks_ && within(jerk_slowing_.moves, counted_.moves) &&
@@ -315,7 +316,7 @@ bool PointAccumulator::has_sound_jerks() const {
          interval_trend_.rising >= 0 && interval_trend_.falling >= 0 && interval_trend_.equal >= 0;
 }
 
-bool PointAccumulator::has_sound_rigs() const {
+bool PointAccumulator::has_valid_rigs() const {
   if (kind_.rigs == 0 || kind_.open_loop) return rigs_.empty();
   if (std::ssize(rigs_) > kind_.rigs) return false;
   statistics::RigTrials sum;
@@ -342,7 +343,7 @@ void PointAccumulator::restore(std::span<const std::int64_t> whole, std::span<co
   PointAccumulator restored(kind_, *table_, first_trial_);
   transfer(restored, reader);
   reader.require_end();
-  reader.require(restored.is_sound(moves));
+  reader.require(restored.is_valid(moves));
   restored.measured_ = restored.counted_.trials;
   *this = std::move(restored);
 }

@@ -29,7 +29,7 @@ struct BootstrapDraws {
   std::uint32_t stream{0};  ///< the design point
 };
 
-/// How the statistics of a design point are made.
+/// Settings of the statistics of a design point.
 struct StatisticsOptions {
   double confidence{statistics::summary_confidence};
   std::optional<BootstrapDraws> bootstrap{};  ///< none: the bounds of means are left open
@@ -62,11 +62,11 @@ class MeasureAccumulator {
             self.hits_);
   }
   /// Whether the restored sums are possible for this measure. @param moves number of moves of each trial
-  bool is_sound(std::int64_t trials, std::int64_t moves) const;
+  bool is_valid(std::int64_t trials, std::int64_t moves) const;
 
  private:
-  bool has_sound_qualities(std::int64_t moves) const;
-  bool has_sound_totals() const;
+  bool has_valid_qualities(std::int64_t moves) const;
+  bool has_valid_totals() const;
   void add_quality(std::int64_t trial, std::span<const trial::MoveOutcome> moves);
   void add_clusters(std::int64_t trial, std::int64_t size);
   RateWithBounds rate(double confidence) const;
@@ -81,7 +81,7 @@ class MeasureAccumulator {
   statistics::ClusterTotals totals_;
   std::vector<std::int64_t> by_move_;  ///< [move] trials whose move has the quality; empty without trials
   std::vector<std::int64_t> judged_;   ///< [rig], or one for all: trials; empty likewise
-  std::vector<std::int64_t> hits_;     ///< likewise: trials with the quality
+  std::vector<std::int64_t> hits_;     ///< [rig], or one for all: trials with the quality
   std::vector<double> values_;         ///< of the current trial
 };
 
@@ -119,7 +119,7 @@ class PointAccumulator {
 
   /// The sums of the trials added so far, for files.
   statistics::State state() const;
-  /// Takes the trials whose sums these are in place of those added so far.
+  /// Replaces the trials added so far by those whose sums these are.
   /// @param moves of each trial
   /// @throws Failure (bad_data) if they cannot be those of a point of this kind.
   void restore(std::span<const std::int64_t> whole, std::span<const double> real, std::int64_t moves);
@@ -131,10 +131,10 @@ class PointAccumulator {
  private:
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive);
-  bool is_sound(std::int64_t moves) const;
-  bool has_sound_counts(std::int64_t moves) const;
-  bool has_sound_jerks() const;
-  bool has_sound_rigs() const;
+  bool is_valid(std::int64_t moves) const;
+  bool has_valid_counts(std::int64_t moves) const;
+  bool has_valid_jerks() const;
+  bool has_valid_rigs() const;
   void add_level_accumulators();
   void add_moves(std::span<const trial::MoveOutcome> moves);
   void add_level(std::size_t level, std::span<const trial::MoveOutcome> move);

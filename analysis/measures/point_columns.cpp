@@ -27,11 +27,11 @@ const layout::PointColumn& find_column(std::span<const layout::PointColumn> colu
   return *found;
 }
 
-/// How many of `trials` are the proportion: a whole number, because proportions are made by rate().
+/// The number of trials behind a proportion that rate() computed.
 std::int64_t trials_of_proportion(double proportion, std::int64_t trials, std::string_view name,
                                   const std::filesystem::path& file) {
   if (!(proportion >= 0.0 && proportion <= 1.0))
-    fail(file, name, fmt::format("{} is no proportion of trials", proportion));
+    fail(file, name, fmt::format("{} is not a proportion of trials", proportion));
   return std::llround(proportion * static_cast<double>(trials));
 }
 
@@ -66,27 +66,28 @@ layout::StatisticTable level_table(std::span<const PointSummary> points,
 std::span<const PredictionField> prediction_fields() {
   static constexpr std::array<PredictionField, 2> fields{
       {{"predicted_stable_share", "trials in which criterion (6) holds, as a proportion of trials",
-        &TheoryPrediction::stable},
+        &theory::PointPrediction::stable},
        {"predicted_unstable_share", "trials in which criterion (7) is exceeded, as a proportion of trials",
-        &TheoryPrediction::unstable}}};
+        &theory::PointPrediction::unstable}}};
   return fields;
 }
 
-std::vector<layout::PointColumn> prediction_columns(std::span<const TheoryPrediction> predictions) {
+std::vector<layout::PointColumn> prediction_columns(std::span<const theory::PointPrediction> predictions) {
   std::vector<layout::PointColumn> columns;
   for (const PredictionField& field : prediction_fields()) {
     layout::PointColumn column{std::string(field.name), "1", std::string(field.long_name), {}};
-    for (const TheoryPrediction& prediction : predictions) {
-      column.values.push_back(statistics::rate(prediction.*field.trials, predicted_trials(prediction)));
+    for (const theory::PointPrediction& prediction : predictions) {
+      column.values.push_back(
+          statistics::rate(prediction.*field.trials, theory::predicted_trials(prediction)));
     }
     columns.push_back(std::move(column));
   }
   return columns;
 }
 
-std::vector<TheoryPrediction> predictions_of(std::span<const layout::PointColumn> columns,
-                                             std::int64_t trials, const std::filesystem::path& file) {
-  std::vector<TheoryPrediction> predictions;
+std::vector<theory::PointPrediction> predictions_of(std::span<const layout::PointColumn> columns,
+                                                    std::int64_t trials, const std::filesystem::path& file) {
+  std::vector<theory::PointPrediction> predictions;
   for (const PredictionField& field : prediction_fields()) {
     const std::vector<double>& proportions = find_column(columns, field.name, file).values;
     predictions.resize(proportions.size(), {trials, 0, 0, 0});

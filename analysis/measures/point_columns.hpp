@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "analysis/measures/point_statistics.hpp"
-#include "analysis/measures/theory_prediction.hpp"
 #include "analysis/text/report_field.hpp"
+#include "analysis/theory/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"
 
@@ -30,26 +30,27 @@ layout::StatisticTable level_table(std::span<const PointSummary> points,
 /// in the results file.
 struct PredictionField {
   std::string_view name;
-  std::string_view long_name;              ///< with the denominator
-  std::int64_t TheoryPrediction::*trials;  ///< the trials in the numerator
+  std::string_view long_name;                     ///< with the denominator
+  std::int64_t theory::PointPrediction::*trials;  ///< the trials in the numerator
 };
 
 /// Where (6) holds, and where (7) is exceeded.
 std::span<const PredictionField> prediction_fields();
 
 /// The proportions of prediction_fields() as columns of /point, NaN where the criteria are about no trial.
-std::vector<layout::PointColumn> prediction_columns(std::span<const TheoryPrediction> predictions);
+std::vector<layout::PointColumn> prediction_columns(std::span<const theory::PointPrediction> predictions);
 
 /// The reverse of prediction_columns, [point]: the predictions behind the columns of those names, for points
 /// with `trials` trials each.
 /// @throws Failure (bad_data), with `file` in the message, where a column is missing or holds no proportions.
-std::vector<TheoryPrediction> predictions_of(std::span<const layout::PointColumn> columns,
-                                             std::int64_t trials, const std::filesystem::path& file);
+std::vector<theory::PointPrediction> predictions_of(std::span<const layout::PointColumn> columns,
+                                                    std::int64_t trials, const std::filesystem::path& file);
 
 /// One number of PointSummary as it is reported.
 using StatisticField = text::ReportField<PointSummary>;
 
-/// Those of a study with these features, in the order of the report: what only some studies have comes last.
+/// The fields of a study with these features, in the order of the report. Fields of some studies only come
+/// last.
 std::vector<StatisticField> statistic_fields(const study::StudyFeatures& features = {},
                                              const layout::MeasureTable& measures = layout::measure_table());
 

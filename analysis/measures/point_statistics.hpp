@@ -35,7 +35,7 @@ struct OutcomeCounts {
 };
 
 /// Where an outcome is counted.
-/// @throws Failure (bad_data) for a value that is no outcome, which only a damaged file has.
+/// @throws Failure (bad_data) for a value that is not an outcome: the file is damaged.
 std::int64_t OutcomeCounts::*counter_of(trial::Outcome outcome);
 
 /// Time between the onsets of successive jerks of a move, s.

@@ -9,7 +9,7 @@
 
 namespace zerocount::measures {
 
-/// A part of a summary that only some studies have, made apart from the rest.
+/// A part of a summary that only some studies have.
 struct SummarySection {
   std::string key;                           ///< its name in the JSON of each point
   std::vector<nlohmann::ordered_json> json;  ///< [point]

@@ -15,7 +15,7 @@ struct UndecidedMoves {
   std::int64_t moves{0};          ///< of all trials
   std::int64_t off_target{0};     ///< of them, undecided
   std::int64_t still_falling{0};  ///< of these, with an error that fell in the last half of the hold
-  /// Moves that count as oscillating whose error fell likewise and kept its sign, with a ripple of a count:
+  /// Moves that count as oscillating whose error fell too and kept its sign, with a ripple of a count:
   /// a proportional gain makes the count chatter on the edges that it passes.
   std::int64_t falling_with_ripple{0};
   /// Moves whose error fell to within one count in the last half of the hold, and that had not arrived.

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <initializer_list>
 #include <iterator>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,9 +10,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "analysis/measures/trial_loops.hpp"
-#include "analysis/report/bode_curve.hpp"
 #include "analysis/report/report_figures.hpp"
+#include "analysis/theory/bode_curve.hpp"
+#include "analysis/theory/point_theory.hpp"
+#include "analysis/theory/trial_loops.hpp"
 #include "core/theory/margins.hpp"
 #include "core/theory/stability.hpp"
 
@@ -28,7 +28,7 @@ constexpr std::int64_t shown_trial = 0;
 struct LoopCurve {
   std::string label;
   theory::StabilityMargins margins;
-  std::vector<BodePoint> points;
+  std::vector<theory::BodePoint> points;
 };
 
 std::vector<double> margin_frequencies(const theory::StabilityMargins& margins) {
@@ -62,7 +62,7 @@ const char* stability_label(theory::LoopStability stability) {
 }
 
 /// "at k1: 16.2 dB, 49.4°".
-std::string label_of_loop(const measures::TrialLoop& loop, const theory::StabilityMargins& margins) {
+std::string label_of_loop(const theory::TrialLoop& loop, const theory::StabilityMargins& margins) {
   return fmt::format("{}: {}, {}{}", loop.name, value_with_unit(decibels(margins.gain.value), " dB"),
                      value_with_unit(margins.phase.value, "°"),
                      stability_label(theory::stability_of(loop.loop)));
@@ -72,9 +72,9 @@ std::string label_of_loop(const measures::TrialLoop& loop, const theory::Stabili
 /// where that is lower. A loop without gain has none.
 std::vector<LoopCurve> loop_curves(const trial::TrialParameters& parameters) {
   double corner = 0.5 * parameters.controller.sample_rate;
-  const std::vector<measures::TrialLoop> loops = measures::trial_loops(parameters);
+  const std::vector<theory::TrialLoop> loops = theory::trial_loops(parameters);
   std::vector<LoopCurve> curves;
-  for (const measures::TrialLoop& loop : loops) {
+  for (const theory::TrialLoop& loop : loops) {
     const theory::StabilityMargins margins = theory::stability_margins(loop.loop);
     curves.push_back({label_of_loop(loop, margins), margins, {}});
     if (loop.stiffness > 0.0)
@@ -82,7 +82,7 @@ std::vector<LoopCurve> loop_curves(const trial::TrialParameters& parameters) {
     for (const double frequency : margin_frequencies(margins)) corner = std::min(corner, frequency);
   }
   for (std::size_t i = 0; i < loops.size(); ++i)
-    curves[i].points = bode_curve(loops[i].loop, 0.1 * corner, margin_frequencies(curves[i].margins));
+    curves[i].points = theory::bode_curve(loops[i].loop, 0.1 * corner, margin_frequencies(curves[i].margins));
   std::erase_if(curves, [](const LoopCurve& curve) { return curve.points.empty(); });
   return curves;
 }
@@ -94,7 +94,7 @@ FigureData curve_data(const std::vector<LoopCurve>& curves) {
                    {"magnitude", "magnitude", "dB"},
                    {"phase", "phase", "°"}}};
   for (const LoopCurve& curve : curves) {
-    for (const BodePoint& point : curve.points) {
+    for (const theory::BodePoint& point : curve.points) {
       data.rows.push_back(ordered_json::array(
           {curve.label, datum(point.frequency, 9), datum(point.magnitude), datum(point.phase)}));
     }
@@ -102,9 +102,9 @@ FigureData curve_data(const std::vector<LoopCurve>& curves) {
   return data;
 }
 
-const BodePoint& point_at(const LoopCurve& curve, double frequency) {
+const theory::BodePoint& point_at(const LoopCurve& curve, double frequency) {
   return *std::min_element(curve.points.begin(), curve.points.end(),
-                           [&](const BodePoint& a, const BodePoint& b) {
+                           [&](const theory::BodePoint& a, const theory::BodePoint& b) {
                              return std::abs(a.frequency - frequency) < std::abs(b.frequency - frequency);
                            });
 }
@@ -123,7 +123,7 @@ FigureData margin_data(const std::vector<LoopCurve>& curves) {
                    {"reversal", "", "°"}}};
   const auto add = [&](const LoopCurve& curve, const char* name, const std::string& value,
                        double phase_margin, double frequency) {
-    const BodePoint& point = point_at(curve, frequency);
+    const theory::BodePoint& point = point_at(curve, frequency);
     data.rows.push_back(
         ordered_json::array({curve.label, name, value, datum(frequency, 9), datum(point.magnitude), 0,
                              datum(point.phase), datum(point.phase - phase_margin)}));
@@ -138,18 +138,8 @@ FigureData margin_data(const std::vector<LoopCurve>& curves) {
   return data;
 }
 
-struct Extent {
-  double low{std::numeric_limits<double>::infinity()};
-  double high{-std::numeric_limits<double>::infinity()};
-
-  void add(double value) {
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-};
-
 /// −180° and what differs from it by whole turns, where the curves pass.
-FigureData reversal_levels(const Extent& phases) {
+FigureData reversal_levels(const theory::Range& phases) {
   FigureData data{"levels", {{"level", "", "°"}}};
   data.rows.push_back(ordered_json::array({-180}));
   for (double level = -180.0 - 360.0; level > phases.low; level -= 360.0)
@@ -160,20 +150,20 @@ FigureData reversal_levels(const Extent& phases) {
 }
 
 /// The magnitudes that are shown, dB: a deep antiresonance, or an undamped resonance, would flatten the rest.
-Extent shown_magnitudes(const std::vector<LoopCurve>& curves) {
+theory::Range shown_magnitudes(const std::vector<LoopCurve>& curves) {
   constexpr double largest = 80.0;
   constexpr double step = 20.0;
-  Extent all;
+  theory::Range all;
   all.add(0.0);
   for (const LoopCurve& curve : curves) {
-    for (const BodePoint& point : curve.points) all.add(point.magnitude);
+    for (const theory::BodePoint& point : curve.points) all.add(point.magnitude);
   }
   return {step * std::floor(std::max(all.low, -largest) / step),
           step * std::ceil(std::min(all.high, largest) / step)};
 }
 
 /// Tick values: multiples of the least of `steps` of which at most six fit between low and high.
-ordered_json ticks_between(const Extent& extent, std::initializer_list<double> steps) {
+ordered_json ticks_between(const theory::Range& extent, std::initializer_list<double> steps) {
   const auto found = std::find_if(steps.begin(), steps.end(),
                                   [&](double step) { return (extent.high - extent.low) / step <= 6.0; });
   const double step = found == steps.end() ? *std::prev(found) : *found;
@@ -186,7 +176,7 @@ ordered_json ticks_between(const Extent& extent, std::initializer_list<double> s
 /// "at k1 of 110 N m/rad, …, while sliding none".
 std::string springs_text(const trial::TrialParameters& parameters, std::string_view unit) {
   std::string text;
-  for (const measures::TrialLoop& loop : measures::trial_loops(parameters)) {
+  for (const theory::TrialLoop& loop : theory::trial_loops(parameters)) {
     const std::string spring =
         loop.stiffness > 0.0 ? fmt::format("of {:.4g} {}", loop.stiffness, unit) : "none";
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", loop.name, spring);
@@ -195,7 +185,7 @@ std::string springs_text(const trial::TrialParameters& parameters, std::string_v
 }
 
 std::string bode_caption(const ReportedStudy& reported, const trial::TrialParameters& parameters,
-                         const Extent& magnitudes) {
+                         const theory::Range& magnitudes) {
   const std::string unit = parameters::unit_on(reported.study.units.axis, "N m/rad");
   return fmt::format(
       "Frequency response of the open loop L(z) = C(z)·z^(−d)·G(z), z = exp(iωT), from error to count, of "
@@ -221,15 +211,15 @@ std::optional<Figure> bode_figure(const ReportedStudy& reported) {
       study::study_trial(reported.study, reported.focus, shown_trial).parameters;
   const std::vector<LoopCurve> curves = loop_curves(parameters);
   if (curves.empty()) return std::nullopt;
-  Extent frequencies;
-  Extent phases;
+  theory::Range frequencies;
+  theory::Range phases;
   phases.add(-180.0);
   for (const LoopCurve& curve : curves) {
     frequencies.add(curve.points.front().frequency);
     frequencies.add(curve.points.back().frequency);
-    for (const BodePoint& point : curve.points) phases.add(point.phase);
+    for (const theory::BodePoint& point : curve.points) phases.add(point.phase);
   }
-  const Extent magnitudes = shown_magnitudes(curves);
+  const theory::Range magnitudes = shown_magnitudes(curves);
   Figure figure =
       figure_of("bode", "bode", "Bode plot of the open loop", bode_caption(reported, parameters, magnitudes),
                 {curve_data(curves), margin_data(curves), reversal_levels(phases)});

@@ -46,7 +46,7 @@ std::string table_of(const std::vector<ComparedMeasure>& measures) {
   for (std::size_t i = 0; i < std::min(measures.size(), max_measures); ++i) {
     const comparison::MeasureComparison& one = *measures[i].measure;
     const auto text = [&](double value) { return comparison::value_text(value, one.measure, one.unit); };
-    add_row(columns, {measures[i].point->label, one.measure, std::string(comparison::word_of(one.change)),
+    add_row(columns, {measures[i].point->label, one.measure, std::string(comparison::to_string(one.change)),
                       text(one.baseline), text(one.current), text(one.effect),
                       fmt::format("{} … {}", text(one.bounds.low), text(one.bounds.high)), text(one.margin),
                       text::short_number(comparison::shown_p(one))});
@@ -69,7 +69,7 @@ std::string requirements_table(const comparison::StudyComparison& comparison) {
   for (const comparison::PointComparison& point : comparison.points) {
     for (const comparison::RequirementResult& one : point.requirements)
       add_row(columns, {point.label, one.text, comparison::value_text(one.value, one.quantity, one.unit),
-                        std::string(comparison::word_of(one.verdict))});
+                        std::string(comparison::to_string(one.verdict))});
   }
   if (columns.front().cells.empty()) return "";
   return "<h3>Requirements</h3>\n" + html_table(columns);
@@ -113,7 +113,7 @@ Figure margins_figure(const comparison::StudyComparison& comparison,
     data.rows.push_back(ordered_json::array(
         {fmt::format("{}: {}", one.point->label, measure.measure), datum(measure.effect / measure.margin),
          datum(measure.bounds.low / measure.margin), datum(measure.bounds.high / measure.margin),
-         std::string(comparison::word_of(measure.change)), text(measure.effect), text(measure.margin)}));
+         std::string(comparison::to_string(measure.change)), text(measure.effect), text(measure.margin)}));
   }
   std::string caption = fmt::format(
       "Change of every measure for the worse (dot) with its bounds, {:.4g} % each (bar), in units of its "
@@ -145,7 +145,7 @@ Figure success_change(const comparison::StudyComparison& comparison,
       continue;
     data.rows.push_back(ordered_json::array(
         {one.point->label, datum(-100.0 * one.measure->effect), datum(-100.0 * one.measure->bounds.high),
-         datum(-100.0 * one.measure->bounds.low), std::string(comparison::word_of(one.measure->change)),
+         datum(-100.0 * one.measure->bounds.low), std::string(comparison::to_string(one.measure->change)),
          datum(-100.0 * one.measure->margin)}));
   }
   std::string caption = fmt::format(

@@ -148,15 +148,15 @@ void set_axes(ordered_json& specification, const ShownUnit& unit, const AxisRang
   colours["range"].erase(1);
 }
 
-Figure fit_figure(const RecordSummary& record, const FittedRecord& beside, std::size_t number,
+Figure fit_figure(const RecordSummary& record, const FittedRecord& fit, std::size_t number,
                   std::size_t buckets) {
   const ShownUnit unit = shown_unit(record);
-  const std::vector<std::size_t> samples = drawn_samples(beside, buckets);
-  const double band = unit.size * residual_band(record, beside);
+  const std::vector<std::size_t> samples = drawn_samples(fit, buckets);
+  const double band = unit.size * residual_band(record, fit);
   Figure figure = figure_of("identification", fmt::format("record-{}", number), record.name,
                             fit_caption(record, unit, band, samples.size()),
-                            {samples_data(beside, unit, samples), masks_data(beside), band_data(band)});
-  set_axes(figure.specification, unit, angle_range(beside, unit), record.excluded > 0);
+                            {samples_data(fit, unit, samples), masks_data(fit), band_data(band)});
+  set_axes(figure.specification, unit, angle_range(fit, unit), record.excluded > 0);
   return figure;
 }
 
@@ -195,21 +195,21 @@ std::vector<std::size_t> drawn_samples(const FittedRecord& record, std::size_t b
   return drawn;
 }
 
-double reading_noise(const RecordSummary& record, const FittedRecord& beside) {
+double reading_noise(const RecordSummary& record, const FittedRecord& fit) {
   if (record.counted) return record.noise;
   double squares = 0.0;
   double differences = 0.0;
-  for (std::size_t k = 1; k < beside.time.size(); ++k) {
-    if (beside.excluded[k] || beside.excluded[k - 1]) continue;
-    const double difference = residual(beside, k) - residual(beside, k - 1);
+  for (std::size_t k = 1; k < fit.time.size(); ++k) {
+    if (fit.excluded[k] || fit.excluded[k - 1]) continue;
+    const double difference = residual(fit, k) - residual(fit, k - 1);
     squares += difference * difference;
     differences += 1.0;
   }
   return differences > 0.0 ? std::sqrt(0.5 * squares / differences) : 0.0;
 }
 
-double residual_band(const RecordSummary& record, const FittedRecord& beside) {
-  return (record.counted ? 0.5 : 0.0) + normal_95 * reading_noise(record, beside);
+double residual_band(const RecordSummary& record, const FittedRecord& fit) {
+  return (record.counted ? 0.5 : 0.0) + normal_95 * reading_noise(record, fit);
 }
 
 ReportPage identification_page(const Identification& identification) {

@@ -18,10 +18,10 @@ std::vector<std::size_t> drawn_samples(const identification::FittedRecord& recor
 /// Standard deviation of the noise of a record's readings, in their unit. Of readings that are not counts by
 /// the differences of successive residuals, to which slow departures of the model from the record add little:
 /// σ² is half their mean square (von Neumann et al., Ann. Math. Statist. 12 (1941) 153).
-double reading_noise(const identification::RecordSummary& record, const identification::FittedRecord& beside);
+double reading_noise(const identification::RecordSummary& record, const identification::FittedRecord& fit);
 
 /// Half the width of the band in which rounding and noise leave the residuals, in the record's unit: half a
 /// count for counts, plus 1.96 standard deviations of the noise.
-double residual_band(const identification::RecordSummary& record, const identification::FittedRecord& beside);
+double residual_band(const identification::RecordSummary& record, const identification::FittedRecord& fit);
 
 }  // namespace zerocount::report

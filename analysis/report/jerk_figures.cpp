@@ -6,6 +6,7 @@
 
 #include "analysis/jerks/jerk_statistics.hpp"
 #include "analysis/report/report_figures.hpp"
+#include "analysis/statistics/spread_over.hpp"
 #include "analysis/text/text.hpp"
 #include "core/numerics/sign.hpp"
 
@@ -54,7 +55,7 @@ ShownMoves shown_moves(const ReportedStudy& reported, std::int64_t point) {
         });
   };
   visit_jerking([&](std::int64_t, const JerkingMove&) { ++moves.all; });
-  const std::vector<std::int64_t> chosen = spread_over(moves.all, max_moves);
+  const std::vector<std::int64_t> chosen = statistics::spread_over(moves.all, max_moves);
   visit_jerking([&](std::int64_t index, const JerkingMove& move) {
     if (std::binary_search(chosen.begin(), chosen.end(), index)) moves.shown.push_back(move);
   });
@@ -80,7 +81,7 @@ std::int64_t add_jerks(FigureData& data, const reading::StudyFile& file, const J
   return left_out;
 }
 
-/// What the directions of the jerks say of their cause.
+/// The cause of the jerks that their directions suggest.
 std::string direction_sentence(const statistics::ClusteredProportion& agreement) {
   const std::string proportion = text::percentage(agreement.hits, agreement.events);
   if (agreement.hits == agreement.events)

@@ -27,7 +27,7 @@ std::string settling_bounds(const measures::PointSummary& point, const statistic
 }
 
 using Point = const measures::PointSummary&;
-using Theory = const measures::TheoryPrediction&;
+using Theory = const theory::PointPrediction&;
 using Bounds = const statistics::ConfidenceInterval&;
 
 /// A column of the table of points, with the function that makes its cells.
@@ -92,11 +92,11 @@ constexpr PointCell motion_cells[] = {
      [](Point point, Theory) { return text::short_number(point.of(&trial::MoveOutcome::jerk_count).mean); }},
     {"(6) holds", "",
      [](Point, Theory prediction) {
-       return text::percentage(prediction.stable, measures::predicted_trials(prediction));
+       return text::percentage(prediction.stable, theory::predicted_trials(prediction));
      }},
     {"(7) ex\u00adceeded", "",
      [](Point, Theory prediction) {
-       return text::percentage(prediction.unstable, measures::predicted_trials(prediction));
+       return text::percentage(prediction.unstable, theory::predicted_trials(prediction));
      }},
 };
 
@@ -125,8 +125,8 @@ HtmlColumn column_of(const PointCell& cell, const ReportedStudy& reported, std::
   if (summary.features.dependent_trials && cell.below != nullptr)
     column.unit += (column.unit.empty() ? "" : "; ") + std::string("bounds too narrow");
   for (std::size_t i = 0; i < rows; ++i) {
-    const measures::TheoryPrediction prediction =
-        summary.predictions.empty() ? measures::TheoryPrediction{} : summary.predictions[i];
+    const theory::PointPrediction prediction =
+        summary.predictions.empty() ? theory::PointPrediction{} : summary.predictions[i];
     column.cells.push_back(cell.text(summary.points[i], prediction));
     if (cell.below != nullptr)
       column.below.push_back(cell.below(summary.points[i], reported.success_bounds[i]));

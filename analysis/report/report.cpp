@@ -106,7 +106,7 @@ StudyReport study_report(const reading::StudyFile& file, const ReportOptions& op
   if (options.focus) {
     if (*options.focus < 0 || *options.focus >= file.header().points) {
       throw Failure(ExitCode::bad_input,
-                    fmt::format("{}: there is no design point {}; expected 0 to {}", file.path().string(),
+                    fmt::format("{}: unknown design point {}; expected 0 to {}", file.path().string(),
                                 *options.focus, file.header().points - 1));
     }
     reported.focus = *options.focus;
@@ -170,8 +170,8 @@ const Figure& find_figure(const ReportPage& page, const std::string& name) {
   }
   std::string known;
   for (const std::string& other : figure_names(page)) known += (known.empty() ? "" : ", ") + other;
-  throw Failure(ExitCode::bad_input, fmt::format("there is no figure '{}' of this study; there are: {}", name,
-                                                 known.empty() ? "none" : known));
+  throw Failure(ExitCode::bad_input,
+                fmt::format("unknown figure '{}'; this study has: {}", name, known.empty() ? "none" : known));
 }
 
 std::string drawing_program(const Figure& figure) {

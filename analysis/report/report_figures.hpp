@@ -26,7 +26,7 @@ std::vector<Figure> jerk_figures(const ReportedStudy& reported);
 /// Profiles along the rotor with the failed trials, and the success rate by position.
 std::vector<Figure> rotor_figures(const ReportedStudy& reported);
 
-/// Bode plot of the open loops of trial 0 of the focus point (measures::trial_loops).
+/// Bode plot of the open loops of trial 0 of the focus point (theory::trial_loops).
 std::optional<Figure> bode_figure(const ReportedStudy& reported);
 
 /// A shown trial of the study.

@@ -38,13 +38,6 @@ layout::RowRange rows_of(const ReportedStudy& reported, std::int64_t point) {
   return {point * trials, trials};
 }
 
-std::vector<std::int64_t> spread_over(std::int64_t size, std::int64_t max_count) {
-  const std::int64_t count = std::min(size, max_count);
-  std::vector<std::int64_t> indices;
-  for (std::int64_t i = 0; i < count; ++i) indices.push_back(count == 1 ? 0 : i * (size - 1) / (count - 1));
-  return indices;
-}
-
 std::string axis_title(const study::SweepAxis& axis) {
   if (axis.unit.empty() || axis.unit == "1") return axis.name;
   return fmt::format("{} ({})", axis.name, axis.unit);

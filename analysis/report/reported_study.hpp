@@ -52,9 +52,6 @@ std::int64_t most_telling_point(const std::vector<measures::PointSummary>& point
 /// The global rows of the trials of a point.
 layout::RowRange rows_of(const ReportedStudy& reported, std::int64_t point);
 
-/// At most `max_count` evenly spaced indices of 0 … `size` − 1, increasing.
-std::vector<std::int64_t> spread_over(std::int64_t size, std::int64_t max_count);
-
 /// "controller.ki (N m/count)".
 std::string axis_title(const study::SweepAxis& axis);
 

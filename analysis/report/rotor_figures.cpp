@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/report_figures.hpp"
+#include "analysis/statistics/spread_over.hpp"
 #include "results/layout/layout.hpp"
 
 namespace zerocount::report {
@@ -78,7 +79,7 @@ double value_at(const reading::StoredProfile& profile, double angle, double peri
 
 FigureData profile_data(const reading::StoredProfile& profile) {
   FigureData data{"profile", {{"theta", "rotor angle", "rad"}, {"value", profile.name, profile.unit}}};
-  for (const std::int64_t i : spread_over(std::ssize(profile.theta), profile_points)) {
+  for (const std::int64_t i : statistics::spread_over(std::ssize(profile.theta), profile_points)) {
     const auto at = static_cast<std::size_t>(i);
     data.rows.push_back(ordered_json::array({datum(profile.theta[at]), datum(profile.value[at])}));
   }
@@ -171,7 +172,7 @@ Figure rotor_figure(const ReportedStudy& reported, const reading::StoredProfile&
                      {"theta", "rotor angle at the end", "rad"},
                      {"value", profile.name, profile.unit},
                      {"outcome", "outcome", ""}}};
-  for (const std::int64_t i : spread_over(std::ssize(failures), max_failures)) {
+  for (const std::int64_t i : statistics::spread_over(std::ssize(failures), max_failures)) {
     const EndOnRotor& end = failures[static_cast<std::size_t>(i)];
     trials.rows.push_back(
         ordered_json::array({end.trial, datum(end.angle), datum(value_at(profile, end.angle, period)),
@@ -203,7 +204,7 @@ std::vector<Figure> rotor_figures(const ReportedStudy& reported) {
   const std::optional<std::size_t> column = position_column(reported.file);
   if (reported.study.open_loop || !column || !reported.file.has_profiles()) return figures;
   const std::vector<reading::StoredProfile> profiles = reported.file.profiles();
-  for (const std::int64_t i : spread_over(std::ssize(profiles), max_profiles))
+  for (const std::int64_t i : statistics::spread_over(std::ssize(profiles), max_profiles))
     figures.push_back(rotor_figure(reported, profiles[static_cast<std::size_t>(i)], *column));
   return figures;
 }

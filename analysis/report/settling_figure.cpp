@@ -7,6 +7,7 @@
 
 #include "analysis/report/report_figures.hpp"
 #include "analysis/statistics/histogram.hpp"
+#include "analysis/statistics/spread_over.hpp"
 
 namespace zerocount::report {
 namespace {
@@ -56,7 +57,7 @@ std::vector<std::int64_t> points_with_curves(const ReportedStudy& reported) {
     return settling_of(reported, a).n > settling_of(reported, b).n;
   });
   std::vector<std::int64_t> shown;
-  for (const std::int64_t i : spread_over(std::ssize(with_arrivals), max_curves))
+  for (const std::int64_t i : statistics::spread_over(std::ssize(with_arrivals), max_curves))
     shown.push_back(with_arrivals[static_cast<std::size_t>(i)]);
   std::sort(shown.begin(), shown.end());
   return shown;

@@ -5,9 +5,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "analysis/report/criterion_curves.hpp"
 #include "analysis/report/report_figures.hpp"
 #include "analysis/report/reported_study.hpp"
+#include "analysis/statistics/spread_over.hpp"
+#include "analysis/theory/criterion_curves.hpp"
 
 namespace zerocount::report {
 namespace {
@@ -65,9 +66,9 @@ FigureData cells_of(const ReportedStudy& reported, const PointGroup& group, cons
     const measures::RateWithBounds& rate = reported.summary.points[at].success_rate();
     const statistics::ConfidenceInterval& bounds = reported.success_bounds[at];
     const bool predicted = !reported.summary.predictions.empty();
-    const measures::TheoryPrediction prediction =
-        predicted ? reported.summary.predictions[at] : measures::TheoryPrediction{};
-    const std::int64_t of = measures::predicted_trials(prediction);
+    const theory::PointPrediction prediction =
+        predicted ? reported.summary.predictions[at] : theory::PointPrediction{};
+    const std::int64_t of = theory::predicted_trials(prediction);
     const double x_value = x.numbers[at];
     const double y_value = y.numbers[at];
     cells.rows.push_back(ordered_json::array(
@@ -83,8 +84,9 @@ FigureData curves_of(const ReportedStudy& reported, const PointGroup& group, con
                      const study::SweepAxis& y) {
   const CellEdges x_edges(x);
   const CellEdges y_edges(y);
-  const CriterionPlane plane{{x.name, x_edges.values.front(), x_edges.values.back(), x_edges.by_ratio},
-                             {y.name, y_edges.values.front(), y_edges.values.back(), y_edges.by_ratio}};
+  const theory::CriterionPlane plane{
+      {x.name, x_edges.values.front(), x_edges.values.back(), x_edges.by_ratio},
+      {y.name, y_edges.values.front(), y_edges.values.back(), y_edges.by_ratio}};
   FigureData data{"curves",
                   {{"criterion", "criterion", ""},
                    {"which", "trial (first or last to reach it)", ""},
@@ -95,7 +97,8 @@ FigureData curves_of(const ReportedStudy& reported, const PointGroup& group, con
                    {"name_here", "", "1"},
                    {"side", "", ""}}};
   double place = 0.85;  // height of the first label; different heights avoid overlaps
-  for (const CriterionCurve& curve : criterion_curves(reported.study, group.points.front(), plane)) {
+  for (const theory::CriterionCurve& curve :
+       theory::criterion_curves(reported.study, group.points.front(), plane)) {
     const char* which = curve.first ? "first" : "last";
     const auto named = static_cast<std::size_t>(place * static_cast<double>(curve.points.size()));
     // The label stands outside of the pair of curves if there is room.
@@ -150,7 +153,7 @@ std::vector<Figure> stability_maps(const ReportedStudy& reported) {
       std::find_if(axes.begin(), axes.end(), [&](std::size_t i) { return all[i].name == "controller.ki"; });
   if (gain != axes.end()) std::rotate(axes.begin(), gain, gain + 1);
   const std::vector<PointGroup> groups = groups_along(reported, {axes[0], axes[1]});
-  for (const std::int64_t group : spread_over(std::ssize(groups), max_maps)) {
+  for (const std::int64_t group : statistics::spread_over(std::ssize(groups), max_maps)) {
     maps.push_back(
         map_of(reported, groups[static_cast<std::size_t>(group)], maps.size(), all[axes[0]], all[axes[1]]));
   }

@@ -8,6 +8,7 @@
 
 #include "analysis/report/report_figures.hpp"
 #include "analysis/report/reported_study.hpp"
+#include "analysis/statistics/spread_over.hpp"
 
 namespace zerocount::report {
 namespace {
@@ -46,7 +47,7 @@ std::vector<std::int64_t> points_with_lines(const ReportedStudy& reported) {
     return point_of(reported, a).success_rate().value > point_of(reported, b).success_rate().value;
   });
   std::vector<std::int64_t> shown;
-  for (const std::int64_t i : spread_over(std::ssize(order), max_lines))
+  for (const std::int64_t i : statistics::spread_over(std::ssize(order), max_lines))
     shown.push_back(order[static_cast<std::size_t>(i)]);
   return shown;
 }
@@ -89,7 +90,7 @@ Figure along_axis(const ReportedStudy& reported, std::size_t axis) {
   FigureData data{"points", common_columns()};
   data.columns.push_back({"x", swept.name, swept.unit});
   data.columns.push_back({"series", "", ""});
-  for (const std::int64_t group : spread_over(std::ssize(groups), max_series)) {
+  for (const std::int64_t group : statistics::spread_over(std::ssize(groups), max_series)) {
     for (const std::int64_t point : groups[static_cast<std::size_t>(group)].points) {
       ordered_json row = row_of(reported, point);
       row.push_back(swept.numbers[static_cast<std::size_t>(point)]);

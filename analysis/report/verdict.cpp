@@ -59,7 +59,7 @@ std::string claim_text(const ReportedStudy& reported, std::int64_t best) {
   if (!reported.summary.features.dependent_trials)
     return statistics::claim_sentence(claim_of_best(reported, best));
   const measures::PointSummary& point = point_of(reported, best);
-  return fmt::format("{} of the trials succeeded ({}), which is no statement about all axes",
+  return fmt::format("{} of the trials succeeded ({}), which says nothing about all axes",
                      text::percentage(point.outcomes.zero_count, point.trials),
                      of_all(point.outcomes.zero_count, point.trials));
 }
@@ -211,8 +211,8 @@ struct DecidedPoints {
 void add_theory(std::vector<std::string>& lines, const ReportedStudy& reported) {
   DecidedPoints stable, beyond;
   for (std::size_t i = 0; i < reported.summary.predictions.size(); ++i) {
-    const measures::TheoryPrediction& prediction = reported.summary.predictions[i];
-    if (measures::predicted_trials(prediction) == 0) continue;
+    const theory::PointPrediction& prediction = reported.summary.predictions[i];
+    if (theory::predicted_trials(prediction) == 0) continue;
     if (prediction.stable == prediction.trials) stable.add(reported.summary.points[i]);
     if (prediction.unstable == prediction.trials) beyond.add(reported.summary.points[i]);
   }

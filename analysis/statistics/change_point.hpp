@@ -11,7 +11,7 @@
 /// Changes of the level of a sequence of measurements that comes one by one.
 namespace zerocount::statistics {
 
-/// What a sequence measures, which decides the likelihood.
+/// Kind of a measurement, which determines the likelihood.
 enum class MeasurementKind {
   mean,       ///< of n values: normal, with a variance that is known for each measurement
   proportion  ///< of n trials: binomial, with a design effect where trials depend on each other

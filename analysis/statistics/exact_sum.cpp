@@ -99,10 +99,10 @@ void ExactSum::add_square(double value) {
   add_scaled(1, b * b, exponent);
 }
 
-bool ExactSum::is_sound() const {
+bool ExactSum::is_valid() const {
   const auto is_digit = [](std::int64_t digit) { return digit > -digit_base && digit < digit_base; };
-  constexpr std::int64_t most_digits = last_place + 4;  // of sums of up to 2^63 squares
-  return first_ >= 0 && std::ssize(digits_) <= most_digits && first_ <= most_digits - std::ssize(digits_) &&
+  constexpr std::int64_t max_digits = last_place + 4;  // of sums of up to 2^63 squares
+  return first_ >= 0 && std::ssize(digits_) <= max_digits && first_ <= max_digits - std::ssize(digits_) &&
          std::all_of(digits_.begin(), digits_.end(), is_digit);
 }
 

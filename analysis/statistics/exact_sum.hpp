@@ -32,13 +32,13 @@ class ExactSum {
       archive(sum.first_, sum.digits_);
     } else {
       archive(self.first_, self.digits_);
-      archive.require(self.is_sound());
+      archive.require(self.is_valid());
     }
   }
 
  private:
   /// Whether the restored digits and their places are within their ranges.
-  bool is_sound() const;
+  bool is_valid() const;
   /// Brings the digits into the one form that stands for the number, whatever it was the sum of.
   void normalise();
   void add_scaled(std::int64_t sign, std::int64_t whole, std::int64_t exponent);

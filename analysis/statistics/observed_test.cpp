@@ -13,13 +13,13 @@
 namespace zerocount::statistics {
 namespace {
 
-constexpr std::int64_t most_trials = 1'000'000'000;  // products of two numbers of trials fit 64 bits
+constexpr std::int64_t max_trials = 1'000'000'000;  // products of two numbers of trials fit 64 bits
 
 void require_counts(const Successes& counts) {
-  if (counts.successes >= 0 && counts.successes <= counts.trials && counts.trials <= most_trials) return;
+  if (counts.successes >= 0 && counts.successes <= counts.trials && counts.trials <= max_trials) return;
   throw Failure(ExitCode::bad_data,
                 fmt::format("{} successes in {} trials; expected 0 ≤ successes ≤ trials ≤ {}",
-                            counts.successes, counts.trials, most_trials));
+                            counts.successes, counts.trials, max_trials));
 }
 
 /// P(x), x = 0 … n, of the number of successes among n trials taken from all of them (hypergeometric).

@@ -57,7 +57,7 @@ double proportion_at_most(std::int64_t successes, std::int64_t trials, double co
 ConfidenceInterval wilson(std::int64_t successes, std::int64_t trials,
                           double confidence = summary_confidence);
 
-/// The same formula for the proportion p of n independent events, n > 0 and not necessarily whole.
+/// The formula above for the proportion p of n independent events, n > 0 and not necessarily whole.
 ConfidenceInterval wilson_interval(double p, double n, double z);
 
 }  // namespace zerocount::statistics

@@ -52,7 +52,7 @@ double rule_of_three(const SuccessClaim& claim) {
 }
 
 std::string claim_sentence(const SuccessClaim& claim) {
-  if (claim.trials == 0) return "nothing: there is no trial";
+  if (claim.trials == 0) return "nothing: no trial";
   const std::string level = fmt::format("with {} confidence", text::percent(claim.confidence));
   const std::string subject = claim.rigs > 0 ? "trials on all rigs" : "axes";
   const std::string trials =

@@ -14,12 +14,12 @@ namespace {
 /// The comparison of a point.
 struct Comparison {
   study::ObservedCounts counts;
-  std::optional<statistics::ObservedTest> test;  ///< nothing where it cannot be made
+  std::optional<statistics::ObservedTest> test;  ///< empty if the counts cannot be tested
   std::string reason;                            ///< why not
 };
 
 Comparison compare(const measures::PointSummary& point, const study::ObservedCounts& counts) {
-  if (point.judged == 0) return {counts, std::nullopt, "there is no simulated trial"};
+  if (point.judged == 0) return {counts, std::nullopt, "no trial was simulated"};
   const statistics::Successes observed{counts.successes, counts.of};
   if (point.rigs.n == 0) {
     return {counts, statistics::fisher_test(observed, {point.outcomes.zero_count, point.judged}), {}};

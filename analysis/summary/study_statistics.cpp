@@ -67,7 +67,7 @@ class JerkStream {
 
   const reading::StudyFile& file_;
   std::int64_t end_;   ///< position in the table
-  std::int64_t read_;  ///< likewise: of the first that is not in the block
+  std::int64_t read_;  ///< index of the first jerk that is not in the block
   std::vector<layout::JerkRecord> block_;
   std::size_t next_{0};
   std::vector<trial::Jerk> taken_;
@@ -161,34 +161,9 @@ std::vector<measures::PointSummary> study_statistics(const reading::StudyFile& f
   return accumulator.statistics();
 }
 
-measures::TheoryPrediction prediction_of(const study::Study& study, layout::RowRange rows) {
-  using Range = oneapi::tbb::blocked_range<std::int64_t>;
-  const auto add = [&](const Range& range, measures::TheoryPrediction prediction) {
-    for (std::int64_t row = range.begin(); row < range.end(); ++row) {
-      const study::StudyTrial trial = study::study_trial(study, row / study.trials, row % study.trials);
-      prediction.add(measures::predict(trial.parameters));
-    }
-    return prediction;
-  };
-  return oneapi::tbb::parallel_reduce(Range(rows.first, rows.end(), trials_of_task),
-                                      measures::TheoryPrediction{}, add, std::plus{});
-}
-
-std::vector<measures::TheoryPrediction> study_predictions(const study::Study& study,
-                                                          std::span<const measures::TheoryPrediction> known) {
-  std::vector<measures::TheoryPrediction> predictions(known.begin(), known.end());
-  predictions.resize(static_cast<std::size_t>(study::point_count(study)));
-  for (std::size_t point = 0; point < predictions.size(); ++point) {
-    const std::int64_t first = static_cast<std::int64_t>(point) * study.trials;
-    if (predictions[point].trials != study.trials)
-      predictions[point] = prediction_of(study, {first, study.trials});
-  }
-  return predictions;
-}
-
 layout::StoredStatistics stored_statistics(const std::vector<measures::PointSummary>& points,
                                            const study::Study& study,
-                                           const std::vector<measures::TheoryPrediction>& predictions,
+                                           const std::vector<theory::PointPrediction>& predictions,
                                            const layout::MeasureTable& table) {
   layout::StoredStatistics stored;
   stored.points = measures::point_columns(points, study.features, table);
@@ -204,9 +179,9 @@ layout::StoredStatistics stored_statistics(const std::vector<measures::PointSumm
 }
 
 layout::StoredStatistics stored_statistics(const reading::StudyFile& file, const study::Study& study,
-                                           std::span<const measures::TheoryPrediction> predictions) {
-  return stored_statistics(study_statistics(file, study), study, study_predictions(study, predictions),
-                           file.table());
+                                           std::span<const theory::PointPrediction> predictions) {
+  return stored_statistics(study_statistics(file, study), study,
+                           theory::study_predictions(study, predictions), file.table());
 }
 
 }  // namespace zerocount::summary

@@ -6,8 +6,8 @@
 
 #include "analysis/measures/point_accumulator.hpp"
 #include "analysis/measures/point_statistics.hpp"
-#include "analysis/measures/theory_prediction.hpp"
 #include "analysis/summary/summary.hpp"
+#include "analysis/theory/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
 #include "results/reading/study_file.hpp"
 
@@ -53,23 +53,15 @@ std::vector<measures::PointSummary> study_statistics(const reading::StudyFile& f
                                                      double confidence = statistics::summary_confidence,
                                                      bool bootstrap = false);
 
-/// The criteria (6) and (7) for the trials `rows`, from the parameters of each.
-measures::TheoryPrediction prediction_of(const study::Study& study, layout::RowRange rows);
-
-/// The same of all trials of every point, [point].
-/// @param known [point] predictions counted before; those that do not cover all trials are computed again
-std::vector<measures::TheoryPrediction> study_predictions(
-    const study::Study& study, std::span<const measures::TheoryPrediction> known = {});
-
 /// Everything that a results file stores of its statistics: point_columns, prediction_columns, and the
 /// levels of an open-loop study. All bounds have 95 %.
 /// @param points, predictions [point] of all trials of `study`, which stays as long as the result
 layout::StoredStatistics stored_statistics(const std::vector<measures::PointSummary>& points,
                                            const study::Study& study,
-                                           const std::vector<measures::TheoryPrediction>& predictions,
+                                           const std::vector<theory::PointPrediction>& predictions,
                                            const layout::MeasureTable& table);
-/// @param file holds all trials of `study`. @param predictions see study_predictions
+/// @param file holds all trials of `study`. @param predictions see theory::study_predictions
 layout::StoredStatistics stored_statistics(const reading::StudyFile& file, const study::Study& study,
-                                           std::span<const measures::TheoryPrediction> predictions = {});
+                                           std::span<const theory::PointPrediction> predictions = {});
 
 }  // namespace zerocount::summary

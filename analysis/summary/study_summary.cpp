@@ -135,15 +135,15 @@ class TrialsSoFar {
     statistics_.add(shard, rows);
     undecided_.add(shard, rows);
     const auto index = static_cast<std::size_t>(point);
-    predictions_[index] = predictions_[index] + prediction_of(study_, rows);
+    predictions_[index] = predictions_[index] + theory::prediction_of(study_, rows);
     counts_[index] += rows.count;
     count_ += rows.count;
   }
 
   const study::Study& study_;
   bool in_order_;
-  std::vector<std::int64_t> counts_;                     ///< [point]
-  std::vector<measures::TheoryPrediction> predictions_;  ///< [point]
+  std::vector<std::int64_t> counts_;                  ///< [point]
+  std::vector<theory::PointPrediction> predictions_;  ///< [point]
   std::int64_t count_{0};
   std::int64_t next_row_{0};  ///< after the rows of all files
   StudyAccumulator statistics_;
@@ -225,7 +225,7 @@ StudySummary summary_of_pieces(const std::filesystem::path& output, double confi
   throw Failure(ExitCode::bad_data, fmt::format("{}: no trial of this run is finished yet", output.string()));
 }
 
-/// The summary but for its points and their sections.
+/// The summary without its points and their sections.
 StudySummary summary_of(const reading::ResultsFile& file, const study::Study& study, double confidence) {
   StudySummary summary = summary_of(study, confidence);
   summary.name = file.header().name;
@@ -239,6 +239,11 @@ StudySummary summary_of(const reading::ResultsFile& file, const study::Study& st
 
 StudySummary summarise(const reading::StudyFile& file, double confidence, bool bootstrap) {
   const study::Study study = layout::recorded_study(file.header(), file.path());
+  if (file.moves() != study.moves) {
+    throw Failure(ExitCode::bad_data,
+                  fmt::format("{}: damaged: its trials have {} moves, and its manifest {}",
+                              file.path().string(), file.moves(), study.moves));
+  }
   StudySummary summary = summary_of(file, study, confidence);
   summary.points = study_statistics(file, study, confidence, bootstrap);
   UndecidedAccumulator undecided(study);

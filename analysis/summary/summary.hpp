@@ -10,7 +10,7 @@
 #include "analysis/measures/point_columns.hpp"
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/measures/summary_section.hpp"
-#include "analysis/measures/theory_prediction.hpp"
+#include "analysis/theory/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"
 #include "results/reading/statistics_file.hpp"
@@ -27,16 +27,16 @@ struct UnfinishedStudy {
 
 /// The summary of a study. Vectors by point have the length of `points`.
 struct StudySummary {
-  std::string name;                                   ///< of the study
-  std::vector<std::string> labels;                    ///< [point]
-  std::vector<study::SweepAxis> axes;                 ///< each with a value per point
-  std::map<std::string, std::string> observed;        ///< point label → what was observed on the real rig
-  std::string design{"monte_carlo"};                  ///< its word in the manifest
-  double confidence{statistics::summary_confidence};  ///< of all bounds
-  std::vector<measures::PointSummary> points;         ///< [point]
-  std::vector<measures::TheoryPrediction> predictions{};  ///< [point], or empty where not computed
-  study::StudyFeatures features{};                        ///< what the table has columns for
-  std::optional<UnfinishedStudy> unfinished{};            ///< where the run has not ended
+  std::string name;                                    ///< of the study
+  std::vector<std::string> labels;                     ///< [point]
+  std::vector<study::SweepAxis> axes;                  ///< each with a value per point
+  std::map<std::string, std::string> observed;         ///< point label → what was observed on the real rig
+  std::string design{"monte_carlo"};                   ///< its word in the manifest
+  double confidence{statistics::summary_confidence};   ///< of all bounds
+  std::vector<measures::PointSummary> points;          ///< [point]
+  std::vector<theory::PointPrediction> predictions{};  ///< [point], or empty where not computed
+  study::StudyFeatures features{};                     ///< what the table has columns for
+  std::optional<UnfinishedStudy> unfinished{};         ///< where the run has not ended
   std::vector<measures::SummarySection> sections{};
 
   /// The measures that the points have statistics of.
@@ -85,16 +85,17 @@ std::string summary_csv(const StudySummary& summary);
 StudySummary summarise(const reading::StudyFile& file, double confidence = statistics::summary_confidence,
                        bool bootstrap = false);
 
-/// The same from the sums of a file that keeps statistics.
+/// Summarises the sums of a file that keeps statistics; errors as above.
 StudySummary summarise(const reading::StatisticsFile& file,
                        double confidence = statistics::summary_confidence, bool bootstrap = false);
-/// The same of the file `path`, whatever it keeps.
+/// Summarises the file `path`, whether it keeps trials or statistics.
 StudySummary summarise_file(const std::filesystem::path& path,
                             double confidence = statistics::summary_confidence, bool bootstrap = false);
 
 /// The summary of a run that has not ended: of the trials in its shards and parts (shards::finished_pieces).
-/// Of a study with rigs, at each point those before the first that is missing, so that every rig has as many
-/// as there can be. Points without trials at the end are left out, and so are sections about all trials.
+/// In a study with rigs, only the trials of a point before the first that is missing count, so that rigs have
+/// equal numbers of them. Points without trials at the end are left out, and so are sections about all
+/// trials.
 /// @param output the results file that the run makes
 /// @throws Failure (bad_data) where there is no finished trial, a shard is damaged or of another study;
 /// (bad_input) where a shard vanishes, as shards do when the run ends.

@@ -49,7 +49,7 @@ std::string summary_csv(const StudySummary& summary) {
     for (std::size_t i = 0; i < subjects.size(); ++i) lines[i + 1].push_back(cell(subjects[i]));
   };
   const auto prediction_at = [&](std::size_t point) {
-    return summary.predictions.empty() ? measures::TheoryPrediction{} : summary.predictions[point];
+    return summary.predictions.empty() ? theory::PointPrediction{} : summary.predictions[point];
   };
   add("point", [](CsvSubject s) { return std::to_string(s.point); });
   add("label", [&](CsvSubject s) { return summary.labels[s.point]; });
@@ -70,12 +70,12 @@ std::string summary_csv(const StudySummary& summary) {
       add(text::flat_name(field), [&](CsvSubject s) { return field_text(field, summary.points[s.point]); });
     for (const measures::PredictionField& field : measures::prediction_fields()) {
       add(std::string(field.name), [&](CsvSubject s) {
-        const measures::TheoryPrediction prediction = prediction_at(s.point);
+        const theory::PointPrediction prediction = prediction_at(s.point);
         return reading::number_text(
-            statistics::rate(prediction.*field.trials, measures::predicted_trials(prediction)));
+            statistics::rate(prediction.*field.trials, theory::predicted_trials(prediction)));
       });
     }
-    add("predicted", [&](CsvSubject s) { return measures::verdict(prediction_at(s.point)); });
+    add("predicted", [&](CsvSubject s) { return theory::verdict(prediction_at(s.point)); });
   }
   add("observed", [&](CsvSubject s) { return observed_at(summary, static_cast<std::int64_t>(s.point)); });
   for (const measures::SummarySection& section : summary.sections) {

@@ -42,13 +42,13 @@ nlohmann::ordered_json moves_json(const measures::PointSummary& statistics,
   return moves;
 }
 
-nlohmann::ordered_json prediction_json(const measures::TheoryPrediction& prediction) {
+nlohmann::ordered_json prediction_json(const theory::PointPrediction& prediction) {
   return {{"trials", prediction.trials},
           {"stable", prediction.stable},
           {"unstable", prediction.unstable},
-          {"stable_share", statistics::rate(prediction.stable, measures::predicted_trials(prediction))},
-          {"unstable_share", statistics::rate(prediction.unstable, measures::predicted_trials(prediction))},
-          {"verdict", measures::verdict(prediction)}};
+          {"stable_share", statistics::rate(prediction.stable, theory::predicted_trials(prediction))},
+          {"unstable_share", statistics::rate(prediction.unstable, theory::predicted_trials(prediction))},
+          {"verdict", theory::verdict(prediction)}};
 }
 
 }  // namespace

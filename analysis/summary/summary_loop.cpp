@@ -115,16 +115,15 @@ std::string legend_of(const StudySummary& summary, bool (*belongs)(const layout:
 
 /// Whether the criteria (6) and (7) apply to any trial.
 bool has_predictions(const StudySummary& summary) {
-  return std::any_of(
-      summary.predictions.begin(), summary.predictions.end(),
-      [](const measures::TheoryPrediction& one) { return measures::predicted_trials(one) > 0; });
+  return std::any_of(summary.predictions.begin(), summary.predictions.end(),
+                     [](const theory::PointPrediction& one) { return theory::predicted_trials(one) > 0; });
 }
 
 void add_predictions(std::vector<text::TextColumn>& columns, const StudySummary& summary) {
   text::TextColumn holds{"(6) holds", true, {}}, exceeded{"(7) exceeded", true, {}};
-  for (const measures::TheoryPrediction& prediction : summary.predictions) {
-    holds.cells.push_back(text::percentage(prediction.stable, measures::predicted_trials(prediction)));
-    exceeded.cells.push_back(text::percentage(prediction.unstable, measures::predicted_trials(prediction)));
+  for (const theory::PointPrediction& prediction : summary.predictions) {
+    holds.cells.push_back(text::percentage(prediction.stable, theory::predicted_trials(prediction)));
+    exceeded.cells.push_back(text::percentage(prediction.unstable, theory::predicted_trials(prediction)));
   }
   columns.push_back(std::move(holds));
   columns.push_back(std::move(exceeded));

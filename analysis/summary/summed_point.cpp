@@ -18,7 +18,7 @@ measures::MoveKind kind_of(const study::Study& study) {
   return {.open_loop = study.open_loop, .rigs = study.rigs};
 }
 
-bool is_possible(const measures::TheoryPrediction& prediction) {
+bool is_possible(const theory::PointPrediction& prediction) {
   return statistics::are_counts(std::array{prediction.stable, prediction.unstable, prediction.outside},
                                 prediction.trials);
 }

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "analysis/measures/point_accumulator.hpp"
-#include "analysis/measures/theory_prediction.hpp"
 #include "analysis/summary/undecided.hpp"
+#include "analysis/theory/theory_prediction.hpp"
 #include "core/trial/outcome.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/point_sums.hpp"
@@ -27,7 +27,7 @@ class SummedPoint {
   /// Adds the next trial, but for what the criteria predict of it.
   /// @throws Failure (bad_data) as PointAccumulator::add does
   void add(std::int64_t row, const trial::TrialOutcome& outcome, std::span<const trial::Jerk> jerks);
-  void add(const measures::TheoryPrediction& prediction) { prediction_ = prediction_ + prediction; }
+  void add(const theory::PointPrediction& prediction) { prediction_ = prediction_ + prediction; }
   SummedPoint& operator+=(const SummedPoint& next);
 
   layout::PointSums sums() const;
@@ -35,7 +35,7 @@ class SummedPoint {
   void restore(const layout::PointSums& sums);
 
   measures::PointSummary statistics(double confidence, bool bootstrap) const;
-  const measures::TheoryPrediction& prediction() const { return prediction_; }
+  const theory::PointPrediction& prediction() const { return prediction_; }
   std::int64_t failures() const { return trials_.failures(); }
   measures::UndecidedMoves undecided() const { return undecided_.moves(); }
 
@@ -44,15 +44,15 @@ class SummedPoint {
   std::int64_t point_;
   measures::PointAccumulator trials_;
   UndecidedSums undecided_;
-  measures::TheoryPrediction prediction_;
+  theory::PointPrediction prediction_;
 };
 
 /// The results of StudySums, by point.
 struct SummedStudy {
-  std::vector<measures::PointSummary> points;           ///< [point, from the first on] if collected
-  std::vector<measures::TheoryPrediction> predictions;  ///< likewise
-  std::vector<measures::UndecidedMoves> undecided;      ///< likewise
-  std::vector<layout::PointSums> sums;                  ///< likewise
+  std::vector<measures::PointSummary> points;        ///< [point, from the first on] if collected
+  std::vector<theory::PointPrediction> predictions;  ///< as `points`
+  std::vector<measures::UndecidedMoves> undecided;   ///< as `points`
+  std::vector<layout::PointSums> sums;               ///< as `points`
 };
 
 /// The sums of a point of a file.
@@ -60,7 +60,7 @@ struct SummedStudy {
 SummedPoint restored_point(const reading::StatisticsFile& file, const study::Study& study,
                            std::int64_t point);
 
-/// What StudySums collects of each point.
+/// Results that StudySums collects of each point.
 enum class Collected {
   statistics,
   sums,  ///< those of a part: rigs without a trial have no statistics

@@ -8,7 +8,7 @@
 #include "analysis/text/percent.hpp"
 #include "experiments/study/study.hpp"
 #include "runners/commands/commands.hpp"
-#include "runners/commands/point_theory.hpp"
+#include "runners/commands/point_theory_text.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/plugins/hidden_state.hpp"
 #include "runners/standard_output/standard_output.hpp"
@@ -116,12 +116,12 @@ void print_plan(const study::Study& study) {
 void print_theory_heading(const study::Study& study) {
   standard_output::print(
       "\nTheory, over the first {} trials of each point, each with the friction it starts on:\n",
-      std::min(study.trials, max_trials_examined));
-  if (study.trials > max_trials_examined_closely) {
+      std::min(study.trials, theory::max_trials_examined));
+  if (study.trials > theory::max_trials_examined_closely) {
     standard_output::print(
         "(sampled loop, time constants and margins over the first {}, and the trials with the lowest and the "
         "highest k1)\n",
-        max_trials_examined_closely);
+        theory::max_trials_examined_closely);
   }
 }
 
@@ -135,13 +135,13 @@ ExitCode check(const command_line::Arguments& arguments) {
   const std::int64_t shown = arguments.has("all-points") ? study::point_count(study)
                                                          : std::min(study::point_count(study), points_shown);
   for (std::int64_t point = 0; point < shown; ++point) {
-    const PointTheory theory = examine(study, point);
+    const theory::PointTheory theory = theory::examine(study, point);
     const std::string& label = study.point_labels[static_cast<std::size_t>(point)];
     standard_output::print("  point {}: {}\n{}", point, label, describe(theory));
-    if (!may_be_too_slow(theory)) continue;
+    if (!theory.approach.exceeds_hold()) continue;
     status::tell(
         "warning: point {} ({}): the loop's slowest time constant{}: moves may end before they arrive\n",
-        point, label, slowness_text(theory));
+        point, label, slowness_text(theory.approach));
   }
   if (shown < study::point_count(study)) {
     standard_output::print("  … and {} more points (--all-points shows them)\n",

@@ -40,7 +40,7 @@ constexpr double max_planned_trials = 100'000.0;
 
 [[noreturn]] void refuse_margin(const command_line::Arguments& arguments, const std::string& text,
                                 const std::string& expected) {
-  arguments.refuse(fmt::format("option '--margin': '{}' is no margin; expected {}", text, expected));
+  arguments.refuse(fmt::format("option '--margin': '{}' is not a margin; expected {}", text, expected));
 }
 
 std::string measure_names() {

@@ -151,13 +151,16 @@ std::vector<statistics::RigPlan> halfwidth_plans(const PlanRequest& request) {
   return plans;
 }
 
-/// Plans with increasing numbers of rigs: more rigs need fewer trials on each.
+/// Plans in which more rigs need fewer trials on each. The rank of the tolerance statement rises in steps
+/// with the number of rigs, so that some larger numbers need more trials on each: these are left out.
 std::vector<statistics::RigPlan> tolerance_plans(const PlanRequest& request) {
   const std::int64_t fewest = statistics::min_rigs_for_tolerance(*request.rigs_share, request.confidence);
   std::vector<statistics::RigPlan> plans;
-  for (const std::int64_t rigs : {fewest, fewest + (fewest + 1) / 2, 2 * fewest, 4 * fewest})
-    plans.push_back(
-        statistics::plan_tolerance(*request.rigs_share, *request.success, request.confidence, rigs));
+  for (const std::int64_t rigs : {fewest, fewest + (fewest + 1) / 2, 2 * fewest, 4 * fewest}) {
+    const statistics::RigPlan plan =
+        statistics::plan_tolerance(*request.rigs_share, *request.success, request.confidence, rigs);
+    if (plans.empty() || plan.trials_per_rig < plans.back().trials_per_rig) plans.push_back(plan);
+  }
   return plans;
 }
 

@@ -1,37 +1,53 @@
-#include <string>
+#include "runners/commands/point_theory_text.hpp"
+
+#include <set>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "runners/commands/point_theory.hpp"
-
 namespace zerocount::commands {
 namespace {
+
+using theory::PointTheory;
+using theory::Range;
 
 std::string text(const Range& range) {
   if (range.low == range.high) return fmt::format("{:.3g}", range.low);
   return fmt::format("{:.3g} … {:.3g}", range.low, range.high);
 }
 
-std::string stability_text(const MarginRanges& margins) {
+std::string stability_text(const std::set<theory::LoopStability>& stability) {
   using theory::LoopStability;
-  if (margins.stability == std::set{LoopStability::stable}) return "stable";
-  if (margins.stability == std::set{LoopStability::unstable}) return "unstable";
-  if (margins.stability.count(LoopStability::unstable) > 0) return "unstable in some trials";
+  if (stability == std::set{LoopStability::stable}) return "stable";
+  if (stability == std::set{LoopStability::unstable}) return "unstable";
+  if (stability.count(LoopStability::unstable) > 0) return "unstable in some trials";
   return "marginal, with an eigenvalue of 1";
 }
 
-std::string margins_text(const MarginRanges& margins) {
-  const std::string gain = margins.gain.empty() ? "no phase crossover"
-                                                : fmt::format("gain margin {} dB at {} Hz",
-                                                              text(margins.gain), text(margins.gain_at));
-  const std::string phase = margins.phase.empty() ? "no gain crossover"
-                                                  : fmt::format("phase margin {}° at {} Hz",
-                                                                text(margins.phase), text(margins.phase_at));
+std::string margins_text(const theory::LoopRanges& loop) {
+  const std::string gain =
+      loop.gain.empty() ? "no phase crossover"
+                        : fmt::format("gain margin {} dB at {} Hz", text(loop.gain), text(loop.gain_at));
+  const std::string phase =
+      loop.phase.empty() ? "no gain crossover"
+                         : fmt::format("phase margin {}° at {} Hz", text(loop.phase), text(loop.phase_at));
   return gain + ", " + phase;
 }
 
-std::string source_of(const PointTheory& theory) {
-  switch (theory.low_end.kind) {
+std::string loop_lines(const std::vector<theory::LoopRanges>& loops) {
+  std::string out;
+  for (const theory::LoopRanges& loop : loops) {
+    const std::string bandwidth =
+        loop.bandwidth.empty() ? "" : fmt::format("crosses gain 1 at {} Hz, ", text(loop.bandwidth));
+    const char* const separator = loop.slides ? ": " : ", ";
+    out += fmt::format("    {}{}{}{}: {}\n", loop.name, separator, bandwidth, margins_text(loop),
+                       stability_text(loop.stability));
+  }
+  return out;
+}
+
+std::string source_text(const theory::LowestStiffness& lowest) {
+  switch (lowest.source.kind) {
     case study::LowEnd::Kind::number:
       return "the one of the manifest";
     case study::LowEnd::Kind::support:
@@ -41,46 +57,32 @@ std::string source_of(const PointTheory& theory) {
     case study::LowEnd::Kind::profile:
       break;
   }
-  if (theory.rigs == 0) return "the lowest along the profiles";
-  return fmt::format("the lowest along the profiles of {} rigs", theory.rigs);
+  if (lowest.rigs == 0) return "the lowest along the profiles";
+  return fmt::format("the lowest along the profiles of {} rigs", lowest.rigs);
+}
+
+std::string lowest_line(const theory::LowestStiffness& lowest, const theory::GainTheory& gain) {
+  const std::string criterion =
+      gain.left_out.empty() ? fmt::format("(6) stable below {:.3g} {}, ", lowest.stable_below.low, gain.unit)
+                            : "";
+  return fmt::format("    at the lowest k1, {:.3g} ({}): {}sampled loop below {:.3g} {}\n", lowest.k1.low,
+                     source_text(lowest), criterion, lowest.sampled_below.low, gain.unit);
 }
 
 /// "a move of 30 counts needs about 1 s"; empty where no move is a step.
-std::string arrival_text(const Arrival& longest) {
-  if (longest.step == 0) return {};
-  return fmt::format("a move of {} needs about {:.2g} s", counted(longest.step, "count"), longest.time);
+std::string arrival_text(const theory::Approach& approach) {
+  if (approach.longest_step == 0) return {};
+  return fmt::format("a move of {} needs about {:.2g} s", counted(approach.longest_step, "count"),
+                     approach.longest_time);
 }
 
 /// The line of the slowest time constant; empty if no loop is stable.
-std::string slowness_line(const PointTheory& theory) {
-  if (theory.slowest.empty()) return {};
-  const std::string arrival = arrival_text(theory.longest);
-  return fmt::format("    slowest time constant         {} s{}{}, hold {:.4g} s{}\n", text(theory.slowest),
-                     arrival.empty() ? "" : "; ", arrival, theory.hold,
-                     may_be_too_slow(theory) ? ": moves may end before they arrive" : "");
-}
-
-std::string loop_lines(const PointTheory& theory) {
-  std::string out;
-  for (const LoopRanges& loop : theory.loops) {
-    const std::string bandwidth =
-        loop.bandwidth.empty() ? "" : fmt::format("crosses gain 1 at {} Hz, ", text(loop.bandwidth));
-    const char* const separator = loop.slides ? ": " : ", ";
-    out += fmt::format("    {}{}{}{}: {}\n", loop.name, separator, bandwidth, margins_text(loop.margins),
-                       stability_text(loop.margins));
-  }
-  return out;
-}
-
-std::string describe_beyond(const PointTheory& theory) {
-  const std::string criterion = theory.left_out.empty() ? fmt::format("(6) stable below {:.3g} {}, ",
-                                                                      theory.low_stable.low, theory.gain_unit)
-                                                        : "";
-  std::string out = fmt::format("    at the lowest k1, {} ({}): {}sampled loop below {:.3g} {}\n",
-                                text({theory.lowest_k1.low, theory.lowest_k1.low}), source_of(theory),
-                                criterion, theory.low_sampled.low, theory.gain_unit);
-  out += slowness_line(theory);
-  return out + loop_lines(theory);
+std::string slowness_line(const theory::Approach& approach) {
+  if (approach.time_constant.empty()) return {};
+  const std::string arrival = arrival_text(approach);
+  return fmt::format("    slowest time constant         {} s{}{}, hold {:.4g} s{}\n",
+                     text(approach.time_constant), arrival.empty() ? "" : "; ", arrival, approach.hold,
+                     approach.exceeds_hold() ? ": moves may end before they arrive" : "");
 }
 
 /// "    (6) stable below              1 … 2 N m/count".
@@ -89,32 +91,78 @@ std::string range_line(std::string_view name, const Range& range, std::string_vi
 }
 
 /// Verdict of the sampled loop on the integral gain.
-std::string sampled_verdict(const PointTheory& theory) {
-  if (theory.sampled_stable == std::set{true}) return "stable";
-  return theory.sampled_stable == std::set{false} ? "unstable" : "unstable in some trials";
+std::string sampled_verdict(const theory::GainTheory& gain) {
+  if (gain.sampled_stable == std::set{true}) return "stable";
+  return gain.sampled_stable == std::set{false} ? "unstable" : "unstable in some trials";
+}
+
+std::string cycle_lines(std::string_view method, const std::vector<theory::LimitCycle>& cycles,
+                        const theory::HuntingPrediction& hunting) {
+  const std::string start = fmt::format("    hunting of trial 0, {}: ", method);
+  std::string lines;
+  for (const theory::LimitCycle& cycle : cycles) {
+    lines += fmt::format("{}amplitude {:.4g} counts, period {:.4g} s\n", start,
+                         cycle.amplitude / hunting.count_angle, cycle.period);
+  }
+  if (!lines.empty()) return lines;
+  return fmt::format("{}no lasting cycle{}\n", start,
+                     hunting.grows_while_sliding
+                         ? "; the loop is unstable while the rotor slides: what has broken loose may grow"
+                         : "");
+}
+
+std::string hunting_lines(const theory::HuntingPrediction& hunting) {
+  if (!hunting.left_out.empty())
+    return fmt::format("    hunting of trial 0: not predicted, since the predictions leave out {}\n",
+                       hunting.left_out);
+  const std::string lines = cycle_lines("by describing function", hunting.by_function, hunting);
+  return hunting.sticks ? lines + cycle_lines("by stick-slip", hunting.by_stick_slip, hunting) : lines;
 }
 
 std::string describe_outside(const PointTheory& theory) {
   std::string out = fmt::format("    the criteria do not apply: {}\n", theory.outside);
-  if (!theory.free) return out + theory.hunting + loop_lines(theory);
-  return out + range_line(theory.gain_name, theory.ki, theory.gain_unit) + ": sampled loop " +
-         sampled_verdict(theory) + "\n" +
-         range_line("sampled loop, below", theory.sampled_below, theory.gain_unit) + "\n" +
-         slowness_line(theory) + loop_lines(theory);
+  if (theory.hunting) out += hunting_lines(*theory.hunting);
+  const theory::GainTheory& gain = theory.gain;
+  if (theory.free) {
+    out += range_line(gain.name, gain.value, gain.unit) + ": sampled loop " + sampled_verdict(gain) + "\n" +
+           range_line("sampled loop, below", gain.sampled_below, gain.unit) + "\n" +
+           slowness_line(theory.approach);
+  }
+  return out + loop_lines(theory.loops);
 }
 
 /// Verdict of the criteria (6) and (7) and of the sampled loop on the integral gain.
-std::string gain_verdict(const PointTheory& theory) {
-  if (theory.ki.low == 0.0 && theory.ki.high == 0.0) {
-    return theory.observes
+std::string gain_verdict(const theory::GainTheory& gain) {
+  if (gain.value.low == 0.0 && gain.value.high == 0.0) {
+    return gain.observes
                ? "no integral: the disturbance observer takes its place"
                : "no integral control: the error stays wherever friction holds the rest of the torque";
   }
   const std::string by_criteria =
-      theory.left_out.empty()
-          ? fmt::format("by (6) and (7) {}; ", measures::verdict(theory.prediction))
-          : fmt::format("(6) and (7) do not apply, since they leave out {}; ", theory.left_out);
-  return fmt::format("{}sampled loop at k1 {}", by_criteria, sampled_verdict(theory));
+      gain.left_out.empty()
+          ? fmt::format("by (6) and (7) {}; ", theory::verdict(gain.prediction))
+          : fmt::format("(6) and (7) do not apply, since they leave out {}; ", gain.left_out);
+  return fmt::format("{}sampled loop at k1 {}", by_criteria, sampled_verdict(gain));
+}
+
+std::string gain_lines(const theory::GainTheory& gain) {
+  const bool applies = gain.left_out.empty();
+  std::string out = range_line(gain.name, gain.value, gain.unit) + ": " + gain_verdict(gain) + "\n";
+  if (applies) out += range_line("(6) stable below", gain.stable_below, gain.unit) + "\n";
+  out += range_line("sampled loop at k1, below", gain.sampled_below, gain.unit) + "\n";
+  if (applies) out += range_line("(7) unstable above", gain.unstable_above, gain.unit) + "\n";
+  return out;
+}
+
+std::string rule_lines(const theory::DesignRules& rules) {
+  return fmt::format("    DAC: resolution {} {}, must be below k1·Δx = {} {}{}: {}\n",
+                     text(rules.dac_resolution), rules.torque_unit, text(rules.dac_bound), rules.torque_unit,
+                     rules.coarse_feedback ? " with the Δx of the coarse encoder" : "",
+                     rules.fine_enough ? "holds" : "does not hold in every trial") +
+         fmt::format("    natural frequency {} Hz, sample rate {} Hz: {}\n", text(rules.frequency),
+                     text(rules.sample_rate),
+                     rules.fast_enough ? "ten times that, as advised"
+                                       : "in some trials below ten times that, which is advised");
 }
 
 }  // namespace
@@ -123,38 +171,20 @@ std::string counted(std::int64_t count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
-bool may_be_too_slow(const PointTheory& theory) {
-  return theory.slowest.high > theory.hold || theory.longest.time > theory.hold;
-}
-
-std::string slowness_text(const PointTheory& theory) {
-  const std::string arrival = arrival_text(theory.longest);
-  if (theory.slowest.high > theory.hold) {
-    return fmt::format(", {:.3g} s, exceeds the hold of {:.4g} s{}{}", theory.slowest.high, theory.hold,
+std::string slowness_text(const theory::Approach& approach) {
+  const std::string arrival = arrival_text(approach);
+  const double slowest = approach.time_constant.high;
+  if (slowest > approach.hold) {
+    return fmt::format(", {:.3g} s, exceeds the hold of {:.4g} s{}{}", slowest, approach.hold,
                        arrival.empty() ? "" : "; ", arrival);
   }
-  return fmt::format(" is {:.3g} s; {}, longer than the hold of {:.4g} s", theory.slowest.high, arrival,
-                     theory.hold);
+  return fmt::format(" is {:.3g} s; {}, longer than the hold of {:.4g} s", slowest, arrival, approach.hold);
 }
 
 std::string describe(const PointTheory& theory) {
   if (!theory.outside.empty()) return describe_outside(theory);
-  std::string out;
-  const std::string& unit = theory.gain_unit;
-  const bool applies = theory.left_out.empty();
-  out += range_line(theory.gain_name, theory.ki, unit) + ": " + gain_verdict(theory) + "\n";
-  if (applies) out += range_line("(6) stable below", theory.stable_below, unit) + "\n";
-  out += range_line("sampled loop at k1, below", theory.sampled_below, unit) + "\n";
-  if (applies) out += range_line("(7) unstable above", theory.unstable_above, unit) + "\n";
-  out += fmt::format("    DAC: resolution {} {}, must be below k1·Δx = {} {}{}: {}\n",
-                     text(theory.dac_resolution), theory.torque_unit, text(theory.dac_bound),
-                     theory.torque_unit, theory.coarse_feedback ? " with the Δx of the coarse encoder" : "",
-                     theory.fine_enough ? "holds" : "does not hold in every trial");
-  out += fmt::format("    natural frequency {} Hz, sample rate {} Hz: {}\n", text(theory.frequency),
-                     text(theory.sample_rate),
-                     theory.fast_enough ? "ten times that, as advised"
-                                        : "in some trials below ten times that, which is advised");
-  return out + describe_beyond(theory);
+  return gain_lines(theory.gain) + rule_lines(theory.rules) + lowest_line(theory.lowest, theory.gain) +
+         slowness_line(theory.approach) + loop_lines(theory.loops);
 }
 
 }  // namespace zerocount::commands

@@ -197,7 +197,7 @@ FinishedTrials run_trials_kept(const study::Study& study, std::span<const layout
                                const std::function<void(std::int64_t)>& finished,
                                const std::stop_token& stop) {
   ShardWriter writer(study, directory);
-  std::vector<measures::TheoryPrediction> predictions(static_cast<std::size_t>(study::point_count(study)));
+  std::vector<theory::PointPrediction> predictions(static_cast<std::size_t>(study::point_count(study)));
   const auto take = [&](TrialBlock&& block) {
     const auto trials = std::ssize(block.results);
     const auto first_point = static_cast<std::size_t>(block.results.front().row / study.trials);
@@ -283,7 +283,7 @@ FinishedTrials run_trials(const study::Study& study, std::span<const layout::Row
 
 void assemble(std::span<const shards::ShardInfo> shards, const study::Study& study,
               const std::filesystem::path& output, layout::RowRange rows,
-              std::span<const measures::TheoryPrediction> predictions, const shards::Renumbering& renumber) {
+              std::span<const theory::PointPrediction> predictions, const shards::Renumbering& renumber) {
   if (study.kept != study::Kept::trials) {
     assemble_statistics(shards, study, output, rows);
     return;

@@ -7,7 +7,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "analysis/measures/theory_prediction.hpp"
+#include "analysis/theory/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/row_range.hpp"
 #include "results/shards/concatenate.hpp"
@@ -44,7 +44,7 @@ struct RunSettings {
 struct FinishedTrials {
   std::vector<shards::ShardInfo> shards;  ///< those written, in order of rows
   /// [point] for these trials; empty if the shards have them
-  std::vector<measures::TheoryPrediction> predictions;
+  std::vector<theory::PointPrediction> predictions;
 };
 
 /// Runs the trials of `ranges` and writes them as shards into `directory`.
@@ -62,7 +62,7 @@ FinishedTrials run_trials(const study::Study& study, std::span<const layout::Row
 /// @throws Failure; see merge_shards.
 void assemble(std::span<const shards::ShardInfo> shards, const study::Study& study,
               const std::filesystem::path& output, layout::RowRange rows,
-              std::span<const measures::TheoryPrediction> predictions = {},
+              std::span<const theory::PointPrediction> predictions = {},
               const shards::Renumbering& renumber = {});
 
 }  // namespace zerocount::study_run

@@ -167,7 +167,7 @@ std::optional<StudySize> measured_size(const study::Study& study) {
 double numbers_of_sums(const study::Study& study, std::vector<shards::TrialResult> trials) {
   const auto points = static_cast<std::size_t>((std::ssize(trials) - 1) / study.trials + 1);
   const SummedBlock block =
-      sum_block(study, {std::move(trials), std::vector<measures::TheoryPrediction>(points)});
+      sum_block(study, {std::move(trials), std::vector<theory::PointPrediction>(points)});
   double numbers = 0.0;
   for (const summary::SummedPoint& point : block.points) {
     const layout::PointSums sums = point.sums();

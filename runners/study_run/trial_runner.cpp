@@ -48,7 +48,7 @@ study::StudyTrial TrialRunner::next_trial(std::int64_t row, TrialBlock& block) {
   const std::int64_t first_point = block.results.front().row / study_->trials;
   const auto point = static_cast<std::size_t>(row / study_->trials - first_point);
   block.predictions.resize(std::max(block.predictions.size(), point + 1));
-  block.predictions[point].add(measures::predict(trial.parameters));
+  block.predictions[point].add(theory::predict(trial.parameters));
   return trial;
 }
 

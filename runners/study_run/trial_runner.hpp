@@ -4,7 +4,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "analysis/measures/theory_prediction.hpp"
+#include "analysis/theory/theory_prediction.hpp"
 #include "core/batch/batch.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/row_range.hpp"
@@ -17,8 +17,8 @@ bool is_retained(const study::Study& study, std::int64_t index);
 
 /// Trials that follow one another.
 struct TrialBlock {
-  std::vector<shards::TrialResult> results;             ///< in order of rows
-  std::vector<measures::TheoryPrediction> predictions;  ///< [point, from that of the first trial]
+  std::vector<shards::TrialResult> results;          ///< in order of rows
+  std::vector<theory::PointPrediction> predictions;  ///< [point, from that of the first trial]
 };
 
 /// Runs trials of a study on one thread with its engine, and returns the data of the results file. Trials

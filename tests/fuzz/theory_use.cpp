@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "runners/commands/point_theory.hpp"
+#include "runners/commands/point_theory_text.hpp"
 #include "tests/fuzz/expectation.hpp"
 
 namespace zerocount::fuzz {
@@ -16,7 +16,7 @@ void use_theory(const study::Study& study) {
   first.trials = 1;
   first.rigs = std::min<std::int64_t>(study.rigs, 1);
   for (const std::int64_t point : std::set<std::int64_t>{0, study::point_count(study) - 1}) {
-    const std::string text = commands::describe(commands::examine(first, point));
+    const std::string text = commands::describe(theory::examine(first, point));
     if (!text.empty()) require_text(text);
   }
 }

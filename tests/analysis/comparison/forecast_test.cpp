@@ -232,9 +232,9 @@ TEST(Forecast, TellsWhichMarginCanBeDecidedWhereNoNumberOfTrialsDecides) {
 
 TEST(Forecast, EffectsThatAreSmallTogetherAreProbablyNil) {
   const std::vector<double> small =
-      comparison::nil_probabilities({0.3, -0.5, 1.0, 0.1, -0.8, 0.2, 1.5, -0.1});
+      comparison::zero_difference_probabilities({0.3, -0.5, 1.0, 0.1, -0.8, 0.2, 1.5, -0.1});
   for (const double nil : small) EXPECT_GT(nil, 0.8);
-  const std::vector<double> mixed = comparison::nil_probabilities({0.3, 9.0, -7.0, 0.1, 5.0});
+  const std::vector<double> mixed = comparison::zero_difference_probabilities({0.3, 9.0, -7.0, 0.1, 5.0});
   EXPECT_LT(mixed[1], 1e-6);
   EXPECT_GT(mixed[3], 0.5);
 }

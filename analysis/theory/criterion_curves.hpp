@@ -7,7 +7,7 @@
 
 #include "experiments/study/study.hpp"
 
-namespace zerocount::report {
+namespace zerocount::theory {
 
 /// An axis of a stability map.
 struct PlaneAxis {
@@ -43,4 +43,4 @@ struct CriterionCurve {
 std::vector<CriterionCurve> criterion_curves(const study::Study& study, std::int64_t point,
                                              const CriterionPlane& plane);
 
-}  // namespace zerocount::report
+}  // namespace zerocount::theory

@@ -1,16 +1,16 @@
-#include "analysis/report/criterion_curves.hpp"
+#include "analysis/theory/criterion_curves.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <optional>
 
-#include "analysis/measures/theory_prediction.hpp"
-#include "analysis/report/reported_study.hpp"
+#include "analysis/statistics/spread_over.hpp"
+#include "analysis/theory/theory_prediction.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/study.hpp"
 
-namespace zerocount::report {
+namespace zerocount::theory {
 namespace {
 
 constexpr std::int64_t max_trials = 200;
@@ -20,15 +20,15 @@ constexpr int bisections = 40;
 
 struct Criterion {
   const char* name;
-  double theory::IntegralGainBounds::*bound;
+  double IntegralGainBounds::*bound;
   bool first;  ///< the trial that reaches the criterion at the lowest gain; otherwise at the highest
 };
 
 constexpr Criterion criteria[] = {
-    {"(6)", &theory::IntegralGainBounds::stable_below, true},
-    {"(6)", &theory::IntegralGainBounds::stable_below, false},
-    {"(7)", &theory::IntegralGainBounds::unstable_above, true},
-    {"(7)", &theory::IntegralGainBounds::unstable_above, false},
+    {"(6)", &IntegralGainBounds::stable_below, true},
+    {"(6)", &IntegralGainBounds::stable_below, false},
+    {"(7)", &IntegralGainBounds::unstable_above, true},
+    {"(7)", &IntegralGainBounds::unstable_above, false},
 };
 
 /// The examined trials, with two variable parameters.
@@ -42,9 +42,9 @@ class CriterionTrials {
     set_x_ = parameters::parameter_table()[*x].set;
     set_y_ = parameters::parameter_table()[*y].set;
     if (!set_x_ || !set_y_) return;
-    for (const std::int64_t index : spread_over(study.trials, max_trials)) {
+    for (const std::int64_t index : statistics::spread_over(study.trials, max_trials)) {
       trial::TrialParameters parameters = study::study_trial_as_given(study, point, index).parameters;
-      if (!measures::predict(parameters).applies) continue;
+      if (!predict(parameters).applies) continue;
       given_.push_back({parameters.encoder, parameters.controller});
       trials_.push_back(std::move(parameters));
     }
@@ -62,7 +62,7 @@ class CriterionTrials {
       set_x_(trial, x);
       set_y_(trial, y);
       study::complete_trial(units_, trial);
-      const double ratio = trial.controller.ki / (measures::predict(trial).bounds.*criterion.bound);
+      const double ratio = trial.controller.ki / (predict(trial).bounds.*criterion.bound);
       extreme = criterion.first ? std::max(extreme, ratio) : std::min(extreme, ratio);
     }
     return extreme;
@@ -137,4 +137,4 @@ std::vector<CriterionCurve> criterion_curves(const study::Study& study, std::int
   return curves;
 }
 
-}  // namespace zerocount::report
+}  // namespace zerocount::theory

@@ -1,4 +1,4 @@
-#include "analysis/report/bode_curve.hpp"
+#include "analysis/theory/bode_curve.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "core/theory/margins.hpp"
 
-namespace zerocount::report {
+namespace zerocount::theory {
 namespace {
 
 using Complex = std::complex<double>;
@@ -38,12 +38,12 @@ bool are_near(const ResponseSample& a, const ResponseSample& b) {
 }
 
 /// Adds samples between `from` and `to`, and `to`, until each is near the next.
-void add_until(const theory::FrozenLoop& loop, const ResponseSample& from, const ResponseSample& to,
+void add_until(const FrozenLoop& loop, const ResponseSample& from, const ResponseSample& to,
                std::vector<ResponseSample>& samples) {
   constexpr double smallest_step = 1e-9;  // of the angle; the phase of an undamped mode jumps
   if (!are_near(from, to) && to.angle - from.angle > smallest_step * to.angle) {
     const double middle = 0.5 * (from.angle + to.angle);
-    const ResponseSample between{middle, theory::open_loop(loop, middle)};
+    const ResponseSample between{middle, open_loop(loop, middle)};
     if (has_phase(between)) {
       add_until(loop, from, between, samples);
       add_until(loop, between, to, samples);
@@ -54,14 +54,14 @@ void add_until(const theory::FrozenLoop& loop, const ResponseSample& from, const
 }
 
 /// L from a millionth of half the sample rate on, at the angles `also` too.
-std::vector<ResponseSample> dense_samples(const theory::FrozenLoop& loop, const std::vector<double>& also) {
-  std::vector<double> angles = theory::search_angles(loop);
+std::vector<ResponseSample> dense_samples(const FrozenLoop& loop, const std::vector<double>& also) {
+  std::vector<double> angles = search_angles(loop);
   angles.insert(angles.end(), also.begin(), also.end());
   std::sort(angles.begin(), angles.end());
   angles.erase(std::unique(angles.begin(), angles.end()), angles.end());
   std::vector<ResponseSample> samples;
   for (const double angle : angles) {
-    const ResponseSample sample{angle, theory::open_loop(loop, angle)};
+    const ResponseSample sample{angle, open_loop(loop, angle)};
     if (!has_phase(sample)) continue;
     if (samples.empty()) {
       samples.push_back(sample);
@@ -145,8 +145,7 @@ std::vector<BodePoint> thinned(const std::vector<BodePoint>& curve, const std::v
 
 }  // namespace
 
-std::vector<BodePoint> bode_curve(const theory::FrozenLoop& loop, double lowest,
-                                  const std::vector<double>& kept) {
+std::vector<BodePoint> bode_curve(const FrozenLoop& loop, double lowest, const std::vector<double>& kept) {
   const double frequency_to_angle = 2.0 * std::numbers::pi * loop.sample_time;
   std::vector<double> kept_angles{lowest * frequency_to_angle};
   for (const double frequency : kept) kept_angles.push_back(frequency * frequency_to_angle);
@@ -166,4 +165,4 @@ std::vector<BodePoint> bode_curve(const theory::FrozenLoop& loop, double lowest,
   return thinned(curve, is_kept);
 }
 
-}  // namespace zerocount::report
+}  // namespace zerocount::theory

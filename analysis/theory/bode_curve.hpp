@@ -5,7 +5,7 @@
 
 #include "core/theory/frozen_loop.hpp"
 
-namespace zerocount::report {
+namespace zerocount::theory {
 
 /// A value of an open loop L.
 struct BodePoint {
@@ -23,7 +23,7 @@ inline constexpr std::size_t max_bode_points = 200;
 /// The phase begins between −300° and 60°, which has room for an integrator and a rotor without a spring, and
 /// continues by the smaller turn between points that lie close enough for it. An undamped resonance turns it
 /// by −180°, an undamped antiresonance by 180°: the limits of small damping.
-std::vector<BodePoint> bode_curve(const theory::FrozenLoop& loop, double lowest,
+std::vector<BodePoint> bode_curve(const FrozenLoop& loop, double lowest,
                                   const std::vector<double>& kept = {});
 
-}  // namespace zerocount::report
+}  // namespace zerocount::theory

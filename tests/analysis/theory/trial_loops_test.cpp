@@ -1,6 +1,6 @@
 // The frozen loops of a trial: which there are, and that they have the parameters of trial, contact and
 // phase.
-#include "analysis/measures/trial_loops.hpp"
+#include "analysis/theory/trial_loops.hpp"
 
 #include <memory>
 
@@ -14,7 +14,7 @@
 #include "core/trial/rig.hpp"
 #include "tests/core/theory/frozen_loops.hpp"
 
-namespace zerocount::measures {
+namespace zerocount::theory {
 namespace {
 
 std::vector<std::string> names_of(const std::vector<TrialLoop>& loops) {
@@ -53,27 +53,26 @@ TEST(TrialLoops, HaveTheMarginsOfTheirParameters) {
   p.controller.coarse.coarse_beyond = 1000.0;
   p.controller.coarse.kp = 5e-4;
   p.controller.coarse.kd = 4e-3;
-  const theory::LinearDrive drive{1.07, 700.0};
+  const LinearDrive drive{1.07, 700.0};
   const loop::ControllerParameters fine = loop::controller_in_phase(p.controller, loop::ControlPhase::fine);
   const loop::ControllerParameters coarse =
       loop::controller_in_phase(p.controller, loop::ControlPhase::coarse);
-  const theory::StabilityMargins expected[] = {
-      theory::margins_about(97.0, 0.3, p.plant, p.encoder, fine, drive),
-      theory::margins_about(737.0, 0.3, p.plant, p.encoder, fine, drive),
-      theory::margins_about(0.0, 4e-3, p.plant, p.encoder, fine, drive),
-      theory::margins_about(0.0, 4e-3, p.plant, p.encoder, coarse, drive)};
+  const StabilityMargins expected[] = {margins_about(97.0, 0.3, p.plant, p.encoder, fine, drive),
+                                       margins_about(737.0, 0.3, p.plant, p.encoder, fine, drive),
+                                       margins_about(0.0, 4e-3, p.plant, p.encoder, fine, drive),
+                                       margins_about(0.0, 4e-3, p.plant, p.encoder, coarse, drive)};
   const std::vector<TrialLoop> loops = trial_loops(p);
   ASSERT_EQ(loops.size(), std::size(expected));
   for (std::size_t i = 0; i < loops.size(); ++i) {
-    const theory::StabilityMargins margins = theory::stability_margins(loops[i].loop);
+    const StabilityMargins margins = stability_margins(loops[i].loop);
     EXPECT_EQ(margins.gain.value, expected[i].gain.value) << loops[i].name;
     EXPECT_EQ(margins.gain.frequency, expected[i].gain.frequency) << loops[i].name;
     EXPECT_EQ(margins.phase.value, expected[i].phase.value) << loops[i].name;
     EXPECT_EQ(margins.phase.frequency, expected[i].phase.frequency) << loops[i].name;
     EXPECT_EQ(loops[i].slides, i >= 2);
   }
-  EXPECT_EQ(theory::stability_of(loops[0].loop) == theory::LoopStability::stable,
-            theory::sampled_spectral_radius(97.0, p.plant, p.encoder, fine, drive) < 1.0);
+  EXPECT_EQ(stability_of(loops[0].loop) == LoopStability::stable,
+            sampled_spectral_radius(97.0, p.plant, p.encoder, fine, drive) < 1.0);
 }
 
 /// The stiffnesses of the law's loops, N m/rad.
@@ -112,7 +111,7 @@ TEST(TrialLoops, BeginWithTheMotionOfTheLawUnderASmallTorque) {
     p.friction.uniform.sigma1 = 0.05;
     const std::vector<TrialLoop> loops = trial_loops(p);
     // About its virgin state the spring has k1 + k2.
-    const theory::FrozenLoop& loop = loops[loops.front().name == "at k1" ? 1 : 0].loop;
+    const FrozenLoop& loop = loops[loops.front().name == "at k1" ? 1 : 0].loop;
     constexpr double torque = 1e-6;  // N m
     plant::Plant plant(p.plant, p.friction, trial::plant_start(p),
                        trial::motion_tolerance(loop::fine_resolution(p.encoder)));
@@ -139,4 +138,4 @@ TEST(TrialLoops, ThereAreNoneOfAPluginOrAnOpenLoop) {
 }
 
 }  // namespace
-}  // namespace zerocount::measures
+}  // namespace zerocount::theory

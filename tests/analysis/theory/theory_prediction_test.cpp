@@ -1,10 +1,10 @@
-#include "analysis/measures/theory_prediction.hpp"
+#include "analysis/theory/theory_prediction.hpp"
 
 #include <memory>
 
 #include <gtest/gtest.h>
 
-namespace zerocount::measures {
+namespace zerocount::theory {
 namespace {
 
 trial::TrialParameters paper_rig(double ki) {
@@ -37,7 +37,7 @@ TEST(TheoryPrediction, WithoutIntegralOrOnABoundNothingIsPromised) {
   EXPECT_FALSE(predict(paper_rig(0.0)).stable);
   EXPECT_FALSE(predict(paper_rig(0.0)).unstable);
   EXPECT_TRUE(predict(paper_rig(-1e-6)).unstable);
-  const theory::IntegralGainBounds bounds = predict(paper_rig(1e-5)).bounds;
+  const IntegralGainBounds bounds = predict(paper_rig(1e-5)).bounds;
   EXPECT_FALSE(predict(paper_rig(bounds.stable_below)).stable);
   EXPECT_FALSE(predict(paper_rig(bounds.unstable_above)).unstable);
 }
@@ -64,7 +64,7 @@ TEST(TheoryPrediction, TheCriteriaAreNotAboutOpenLoopsAndFrictionWithoutASpring)
   spring.friction.model = friction::FrictionModel::spring;
   EXPECT_TRUE(predict(spring).applies);
   EXPECT_TRUE(predict(spring).stable);
-  TheoryPrediction point;
+  PointPrediction point;
   for (const trial::TrialParameters& parameters : {coulomb, air, open_loop}) {
     const TrialPrediction prediction = predict(parameters);
     EXPECT_FALSE(prediction.applies || prediction.stable || prediction.unstable);
@@ -77,7 +77,7 @@ TEST(TheoryPrediction, TheCriteriaAreNotAboutOpenLoopsAndFrictionWithoutASpring)
 }
 
 TEST(TheoryPrediction, VerdictIsThatOfAllTrialsOrUndecidedWithItsShares) {
-  TheoryPrediction stable, unstable, mixed, rare;
+  PointPrediction stable, unstable, mixed, rare;
   for (int i = 0; i < 10; ++i) {
     stable.add(predict(paper_rig(3e-5)));
     unstable.add(predict(paper_rig(4e-4)));
@@ -92,4 +92,4 @@ TEST(TheoryPrediction, VerdictIsThatOfAllTrialsOrUndecidedWithItsShares) {
 }
 
 }  // namespace
-}  // namespace zerocount::measures
+}  // namespace zerocount::theory

@@ -1,4 +1,4 @@
-#include "analysis/report/criterion_curves.hpp"
+#include "analysis/theory/criterion_curves.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -8,7 +8,7 @@
 
 #include "experiments/manifest/load_study.hpp"
 
-namespace zerocount::report {
+namespace zerocount::theory {
 namespace {
 
 const std::string head =
@@ -63,4 +63,4 @@ TEST(CriterionCurves, ThereAreNoneWhereTheCriteriaSayNothing) {
 }
 
 }  // namespace
-}  // namespace zerocount::report
+}  // namespace zerocount::theory

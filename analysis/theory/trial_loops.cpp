@@ -1,10 +1,14 @@
-#include "analysis/measures/trial_loops.hpp"
+#include "analysis/theory/trial_loops.hpp"
 
 #include <utility>
 
 #include "core/loop/controller.hpp"
 
-namespace zerocount::measures {
+namespace zerocount::theory {
+
+bool has_no_linear_loop(const trial::TrialParameters& parameters) {
+  return parameters.controller.user.plugin || !parameters.command.torque.levels.empty();
+}
 
 std::string_view why_outside_theory(const trial::TrialParameters& parameters) {
   if (parameters.controller.user.plugin)
@@ -26,7 +30,7 @@ std::string_view why_outside_theory(const trial::TrialParameters& parameters) {
   return "the spring of this friction.model yields by degrees, from its full stiffness to none, not to k1";
 }
 
-theory::LinearDrive drive_of(const trial::TrialParameters& parameters) {
+LinearDrive drive_of(const trial::TrialParameters& parameters) {
   return {1.0 + parameters.dac.gain_error, parameters.amplifier.bandwidth};
 }
 
@@ -73,12 +77,12 @@ std::vector<FrozenContact> frozen_contacts(const trial::TrialParameters& p) {
 
 std::vector<TrialLoop> trial_loops(const trial::TrialParameters& parameters) {
   std::vector<TrialLoop> loops;
-  if (parameters.controller.user.plugin || !parameters.command.torque.levels.empty()) return loops;
+  if (has_no_linear_loop(parameters)) return loops;
   const auto add = [&](const FrozenContact& contact, const std::string& name, loop::ControlPhase phase) {
     loops.push_back(
         {name, contact.slides, contact.stiffness,
-         theory::frozen_loop(contact.stiffness, contact.damping, parameters.plant, parameters.encoder,
-                             loop::controller_in_phase(parameters.controller, phase), drive_of(parameters))});
+         frozen_loop(contact.stiffness, contact.damping, parameters.plant, parameters.encoder,
+                     loop::controller_in_phase(parameters.controller, phase), drive_of(parameters))});
   };
   const std::string with_phases = loop::has_coarse_phase(parameters.controller) ? ", the fine phase" : "";
   for (const FrozenContact& contact : frozen_contacts(parameters)) {
@@ -89,4 +93,4 @@ std::vector<TrialLoop> trial_loops(const trial::TrialParameters& parameters) {
   return loops;
 }
 
-}  // namespace zerocount::measures
+}  // namespace zerocount::theory

@@ -1,0 +1,253 @@
+#include "analysis/theory/point_theory.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "analysis/theory/trial_loops.hpp"
+#include "core/loop/controller.hpp"
+#include "core/theory/gains.hpp"
+#include "core/theory/sampled_stability.hpp"
+#include "core/theory/sliding_loop.hpp"
+#include "core/theory/slow_approach.hpp"
+#include "core/theory/stability.hpp"
+#include "experiments/parameters/parameter_table.hpp"
+
+namespace zerocount::theory {
+namespace {
+
+constexpr std::int64_t max_rigs_examined = 10'000;
+
+bool is_cascade(const trial::TrialParameters& p) {
+  return p.controller.blocks.structure == loop::ControlStructure::cascade;
+}
+
+/// Whether an observer brings the error to zero where the control has no integral: it passes on the torque of
+/// the control law, which must have a part proportional to the error.
+bool acts_by_observer(const loop::ControllerParameters& controller) {
+  return controller.blocks.observer.bandwidth > 0.0 && controller.kp > 0.0;
+}
+
+/// An integral gain (N m/count, of a cascade N m/rad) in the unit of the manifest.
+double as_given(const parameters::StudyUnits& units, const trial::TrialParameters& p, double ki) {
+  if (units.gains == parameters::GainUnits::count || is_cascade(p)) return ki;
+  loop::ControllerParameters controller = p.controller;
+  controller.ki = ki;
+  return analogue_gains(controller, p.encoder).ki;
+}
+
+/// ki below which the trial's sampled loop is stable about a spring of `stiffness` (N m/rad), N m/count.
+double sampled_bound(double stiffness, const trial::TrialParameters& p) {
+  return sampled_critical_integral_gain(stiffness, p.plant, p.encoder, p.controller, drive_of(p));
+}
+
+/// Adds the slowest time constant of the loop in the fine phase about a spring of `stiffness` (N m/rad).
+/// Returns false, and adds nothing, if that loop is not stable.
+bool add_time_constant(Range& slowest, double stiffness, const trial::TrialParameters& p) {
+  const double tau =
+      slowest_time_constant(stiffness, p.plant, p.encoder,
+                            loop::controller_in_phase(p.controller, loop::ControlPhase::fine), drive_of(p));
+  if (!std::isfinite(tau) || tau <= 0.0) return false;
+  slowest.add(tau);
+  return true;
+}
+
+double hold_of(const trial::TrialParameters& p) {
+  return static_cast<double>(trial::samples_of_move(p, 0)) / p.controller.sample_rate;
+}
+
+/// Adds the bound of the trial's sampled loop about a spring of `stiffness` (N m/rad).
+void add_sampled_bound(const study::Study& study, const trial::TrialParameters& p, double stiffness,
+                       GainTheory& gain) {
+  const double bound = sampled_bound(stiffness, p);
+  gain.sampled_below.add(as_given(study.units, p, bound));
+  gain.sampled_stable.insert(integral_gain(p.controller) < bound);
+}
+
+/// The ranges of this loop, at the end of `loops` if it is new: not every trial has a coarse phase.
+LoopRanges& ranges_of(std::vector<LoopRanges>& loops, const TrialLoop& of_trial) {
+  const auto found = std::ranges::find(loops, of_trial.name, &LoopRanges::name);
+  if (found != loops.end()) return *found;
+  LoopRanges& added = loops.emplace_back();
+  added.name = of_trial.name;
+  added.slides = of_trial.slides;
+  return added;
+}
+
+/// Adds the margins of the trial's loops, and the bandwidth of those that slide.
+void add_loops(std::vector<LoopRanges>& loops, const trial::TrialParameters& p) {
+  for (const TrialLoop& of_trial : trial_loops(p)) {
+    LoopRanges& ranges = ranges_of(loops, of_trial);
+    const StabilityMargins margins = stability_margins(of_trial.loop);
+    ranges.gain.add(20.0 * std::log10(margins.gain.value));
+    ranges.gain_at.add(margins.gain.frequency);
+    ranges.phase.add(margins.phase.value);
+    ranges.phase_at.add(margins.phase.frequency);
+    ranges.stability.insert(stability_of(of_trial.loop));
+    if (of_trial.slides) ranges.bandwidth.add(gain_crossover(of_trial.loop).frequency);
+  }
+}
+
+/// The theory of a loop without a spring: its sampled bound and time constant.
+void examine_free(const study::Study& study, const trial::TrialParameters& p, PointTheory& theory) {
+  theory.gain.value.add(as_given(study.units, p, integral_gain(p.controller)));
+  add_sampled_bound(study, p, 0.0, theory.gain);
+  add_time_constant(theory.approach.time_constant, 0.0, p);
+}
+
+/// The initial errors of moves in the fine phase, counts; empty unless the reference is a step.
+std::set<std::int64_t> steps_of(const trial::TrialParameters& p) {
+  std::set<std::int64_t> steps;
+  if (p.command.profile.shape != loop::ReferenceShape::step) return steps;
+  const auto largest = loop::has_coarse_phase(p.controller)
+                           ? static_cast<std::int64_t>(p.controller.coarse.fine_within)
+                           : std::numeric_limits<std::int64_t>::max();
+  std::int64_t before = 0;
+  for (const std::int64_t target : p.command.targets) {
+    steps.insert(std::min(std::abs(target - before), largest));
+    before = target;
+  }
+  steps.erase(0);
+  return steps;
+}
+
+/// Updates the slowest move, for slow integral control by the PID law.
+void add_arrivals(Approach& approach, const trial::TrialParameters& p,
+                  const friction::FrictionParameters& contact) {
+  if (!(p.controller.ki > 0.0) || is_cascade(p)) return;
+  const double judged = chatter_time(p.plant, contact, p.controller, p.verdict.dwell) +
+                        std::max(p.verdict.dwell, p.verdict.window);
+  for (const std::int64_t step : steps_of(p)) {
+    const double time = slow_arrival_time(step, contact, p.encoder, p.controller) + judged;
+    if (time <= approach.longest_time) continue;
+    approach.longest_step = step;
+    approach.longest_time = time;
+  }
+}
+
+/// Adds criterion (6) for this k1.
+void add_low_end(const study::Study& study, const trial::TrialParameters& p, double k1,
+                 LowestStiffness& lowest) {
+  friction::FrictionParameters contact = friction::friction_at(p.friction, p.initial.position);
+  contact.k1 = k1;
+  lowest.k1.add(k1);
+  const IntegralGainBounds bounds = integral_gain_bounds(p.plant, contact, p.encoder, p.controller);
+  lowest.stable_below.add(as_given(study.units, p, bounds.stable_below));
+}
+
+/// Examines the lowest k1 of the rotors of all rigs (trial i runs on rig i mod rigs). The bound of the
+/// sampled loop, which takes longer, is computed only at the lowest of them.
+void examine_rotors(const study::Study& study, std::int64_t point, LowestStiffness& lowest) {
+  lowest.rigs = std::min(study.rigs, max_rigs_examined);
+  trial::TrialParameters softest;
+  Range k1;
+  for (std::int64_t rig = 0; rig < lowest.rigs; ++rig) {
+    const trial::TrialParameters p = study::study_trial(study, point, rig).parameters;
+    const double k1_of_rig = lowest_k1(p.friction);
+    add_low_end(study, p, k1_of_rig, lowest);
+    if (k1_of_rig < k1.low) softest = p;
+    k1.add(k1_of_rig);
+  }
+  if (lowest.rigs > 0)
+    lowest.sampled_below.add(as_given(study.units, softest, sampled_bound(k1.low, softest)));
+}
+
+/// Adds what takes longer to compute and the paper does not treat: the sampled loop, its time constants and
+/// margins, and the loop at the lowest k1.
+void examine_closely(const study::Study& study, const trial::TrialParameters& p, PointTheory& theory) {
+  const friction::FrictionParameters contact = friction::friction_at(p.friction, p.initial.position);
+  add_sampled_bound(study, p, contact.k1, theory.gain);
+  Range& slowest = theory.approach.time_constant;
+  const bool stable_at_k1 = add_time_constant(slowest, contact.k1, p);
+  const bool stable_at_k2 = add_time_constant(slowest, contact.k1 + contact.k2, p);
+  if (stable_at_k1 || stable_at_k2) add_arrivals(theory.approach, p, contact);
+  add_loops(theory.loops, p);
+  LowestStiffness& lowest = theory.lowest;
+  const bool varies = lowest.source.kind == study::LowEnd::Kind::profile;
+  const double k1 = varies ? lowest_k1(p.friction) : lowest.source.value;
+  add_low_end(study, p, k1, lowest);
+  lowest.sampled_below.add(as_given(study.units, p, sampled_bound(k1, p)));
+}
+
+/// Adds the criteria (6) and (7) and the paper's rules for a trial.
+void add_criteria(const study::Study& study, const trial::TrialParameters& p,
+                  const friction::FrictionParameters& contact, GainTheory& gain, DesignRules& rules) {
+  const TrialPrediction prediction = predict(p);
+  const IntegralGainBounds bounds = integral_gain_bounds(p.plant, contact, p.encoder, p.controller);
+  const double dac_bound = dac_resolution_bound(contact.k1, p.encoder, p.controller.encoder);
+  gain.value.add(as_given(study.units, p, integral_gain(p.controller)));
+  gain.observes = gain.observes || acts_by_observer(p.controller);
+  if (gain.left_out.empty()) gain.left_out = left_out_of_criteria(p.plant, p.controller);
+  gain.stable_below.add(as_given(study.units, p, bounds.stable_below));
+  gain.unstable_above.add(as_given(study.units, p, bounds.unstable_above));
+  gain.prediction.add(prediction);
+  rules.coarse_feedback = p.controller.encoder == loop::EncoderChoice::coarse;
+  rules.dac_resolution.add(p.dac.resolution);
+  rules.dac_bound.add(dac_bound);
+  rules.fine_enough = rules.fine_enough && p.dac.resolution < dac_bound;
+  rules.frequency.add(natural_frequency(contact.k1 + contact.k2, p.plant));
+  rules.sample_rate.add(p.controller.sample_rate);
+  rules.fast_enough = rules.fast_enough && p.controller.sample_rate >= advised_sample_rate(p.plant, contact);
+}
+
+/// Applies `add` to the parameters of the first `count` trials of the point.
+template <typename Add>
+void for_trials(const study::Study& study, std::int64_t point, std::int64_t count, Add add) {
+  for (std::int64_t index = 0; index < std::min(study.trials, count); ++index)
+    add(study::study_trial(study, point, index).parameters);
+}
+
+void examine_outside(const study::Study& study, std::int64_t point, const trial::TrialParameters& first,
+                     PointTheory& theory) {
+  theory.hunting = predict_hunting(first);
+  theory.free = !has_no_linear_loop(first) && first.friction.model == friction::FrictionModel::none;
+  for_trials(study, point, max_trials_examined_closely, [&](const trial::TrialParameters& p) {
+    add_loops(theory.loops, p);
+    if (theory.free) examine_free(study, p, theory);
+  });
+}
+
+void examine_springs(const study::Study& study, std::int64_t point, PointTheory& theory) {
+  theory.rules.torque_unit = parameters::unit_on(study.units.axis, "N m");
+  theory.lowest.source = study::low_end(study, point, "friction.k1");
+  trial::TrialParameters softest;
+  trial::TrialParameters stiffest;
+  Range k1;  // N m/rad
+  for_trials(study, point, max_trials_examined, [&](const trial::TrialParameters& p) {
+    const friction::FrictionParameters contact = friction::friction_at(p.friction, p.initial.position);
+    add_criteria(study, p, contact, theory.gain, theory.rules);
+    if (contact.k1 < k1.low) softest = p;
+    if (contact.k1 > k1.high) stiffest = p;
+    k1.add(contact.k1);
+  });
+  // If k1 is the only difference between the trials, these two have the extreme bounds.
+  add_sampled_bound(study, softest, k1.low, theory.gain);
+  add_sampled_bound(study, stiffest, k1.high, theory.gain);
+  add_loops(theory.loops, softest);
+  add_loops(theory.loops, stiffest);
+  for_trials(study, point, max_trials_examined_closely,
+             [&](const trial::TrialParameters& p) { examine_closely(study, p, theory); });
+  if (theory.lowest.source.kind == study::LowEnd::Kind::profile) examine_rotors(study, point, theory.lowest);
+}
+
+}  // namespace
+
+PointTheory examine(const study::Study& study, std::int64_t point) {
+  PointTheory theory;
+  const trial::TrialParameters first = study::study_trial(study, point, 0).parameters;
+  const std::string_view gain = is_cascade(first) ? "controller.cascade.ki" : "controller.ki";
+  theory.gain.name = gain.substr(gain.find('.') + 1);
+  theory.gain.unit = parameters::unit_of(
+      parameters::parameter_table()[parameters::find_parameter(gain).value()], study.units);
+  theory.approach.hold = hold_of(first);
+  theory.outside = why_outside_theory(first);
+  if (theory.outside.empty()) {
+    examine_springs(study, point, theory);
+  } else {
+    examine_outside(study, point, first, theory);
+  }
+  return theory;
+}
+
+}  // namespace zerocount::theory

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "analysis/theory/hunting_prediction.hpp"
+#include "analysis/theory/theory_prediction.hpp"
+#include "core/theory/frozen_loop.hpp"
+#include "experiments/study/low_end.hpp"
+#include "experiments/study/study.hpp"
+
+namespace zerocount::theory {
+
+/// Trials of a point that are examined at most.
+inline constexpr std::int64_t max_trials_examined = 200;
+/// Trials whose time constants, margins and bounds of the sampled loop are computed at most.
+inline constexpr std::int64_t max_trials_examined_closely = 20;
+
+/// Range of a quantity over the trials of a point. NaN does not change it.
+struct Range {
+  double low{std::numeric_limits<double>::infinity()};
+  double high{-std::numeric_limits<double>::infinity()};
+
+  void add(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  bool empty() const { return low > high; }
+};
+
+/// The integral gain and its bounds, in the unit of the manifest.
+struct GainTheory {
+  std::string name;  ///< "ki", or that of a cascade
+  std::string unit;
+  Range value;
+  std::string_view left_out;  ///< of the controller, by criteria (6) and (7); empty: they apply
+  Range stable_below;         ///< (6)
+  Range unstable_above;       ///< (7)
+  Range sampled_below;        ///< bound of the sampled loop about k1, or without a spring
+  PointPrediction prediction;
+  std::set<bool> sampled_stable;  ///< values of `value < sampled_below` in the trials
+  bool observes{false};           ///< a disturbance observer takes the place of the integral
+};
+
+/// The paper's rules for the DAC and the sample rate.
+struct DesignRules {
+  Range dac_resolution, dac_bound;  ///< torque_unit
+  std::string torque_unit;
+  bool coarse_feedback{false};   ///< the bound uses the resolution Δx of the coarse encoder
+  bool fine_enough{true};        ///< the DAC satisfies the bound in every trial
+  Range frequency, sample_rate;  ///< Hz
+  bool fast_enough{true};        ///< the sample rate satisfies the rule in every trial
+};
+
+/// Criterion (6) and the sampled loop at the lowest k1 of the study.
+struct LowestStiffness {
+  study::LowEnd source;
+  std::int64_t rigs{0};  ///< rigs with profiles that were examined; 0 without rigs
+  Range k1;              ///< minimum of the profiles, or the low end of the distribution, N m/rad
+  Range stable_below, sampled_below;  ///< in the unit of the gain
+};
+
+/// How fast the loop brings the error to zero.
+struct Approach {
+  Range time_constant;           ///< slowest of the loop, s
+  double hold{0.0};              ///< of the shortest move, s
+  std::int64_t longest_step{0};  ///< of the slowest move, counts; 0: no step
+  double longest_time{0.0};      ///< from its start until it has arrived, with the dwell, s
+
+  /// Whether moves may end before the loop has brought them to their targets.
+  bool exceeds_hold() const { return time_constant.high > hold || longest_time > hold; }
+};
+
+/// A loop of trial_loops over the trials. A trial without a crossover does not change its ranges.
+struct LoopRanges {
+  std::string name;
+  bool slides{false};
+  Range bandwidth;        ///< Hz, of a loop that slides
+  Range gain, gain_at;    ///< margin, dB, and its frequency, Hz
+  Range phase, phase_at;  ///< margin, degrees, and its frequency, Hz
+  std::set<LoopStability> stability;
+};
+
+/// Results of the theory (section 3 of the paper) for the trials of a design point.
+struct PointTheory {
+  std::string_view outside;  ///< reason why (6) and (7) do not apply; empty if they do
+  bool free{false};          ///< no spring: `gain` and `approach` are of the loop without friction
+  std::optional<HuntingPrediction> hunting;  ///< of trial 0, where `outside`
+  GainTheory gain;
+  DesignRules rules;
+  LowestStiffness lowest;
+  Approach approach;
+  std::vector<LoopRanges> loops;  ///< in the order of trial_loops
+};
+
+/// Examines the first trials of the point.
+PointTheory examine(const study::Study& study, std::int64_t point);
+
+}  // namespace zerocount::theory

@@ -1,0 +1,191 @@
+// The curve of a Bode plot is the open loop, thinned.
+#include "analysis/theory/bode_curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "core/loop/encoder.hpp"
+#include "core/theory/linear_loop.hpp"
+
+namespace zerocount::theory {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// The parameters of a loop.
+struct LoopParts {
+  double stiffness{0.0};
+  double damping{0.0};
+  motion::PlantParameters plant;
+  loop::ControllerParameters controller;
+  LinearDrive drive;
+
+  FrozenLoop frozen() const { return frozen_loop(stiffness, damping, plant, {}, controller, drive); }
+  /// L at a frequency (Hz), by its formula.
+  std::complex<double> response(double frequency) const {
+    const double T = 1.0 / controller.sample_rate;
+    const double resolution = loop::fine_resolution({});
+    return open_loop(std::polar(1.0, 2.0 * pi * frequency * T),
+                     hold_plant(stiffness, damping, plant, resolution, T, drive),
+                     loop::linear_chain(controller, resolution), controller.delay);
+  }
+};
+
+class RandomParts {
+ public:
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+  double log_uniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
+
+  LoopParts parts() {
+    LoopParts parts;
+    parts.stiffness = uniform(0.0, 1.0) < 0.3 ? 0.0 : log_uniform(50.0, 1000.0);
+    parts.damping = parts.stiffness == 0.0 ? log_uniform(1e-4, 1e-2) : log_uniform(0.02, 0.5);
+    parts.plant.inertia = log_uniform(1e-4, 1e-2);
+    if (uniform(0.0, 1.0) < 0.6) {
+      parts.plant.load = {.inertia = log_uniform(1e-5, 1e-2),
+                          .stiffness = log_uniform(300.0, 2e4),
+                          .damping = log_uniform(1e-4, 0.1)};
+    }
+    parts.controller.kp = log_uniform(1e-5, 1e-3);
+    parts.controller.ki = log_uniform(1e-6, 1e-4);
+    parts.controller.kd = log_uniform(1e-4, 5e-3);
+    parts.controller.delay = static_cast<int>(uniform(0.0, 2.99));
+    if (uniform(0.0, 1.0) < 0.5) parts.drive.bandwidth = 500.0;
+    return parts;
+  }
+
+ private:
+  std::mt19937_64 random_{20};
+};
+
+double decibels(std::complex<double> value) {
+  return 20.0 * std::log10(std::abs(value));
+}
+
+/// The smallest angle between two phases, degrees.
+double between(double a, double b) {
+  return std::abs(std::remainder(a - b, 360.0));
+}
+
+double degrees(std::complex<double> value) {
+  return std::arg(value) * 180.0 / pi;
+}
+
+/// Not only at the points, but also on the straight lines that the figure draws between them.
+TEST(BodeCurve, IsTheOpenLoopAtEveryFrequency) {
+  RandomParts random;
+  for (int i = 0; i < 60; ++i) {
+    const LoopParts parts = random.parts();
+    const double lowest = random.log_uniform(0.1, 10.0);
+    const std::vector<BodePoint> curve = bode_curve(parts.frozen(), lowest);
+    ASSERT_GT(curve.size(), 5U);
+    EXPECT_LE(curve.size(), max_bode_points);
+    EXPECT_NEAR(curve.front().frequency, lowest, 1e-9 * lowest);
+    EXPECT_NEAR(curve.back().frequency, 0.5 * parts.controller.sample_rate, 1e-5);
+    for (const BodePoint& point : curve) {
+      const std::complex<double> value = parts.response(point.frequency);
+      EXPECT_NEAR(point.magnitude, decibels(value), 1e-6);
+      EXPECT_LT(between(point.phase, degrees(value)), 1e-5);
+    }
+    for (int k = 0; k < 200; ++k) {
+      const double frequency = random.log_uniform(lowest, 0.49 * parts.controller.sample_rate);
+      const auto after = std::find_if(curve.begin(), curve.end(),
+                                      [&](const BodePoint& point) { return point.frequency > frequency; });
+      const BodePoint& a = *std::prev(after);
+      const BodePoint& b = *after;
+      const double part = std::log(frequency / a.frequency) / std::log(b.frequency / a.frequency);
+      const std::complex<double> value = parts.response(frequency);
+      EXPECT_NEAR(a.magnitude + part * (b.magnitude - a.magnitude), decibels(value), 0.5) << frequency;
+      EXPECT_LT(between(a.phase + part * (b.phase - a.phase), degrees(value)), 2.0) << frequency;
+    }
+  }
+}
+
+// J·θ¨ + cs·θ˙ = u under kp and ki: −180° of the integrals below the corner of cs/J, −270° above it, −180°
+// again above the corner of ki and kp. About a spring: −90°, then 180° less past its natural frequency.
+TEST(BodeCurve, HasThePhaseThatTheTextbookDraws) {
+  LoopParts sliding;
+  sliding.damping = 1.0;
+  sliding.plant.inertia = 1e-2;
+  sliding.controller.ki = 1e-7;
+  EXPECT_NEAR(bode_curve(sliding.frozen(), 1e-2).front().phase, -180.0, 1.0);
+  sliding.damping = 1e-5;
+  EXPECT_NEAR(bode_curve(sliding.frozen(), 0.1).front().phase, -270.0, 1.0);
+  LoopParts spring;
+  spring.stiffness = 110.0;
+  spring.damping = 1e-4;
+  spring.controller.kp = 0.0;
+  const std::vector<BodePoint> curve = bode_curve(spring.frozen(), 0.1);
+  EXPECT_NEAR(curve.front().phase, -90.0, 0.1);
+  const auto past =
+      std::find_if(curve.begin(), curve.end(), [](const BodePoint& p) { return p.frequency > 90.0; });
+  EXPECT_NEAR(past->phase, -270.0 - 180.0 * past->frequency / 2000.0, 1.0);  // and the lag of the hold
+}
+
+// The resonance of two free masses is √(kL·(1/J + 1/JL)), the antiresonance √(kL/JL).
+TEST(BodeCurve, DoesNotMissTheResonanceOfALoad) {
+  RandomParts random;
+  for (int i = 0; i < 50; ++i) {
+    LoopParts parts;
+    parts.damping = 1e-3;
+    parts.plant.inertia = random.log_uniform(3e-4, 3e-3);
+    const double load = parts.plant.inertia * random.log_uniform(0.05, 5.0);
+    const double antiresonance = random.log_uniform(50.0, 200.0);
+    const double stiffness = load * std::pow(2.0 * pi * antiresonance, 2);
+    parts.plant.load = {.inertia = load, .stiffness = stiffness, .damping = random.log_uniform(1e-6, 1e-4)};
+    parts.controller.kp = 3e-4;
+    const double resonance = antiresonance * std::sqrt(1.0 + load / parts.plant.inertia);
+    if (resonance > 800.0) continue;
+    const std::vector<BodePoint> curve = bode_curve(parts.frozen(), 5.0);
+    const auto by_magnitude = [](const BodePoint& a, const BodePoint& b) {
+      return a.magnitude < b.magnitude;
+    };
+    const auto above = std::find_if(curve.begin(), curve.end(), [&](const BodePoint& p) {
+      return p.frequency > std::sqrt(antiresonance * resonance);
+    });
+    const auto peak = std::max_element(above, curve.end(), by_magnitude);
+    EXPECT_NEAR(peak->frequency, resonance, 1e-3 * resonance);
+    double highest = -1e9;
+    for (int k = -4000; k <= 4000; ++k)
+      highest = std::max(highest, decibels(parts.response(resonance * (1.0 + 1e-3 * k / 4000.0))));
+    EXPECT_NEAR(peak->magnitude, highest, 0.5);
+    const auto low = std::min_element(curve.begin(), above, by_magnitude);
+    EXPECT_NEAR(low->frequency, antiresonance, 2e-3 * antiresonance);
+  }
+}
+
+TEST(BodeCurve, HasThePhaseOfSmallDampingWhereThereIsNone) {
+  LoopParts parts;
+  parts.plant.load = {.inertia = 5e-4, .stiffness = 2000.0, .damping = 1e-7};
+  parts.controller.kp = 3e-4;
+  const std::vector<double> kept{100.0, 400.0, 700.0};
+  const std::vector<BodePoint> damped = bode_curve(parts.frozen(), 1.0, kept);
+  parts.plant.load.damping = 0.0;
+  const std::vector<BodePoint> undamped = bode_curve(parts.frozen(), 1.0, kept);
+  const auto phase_at = [](const std::vector<BodePoint>& curve, double frequency) {
+    const auto found = std::find_if(curve.begin(), curve.end(), [&](const BodePoint& point) {
+      return std::abs(point.frequency - frequency) < 1e-9 * frequency;
+    });
+    EXPECT_NE(found, curve.end()) << frequency;
+    return found == curve.end() ? std::nan("") : found->phase;
+  };
+  for (const double frequency : kept)
+    EXPECT_NEAR(phase_at(undamped, frequency), phase_at(damped, frequency), 0.1) << frequency;
+  EXPECT_NEAR(phase_at(undamped, 400.0) - phase_at(undamped, 100.0), 180.0, 60.0);
+}
+
+TEST(BodeCurve, ThereIsNoneWithoutGain) {
+  LoopParts parts;
+  parts.controller.ki = 0.0;
+  EXPECT_TRUE(bode_curve(parts.frozen(), 1.0).empty());
+}
+
+}  // namespace
+}  // namespace zerocount::theory

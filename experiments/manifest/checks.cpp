@@ -94,10 +94,11 @@ struct Checking {
 void tell(Checking& c, const yaml::Place& place, std::size_t slot, const std::string& what,
           std::string_view expected, bool warn_only) {
   const std::string path(c.plan().table.rows[slot].name);
+  const std::string text = parameters::text_on(c.plan().units.axis, what);
   if (warn_only) {
-    c.reading.warnings.push_back(yaml::at_place(place, path, what));
+    c.reading.warnings.push_back(yaml::at_place(place, path, text));
   } else {
-    c.reading.problems.add(place, path, what, expected);
+    c.reading.problems.add(place, path, text, expected);
   }
 }
 
@@ -211,8 +212,7 @@ void check_effects(Checking& c) {
       if (!has_effect) has_effect = rules::can_have_effect(c.plan(), rule);
       if (*has_effect) continue;
       reported_rows.insert(reported_row(table, slot));
-      tell(c, *place, slot, parameters::text_on(c.plan().units.axis, rule.what), rule.expected,
-           rule.warn_only);
+      tell(c, *place, slot, rule.what, rule.expected, rule.warn_only);
     }
   }
 }

@@ -79,7 +79,8 @@ std::vector<Parameter> rows_of(const std::array<std::string_view, 6>& names, std
                                          "gain of a notch at its frequency; 1 switches it off",
                                          numerics::at_least(0)),
       number_of_filter<Phase, &F::ratio>(names[3], dimension + 1, "1",
-                                         "frequency of a lead's pole over that of its zero", positive),
+                                         "ratio of the pole frequency of a lead to its zero frequency",
+                                         positive),
       coefficients_of_filter<Phase, &F::b>(names[4], dimension, "b0, b1, b2 of a biquad"),
       coefficients_of_filter<Phase, &F::a>(names[5], dimension + 3, "a1, a2 of a biquad"),
   };

@@ -188,14 +188,14 @@ RunStatus status_of_file(const fs::path& output) {
   if (!time_of(output)) {
     throw Failure(
         ExitCode::bad_input,
-        fmt::format("{}: there is neither this file nor a run of it: neither {} nor {}", output.string(),
+        fmt::format("{}: neither this file nor a run of it exists: neither {} nor {}", output.string(),
                     layout::shards_directory(output).string(), shards::parts_directory(output).string()));
   }
   const layout::FileHeader header = layout::read_header(layout::open_results(output));
   if (!header.complete || !header.finished) {
     throw Failure(ExitCode::bad_data,
-                  fmt::format("{}: a part with {} of {} trials; merge it with the others", output.string(),
-                              header.rows.count, header.trials * header.points));
+                  fmt::format("{}: a part with {} of {} trials; merge it with the other parts",
+                              output.string(), header.rows.count, header.trials * header.points));
   }
   RunStatus status;
   status.complete = true;
@@ -212,9 +212,7 @@ RunStatus status_of_merged(const fs::path& output, const RunStatus& of_parts) {
   return status;
 }
 
-}  // namespace
-
-RunStatus status_of(const fs::path& output) {
+RunStatus read_status(const fs::path& output) {
   if (!shards::has_begun(output)) return status_of_file(output);
   const Pieces found = read_pieces(output);
   const bool running = is_running(output, written_lately(found.pieces));
@@ -237,6 +235,16 @@ RunStatus status_of(const fs::path& output) {
     if (is_merged(output, status, found.pieces)) return status_of_merged(output, status);
   }
   if (!status.running) status.rate = std::nan("");
+  status.stopped =
+      !status.running && !is_awaited(output) && storage::lock_state(output) != storage::LockState::unknown;
+  return status;
+}
+
+}  // namespace
+
+RunStatus status_of(const fs::path& output) {
+  RunStatus status = read_status(output);
+  if (status.stopped) status = read_status(output);  // it may have ended while its files were read
   return status;
 }
 

@@ -27,6 +27,7 @@ struct RunStatus {
   std::int64_t finished{0};  ///< trials in complete files
   std::int64_t shards{0};    ///< finished, not counting complete parts
   bool running{false};       ///< the output, or one of its parts
+  bool stopped{false};       ///< incomplete, no process runs it, and no submitted job is awaited
   std::optional<PartCounts> parts{};
   std::vector<std::string> problems{};  ///< files that cannot be read, or were set aside as damaged
   double rate{std::numeric_limits<double>::quiet_NaN()};  ///< trials/s; NaN: unknown
@@ -42,8 +43,8 @@ struct RunStatus {
 /// the newest of them.
 ///
 /// Of each file with trials only the header is read, without its checksum.
-/// @throws Failure: bad_input if there is neither a file nor a run; bad_data if the file is no complete
-/// results file; machine_failed if a directory cannot be read.
+/// @throws Failure: bad_input if there is neither a file nor a run; bad_data if the file is not a
+/// complete results file; machine_failed if a directory cannot be read.
 RunStatus status_of(const std::filesystem::path& output);
 
 /// Lines such as

@@ -178,7 +178,7 @@ std::optional<yaml::Place> given_place(const Checking& c, std::size_t slot) {
   return std::nullopt;
 }
 
-bool asks_for_nothing(const Checking& c, std::size_t slot) {
+bool is_off(const Checking& c, std::size_t slot) {
   const double nothing = c.plan().table.rows[slot].none.value_or(0.0);
   const std::vector<const study::Value*> values = study::values_of(c.plan(), slot);
   return std::all_of(values.begin(), values.end(), [&](const study::Value* value) {
@@ -207,7 +207,7 @@ void check_effects(Checking& c) {
       });
       const auto place = covered ? given_place(c, slot) : std::nullopt;
       if (!place || reported_rows.count(reported_row(table, slot)) > 0 ||
-          (rule.off_at_zero && asks_for_nothing(c, slot)))
+          (rule.off_at_zero && is_off(c, slot)))
         continue;
       if (!has_effect) has_effect = rules::can_have_effect(c.plan(), rule);
       if (*has_effect) continue;

@@ -157,8 +157,7 @@ constexpr PhaseNames coarse_phase{"controller.coarse.structure",
                                   "controller.coarse.observer.bandwidth",
                                   "controller.coarse.observer.inertia"};
 
-// Of the blocks of one phase. A gain of 0 in some point's control law may be what a sweep is about: only
-// warnings.
+// Rules of the blocks of one phase. If a gain may be 0 on purpose, as in a sweep, only warnings.
 std::vector<EffectRule> rules_of_the_blocks(const PhaseNames& of) {
   const auto is_cascade = [](const study::ValueLimits& structure) {
     return is_word<loop::ControlStructure::cascade>(structure);

@@ -95,7 +95,7 @@ ExitCode plot_history(const command_line::Arguments& arguments) {
   return ExitCode::success;
 }
 
-/// What is done with a history, and the options that it takes.
+/// An action on a history, and its options.
 struct HistoryAction {
   std::string_view name;
   std::vector<std::string_view> options;

@@ -101,7 +101,7 @@ fs::path lock_file(const fs::path& output) {
   return path += ".lock";
 }
 
-/// When the run has begun; nothing if no file tells.
+/// Start of the run; nothing if no file shows it.
 std::optional<Time> begin_of(const fs::path& output) {
   if (const std::optional<Time> submitted = time_of(cluster::submission_file(output))) return submitted;
   return time_of(lock_file(output));
@@ -175,7 +175,7 @@ PartCounts count_parts(const fs::path& output, const Pieces& found, RunStatus& s
   return counts;
 }
 
-/// Whether the results file is that of the parts: all of them are complete, and none is newer.
+/// Whether the results file was made from the parts: all of them are complete, and none is newer.
 bool is_merged(const fs::path& output, const RunStatus& status, const std::vector<Piece>& pieces) {
   const std::optional<Time> merged = time_of(output);
   if (!merged || !status.parts || status.parts->complete != status.parts->all || status.shards > 0)

@@ -22,8 +22,8 @@ std::string failure_of(const std::string& text) {
 }
 
 struct Case {
-  const char* line;     // the sixth line of an otherwise good manifest
-  const char* message;  // the whole message
+  const char* line;    // the sixth line of an otherwise good manifest
+  const char* faults;  // see has_faults()
 };
 
 // The line names the test.
@@ -34,7 +34,7 @@ void PrintTo(const Case& tested, std::ostream* out) {
 class SixthLine : public testing::TestWithParam<Case> {};
 
 TEST_P(SixthLine, IsReported) {
-  EXPECT_TRUE(has_faults(failure_of(minimal_manifest(GetParam().line)), GetParam().message));
+  EXPECT_TRUE(has_faults(failure_of(minimal_manifest(GetParam().line)), GetParam().faults));
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -43,13 +43,13 @@ TEST(Stop, CanBeChangedByOverrides) {
 
 struct Refusal {
   const char* line;
-  const char* message;
+  const char* faults;
 };
 
 class RefusedStop : public testing::TestWithParam<Refusal> {};
 
 TEST_P(RefusedStop, SaysWhy) {
-  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest(GetParam().line)), GetParam().message));
+  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest(GetParam().line)), GetParam().faults));
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -16,8 +16,8 @@ namespace {
 
 struct IdleCase {
   const char* command;
-  const char* more;     // from the sixth line on
-  const char* message;  // the whole message; empty: understood
+  const char* more;    // from the sixth line on
+  const char* faults;  // see has_faults(); empty: understood
 };
 
 void PrintTo(const IdleCase& tested, std::ostream* out) {
@@ -28,7 +28,7 @@ class EffectRules : public testing::TestWithParam<IdleCase> {};
 
 TEST_P(EffectRules, AreChecked) {
   EXPECT_TRUE(
-      has_faults(refusal_of(manifest_commanding(GetParam().command, GetParam().more)), GetParam().message));
+      has_faults(refusal_of(manifest_commanding(GetParam().command, GetParam().more)), GetParam().faults));
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -11,8 +11,8 @@ namespace {
 
 struct UnfitCase {
   const char* command;
-  const char* more;     // from the sixth line on
-  const char* message;  // the whole message; empty: understood
+  const char* more;    // from the sixth line on
+  const char* faults;  // see has_faults(); empty: understood
 };
 
 void PrintTo(const UnfitCase& tested, std::ostream* out) {
@@ -23,7 +23,7 @@ class ValueRules : public testing::TestWithParam<UnfitCase> {};
 
 TEST_P(ValueRules, AreChecked) {
   EXPECT_TRUE(
-      has_faults(refusal_of(manifest_commanding(GetParam().command, GetParam().more)), GetParam().message));
+      has_faults(refusal_of(manifest_commanding(GetParam().command, GetParam().more)), GetParam().faults));
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -188,9 +188,9 @@ TEST_F(SlurmCommand, KeepsWhatWasThereWhereNothingWasSubmitted) {
 TEST_F(SlurmCommand, RefusesWhatTheScriptsCannotHold) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
       {{"--sbatch=partition=long"}, "'partition=long' is not an option of sbatch"},
-      {{"--sbatch=--array=0-3"}, "--array is for this command to decide"},
-      {{"--sbatch=-a5"}, "-a5 is for this command to decide"},
-      {{"--sbatch=--arr=5"}, "--arr is for this command to decide"},
+      {{"--sbatch=--array=0-3"}, "--array is set by this command"},
+      {{"--sbatch=-a5"}, "-a5 is set by this command"},
+      {{"--sbatch=--arr=5"}, "--arr is set by this command"},
       {{"--sbatch=--comment=a\nb"}, "is not an option of sbatch"},
       {{"--time", ":::"}, "is not a Slurm time"},
       {{"--time", ""}, "is not a Slurm time"},
@@ -208,7 +208,7 @@ TEST_F(SlurmCommand, RefusesWhatTheScriptsCannotHold) {
   expect_refusal(slurm({"--tasks", "121"}), 2, "cannot be divided into 121 parts");
   expect_refusal(zerocount_program({"slurm", "study.yaml", "-o", "a\\b.h5", "--tasks", "2", "--dry-run"},
                                    folder_.path(), environment()),
-                 2, "Slurm takes no path with a backslash");
+                 2, "a path with a backslash");
 }
 
 TEST_F(SlurmCommand, RunsAStudyThatStopsItselfAsOneJob) {

@@ -81,7 +81,7 @@ std::string point_text(const PointJerks& point, const std::string& level, parame
   text += intervals_text(jerks.intervals) + slowing_text(jerks.slowing, level);
   if (jerks.jerks > 0) {
     text += parameters::text_on(
-        axis, fmt::format("in the direction of the holding torque: {}\n", proportion_text(jerks.agreement)));
+        axis, fmt::format("in the direction of the holding $torque: {}\n", proportion_text(jerks.agreement)));
     text += fmt::format("of one count: {}; largest {} counts; median duration {} s\n",
                         proportion_text(jerks.magnitudes.one_count), jerks.magnitudes.max,
                         text::short_number(jerks.magnitudes.median_duration));

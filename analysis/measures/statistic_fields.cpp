@@ -25,7 +25,7 @@ std::vector<StatisticField> outcome_count_fields() {
        [](S s) { return text::to_double(s.outcomes.oscillating); }},
       {"", "nonfinite", "1", "trials with a move that left the finite numbers", true,
        [](S s) { return text::to_double(s.outcomes.nonfinite); }},
-      {"", "open_loop", "1", "trials with torque levels in place of targets, which are not judged", true,
+      {"", "open_loop", "1", "trials with $torque levels in place of targets, which are not judged", true,
        [](S s) { return text::to_double(s.outcomes.open_loop); }},
   };
 }
@@ -51,8 +51,9 @@ std::vector<StatisticField> jerk_statistic_fields() {
       {"jerk_slowing", "tau", "1",
        "Kendall's tau of jerk interval and its order, over the pairs within moves", false,
        [](S s) { return s.jerk_slowing.tau; }},
-      {"", "jerk_agreement", "1", "jerks in the direction of the holding torque as a proportion of all jerks",
-       false, [](S s) { return s.jerk_agreement; }},
+      {"", "jerk_agreement", "1",
+       "jerks in the direction of the holding $torque as a proportion of all jerks", false,
+       [](S s) { return s.jerk_agreement; }},
       {"", "jerk_one_count_share", "1", "jerks of one count as a proportion of all jerks", false,
        [](S s) { return s.jerk_one_count_share; }},
   };

@@ -33,7 +33,7 @@ void change_titles(nlohmann::ordered_json& part, const Change& change) {
   }
 }
 
-/// Converts a title to an axis: "position (µm)" for "rotor angle (µrad)".
+/// Converts a title to an axis: "$rotor_angle (µrad)" becomes "position (µm)" on a linear one.
 void reword_title(std::string& title, parameters::AxisKind axis) {
   const std::size_t unit = title.ends_with(')') ? title.rfind('(') : std::string::npos;
   if (unit == std::string::npos) {

@@ -86,10 +86,10 @@ std::string direction_sentence(const statistics::ClusteredProportion& agreement)
   const std::string proportion = text::percentage(agreement.hits, agreement.events);
   if (agreement.hits == agreement.events)
     return fmt::format(
-        "All {} jerks of the point go in the direction of the holding torque, as creep makes them.",
+        "All {} jerks of the point go in the direction of the holding $torque, as creep makes them.",
         agreement.events);
   return fmt::format(
-      "{} of the {} jerks of the point go in the direction of the holding torque, as creep makes "
+      "{} of the {} jerks of the point go in the direction of the holding $torque, as creep makes "
       "them; the others have another cause, such as a coarse DAC or noise.",
       proportion, agreement.events);
 }

@@ -54,8 +54,8 @@ using Sample = const trial::SampleRecord&;
 const SampleColumn time_column{{"time", "time", "s"}, [](Sample s) { return datum(s.t); }};
 const SampleColumn target_column{{"target", "target", "count"}, [](Sample s) { return s.target; }};
 const SampleColumn count_column{{"count", "position", "count"}, [](Sample s) { return s.count; }};
-const SampleColumn torque_column{{"torque", "torque", "N m"}, [](Sample s) { return datum(s.torque); }};
-const SampleColumn motor_torque_column{{"torque", "torque", "N m"},
+const SampleColumn torque_column{{"torque", "$torque", "N m"}, [](Sample s) { return datum(s.torque); }};
+const SampleColumn motor_torque_column{{"torque", "$torque", "N m"},
                                        [](Sample s) { return datum(s.drive_torque); }};
 
 Figure step_responses(const std::vector<ReplayedTrial>& replayed) {
@@ -73,9 +73,9 @@ Figure jerks_in_time(const ReplayedTrial& trial) {
   return figure_of(
       "jerks-in-time", "paper-fig8", "Jerks by creep (Fig. 8 of the paper)",
       fmt::format(
-          "Position and torque over time of trial {}, which has the median number of jerks. After the move "
+          "Position and $torque over time of trial {}, which has the median number of jerks. After the move "
           "the position repeatedly leaves the target by one count, always in the direction of the holding "
-          "torque, and returns at once. The rate of these jerks decreases as the contact hardens.",
+          "$torque, and returns at once. The rate of these jerks decreases as the contact hardens.",
           trial.result.row),
       {data_of("samples", trial.samples, {time_column, count_column, torque_column})});
 }
@@ -84,7 +84,7 @@ Figure jerks_in_time(const ReplayedTrial& trial) {
 /// @param field and @param title of the column of places
 FigureData level_ends(const ReplayedTrial& trial, const char* field, const char* title,
                       double trial::MoveOutcome::*place) {
-  FigureData data{"levels", {{"levels", "levels", ""}, {field, title, "µrad"}, {"torque", "torque", "N m"}}};
+  FigureData data{"levels", {{"levels", "levels", ""}, {field, title, "µrad"}, {"torque", "$torque", "N m"}}};
   const std::vector<trial::MoveOutcome>& levels = trial.result.outcome.moves;
   double reach = 0.0;
   for (const trial::MoveOutcome& level : levels) reach = std::max(reach, std::abs(1e6 * (level.*place)));
@@ -105,30 +105,32 @@ FigureData level_ends(const ReplayedTrial& trial, const char* field, const char*
 }
 
 Figure hysteresis(const ReplayedTrial& trial, bool creeping) {
-  const SampleColumn angle{{"angle", "rotor angle", "µrad"}, [](Sample s) { return datum(1e6 * s.theta); }};
-  return figure_of("hysteresis", "paper-fig4", "Torque over angle (Fig. 4 of the paper)",
-                   fmt::format("Torque over rotor angle of trial {}, loaded and unloaded. Each number marks "
-                               "the end of a torque level, in their order. {}",
-                               trial.result.row,
-                               creeping ? "Creep moves the rotor on while the torque is held, so a loop does "
-                                          "not close where the contact has crept in it."
-                                        : "The spring has hysteresis with return-point memory: loops between "
-                                          "the same torques have the same width, and a closed loop has no "
-                                          "further influence, so levels of equal torque end at the same "
-                                          "point."),
-                   {data_of("samples", trial.samples, {time_column, angle, motor_torque_column}),
-                    level_ends(trial, "angle", "rotor angle", &trial::MoveOutcome::final_position)});
+  const SampleColumn angle{{"angle", "$rotor_angle", "µrad"}, [](Sample s) { return datum(1e6 * s.theta); }};
+  return figure_of(
+      "hysteresis", "paper-fig4", "$Torque over $angle (Fig. 4 of the paper)",
+      fmt::format("$Torque over $rotor_angle of trial {}, loaded and unloaded. Each number marks "
+                  "the end of a $torque level, in their order. {}",
+                  trial.result.row,
+                  creeping ? "Creep moves the $rotor on while the $torque is held, so a loop does "
+                             "not close where the contact has crept in it."
+                           : "The spring has hysteresis with return-point memory: loops between "
+                             "the same $torques have the same width, and a closed loop has no "
+                             "further influence, so levels of equal $torque end at the same "
+                             "point."),
+      {data_of("samples", trial.samples, {time_column, angle, motor_torque_column}),
+       level_ends(trial, "angle", "$rotor_angle", &trial::MoveOutcome::final_position)});
 }
 
 Figure plastic_extension(const ReplayedTrial& trial) {
   const SampleColumn extension{{"extension", "plastic extension", "µrad"},
                                [](Sample s) { return datum(1e6 * s.xp); }};
   return figure_of(
-      "creep", "paper-fig6", "Torque over plastic extension (Fig. 6 of the paper)",
-      fmt::format("Torque over plastic (creep) extension of trial {}. Each number marks the end of a torque "
-                  "level, in their order. At constant torque the contact creeps along a horizontal line "
-                  "until it has hardened. A repeated or smaller torque of either sign adds no extension.",
-                  trial.result.row),
+      "creep", "paper-fig6", "$Torque over plastic extension (Fig. 6 of the paper)",
+      fmt::format(
+          "$Torque over plastic (creep) extension of trial {}. Each number marks the end of a $torque "
+          "level, in their order. At constant $torque the contact creeps along a horizontal line "
+          "until it has hardened. A repeated or smaller $torque of either sign adds no extension.",
+          trial.result.row),
       {data_of("samples", trial.samples, {time_column, extension, motor_torque_column}),
        level_ends(trial, "extension", "plastic extension", &trial::MoveOutcome::creep)});
 }

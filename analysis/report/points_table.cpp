@@ -184,9 +184,8 @@ std::string level_table_html(const summary::StudySummary& summary, std::size_t r
     column.cells.resize(std::min(column.cells.size(), rows));
     columns.push_back({column.head, "", !column.numeric, std::move(column.cells)});
   }
-  return html_table(columns) +
-         fmt::format("<p class=\"note lines\">{}</p>\n",
-                     html_text(parameters::text_on(summary.features.axis, summary::level_legend())));
+  return html_table(columns) + fmt::format("<p class=\"note lines\">{}</p>\n",
+                                           html_text(summary::level_legend(summary.features.axis)));
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ void add(ReportPage& page, PageSection section) {
 }
 
 PageSection success_section(const ReportedStudy& reported) {
-  PageSection section{"points", reported.study.open_loop ? "Torque levels" : "Success", "", {}};
+  PageSection section{"points", reported.study.open_loop ? "$Torque levels" : "Success", "", {}};
   std::vector<Figure> maps = stability_maps(reported);
   // A study with a map has many points: the map shows them better than a long table.
   (maps.empty() ? section.html : section.html_after) = points_html(reported);
@@ -130,7 +130,7 @@ StudyReport study_report(const reading::StudyFile& file, const ReportOptions& op
       {"jerks", "Jerks", "", reported.study.open_loop ? std::vector<Figure>{} : jerk_figures(reported)});
   if (std::optional<PageSection> sensitivity = sensitivity_section(reported))
     add(page, std::move(*sensitivity));
-  add(page, {"rotor", "Along the rotor", "", rotor_figures(reported)});
+  add(page, {"rotor", "Along the $track", "", rotor_figures(reported)});
   if (std::optional<Figure> bode = bode_figure(reported))
     add(page, {"loop", "Stability margins", "", {std::move(*bode)}});
   if (reported.study.plugin) {

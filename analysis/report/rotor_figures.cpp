@@ -78,7 +78,7 @@ double value_at(const reading::StoredProfile& profile, double angle, double peri
 }
 
 FigureData profile_data(const reading::StoredProfile& profile) {
-  FigureData data{"profile", {{"theta", "rotor angle", "rad"}, {"value", profile.name, profile.unit}}};
+  FigureData data{"profile", {{"theta", "$rotor_angle", "rad"}, {"value", profile.name, profile.unit}}};
   for (const std::int64_t i : statistics::spread_over(std::ssize(profile.theta), profile_points)) {
     const auto at = static_cast<std::size_t>(i);
     data.rows.push_back(ordered_json::array({datum(profile.theta[at]), datum(profile.value[at])}));
@@ -142,15 +142,15 @@ std::string caption_of(const ReportedStudy& reported, const std::string& paramet
       shown.rig ? fmt::format("rig {} at point {}", *shown.rig, label) : fmt::format("point {}", label);
   std::string caption =
       shown.rig
-          ? fmt::format("The line is {} along the rotor of rig {}, the rig with the lowest success rate. ",
+          ? fmt::format("The line is {} along the $track of rig {}, the rig with the lowest success rate. ",
                         parameter, *shown.rig)
-          : fmt::format("The line is {} along the rotor, the same in all trials. ", parameter);
-  caption += failed
-                 ? fmt::format("The marks are the failed trials of {}, at the rotor angle where they ended. ",
-                               trials)
-                 : fmt::format("No trial of {} failed. ", trials);
+          : fmt::format("The line is {} along the $track, the same in all trials. ", parameter);
+  caption +=
+      failed ? fmt::format("The marks are the failed trials of {}, at the $rotor_angle where they ended. ",
+                           trials)
+             : fmt::format("No trial of {} failed. ", trials);
   return caption +
-         "Below: success rate of the trials that ended in each sector of the rotor, with 95 % "
+         "Below: success rate of the trials that ended in each sector of the $track, with 95 % "
          "Clopper-Pearson bounds. If it follows the line, the minimum of the profile limits the success, as "
          "the paper states for k1 (practical issue 1).";
 }
@@ -169,7 +169,7 @@ Figure rotor_figure(const ReportedStudy& reported, const reading::StoredProfile&
   });
   FigureData trials{"trials",
                     {{"trial", "trial of the point", "1"},
-                     {"theta", "rotor angle at the end", "rad"},
+                     {"theta", "$rotor_angle at the end", "rad"},
                      {"value", profile.name, profile.unit},
                      {"outcome", "outcome", ""}}};
   for (const std::int64_t i : statistics::spread_over(std::ssize(failures), max_failures)) {
@@ -185,7 +185,7 @@ Figure rotor_figure(const ReportedStudy& reported, const reading::StoredProfile&
   }
   Figure figure = figure_of(
       "rotor", fmt::format("rotor-{}", profile.name),
-      fmt::format("{} along the rotor{}", parameter, failures.empty() ? "" : ", and the trials that failed"),
+      fmt::format("{} along the $track{}", parameter, failures.empty() ? "" : ", and the trials that failed"),
       caption, {std::move(trials), profile_data(profile), sector_data(sectors)});
   figure.specification["vconcat"][0]["layer"][0]["encoding"]["y"]["title"] =
       profile.unit == "1" ? parameter : fmt::format("{} ({})", parameter, profile.unit);

@@ -130,7 +130,7 @@ Figure trace_figure(const ReportedStudy& reported, const SampleTrial& trial, con
   const std::string settled =
       first.arrived ? fmt::format("arrives after {:.4g} s", first.settling_time) : "never arrives";
   std::string caption = fmt::format(
-      "Error and torque over time of trial {} of point {}, simulated again: {}; {}. The error should reach "
+      "Error and $torque over time of trial {} of point {}, simulated again: {}; {}. The error should reach "
       "the dashed line and stay there. Its scale is linear within one count and logarithmic beyond. Samples "
       "are thinned, but all extremes are shown.",
       trial.index, label_of(reported, trial.point),
@@ -141,7 +141,7 @@ Figure trace_figure(const ReportedStudy& reported, const SampleTrial& trial, con
       {data_of<trial::SampleRecord>("samples", replayed.samples,
                                     {{{"time", "time", "s"}, [](Sample s) { return datum(s.t, 9); }},
                                      {{"error", "error", "count"}, [](Sample s) { return s.error; }},
-                                     {{"torque", "torque", "N m"}, [](Sample s) { return datum(s.torque); }},
+                                     {{"torque", "$torque", "N m"}, [](Sample s) { return datum(s.torque); }},
                                      {{"target", "target", "count"}, [](Sample s) { return s.target; }}})});
 }
 

@@ -184,7 +184,7 @@ void add_times(std::vector<std::string>& lines, const ReportedStudy& reported, s
   lines.push_back(parameters::text_on(
       reported.file.axis(),
       fmt::format("After arrival there were {} jerks per trial; {} of them went in the direction of the "
-                  "holding torque, {} were of one count.",
+                  "holding $torque, {} were of one count.",
                   text::short_number(jerks.mean), proportion_text(point.jerk_agreement),
                   proportion_text(point.jerk_one_count_share))));
 }
@@ -229,11 +229,17 @@ std::string open_loop_verdict(const ReportedStudy& reported) {
     broke_away += point.of(&trial::MoveOutcome::broke_away).trials;
     trials += point.trials;
   }
+  const parameters::AxisKind axis = reported.study.units.axis;
   return html_verdict(
-      "A material test: the rotor was loaded by torques, without targets, so there is no success rate.",
-      {fmt::format("In {} of {} trials the contact broke away into sliding; {} failed numerically. The table "
-                   "below shows how far each level moved the rotor, and the part of creep.",
-                   broke_away, trials, lost)});
+      parameters::text_on(axis,
+                          "A material test: the $rotor was loaded by $torques, without targets, so there is "
+                          "no success rate."),
+      {parameters::text_on(
+          axis,
+          fmt::format(
+              "In {} of {} trials the contact broke away into sliding; {} failed numerically. The table "
+              "below shows how far each level moved the $rotor, and the part of creep.",
+              broke_away, trials, lost))});
 }
 
 }  // namespace

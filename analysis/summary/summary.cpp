@@ -87,7 +87,8 @@ std::string summary_table(const StudySummary& summary) {
   const std::string unfinished = unfinished_sentence(summary);
   std::string text = text::printable(summary.name) + "\n" + (unfinished.empty() ? "" : unfinished + "\n") +
                      "\n" + text::aligned_table(levels ? level_columns(summary) : loop_columns(summary)) +
-                     nonfinite_notes(summary) + "\n" + (levels ? level_legend() : loop_legend(summary));
+                     nonfinite_notes(summary) + "\n" +
+                     (levels ? level_legend(summary.features.axis) : loop_legend(summary));
   for (const measures::SummarySection& section : summary.sections) {
     if (!section.text.empty()) text += "\n" + section.text;
   }

@@ -40,7 +40,7 @@ std::string bounds_text(const statistics::ConfidenceInterval& bounds) {
 std::vector<text::TextColumn> level_columns(const StudySummary& summary) {
   const parameters::AxisKind axis = summary.features.axis;
   const std::string torque_head =
-      fmt::format("{} ({})", parameters::text_on(axis, "torque"), parameters::unit_on(axis, "N m"));
+      fmt::format("{} ({})", parameters::text_on(axis, "$torque"), parameters::unit_on(axis, "N m"));
   const std::string small = parameters::unit_on(axis, "µrad");
   std::vector<text::TextColumn> columns{{"point", false, {}},
                                         {"level", true, {}},
@@ -81,11 +81,13 @@ std::vector<text::TextColumn> level_columns(const StudySummary& summary) {
   return columns;
 }
 
-std::string level_legend() {
-  return "All values are those at the end of a level, means over the trials whose motion was not lost.\n"
-         "position: of the rotor from the start, with bounds of the mean after Student; sd: over trials\n"
-         "creep: plastic extension; depth: most reversal points on the stack; broke away: proportion of "
-         "trials\n";
+std::string level_legend(parameters::AxisKind axis) {
+  return parameters::text_on(
+      axis,
+      "All values are those at the end of a level, means over the trials whose motion was not lost.\n"
+      "position: of the $rotor from the start, with bounds of the mean after Student; sd: over trials\n"
+      "creep: plastic extension; depth: most reversal points on the stack; broke away: proportion of "
+      "trials\n");
 }
 
 nlohmann::ordered_json levels_json(const measures::PointSummary& point) {

@@ -36,7 +36,7 @@ std::string design_line(const StudySummary& summary);
 
 /// The table of an open-loop study, a row per point and level, and what its columns mean.
 std::vector<text::TextColumn> level_columns(const StudySummary& summary);
-std::string level_legend();
+std::string level_legend(parameters::AxisKind axis);
 
 /// The observations on the real rig, [point]; empty where there are none at any point.
 std::vector<std::string> observations(const StudySummary& summary);

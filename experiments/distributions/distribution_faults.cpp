@@ -35,16 +35,16 @@ std::optional<Fault> fault_of(const Normal& d) {
 std::optional<Fault> fault_of(const TruncatedNormal& d) {
   if (auto fault = positive_fault("sd", d.sd)) return fault;
   if (auto fault = ends_fault(d.low, d.high)) return fault;
-  constexpr double min_proportion = 1e-12;
+  constexpr double min_probability = 1e-12;
   const boost::math::normal standard;
   const double low = (d.low - d.mean) / d.sd;
   const double high = (d.high - d.mean) / d.sd;
-  const double proportion = low > 0.0 ? boost::math::cdf(standard, -low) - boost::math::cdf(standard, -high)
-                                      : boost::math::cdf(standard, high) - boost::math::cdf(standard, low);
-  if (proportion >= min_proportion) return std::nullopt;
-  return Fault{fmt::format("only the proportion {:.3g} of the normal distribution lies between low and high",
-                           proportion),
-               fmt::format("at least {}", min_proportion)};
+  const double probability = low > 0.0 ? boost::math::cdf(standard, -low) - boost::math::cdf(standard, -high)
+                                       : boost::math::cdf(standard, high) - boost::math::cdf(standard, low);
+  if (probability >= min_probability) return std::nullopt;
+  return Fault{fmt::format("the normal distribution has a probability of only {:.3g} between low and high",
+                           probability),
+               fmt::format("at least {}", min_probability)};
 }
 
 std::optional<Fault> fault_of(const Lognormal& d) {
@@ -58,7 +58,7 @@ std::optional<Fault> fault_of(const Lognormal& d) {
 std::optional<Fault> fault_of(const Triangular& d) {
   if (auto fault = ends_fault(d.low, d.high)) return fault;
   if (d.low <= d.mode && d.mode <= d.high) return std::nullopt;
-  return Fault{fmt::format("the mode {} is outside of {} to {}", d.mode, d.low, d.high),
+  return Fault{fmt::format("the mode {} is not between {} and {}", d.mode, d.low, d.high),
                "low <= mode <= high"};
 }
 
@@ -69,7 +69,7 @@ std::optional<Fault> fault_of(const Integers& d) {
 
 std::optional<Fault> fault_of(const Choice& d) {
   if (!d.values.empty()) return std::nullopt;
-  return Fault{"there is nothing to choose from", "a list of at least one number"};
+  return Fault{"the list is empty", "a list of at least one number"};
 }
 
 }  // namespace

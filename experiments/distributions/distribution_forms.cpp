@@ -28,7 +28,7 @@ std::optional<Numbers> read_list(const DistributionForm& form, const yaml::Field
   if (!yaml::check_list(field, expected, problems)) return std::nullopt;
   const std::size_t count = field.node->items.size();
   if (!form.keys.empty() && count != form.keys.size()) {
-    problems.add(field, fmt::format("a list of {} stands here", count), expected);
+    problems.add(field, fmt::format("found a list of {}", count), expected);
     return std::nullopt;
   }
   Numbers numbers;
@@ -75,17 +75,13 @@ Distribution make_choice(const Numbers& n) {
 std::vector<DistributionForm> make_forms() {
   using enum DistributionForm::Syntax;
   return {
-      {"uniform",
-       list,
-       {"low", "high"},
-       "equally likely anywhere from low to below high",
-       make<Uniform, 0, 1>},
+      {"uniform", list, {"low", "high"}, "uniform from low to below high", make<Uniform, 0, 1>},
       {"log_uniform", list, {"low", "high"}, "the logarithm is uniform; 0 < low", make<LogUniform, 0, 1>},
       {"normal", map, {"mean", "sd"}, "Gaussian", make<Normal, 0, 1>},
       {"truncated_normal",
        map,
        {"mean", "sd", "low", "high"},
-       "Gaussian of the given mean and sd, conditioned on low to below high",
+       "Gaussian with this mean and sd, conditioned on low to below high",
        make<TruncatedNormal, 0, 1, 2, 3>},
       {"lognormal",
        map,
@@ -95,7 +91,7 @@ std::vector<DistributionForm> make_forms() {
       {"triangular",
        list,
        {"low", "mode", "high"},
-       "density rising straight from low to mode and falling straight to high",
+       "density that rises linearly from low to mode and falls linearly to high",
        make<Triangular, 0, 1, 2>},
       {"integers",
        list,

@@ -21,8 +21,8 @@ std::optional<Distribution> read_drawn_mean(const yaml::Field& field, yaml::Prob
   if (entries.size() != 1) {
     const bool per = yaml::find_field(field, "per").has_value();
     problems.add(field,
-                 per ? "the mean is drawn for every rotor, as often as the profile"
-                     : fmt::format("a map with {} keys stands here", entries.size()),
+                 per ? "the mean is drawn as often as the profile"
+                     : fmt::format("found a map with {} keys", entries.size()),
                  per ? "per beside profile" : expected);
     return std::nullopt;
   }
@@ -45,7 +45,7 @@ void read_marginal(const yaml::Field& field, ProfileDescription& description, ya
   const std::string& text = field.node->text;
   description.marginal = text == "normal" ? friction::Marginal::normal : friction::Marginal::lognormal;
   if (text == "normal" || text == "lognormal") return;
-  problems.add(field, fmt::format("{} is no marginal", yaml::in_quotes(yaml::flow_text(*field.node))),
+  problems.add(field, fmt::format("unknown marginal {}", yaml::in_quotes(yaml::flow_text(*field.node))),
                "normal or lognormal");
 }
 

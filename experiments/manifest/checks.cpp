@@ -94,10 +94,11 @@ struct Checking {
 void tell(Checking& c, const yaml::Place& place, std::size_t slot, const std::string& what,
           std::string_view expected, bool warn_only) {
   const std::string path(c.plan().table.rows[slot].name);
+  const std::string text = parameters::text_on(c.plan().units.axis, what);
   if (warn_only) {
-    c.reading.warnings.push_back(yaml::at_place(place, path, what));
+    c.reading.warnings.push_back(yaml::at_place(place, path, text));
   } else {
-    c.reading.problems.add(place, path, what, expected);
+    c.reading.problems.add(place, path, text, expected);
   }
 }
 
@@ -177,7 +178,7 @@ std::optional<yaml::Place> given_place(const Checking& c, std::size_t slot) {
   return std::nullopt;
 }
 
-bool asks_for_nothing(const Checking& c, std::size_t slot) {
+bool is_off(const Checking& c, std::size_t slot) {
   const double nothing = c.plan().table.rows[slot].none.value_or(0.0);
   const std::vector<const study::Value*> values = study::values_of(c.plan(), slot);
   return std::all_of(values.begin(), values.end(), [&](const study::Value* value) {
@@ -206,13 +207,12 @@ void check_effects(Checking& c) {
       });
       const auto place = covered ? given_place(c, slot) : std::nullopt;
       if (!place || reported_rows.count(reported_row(table, slot)) > 0 ||
-          (rule.off_at_zero && asks_for_nothing(c, slot)))
+          (rule.off_at_zero && is_off(c, slot)))
         continue;
       if (!has_effect) has_effect = rules::can_have_effect(c.plan(), rule);
       if (*has_effect) continue;
       reported_rows.insert(reported_row(table, slot));
-      tell(c, *place, slot, parameters::text_on(c.plan().units.axis, rule.what), rule.expected,
-           rule.warn_only);
+      tell(c, *place, slot, rule.what, rule.expected, rule.warn_only);
     }
   }
 }

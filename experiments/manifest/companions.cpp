@@ -13,7 +13,8 @@ Companions known_companions(std::shared_ptr<const plugin::ControllerPlugin> plug
   return {.plugin = known_plugin(std::move(plugin)),
           .samples = [samples = std::move(samples)](const std::string& path) {
             if (samples) return *samples;
-            throw Failure(ExitCode::bad_data, fmt::format("{}: this table of samples is not recorded", path));
+            throw Failure(ExitCode::bad_data,
+                          fmt::format("{}: this table of samples was not recorded", path));
           }};
 }
 

@@ -34,7 +34,7 @@ std::string fault_of(const study::Value& value) {
     case study::Value::Kind::number:
       return "";
     case study::Value::Kind::profile:
-      return "it is a profile along the rotor at some design point";
+      return "it is a profile at some design point";
     case study::Value::Kind::distribution:
       break;
   }
@@ -79,13 +79,13 @@ std::optional<std::uint32_t> read_drawn(const yaml::Field& field, Reading& readi
     const std::string nearest =
         known.empty() ? "" : fmt::format(", nearest known: {}", yaml::nearest_name(*name, known));
     reading.problems.add(
-        field, fmt::format("no parameter of this name is drawn{}", nearest),
+        field, fmt::format("{} is not a drawn parameter{}", yaml::in_quotes(*name), nearest),
         known.empty() ? "parameters with distributions" : fmt::format("one of {}", fmt::join(known, ", ")));
     return std::nullopt;
   }
   const std::vector<std::uint32_t>& sampled = reading.plan.sampled_slots;
   if (std::find(sampled.begin(), sampled.end(), slots->first) != sampled.end()) {
-    reading.problems.add(field, fmt::format("{} cannot be correlated: samples give it", *name),
+    reading.problems.add(field, fmt::format("{} cannot be correlated: its value comes from samples", *name),
                          "a distribution of its own");
     return std::nullopt;
   }
@@ -117,7 +117,7 @@ std::optional<Pair> read_pair(const yaml::Field& entry, Reading& reading) {
   return Pair{*first, *second, *coefficient};
 }
 
-// How often the values of the slots are drawn, if it is the same for all of them at all points.
+// How often the values of the slots are drawn, if equally often for all of them at all points.
 std::optional<study::Per> common_per(const std::vector<std::uint32_t>& slots, const study::StudyPlan& plan) {
   std::set<study::Per> found;
   for (const std::uint32_t slot : slots) {
@@ -165,9 +165,8 @@ void make_copula(const yaml::Field& list, const std::vector<Pair>& pairs, Readin
   auto factor = study::cholesky_factor(matrix_of(pairs, copula.slots));
   if (!factor) {
     reading.problems.add(list,
-                         "no random numbers have these correlations: their matrix, with 0 for the pairs that "
-                         "are not given, is not positive definite",
-                         "smaller coefficients, or those of the other pairs too");
+                         "the correlation matrix, with 0 for the pairs not given, is not positive definite",
+                         "smaller coefficients, or coefficients of the other pairs too");
     return;
   }
   copula.factor = std::move(*factor);
@@ -183,8 +182,7 @@ void read_correlations(const yaml::Field& root, Reading& reading, study::Study& 
   if (!yaml::check_list(*list, expected, reading.problems)) return;
   if (list->node->items.empty()) return;
   if (study.design == study::Design::saltelli) {
-    reading.problems.add(*list, "Sobol' indices by the design saltelli are those of independent parameters",
-                         "another design");
+    reading.problems.add(*list, "the design saltelli needs independent parameters", "another design");
     return;
   }
   std::vector<Pair> pairs;
@@ -196,7 +194,7 @@ void read_correlations(const yaml::Field& root, Reading& reading, study::Study& 
     complete = complete && pair;
     if (!pair) continue;
     if (!seen.insert({pair->first, pair->second}).second) {
-      reading.problems.add(entry, "this pair stands in the list twice", "each pair once");
+      reading.problems.add(entry, "duplicate pair", "each pair once");
       complete = false;
       continue;
     }

@@ -19,15 +19,15 @@ std::optional<Misfit> misfit_of(study::Per per, const parameters::Parameter& par
       return Misfit{"the study has no rigs", "the key rigs, or study, trial or contact here"};
     case study::Per::trial:
       if (drawn == Drawn::value) return std::nullopt;
-      return Misfit{"a profile is that of a rotor, which no trial has for itself",
-                    "study or rig (a rotor for every trial: rigs, as many as trials)"};
+      return Misfit{"a profile belongs to a rotor, which trials share",
+                    "study or rig (for a rotor per trial: as many rigs as trials)"};
     case study::Per::contact:
       if (drawn == Drawn::profile) {
-        return Misfit{"a profile is that of a rotor, and a contact takes its value where it forms",
+        return Misfit{"a profile belongs to a rotor; a contact takes the value at its position",
                       "study or rig"};
       }
       if (parameter.profiled != nullptr) return std::nullopt;
-      return Misfit{"only friction is drawn anew at each contact", "study, rig or trial"};
+      return Misfit{"only friction can be drawn at each contact", "study, rig or trial"};
   }
   return std::nullopt;
 }

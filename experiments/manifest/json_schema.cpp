@@ -134,7 +134,7 @@ parameters::Parameter plugin_value() {
 
 // Meaning and unit on a rotary axis, and the unit on a linear axis if it differs.
 std::string description_of(const parameters::Parameter& parameter) {
-  std::string description(parameter.meaning);
+  std::string description = parameters::meaning_of(parameter, {});
   if (parameter.unit == "1") return description;
   description += fmt::format(", {}", parameter.unit);
   if (!parameter.si_unit.empty()) description += fmt::format(" ({} with units: si)", parameter.si_unit);

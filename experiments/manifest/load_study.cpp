@@ -53,8 +53,9 @@ study::Study load_study(const std::filesystem::path& manifest, const std::vector
   const std::string source = yaml::name_of_text(manifest);
   std::string text = yaml::read_text(manifest, yaml::max_manifest_size, "a manifest");
   if (text.starts_with("\x89HDF")) {
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: a file in the HDF5 format, such as results; expected a manifest", source));
+    throw Failure(
+        ExitCode::bad_input,
+        fmt::format("{}: this is an HDF5 file, such as a results file; expected a manifest", source));
   }
   study::Study study = parse_study(std::move(text), source, overrides, companions);
   require_effect(study, source);

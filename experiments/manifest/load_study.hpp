@@ -23,7 +23,7 @@ study::Study load_study(const std::filesystem::path& manifest, const std::vector
 study::Study parse_study(std::string text, std::string_view source,
                          const std::vector<std::string>& overrides = {}, const Companions& companions = {});
 
-/// As above, with the defaults of the programs that wrote results files of `version`
+/// As parse_study, with the defaults of the programs that wrote results files of `version`
 /// (parameters/earlier_defaults.hpp).
 study::Study parse_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
                          std::int64_t version, const Companions& companions = {});

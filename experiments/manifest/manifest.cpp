@@ -51,8 +51,8 @@ void read_version(Manifest& m) {
   if (!version || *version == manifest_version) return;
   const bool newer = *version > manifest_version;
   m.problems().add(*field,
-                   newer ? fmt::format("the manifest is of version {}, newer than this program", *version)
-                         : fmt::format("there is no version {} of manifests", *version),
+                   newer ? fmt::format("manifest version {} is newer than this program", *version)
+                         : fmt::format("unknown manifest version {}", *version),
                    fmt::format("version {}{}", manifest_version, newer ? ", or a newer program" : ""));
 }
 
@@ -108,8 +108,7 @@ void read_study_units(const yaml::Field& root, Reading& reading) {
     if (linear) {
       plan.period = length;
     } else {
-      reading.problems.add(*travel,
-                           "a rotary axis has no travel: what varies along it has the period of a revolution",
+      reading.problems.add(*travel, "a rotary axis has no travel: the period of its profiles is a revolution",
                            "axis: linear, or the key left out");
     }
   }
@@ -124,8 +123,8 @@ void read_study_units(const yaml::Field& root, Reading& reading) {
 void check_travel(const yaml::Field& root, Reading& reading) {
   const auto travel = yaml::find_field(root, "travel");
   if (!travel || !reading.profiles.empty() || reading.plan.units.axis == parameters::AxisKind::rotary) return;
-  reading.warnings.push_back(yaml::at_place(
-      travel->node->place, travel->path, "it has no effect: no parameter of friction is a profile along it"));
+  reading.warnings.push_back(yaml::at_place(travel->node->place, travel->path,
+                                            "it has no effect: no friction parameter is a profile"));
 }
 
 void read_axes(Manifest& m) {
@@ -160,16 +159,16 @@ void check_rows(Manifest& m) {
   const std::vector<std::string> names = study::factor_names(m.plan());
   if (names.empty()) {
     const yaml::Field design = yaml::find_field(m.root, "design").value();
-    m.problems().add(design, "nothing is drawn in this study", "a distribution for one parameter at least");
+    m.problems().add(design, "nothing is drawn in this study", "a distribution for at least one parameter");
     return;
   }
   const auto row = static_cast<std::int64_t>(designs::saltelli_row_length(names.size()));
   if (m.study.trials % row == 0) return;
   m.problems().add(
       *field,
-      fmt::format("{} trials are no whole number of the rows of {} that the design saltelli has for {} "
-                  "factor{} ({})",
-                  m.study.trials, row, names.size(), names.size() == 1 ? "" : "s", fmt::join(names, ", ")),
+      fmt::format(
+          "{} trials are not a multiple of {}, the row length of the design saltelli for {} factor{} ({})",
+          m.study.trials, row, names.size(), names.size() == 1 ? "" : "s", fmt::join(names, ", ")),
       fmt::format("a multiple of {}, such as {}", row, nearest_multiples(m.study.trials, row)));
 }
 
@@ -193,8 +192,7 @@ void check_rigs(Manifest& m) {
   if (m.study.design == study::Design::saltelli) {
     const yaml::Field design = yaml::find_field(m.root, "design").value();
     m.problems().add(design,
-                     "the rows of this design change one factor at a time, and a rig shares its factors with "
-                     "the trials of other rows",
+                     "this design changes one factor at a time, but the trials of a rig share factors",
                      "monte_carlo, latin_hypercube or sobol with rigs");
   }
 }
@@ -213,7 +211,7 @@ void read_retained(Manifest& m) {
   }
   std::sort(kept.begin(), kept.end());
   if (std::adjacent_find(kept.begin(), kept.end()) != kept.end())
-    m.problems().add(*list, "a trial stands twice in the list", "each trial once");
+    m.problems().add(*list, "duplicate trial", "each trial once");
 }
 
 void read_kept(Manifest& m) {
@@ -235,7 +233,7 @@ void check_kept(Manifest& m) {
   if (m.plan().sequence) refuse("command.sequence needs every trial", trials);
   if (m.study.design == study::Design::saltelli) refuse("design: saltelli needs every trial", trials);
   if (m.study.kept == study::Kept::failures && m.plan().open_loop)
-    refuse("the trials of torque levels are not judged, so that none fails", "keep: statistics or trials");
+    refuse("trials of torque levels have no verdict, so none fails", "keep: statistics or trials");
 }
 
 void read_observed(Manifest& m) {

@@ -39,64 +39,61 @@ std::span<const GeneralKey> general_keys() {
       {"name", "name of the study", true},
       {"description", "what the study is for", false},
       {"axis",
-       "rotary (default), or linear: m, N, kg, N/m ... in place of rad, N m, kg m^2, N m/rad "
-       "(zerocount parameters --axis linear)",
+       "rotary (default), or linear: m, N, kg, N/m ... in place of rad, N m, kg m^2, N m/rad (zerocount "
+       "parameters --axis linear)",
        false},
-      {"travel", "of a linear axis with profiles: the length after which friction is the same again, m",
-       false},
+      {"travel", "period of the friction profiles of a linear axis, m", false},
       {"seed", "seed of all random numbers, 0 to 2^64 - 1", true},
       {"trials", "trials at each design point", true},
       {"rigs",
-       "how many rigs the trials run on, trial i on rig i mod rigs; trials is a multiple of it (default: no "
+       "number of rigs; trial i runs on rig i mod rigs, and `trials` must be a multiple of it (default: no "
        "trials share a rig)",
        false},
-      {"design", "how the trials are spread: monte_carlo (default), latin_hypercube, sobol or saltelli",
-       false},
+      {"design", "sampling design: monte_carlo (default), latin_hypercube, sobol or saltelli", false},
       {"independent_points",
-       "true: every design point has its own random numbers; false (default): all share those of trial i",
+       "true: every design point has its own random numbers; false (default): trial i has the same ones at "
+       "all points",
        false},
       {"retain", "trials whose sample-by-sample records are kept: {trials: [0, 1]}", false},
       {"keep",
-       "what the results file keeps beside the statistics: trials (default), failures (the trials that did "
-       "not succeed) or statistics (no trial)",
+       "what the results file keeps besides the statistics: trials (default), failures (the trials that did "
+       "not succeed) or statistics (no trials)",
        false},
       {"stop",
-       "trials are added, a block of `trials` at a time, until the success rate of every point is known: "
-       "{success_rate_halfwidth: 0.005, confidence: 0.95, min_trials: 1000, max_trials: 100000}",
+       "sequential stopping: blocks of `trials` trials are added until the bounds of every success rate are "
+       "narrow enough: {success_rate_halfwidth: 0.005, confidence: 0.95, min_trials: 1000, max_trials: "
+       "100000}",
        false},
       {"correlation",
        "correlations of drawn parameters: [[friction.k1, friction.k2, 0.6]], coefficients of the normal "
-       "scores of their values (Gaussian copula); each keeps its distribution",
+       "scores (Gaussian copula); each parameter keeps its distribution",
        false},
       {"samples",
-       "joint draws of several parameters, such as those of zerocount identify --posterior: a CSV table, its "
-       "path from the folder of the manifest, or {file: FILE, per: rig}; the header has their dotted paths, "
-       "and every rig or trial takes a row of it",
+       "joint draws of several parameters, such as those of zerocount identify --posterior: path of a CSV "
+       "table from the folder of the manifest, or {file: FILE, per: rig}; its header has the dotted paths of "
+       "the parameters, and each rig or trial takes one row",
        false},
-      {"observed", "what was observed on the real rig, by case or point label: texts or counts", false},
+      {"observed", "observations on the real rig, by case or point label: texts or counts", false},
       {"sweep", "design points: grid (product of lists), cases (named), or both (product)", false},
       {"controller.units",
-       "unit of kp, ki and kd, of the coarse phase too: count (default), per count and sample; or si: N "
-       "m/rad, "
-       "N m/(rad s) and N m s/rad, the same control at any sample rate",
+       "unit of kp, ki and kd, also of the coarse phase: count (default), per count and sample; or si: N "
+       "m/rad, N m/(rad s) and N m s/rad, which give the same control at any sample rate",
        false},
       {"controller.plugin",
-       "shared library with a controller of your own (docs/your-own-controller.md); its path from the folder "
-       "of the "
-       "manifest",
+       "shared library with a controller of your own (docs/your-own-controller.md); path from the folder of "
+       "the manifest",
        false},
-      {"controller.parameters", "the parameters of that controller, by the names that it gives them", false},
+      {"controller.parameters", "parameters of the plugin, by name", false},
       {"controller.filters",
        "list of filters on the controller's torque, in the order in which they act: {lowpass: {frequency, "
        "damping}}, {notch: {frequency, damping, depth}}, {lead: {frequency, ratio}}, {biquad: {b: [b0, b1, "
-       "b2], "
-       "a: [a1, a2]}}; their values are the parameters controller.filters.0.frequency ...",
+       "b2], a: [a1, a2]}}; their values are the parameters controller.filters.0.frequency ...",
        false},
-      {"controller.coarse.filters", "the same of the coarse phase", false},
-      {"command.sequence.cycles", "how often a sequence goes to its targets (default 5)", false},
+      {"controller.coarse.filters", "list of filters of the coarse phase, as controller.filters", false},
+      {"command.sequence.cycles", "number of cycles of a sequence (default 5)", false},
       {"command.sequence.approach",
-       "from where a sequence goes to its targets: bidirectional (default: from both sides), positive (from "
-       "below) or negative (from above)",
+       "direction from which a sequence approaches its targets: bidirectional (default: from both sides), "
+       "positive (from below) or negative (from above)",
        false},
   }};
   return keys;

@@ -66,10 +66,10 @@ void read_observations(const yaml::Field& field, const std::vector<SweptAxis>& a
   for (const yaml::YamlEntry& entry : field.node->entries) {
     found[entry.key] = read_observation(yaml::entry_of(field, entry), open_loop, problems);
     if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
-    problems.add(entry.place, yaml::entry_of(field, entry).path,
-                 fmt::format("no case or point has this label, nearest known: {}",
-                             yaml::nearest_name(entry.key, known)),
-                 "the name of a case or the label of a point");
+    problems.add(
+        entry.place, yaml::entry_of(field, entry).path,
+        fmt::format("unknown case or point label, nearest known: {}", yaml::nearest_name(entry.key, known)),
+        "the name of a case or the label of a point");
   }
   for (std::size_t point = 0; point < labels.size(); ++point) {
     auto observation = found.find(labels[point]);

@@ -8,7 +8,7 @@
 
 namespace zerocount::manifest {
 
-/// Most trials that a rig may have been observed for.
+/// Maximum number of trials in an observation.
 inline constexpr std::int64_t max_observed_trials = 1'000'000;
 
 /// Reads `observed`, a map from cases or point labels to observations on a real rig: study.observed and

@@ -42,7 +42,8 @@ std::optional<std::size_t> list_index(std::string_view text, std::size_t size) {
 }
 
 // The map of an element's keys, which its name leaves out: {notch: {frequency: 120}} has the value
-// controller.filters.0.frequency. Null if `map`, at the path `walked`, is no element, or `key` is its form.
+// controller.filters.0.frequency. Null if `map`, at the path `walked`, is not an element, or `key` is its
+// form.
 yaml::YamlPointer* keys_of_element(yaml::YamlNode& map, std::string_view walked, std::string_view key) {
   const std::string pattern = parameters::without_indices(walked);
   if (!pattern.ends_with(".#") || !parameters::find_element_list(pattern.substr(0, pattern.size() - 2)))
@@ -80,7 +81,7 @@ yaml::YamlPointer replaced(const yaml::YamlPointer& node, const Override& change
     const std::string_view key = rest.substr(0, length);
     if (!yaml::find_entry(**keys, key)) {
       problems.add(change.place, change.path, fmt::format("{} has no {}", walked, yaml::in_quotes(key)),
-                   "a key that stands in the manifest");
+                   "a key that the manifest has");
       return nullptr;
     }
     *keys = replaced(*keys, change, rest, problems);
@@ -167,7 +168,7 @@ yaml::YamlPointer apply_overrides(yaml::YamlPointer root, const std::vector<std:
     const std::size_t equals = text.find('=');
     const std::string key = text.substr(0, equals);
     if (equals == std::string::npos || !is_dotted_path(key) || text.size() > yaml::max_manifest_size) {
-      problems.add({source}, "manifest", "this is no override", "--set key=value with the key's dotted path");
+      problems.add({source}, "manifest", "invalid override", "--set key=value with the key's dotted path");
       continue;
     }
     if (key == "zerocount") {
@@ -196,7 +197,7 @@ void report_swept_overrides(const yaml::YamlNode& root, const std::vector<std::s
     const bool grid = sweep == "sweep.grid";
     problems.add(
         {sources.emplace_back("--set " + text.substr(0, 200))}, key,
-        fmt::format("{} gives it at every point, so this would change nothing", sweep),
+        fmt::format("it has no effect: {} gives the value at every point", sweep),
         grid ? fmt::format("sweep.grid.{}=[...]", key) : fmt::format("sweep.cases.NAME.{}=...", key));
   }
 }

@@ -46,7 +46,7 @@ Listing parameter_listing(std::string title) {
 }
 
 Listing parameter_listing(const parameters::StudyUnits& units) {
-  Listing listing = parameter_listing("Parameters (left out of a manifest, they take their defaults)");
+  Listing listing = parameter_listing("Parameters and their defaults");
   for (const parameters::Parameter& parameter : parameters::parameter_table()) {
     if (parameters::exists_on(parameter, units.axis)) listing.rows.push_back(parameter_row(parameter, units));
   }
@@ -64,7 +64,7 @@ Listing parameter_listing(const study::Study& study) {
 }
 
 Listing distribution_listing(const parameters::StudyUnits& units) {
-  Listing listing{"Distributions (in the place of any number)", {"name", "written", "meaning"}, {}};
+  Listing listing{"Distributions (allowed in place of any number)", {"name", "written", "meaning"}, {}};
   for (const distributions::DistributionForm& form : distributions::distribution_forms()) {
     listing.rows.push_back({std::string(form.name),
                             fmt::format("{{{}: {}}}", form.name, distributions::shown_value(form)),
@@ -72,13 +72,13 @@ Listing distribution_listing(const parameters::StudyUnits& units) {
   }
   listing.rows.push_back(
       {"profile", "{profile: {mean, cv, correlation_length, marginal}}",
-       parameters::text_on(units.axis, "friction along the rotor") +
+       parameters::text_on(units.axis, "friction along the $track") +
            fmt::format(": a periodic random field; correlation_length in {}, marginal normal or lognormal "
                        "(default); the mean may be a distribution, drawn for each {}",
-                       parameters::unit_on(units.axis, "rad"), parameters::text_on(units.axis, "rotor"))});
+                       parameters::unit_on(units.axis, "rad"), parameters::text_on(units.axis, "$rotor"))});
   listing.rows.push_back({std::string(per_key), fmt::format("{{…, per: {}}}", fmt::join(per_labels, " | ")),
-                          "beside any of these: how often it is drawn; contact for friction alone, study or "
-                          "rig for a profile"});
+                          "beside any of these: how often the value is drawn; contact only for friction, "
+                          "study or rig only for a profile"});
   return listing;
 }
 

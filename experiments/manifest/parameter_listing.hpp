@@ -11,10 +11,10 @@ namespace zerocount::manifest {
 /// in these units; then the distributions and the other keys of a manifest.
 std::string parameters_as_text(const parameters::StudyUnits& units = {});
 
-/// The same as Markdown tables.
+/// The tables of parameters_as_text() in Markdown.
 std::string parameters_as_markdown(const parameters::StudyUnits& units = {});
 
-/// The parameters of one study: those of the table, and one for each value of the lists in its manifest.
+/// The parameters of one study: the rows of the table, and a row for each value of the lists in its manifest.
 std::string parameters_as_text(const study::Study& study);
 std::string parameters_as_markdown(const study::Study& study);
 

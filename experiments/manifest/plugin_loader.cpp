@@ -7,8 +7,7 @@ namespace zerocount::manifest {
 PluginLoader known_plugin(std::shared_ptr<const plugin::ControllerPlugin> plugin) {
   return [plugin = std::move(plugin)](const std::string&) -> LoadedPlugin {
     if (plugin) return plugin;
-    return plugin::PluginFault{"the controller is a plugin, which is not known here",
-                               "a file that describes it"};
+    return plugin::PluginFault{"the controller plugin is not known here", "a file that describes it"};
   };
 }
 

@@ -120,12 +120,11 @@ bool check_name(const Cell& name, const std::set<std::string_view>& earlier, con
     problems.add(name.place, "samples", fmt::format("the column {} has no name", yaml::in_quotes(name.text)),
                  expected);
   } else if (earlier.contains(name.text)) {
-    problems.add(name.place, name.text, "another column has this name", "each parameter once");
+    problems.add(name.place, name.text, "duplicate column", "each parameter once");
   } else if (!parameters::find_parameter(name.text) && !name.text.starts_with("controller.parameters.")) {
-    problems.add(name.place, name.text, "there is no such parameter, or its value is an item of a list",
-                 expected);
+    problems.add(name.place, name.text, "unknown parameter, or an item of a list", expected);
   } else if (has_value_at(*root, name.text)) {
-    problems.add(name.place, name.text, "the manifest gives this parameter a value too",
+    problems.add(name.place, name.text, "the manifest also gives this parameter a value",
                  "the column or the key in the manifest, not both");
   } else {
     return true;
@@ -153,7 +152,7 @@ std::optional<std::string> read_table(const yaml::Field& file, const SamplesRead
   std::string text = read(*path);
   const bool zero = text.find('\0') != std::string::npos;
   if (!zero && text.size() <= max_samples_size) return text;
-  problems.add(file, zero ? "the file has a zero byte" : "the file is too large",
+  problems.add(file, zero ? "the file contains a zero byte" : "the file is too large",
                fmt::format("a table of comma-separated numbers of at most {} bytes", max_samples_size));
   return std::nullopt;
 }
@@ -169,7 +168,7 @@ bool check_per(const SamplesTable& table, const std::vector<std::uint32_t>& slot
                        per_labels[static_cast<std::size_t>(per_of(slot))]);
   };
   reading.problems.add(table.field,
-                       fmt::format("a row is drawn as a whole, and without the key per {} and {}",
+                       fmt::format("a row is drawn as a whole, but the defaults of `per` differ: {}, and {}",
                                    text_of(slots.front()), text_of(*other)),
                        "{file: ..., per: rig} or {file: ..., per: trial}");
   return false;
@@ -183,7 +182,7 @@ bool check_not_swept(const SamplesTable& table, const std::vector<std::uint32_t>
     });
     if (!swept) continue;
     reading.problems.add(table.columns[column], table.samples.parameters[column],
-                         "the sweep gives this parameter a value too", "the column or the sweep, not both");
+                         "the sweep also gives this parameter a value", "the column or the sweep, not both");
     return false;
   }
   return true;
@@ -225,9 +224,7 @@ void insert_samples(yaml::YamlPointer& root, const SamplesReader& read, std::opt
 void join_samples(const SamplesTable& table, const std::vector<SweptAxis>& axes, Reading& reading,
                   study::Study& study) {
   if (study.design == study::Design::saltelli) {
-    reading.problems.add(table.field,
-                         "Sobol' indices by the design saltelli are those of independent parameters",
-                         "another design");
+    reading.problems.add(table.field, "the design saltelli needs independent parameters", "another design");
     return;
   }
   std::vector<std::uint32_t> slots;

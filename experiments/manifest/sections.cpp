@@ -43,7 +43,7 @@ void read_list(SectionReading& s, const yaml::Field& field, std::size_t row) {
   if (!yaml::check_list(field, expected, s.problems())) return;
   const std::size_t count = field.node->items.size();
   if (count < list.min_values || count > list.max_values) {
-    s.problems().add(field, fmt::format("a list of {} stands here", count), expected);
+    s.problems().add(field, fmt::format("found a list of {}", count), expected);
     return;
   }
   const study::RowGroup values = study::add_list(s.plan().table, row, count);
@@ -52,7 +52,7 @@ void read_list(SectionReading& s, const yaml::Field& field, std::size_t row) {
   for (std::size_t i = 0; i < count; ++i) read_slot(s, yaml::item_of(field, i), values.first + i);
 }
 
-// A study has a list of moves, of one unreadable value if there is none in the manifest.
+// Gives a study whose manifest lacks the list of moves one with an unreadable value.
 void complete_moves(SectionReading& s) {
   study::RowGroup& list = s.plan().list;
   if (list.count > 0) return;
@@ -78,7 +78,7 @@ const parameters::ElementForm* find_form(SectionReading& s, const yaml::Field& e
   if (!yaml::check_map(element, expected, s.problems())) return nullptr;
   const auto& entries = element.node->entries;
   if (entries.size() != 1) {
-    s.problems().add(element, fmt::format("a map with {} keys stands here", entries.size()), expected);
+    s.problems().add(element, fmt::format("found a map with {} keys", entries.size()), expected);
     return nullptr;
   }
   const auto form = std::find_if(list.forms.begin(), list.forms.end(),
@@ -105,8 +105,10 @@ void read_element(SectionReading& s, const yaml::Field& element, std::size_t ind
     if (const auto value = yaml::find_field(map, keys[i])) {
       read_parameter(s, *value, rows.first + i);
     } else {
-      s.problems().add(map.node->place, fmt::format("{}.{}", map.path, keys[i]), "the key is missing",
-                       fmt::format("its value: {}", s.plan().table.rows[rows.first + i].meaning));
+      s.problems().add(
+          map.node->place, fmt::format("{}.{}", map.path, keys[i]), "the key is missing",
+          fmt::format("its value: {}",
+                      parameters::meaning_of(s.plan().table.rows[rows.first + i], s.plan().units)));
     }
   }
 }
@@ -116,7 +118,7 @@ void read_elements(SectionReading& s, const yaml::Field& field, const parameters
   if (!yaml::check_list(field, expected, s.problems())) return;
   const std::size_t count = field.node->items.size();
   if (count > list.max_elements) {
-    s.problems().add(field, fmt::format("a list of {} stands here", count), expected);
+    s.problems().add(field, fmt::format("found a list of {}", count), expected);
     return;
   }
   for (std::size_t i = 0; i < count; ++i) read_element(s, yaml::item_of(field, i), i, list);
@@ -140,7 +142,7 @@ void read_plugin_parameters(SectionReading& s, const yaml::Field& map) {
     // With a plugin that cannot be used, which is reported, its parameters are not known.
     const auto controller = yaml::find_field(s.root, "controller");
     if (!yaml::find_field(*controller, "plugin"))
-      s.problems().add(map, "there is no plugin whose parameters these are",
+      s.problems().add(map, "these parameters belong to a plugin, but there is none",
                        "controller.plugin, or the key left out");
     return;
   }
@@ -237,14 +239,13 @@ void choose_form(SectionReading& s, const yaml::Field& command) {
     if (is_form(entry.key)) given.push_back(&entry);
   }
   if (given.empty()) {
-    s.problems().add(command, "it does not say what the moves go to", expected);
+    s.problems().add(command, "the moves have no targets", expected);
     return;
   }
   if (given.size() > 1) {
-    s.problems().add(
-        given[1]->place, yaml::entry_of(command, *given[1]).path,
-        fmt::format("{} says already what the moves go to", yaml::entry_of(command, *given[0]).path),
-        expected);
+    s.problems().add(given[1]->place, yaml::entry_of(command, *given[1]).path,
+                     fmt::format("{} already defines the moves", yaml::entry_of(command, *given[0]).path),
+                     expected);
   }
   const std::string& form = given.front()->key;
   s.plan().open_loop = form == "torque";
@@ -275,8 +276,9 @@ void check_form_complete(SectionReading& s, const yaml::Field& command) {
       continue;
     const parameters::Parameter& parameter = parameters::parameter_table()[*row];
     s.problems().add(form->node->place, name, "the key is missing",
-                     parameters::is_list(parameter) ? fmt::format("a list of {}", key)
-                                                    : fmt::format("its value: {}", parameter.meaning));
+                     parameters::is_list(parameter)
+                         ? fmt::format("a list of {}", key)
+                         : fmt::format("its value: {}", parameters::meaning_of(parameter, s.plan().units)));
   }
 }
 
@@ -286,7 +288,7 @@ void check_sequence_length(SectionReading& s, const yaml::Field& command) {
       study::sequence_move_count(*s.plan().sequence, static_cast<std::int64_t>(s.plan().list.count));
   if (moves <= study::max_sequence_moves) return;
   s.problems().add(yaml::find_field(command, "sequence").value(), fmt::format("it has {} moves", moves),
-                   fmt::format("at most {} moves, cycles times those of a cycle", study::max_sequence_moves));
+                   fmt::format("at most {} moves in all cycles", study::max_sequence_moves));
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ std::optional<Spacing> read_spacing(const yaml::Field& field, const std::string&
   const std::string expected = fmt::format("{}: [first value, last value, number of values]", name);
   if (!yaml::check_list(field, expected, problems)) return std::nullopt;
   if (field.node->items.size() != 3) {
-    problems.add(field, fmt::format("a list of {} stands here", field.node->items.size()), expected);
+    problems.add(field, fmt::format("found a list of {}", field.node->items.size()), expected);
     return std::nullopt;
   }
   const numerics::Interval range = logarithmic ? numerics::above(0.0) : numerics::all_numbers();
@@ -39,7 +39,7 @@ std::optional<Spacing> read_spacing(const yaml::Field& field, const std::string&
       yaml::read_whole(yaml::item_of(field, 2), 2, static_cast<std::int64_t>(max_values), problems);
   if (!from || !to || !count) return std::nullopt;
   if (*from == *to) {
-    problems.add(field, "the first and the last value are the same", "different values");
+    problems.add(field, "the first and the last value are equal", "different values");
     return std::nullopt;
   }
   return Spacing{*from, *to, static_cast<std::size_t>(*count), logarithmic};

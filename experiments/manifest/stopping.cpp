@@ -22,13 +22,13 @@ void check_order(const yaml::Field& map, const study::StoppingRule& rule, yaml::
   const auto max_trials = yaml::find_field(map, "max_trials");
   const auto min_trials = yaml::find_field(map, "min_trials");
   if (max_trials && rule.max_trials < rule.block) {
-    problems.add(*max_trials,
-                 fmt::format("{} trials are fewer than a block, which is the {} of `trials`", rule.max_trials,
-                             rule.block),
-                 fmt::format("at least {}", rule.block));
+    problems.add(
+        *max_trials,
+        fmt::format("{} trials are fewer than a block of {} (`trials`)", rule.max_trials, rule.block),
+        fmt::format("at least {}", rule.block));
   } else if (max_trials && min_trials && rule.min_trials > rule.max_trials) {
     problems.add(*min_trials,
-                 fmt::format("{} trials are more than max_trials, {}", rule.min_trials, rule.max_trials),
+                 fmt::format("{} trials exceed max_trials, {}", rule.min_trials, rule.max_trials),
                  fmt::format("at most {}", rule.max_trials));
   }
 }
@@ -51,14 +51,12 @@ void read_stop(const yaml::Field& field, std::int64_t max_trials, study::Study& 
     rule.min_trials = yaml::read_whole(*min, 1, max_trials, problems).value_or(1);
   if (const auto max = yaml::find_field(field, "max_trials"))
     rule.max_trials = yaml::read_whole(*max, 1, max_trials, problems).value_or(max_trials);
-  require_key(field, keys[0], "half the width that the bounds of the success rate may have, 0 to 0.5",
-              problems);
-  require_key(field, keys[3], "the number of trials at a point at which the study ends in any case",
-              problems);
+  require_key(field, keys[0],
+              "the half-width of the bounds of the success rate at which the study ends, 0 to 0.5", problems);
+  require_key(field, keys[3], "the maximum number of trials at a point", problems);
   check_order(field, rule, problems);
   if (study.design != study::Design::monte_carlo) {
-    problems.add(field, "trials can be added one block after the other only where each is drawn by itself",
-                 "design: monte_carlo");
+    problems.add(field, "sequential stopping needs independently drawn trials", "design: monte_carlo");
   }
   study.stop = rule;
   study.trials = rule.max_trials;

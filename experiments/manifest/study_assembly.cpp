@@ -59,8 +59,8 @@ void derive_randomness(const study::Study& study, study::StudyPlan& plan) {
   plan.sobol_places = study::sobol_place_key(study.seed);
 }
 
-// The slots of joint draws share one random number, that of the row. The slash keeps its name apart from
-// parameter names.
+// The slots of joint draws share one random number, which selects the row. The slash keeps its name apart
+// from parameter names.
 void share_randomness_of_samples(const study::Study& study, study::StudyPlan& plan) {
   if (plan.sampled_slots.empty()) return;
   study::SlotRandomness rows{.key = designs::random_key(study.seed, "samples/rows")};

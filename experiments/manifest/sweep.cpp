@@ -49,7 +49,7 @@ bool check_point_count(const yaml::Field& sweep, std::size_t options, SweepReadi
   return fits;
 }
 
-// The names of the values that a list of elements or coefficients has, for a path that is none of them.
+// The names of the values of the list of elements or coefficients to which an unknown path leads.
 std::string names_like(const study::StudyTable& table, std::string_view pattern) {
   std::vector<std::string_view> names;
   for (const parameters::Parameter& row : table.rows) {
@@ -78,7 +78,7 @@ std::optional<study::SlotRange> find_swept(const yaml::Field& map, const yaml::Y
   } else if (const auto row = study::find_list_row(entry.key)) {
     const parameters::Parameter& list = table.rows[*row];
     if (const auto values = study::find_list(table, *row)) {
-      problems.add(entry.place, path, fmt::format("there is no such {}", list.list->singular),
+      problems.add(entry.place, path, fmt::format("the study has no {} with this index", list.list->singular),
                    fmt::format("an index from 0 to {}", values->count - 1));
     } else {
       problems.add(entry.place, path, fmt::format("the study has no {}", list.name),
@@ -87,7 +87,7 @@ std::optional<study::SlotRange> find_swept(const yaml::Field& map, const yaml::Y
                        : "the list in its section of the manifest");
     }
   } else if (find_general_key(entry.key) != nullptr) {
-    problems.add(entry.place, path, "this key is the same at all points",
+    problems.add(entry.place, path, "this key cannot be swept",
                  "a dotted path of the table of parameters, such as controller.ki");
   } else {
     parameters::add_unknown_key(map, entry, swept_names(table), problems);
@@ -126,7 +126,7 @@ void read_assignments(const yaml::Field& field, const study::SlotRange& slots, S
   if (!yaml::check_list(field, expected, state.reading.problems)) return;
   const std::size_t count = field.node->items.size();
   if (count != slots.count) {
-    state.reading.problems.add(field, fmt::format("a list of {} {} stands here", count, noun), expected);
+    state.reading.problems.add(field, fmt::format("found a list of {} {}", count, noun), expected);
     return;
   }
   for (std::size_t i = 0; i < count; ++i) {
@@ -162,7 +162,7 @@ void read_listed(const yaml::Field& field, const study::SlotRange& slots, SweptA
     std::string label = fmt::format("{}={}", axis.name, value_label(axis, slots, *item.node, state.table()));
     if (!seen.insert(label).second) {
       state.reading.problems.add(
-          item, fmt::format("{} stands twice in the list", yaml::in_quotes(yaml::flow_text(*item.node))),
+          item, fmt::format("duplicate value {}", yaml::in_quotes(yaml::flow_text(*item.node))),
           "different values");
     }
     finish_option(axis, std::move(label));
@@ -210,7 +210,7 @@ bool take_for_grid(const yaml::Field& grid, const yaml::YamlEntry& entry, const 
     if (state.in_cases.count(slot) > 0) {
       state.reading.warnings.push_back(
           yaml::at_place(entry.place, path,
-                         fmt::format("the grid's values replace those that the cases give to {}",
+                         fmt::format("the values of the grid replace those of the cases for {}",
                                      state.table().rows[slot].name)));
     }
   }

@@ -68,7 +68,7 @@ bool check_support(const yaml::Field& field, const parameters::Parameter& parame
   const numerics::Interval range = parameters::range_of(parameter, reading.plan.units);
   if (numerics::contains(range, values)) return true;
   reading.problems.add(field,
-                       fmt::format("its values {} leave the range allowed {}", numerics::notation(values),
+                       fmt::format("its values {} exceed the allowed range {}", numerics::notation(values),
                                    numerics::notation(range)),
                        expected_of(parameter, reading.plan.units));
   return false;
@@ -127,14 +127,14 @@ study::Value read_map(const yaml::Field& field, std::size_t slot, Reading& readi
                                            distributions::distribution_names(), profile_name, per_key);
   const yaml::YamlEntry* entry = form_entry(*field.node);
   if (entry == nullptr) {
-    return refuse(reading, field, fmt::format("a map with {} keys stands here", field.node->entries.size()),
+    return refuse(reading, field, fmt::format("found a map with {} keys", field.node->entries.size()),
                   expected);
   }
   const Drawn drawn = entry->key == profile_name ? Drawn::profile : Drawn::value;
   if (drawn == Drawn::profile && parameter.profiled == nullptr) {
     reading.problems.add(
         entry->value->place, yaml::entry_of(field, *entry).path,
-        parameters::text_on(reading.plan.units.axis, "this parameter does not vary along the rotor"),
+        parameters::text_on(reading.plan.units.axis, "this parameter cannot vary along the $track"),
         "a number or a distribution other than profile");
     return unreadable_value();
   }
@@ -164,8 +164,8 @@ bool check_rotor(const ProfileRequest& request, const study::Rotors& rotors, std
   const std::string of_rig = request.per == study::Per::rig ? fmt::format(" of rig {}", rotor) : "";
   reading.problems.add(
       request.place, request.path,
-      fmt::format("its values {}{}, {:.6g} to {:.6g} with this seed, leave the range allowed {}",
-                  parameters::text_on(units.axis, "along the rotor"), of_rig, values.low, values.high,
+      fmt::format("its values {}{}, {:.6g} to {:.6g} with this seed, exceed the allowed range {}",
+                  parameters::text_on(units.axis, "along the $track"), of_rig, values.low, values.high,
                   numerics::notation(parameter.range)),
       expected_of(parameter, units));
   return false;
@@ -177,7 +177,7 @@ bool check_exists(const yaml::Field& field, const parameters::Parameter& paramet
   if (parameters::exists_on(parameter, axis)) return true;
   reading.problems.add(
       field,
-      fmt::format("a {} axis does not have it", parameters::axis_labels[static_cast<std::size_t>(axis)]),
+      fmt::format("not available on a {} axis", parameters::axis_labels[static_cast<std::size_t>(axis)]),
       parameter.instead);
   return false;
 }

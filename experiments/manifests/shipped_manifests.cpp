@@ -15,8 +15,7 @@ const text::EmbeddedFile& shipped_manifest(std::string_view name) {
     if (name == file.name || name == stem) return file;
     names += fmt::format("{}{}", names.empty() ? "" : ", ", stem);
   }
-  throw Failure(ExitCode::bad_input,
-                fmt::format("'{}' is no shipped manifest; expected one of {}", name, names));
+  throw Failure(ExitCode::bad_input, fmt::format("unknown manifest '{}'; expected one of {}", name, names));
 }
 
 }  // namespace zerocount::manifests

@@ -3,16 +3,16 @@
 namespace zerocount::parameters {
 namespace {
 
-constexpr std::string_view no_disc = "the key left out: eccentricity is an error of an encoder's disc";
+constexpr std::string_view no_disc = "the key left out: only an encoder disc has an eccentricity";
 
-constexpr std::string_view eccentricity = "amplitude of the error that comes back once per revolution";
-constexpr std::string_view eccentricity_angle = "angle on the rotor at which that error rises through zero";
+constexpr std::string_view eccentricity = "amplitude of the error that repeats once per revolution";
+constexpr std::string_view eccentricity_angle = "rotor angle at which that error rises through zero";
 constexpr std::string_view interpolation =
-    "amplitude of the error that comes back once per signal period, in counts of this encoder";
+    "amplitude of the error that repeats once per signal period, in counts of this encoder";
 constexpr std::string_view interpolation_period = "signal period, in counts of this encoder";
 constexpr std::string_view noise =
-    "standard deviation of the reading before it is rounded, in counts of this encoder";
-constexpr std::string_view missed = "probability that a count that is passed is not counted";
+    "standard deviation of the reading before rounding, in counts of this encoder";
+constexpr std::string_view missed = "probability that the encoder misses a count that it passes";
 
 }  // namespace
 
@@ -33,7 +33,7 @@ std::vector<Parameter> encoder_rows() {
       only_on(AxisKind::linear, "encoder.coarse, counts per revolution",
               without_default(real_row(
                   "encoder.coarse_resolution", beyond_moves(8), "m/count",
-                  "length of a count of the coarse encoder; left out, that of the fine one", "required",
+                  "length of a count of the coarse encoder; default: that of the fine one", "required",
                   numerics::above(0), [](auto& p) { return &p.encoder.coarse_length; }))),
 
       only_on(AxisKind::rotary, no_disc,
@@ -74,20 +74,20 @@ std::vector<Parameter> drive_rows() {
   return {
       whole_row("dac.bits", 18, "bit", "word length of the digital-to-analogue converter", "paper, section 2",
                 numerics::closed(1, 32), [](auto& p) { return &p.dac.bits; }),
-      real_row("dac.resolution", 19, "N m", "torque of one code of the digital-to-analogue converter",
+      real_row("dac.resolution", 19, "N m", "$torque of one code of the digital-to-analogue converter",
                "paper, section 4", numerics::above(0), [](auto& p) { return &p.dac.resolution; }),
-      real_row("dac.offset", 41, "N m", "added to the torque of every code", assumed, numerics::all_numbers(),
-               [](auto& p) { return &p.dac.offset; }),
+      real_row("dac.offset", 41, "N m", "offset added to the $torque of every code", assumed,
+               numerics::all_numbers(), [](auto& p) { return &p.dac.offset; }),
       real_row("dac.gain_error", 42, "1", "relative error of the resolution", assumed, numerics::above(-1),
                [](auto& p) { return &p.dac.gain_error; }),
       real_row("dac.nonlinearity", 43, "code",
                "integral non-linearity: largest deviation from the straight line between the ends", assumed,
                numerics::all_numbers(), [](auto& p) { return &p.dac.nonlinearity; }),
-      real_row("dac.noise", 44, "N m", "standard deviation of the torque, drawn anew at each sample", assumed,
-               numerics::at_least(0), [](auto& p) { return &p.dac.noise; }),
+      real_row("dac.noise", 44, "N m", "standard deviation of the $torque noise, drawn at each sample",
+               assumed, numerics::at_least(0), [](auto& p) { return &p.dac.noise; }),
 
       real_row("amplifier.bandwidth", 45, "Hz",
-               "bandwidth (-3 dB) of the amplifier's first-order response; 0: it follows at once", assumed,
+               "bandwidth (-3 dB) of the amplifier's first-order response; 0: ideal amplifier", assumed,
                numerics::at_least(0), [](auto& p) { return &p.amplifier.bandwidth; }),
   };
 }

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t max_filters = 8;
 
-// Of one filter. The keys of different forms share dimensions: a filter has one form.
+// Sobol dimensions of one filter. The keys of different forms share them, because a filter has one form.
 constexpr std::size_t dimensions_of_filter = 5;
 
 // In the order of loop::FilterKind.
@@ -40,7 +40,7 @@ void add_filter(trial::TrialParameters& parameters, std::size_t form) {
   Phase::filters(parameters).push_back({.kind = static_cast<loop::FilterKind>(form)});
 }
 
-// A number of each filter.
+// The row of a number of each filter.
 template <class Phase, double loop::Filter::*field>
 Parameter number_of_filter(std::string_view name, std::size_t dimension, std::string_view unit,
                            std::string_view meaning, const numerics::Interval& range) {
@@ -52,7 +52,7 @@ Parameter number_of_filter(std::string_view name, std::size_t dimension, std::st
   return row;
 }
 
-// A list of coefficients of each filter.
+// The row of a list of coefficients of each filter.
 template <class Phase, auto field>
 Parameter coefficients_of_filter(std::string_view name, std::size_t dimension, std::string_view meaning) {
   Parameter row = real_row(name, dimension, "1", meaning, "required", numerics::all_numbers());
@@ -79,7 +79,8 @@ std::vector<Parameter> rows_of(const std::array<std::string_view, 6>& names, std
                                          "gain of a notch at its frequency; 1 switches it off",
                                          numerics::at_least(0)),
       number_of_filter<Phase, &F::ratio>(names[3], dimension + 1, "1",
-                                         "frequency of a lead's pole over that of its zero", positive),
+                                         "ratio of the pole frequency of a lead to its zero frequency",
+                                         positive),
       coefficients_of_filter<Phase, &F::b>(names[4], dimension, "b0, b1, b2 of a biquad"),
       coefficients_of_filter<Phase, &F::a>(names[5], dimension + 3, "a1, a2 of a biquad"),
   };

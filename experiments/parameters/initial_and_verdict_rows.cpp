@@ -4,41 +4,43 @@ namespace zerocount::parameters {
 
 std::vector<Parameter> initial_rows() {
   return {
-      real_row("initial.encoder_phase", 2, "count", "where inside a count the rotor stands at the start",
+      real_row("initial.encoder_phase", 2, "count", "position of the $rotor within a count at the start",
                assumed, numerics::half_open(0, 1), [](auto& p) { return &p.initial.encoder_phase; }),
-      real_row("initial.position", 9, "rad", "where on the rotor the contact is; selects from the profiles",
+      real_row("initial.position", 9, "rad",
+               "position of the contact along the $track at the start; selects the values of profiles",
                assumed, numerics::all_numbers(), [](auto& p) { return &p.initial.position; }),
       real_row("initial.hardening", 10, "rad", "work hardening xh at the start", assumed,
                numerics::at_least(0), [](auto& p) { return &p.initial.hardening; }),
-      real_row("initial.preload", 11, "N m", "torque of a slow load-and-unload from virgin before the start",
+      real_row("initial.preload", 11, "N m",
+               "$torque to which the virgin contact is slowly loaded, and unloaded again, before the start",
                assumed, numerics::all_numbers(), [](auto& p) { return &p.initial.preload; }),
       whole_row("initial.history.reversals", 60, "1",
-                "number of random torque levels that the contact is loaded to, up and down by turns, "
+                "number of random $torque levels, alternately up and down, to which the contact is loaded "
                 "before the start",
                 assumed, numerics::closed(0, 1000), [](auto& p) { return &p.initial.history.reversals; }),
-      real_row("initial.history.torque", 61, "N m", "largest magnitude of these levels", assumed,
+      real_row("initial.history.torque", 61, "N m", "maximum |$torque| of these levels", assumed,
                numerics::at_least(0), [](auto& p) { return &p.initial.history.torque; }),
-      real_row("initial.velocity", 58, "rad/s", "velocity of the rotor at the start", assumed,
+      real_row("initial.velocity", 58, "rad/s", "velocity of the $rotor at the start", assumed,
                numerics::all_numbers(), [](auto& p) { return &p.initial.velocity; }),
       real_row("initial.integral", 59, "N m", "integral of the controller before the first sample", assumed,
                numerics::all_numbers(), [](auto& p) { return &p.initial.integral; }),
-      word_row("initial.mode", beyond_moves(5), "whether the hook sticks at the start, or slides", assumed,
-               {"stick", "slide"}, [](auto& p) { return &p.initial.mode; }),
+      word_row("initial.mode", beyond_moves(5), "state of the hook at the start", assumed, {"stick", "slide"},
+               [](auto& p) { return &p.initial.mode; }),
   };
 }
 
 std::vector<Parameter> verdict_rows() {
   return {
-      real_row("verdict.dwell", 27, "s", "time at zero error that makes an arrival", assumed,
+      real_row("verdict.dwell", 27, "s", "time at zero error after which a move has arrived", assumed,
                numerics::above(0), [](auto& p) { return &p.verdict.dwell; }),
-      real_row("verdict.window", 28, "s", "last part of a move, by which its outcome is judged", assumed,
+      real_row("verdict.window", 28, "s", "final part of a move, which decides its outcome", assumed,
                numerics::above(0), [](auto& p) { return &p.verdict.window; }),
       truth_row("verdict.stop", beyond_moves(6),
-                "whether a trial ends where a move has diverged, its outcome being decided", assumed,
+                "whether a trial ends as soon as a move has diverged, which decides its outcome", assumed,
                 [](auto& p) { return &p.verdict.stop; }),
       real_row("verdict.limit", 62, "count",
-               "|error| beyond that at the move's first sample by which it has diverged", assumed,
-               numerics::above(1), [](auto& p) { return &p.verdict.limit; }),
+               "a move has diverged when |error| exceeds its value at the first sample by more than this",
+               assumed, numerics::above(1), [](auto& p) { return &p.verdict.limit; }),
   };
 }
 

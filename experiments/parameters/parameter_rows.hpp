@@ -13,9 +13,9 @@ namespace zerocount::parameters {
 
 // The rows of the table of parameters, by section. Each has a Sobol dimension of its own, so that a new row
 // does not change the draws of the others. The next free one is beyond_moves(16); those from beyond_moves(32)
-// to beyond_moves(79) are for the blocks of the controller. From beyond_moves(80) on are those of lists, each
-// with as many as it may have values; the next free one of these is beyond_moves(192).
-// Those from beyond_moves(317) to beyond_moves(444) are for the parameters of a plugin.
+// to beyond_moves(79) are for the blocks of the controller. Lists have dimensions from beyond_moves(80) on,
+// as many as they may have values; the next free one of these is beyond_moves(192). A plugin has the
+// dimensions from beyond_moves(317) to beyond_moves(444).
 
 std::vector<Parameter> plant_rows();
 std::vector<Parameter> friction_rows();
@@ -58,8 +58,8 @@ Parameter stored_at(Parameter row, Field) {
   return row;
 }
 
-/// As above, for a limit, written as "none" where there is no limit. In numbers that is max_count, which is
-/// infinite in the trial's parameters.
+/// Adds the access to a field that is a limit, written as "none" if it is off. As a number, "none" is
+/// max_count, and infinity in the trial's parameters.
 template <class Field>
 Parameter or_none(Parameter row, Field) {
   row.none = max_count;
@@ -114,13 +114,13 @@ Parameter truth_row(std::string_view name, std::size_t sobol_dimension, std::str
                    field);
 }
 
-/// The value written as "none", outside the range of the others.
+/// Adds the value that is written as "none". It lies outside the range of the others.
 inline Parameter none_is(double none, Parameter row) {
   row.none = none;
   return row;
 }
 
-/// The key of the section alone stands for this row.
+/// Lets the key of the section alone stand for this row.
 inline Parameter short_for(std::string_view section, Parameter row) {
   row.short_name = section;
   return row;

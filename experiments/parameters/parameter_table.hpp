@@ -17,7 +17,7 @@ namespace zerocount::parameters {
 
 enum class ParameterKind { real, whole_number, enumeration, truth };
 
-/// Of a row whose value in a manifest is a list. Each value of the list is a parameter of its own (see
+/// For a row whose value in a manifest is a list. Each value of the list is a parameter of its own (see
 /// value_row); the row itself has no value.
 struct ListOfValues {
   std::size_t min_values{1};
@@ -28,8 +28,8 @@ struct ListOfValues {
       set{};  ///< empty if TrialParameters has no field for it
 };
 
-/// Of a row "list.#.key" that stands for a key of each element of a list (element_lists.hpp), which is a
-/// parameter of its own (see element_row); the row itself has no value.
+/// For a row "list.#.key", which stands for a key of each element of a list (element_lists.hpp). That key is
+/// a parameter of its own (see element_row); the row itself has no value.
 struct ElementKey {
   std::size_t dimensions{0};  ///< Sobol dimensions of an element
   /// `index` is that of a value if the key's value is a list, otherwise 0.
@@ -40,8 +40,8 @@ struct ElementKey {
 struct Parameter {
   std::string_view name;  ///< dotted path in the manifest: "plant.inertia", "controller.coarse.kp"
   std::string_view unit;  ///< on a rotary axis; of a gain with controller.units: count; "1" if dimensionless
-  std::string_view meaning;
-  std::string_view source;  ///< of the default: a place in the paper, or "assumed"
+  std::string_view meaning;  ///< with the placeholders of text_on()
+  std::string_view source;   ///< of the default: a place in the paper, or "assumed"
   ParameterKind kind{ParameterKind::real};
   numerics::Interval range;              ///< of the allowed values
   std::vector<std::string_view> labels;  ///< of an enumeration or a boolean, in the order of its numbers
@@ -49,7 +49,7 @@ struct Parameter {
   double friction::FrictionParameters::*profiled{
       nullptr};                   ///< field for a profile; null if profiles are not allowed
   std::string_view si_unit{};     ///< unit of a gain with controller.units: si; empty for other parameters
-  std::string_view si_meaning{};  ///< likewise
+  std::string_view si_meaning{};  ///< meaning of such a gain
   std::optional<AxisKind> only_on{};  ///< the only kind of axis with this parameter; empty: both kinds
   std::string_view instead{};         ///< the corresponding key on the other kind of axis, for messages
   std::optional<double> none{};   ///< the value written as the word "none": what the parameter limits is off
@@ -75,7 +75,7 @@ constexpr std::size_t max_moves_values = 3000;
 constexpr std::size_t first_sobol_dimension_of_moves = 64;
 constexpr std::size_t first_sobol_dimension_beyond_moves = first_sobol_dimension_of_moves + max_moves_values;
 
-/// Sobol dimension of the drawn mean of a profile, by the dimension of its parameter, which is no list.
+/// Sobol dimension of the drawn mean of a profile, by the dimension of its parameter, which is not a list.
 constexpr std::size_t sobol_dimension_of_mean(std::size_t of_parameter) {
   return of_parameter < first_sobol_dimension_of_moves ? 3600 + of_parameter : 256 + of_parameter;
 }

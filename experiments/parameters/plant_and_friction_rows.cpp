@@ -15,7 +15,7 @@ Parameter friction(Parameter row) {
 
 std::vector<Parameter> plant_rows() {
   return {
-      real_row("plant.inertia", 12, "kg m^2", "moment of inertia J of the rotor", "paper, section 4",
+      real_row("plant.inertia", 12, "kg m^2", "$inertia J of the $rotor", "paper, section 4",
                numerics::above(0), [](auto& p) { return &p.plant.inertia; }),
       real_row("plant.presliding_damping", 13, "N m s/rad",
                "damping c while the hook sticks, or of an air bearing", "paper, section 4",
@@ -23,13 +23,13 @@ std::vector<Parameter> plant_rows() {
       real_row("plant.sliding_damping", 14, "N m s/rad", "viscous damping cs while the hook slides", assumed,
                numerics::at_least(0), [](auto& p) { return &p.plant.sliding_damping; }),
       real_row("plant.load.inertia", beyond_moves(12), "kg m^2",
-               "inertia JL of a second mass behind an elastic coupling; 0: there is none", assumed,
+               "inertia JL of a second mass behind an elastic coupling; 0: no second mass", assumed,
                numerics::at_least(0), [](auto& p) { return &p.plant.load.inertia; }),
       real_row("plant.load.stiffness", beyond_moves(13), "N m/rad", "stiffness kL of the coupling", assumed,
                numerics::above(0), [](auto& p) { return &p.plant.load.stiffness; }),
       real_row("plant.load.damping", beyond_moves(14), "N m s/rad", "damping dL of the coupling", assumed,
                numerics::at_least(0), [](auto& p) { return &p.plant.load.damping; }),
-      word_row("plant.load.encoder", beyond_moves(15), "the mass whose angle the encoders read", assumed,
+      word_row("plant.load.encoder", beyond_moves(15), "the mass whose $angle the encoders read", assumed,
                {"motor", "load"}, [](auto& p) { return &p.plant.load.encoder; }),
   };
 }
@@ -37,16 +37,16 @@ std::vector<Parameter> plant_rows() {
 std::vector<Parameter> friction_rows() {
   using P = friction::FrictionParameters;
   return {
-      word_row(
-          "friction.model", beyond_moves(0),
-          "friction of the bearing: before it slides a spring and creep, the spring alone, or no "
-          "motion at all; none is an air bearing; the models of Dahl, LuGre, and generalised Maxwell-slip",
-          assumed, friction::friction_model_labels(), [](auto& p) { return &p.friction.model; }),
+      word_row("friction.model", beyond_moves(0),
+               "friction law of the bearing. Pre-sliding motion: a spring with creep (presliding), the "
+               "spring alone (spring) or none (coulomb). Others: no friction (none, an air bearing), Dahl, "
+               "LuGre, generalised Maxwell-slip (gms)",
+               assumed, friction::friction_model_labels(), [](auto& p) { return &p.friction.model; }),
       friction<&P::k1>(real_row("friction.k1", 0, "N m/rad",
                                 "lowest tangent stiffness of the friction spring", "paper, section 4",
                                 numerics::above(0))),
       friction<&P::k2>(real_row("friction.k2", 1, "N m/rad",
-                                "highest tangent stiffness of the friction spring less k1",
+                                "highest tangent stiffness of the friction spring minus k1",
                                 "paper, section 4 (k1 + k2 = 860)", numerics::at_least(0))),
       friction<&P::beta>(
           real_row("friction.beta", 3, "1/rad", "rate at which a branch softens from k1 + k2 to k1",
@@ -54,15 +54,16 @@ std::vector<Parameter> friction_rows() {
       friction<&P::alpha>(real_row("friction.alpha", 4, "1/s", "rate of creep; 0 switches creep off", assumed,
                                    numerics::at_least(0))),
       friction<&P::lambda>(real_row("friction.lambda", 5, "(N m)^n/rad",
-                                    "hardening modulus: creep ends at |torque|^n / lambda", assumed,
+                                    "hardening modulus: creep ends at |$torque|^n / lambda", assumed,
                                     numerics::above(0))),
-      friction<&P::n>(real_row("friction.n", 15, "1", "exponent of the torque in the creep law", assumed,
+      friction<&P::n>(real_row("friction.n", 15, "1", "exponent of the $torque in the creep law", assumed,
                                numerics::at_least(1))),
       friction<&P::breakaway>(real_row("friction.breakaway", 6, "N m",
-                                       "torque at which the hook starts to slide", assumed,
+                                       "$torque at which the hook starts to slide", assumed,
                                        numerics::above(0))),
-      friction<&P::coulomb_ratio>(real_row("friction.coulomb_ratio", 7, "1", "Coulomb level over breakaway",
-                                           assumed, {.low = 0, .high = 1, .high_included = true})),
+      friction<&P::coulomb_ratio>(real_row("friction.coulomb_ratio", 7, "1",
+                                           "ratio of the Coulomb level to breakaway", assumed,
+                                           {.low = 0, .high = 1, .high_included = true})),
       friction<&P::stribeck_velocity>(real_row(
           "friction.stribeck_velocity", 8, "rad/s",
           "velocity over which sliding friction falls to the Coulomb level", assumed, numerics::above(0))),
@@ -74,19 +75,18 @@ std::vector<Parameter> friction_rows() {
                                     numerics::at_least(0))),
       friction<&P::gms_attraction>(
           real_row("friction.gms.attraction", beyond_moves(11), "N m/s",
-                   "rate at which the torque of a slipping element of gms goes to its level", assumed,
+                   "rate at which the $torque of a slipping element of gms approaches its level", assumed,
                    numerics::above(0))),
       list_of(max_gms_elements, "stiffness", "stiffnesses",
               real_row("friction.gms.stiffness", beyond_moves(80), "N m/rad",
-                       "stiffness kappa of each element of the generalised Maxwell-slip model; without the "
-                       "two lists, on a rotary axis, four of 110, 250, 250 and 250",
+                       "stiffness kappa of each element of the generalised Maxwell-slip model; default on a "
+                       "rotary axis: 110, 250, 250, 250",
                        "required", numerics::above(0)),
               [](auto& p, std::size_t i) { return &p.friction.gms_elements[i].stiffness; }),
       list_of(max_gms_elements, "weight", "weights",
               real_row("friction.gms.weight", beyond_moves(80 + max_gms_elements), "1",
-                       "weight eta of each element: its part of the level, 1 in all; without the two lists, "
-                       "on a rotary axis, "
-                       "0.9875, 0.0009, 0.0032 and 0.0084",
+                       "weight eta of each element: its fraction of the friction level, all of which sum to "
+                       "1; default on a rotary axis: 0.9875, 0.0009, 0.0032, 0.0084",
                        "required", {.low = 0, .high = 1, .high_included = true}),
               [](auto& p, std::size_t i) { return &p.friction.gms_elements[i].weight; }),
   };

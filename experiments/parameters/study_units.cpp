@@ -1,69 +1,48 @@
 #include "experiments/parameters/study_units.hpp"
 
 #include <array>
-#include <cctype>
+#include <span>
 
 #include <boost/algorithm/string/replace.hpp>
 
 namespace zerocount::parameters {
 namespace {
 
-struct Rewording {
-  std::string_view rotary;
-  std::string_view linear;
+struct Words {
+  std::string_view text;                 // a unit, or a placeholder
+  std::array<std::string_view, 2> on{};  // [AxisKind]
 };
 
-// Longest first, because the first match is used.
-constexpr std::array<Rewording, 5> unit_parts{
-    {{"arcsec", "µm"}, {"kg m^2", "kg"}, {"(N m)^n", "N^n"}, {"N m", "N"}, {"rad", "m"}}};
+// Longest first, because each is replaced wherever it occurs.
+constexpr std::array<Words, 5> unit_parts{{{"arcsec", {"arcsec", "µm"}},
+                                           {"kg m^2", {"kg m^2", "kg"}},
+                                           {"(N m)^n", {"(N m)^n", "N^n"}},
+                                           {"N m", {"N m", "N"}},
+                                           {"rad", {"rad", "m"}}}};
 
-constexpr std::array<Rewording, 10> terms{{{"moment of inertia J of the rotor", "moving mass J"},
-                                           {"Along the rotor", "Along the travel"},
-                                           {"along the rotor", "along the travel"},
-                                           {"on the rotor", "on the travel"},
-                                           {"rotor angle", "position"},
-                                           {"a revolution", "the travel"},
-                                           {"rotor", "slide"},
-                                           {"angle", "position"},
-                                           {"torques", "forces"},
-                                           {"torque", "force"}}};
+constexpr std::array<Words, 7> placeholders{{{"$inertia", {"moment of inertia", "mass"}},
+                                             {"$rotor_angle", {"rotor angle", "position"}},
+                                             {"$rotor", {"rotor", "slide"}},
+                                             {"$track", {"rotor", "travel"}},
+                                             {"$angle", {"angle", "position"}},
+                                             {"$torque", {"torque", "force"}},
+                                             {"$Torque", {"Torque", "Force"}}}};
 
-bool is_letter(char c) {
-  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
-}
-
-// Whether the text from `first` to `last` is a whole word, outside any dotted path.
-bool is_word(std::string_view text, std::size_t first, std::size_t last) {
-  const bool begins = first == 0 || (!is_letter(text[first - 1]) && text[first - 1] != '.');
-  const bool path_goes_on = last + 1 < text.size() && text[last] == '.' && is_letter(text[last + 1]);
-  return begins && (last == text.size() || (!is_letter(text[last]) && !path_goes_on));
-}
-
-void replace_term(std::string& text, const Rewording& term) {
-  for (std::size_t at = text.find(term.rotary); at != std::string::npos; at = text.find(term.rotary, at)) {
-    if (is_word(text, at, at + term.rotary.size())) {
-      text.replace(at, term.rotary.size(), term.linear);
-      at += term.linear.size();
-    } else {
-      at += term.rotary.size();
-    }
-  }
+std::string replaced(std::span<const Words> all, AxisKind axis, std::string_view text) {
+  std::string result(text);
+  for (const Words& words : all)
+    boost::algorithm::replace_all(result, words.text, words.on[static_cast<std::size_t>(axis)]);
+  return result;
 }
 
 }  // namespace
 
 std::string unit_on(AxisKind axis, std::string_view rotary) {
-  std::string unit(rotary);
-  if (axis == AxisKind::rotary) return unit;
-  for (const Rewording& part : unit_parts) boost::algorithm::replace_all(unit, part.rotary, part.linear);
-  return unit;
+  return replaced(unit_parts, axis, rotary);
 }
 
-std::string text_on(AxisKind axis, std::string_view rotary) {
-  std::string text(rotary);
-  if (axis == AxisKind::rotary) return text;
-  for (const Rewording& term : terms) replace_term(text, term);
-  return text;
+std::string text_on(AxisKind axis, std::string_view text) {
+  return replaced(placeholders, axis, text);
 }
 
 }  // namespace zerocount::parameters

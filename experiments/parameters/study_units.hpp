@@ -31,8 +31,15 @@ inline constexpr std::array<std::string_view, 2> gain_unit_labels{"count", "si"}
 /// and products of these. Units of a linear axis stay unchanged.
 std::string unit_on(AxisKind axis, std::string_view rotary);
 
-/// Converts a text to the terms of an axis of this kind: force for torque, position for rotor angle. Names of
-/// keys and columns stay unchanged.
-std::string text_on(AxisKind axis, std::string_view rotary);
+/// Replaces the placeholders of a text by the words for this kind of axis:
+///
+///     placeholder    rotary               linear
+///     $inertia       moment of inertia    mass
+///     $rotor         rotor                slide
+///     $rotor_angle   rotor angle          position
+///     $angle         angle                position
+///     $track         rotor                travel      (what friction varies along)
+///     $torque        torque               force       (also $Torque)
+std::string text_on(AxisKind axis, std::string_view text);
 
 }  // namespace zerocount::parameters

@@ -48,10 +48,9 @@ void add_unknown_key(const yaml::Field& map, const yaml::YamlEntry& entry, std::
                      yaml::Problems& problems) {
   const std::string path = yaml::entry_of(map, entry).path;
   if (entry.key.find('.') != std::string::npos && find_parameter(path)) {
-    problems.add(
-        entry.place, path, "a dotted path stands in place of a key",
-        fmt::format("maps inside one another, as in {}: {{{}: ...}}",
-                    entry.key.substr(0, entry.key.find('.')), entry.key.substr(entry.key.find('.') + 1)));
+    problems.add(entry.place, path, "found a dotted path instead of a key",
+                 fmt::format("nested maps, as in {}: {{{}: ...}}", entry.key.substr(0, entry.key.find('.')),
+                             entry.key.substr(entry.key.find('.') + 1)));
     return;
   }
   const std::string_view nearest = nearest_key(entry.key, known);

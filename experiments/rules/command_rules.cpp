@@ -26,11 +26,10 @@ std::string too_many_samples() {
 
 // An unbounded distribution is reported once, at its own parameter.
 ValueRule highest_value(std::string_view parameter, const std::string& expected) {
-  return {
-      {parameter}, false, [expected](Limits l, Limits) -> Faults {
-        if (std::isfinite(l[0].high)) return {};
-        return {{"its values have no upper limit, so that a trial can have any number of samples", expected}};
-      }};
+  return {{parameter}, false, [expected](Limits l, Limits) -> Faults {
+            if (std::isfinite(l[0].high)) return {};
+            return {{"its values are unbounded, so a trial could have any number of samples", expected}};
+          }};
 }
 
 ValueRule samples_of_targets(double moves) {
@@ -68,7 +67,7 @@ ValueRule limits_of_torque_levels() {
             Faults faults;
             for (std::size_t i = 0; i < levels.size(); ++i) {
               if (std::isfinite(levels[i].low) && std::isfinite(levels[i].high)) continue;
-              faults.push_back({"its values have no limit, so that the torque can take for ever to the level",
+              faults.push_back({"its values are unbounded, so the ramp to the level could take for ever",
                                 "a distribution of the level with a lowest and a highest value",
                                 {i}});
             }
@@ -78,71 +77,72 @@ ValueRule limits_of_torque_levels() {
 
 // Total time of all ramps, s. If the torque stays at 0, every rate is allowed.
 double time_of_ramps(Limits levels, const study::ValueLimits& rate) {
-  const double way = total_travel(levels);
-  return way == 0.0 ? 0.0 : way / rate.low;
+  const double travel = total_travel(levels);
+  return travel == 0.0 ? 0.0 : travel / rate.low;
 }
 
 ValueRule lowest_rate_of_torque() {
   return {{"command.torque.rate"}, true, [](Limits l, Limits levels) -> Faults {
             if (std::isfinite(time_of_ramps(levels, l[0])) || !std::isfinite(total_travel(levels))) return {};
-            return {{"the rate can be so small that the torque takes for ever to a level",
+            return {{"the rate can be so small that a ramp takes for ever",
                      "a rate with a lowest value above 0"}};
           }};
 }
 
 ValueRule samples_of_torque_levels() {
-  return {{"command.hold", "controller.sample_rate", "command.torque.rate"},
-          true,
-          [](Limits l, Limits levels) -> Faults {
-            const double ramps = time_of_ramps(levels, l[2]);
-            if (!std::isfinite(l[0].high) || !std::isfinite(l[1].high) || !std::isfinite(ramps)) return {};
-            const double time = static_cast<double>(levels.size()) * l[0].high + ramps;
-            if (time * l[1].high <= max_samples) return {};
-            return {{fmt::format("{} levels held for {} s, and {} s on the way to them, can be more than {} "
-                                 "samples at {} Hz",
-                                 levels.size(), l[0].high, ramps, max_samples, l[1].high),
-                     too_many_samples()}};
-          }};
+  return {
+      {"command.hold", "controller.sample_rate", "command.torque.rate"},
+      true,
+      [](Limits l, Limits levels) -> Faults {
+        const double ramps = time_of_ramps(levels, l[2]);
+        if (!std::isfinite(l[0].high) || !std::isfinite(l[1].high) || !std::isfinite(ramps)) return {};
+        const double time = static_cast<double>(levels.size()) * l[0].high + ramps;
+        if (time * l[1].high <= max_samples) return {};
+        return {
+            {fmt::format(
+                 "{} levels held for {} s, and ramps of {} s in all, can be more than {} samples at {} Hz",
+                 levels.size(), l[0].high, ramps, max_samples, l[1].high),
+             too_many_samples()}};
+      }};
 }
 
 // Warns about torques beyond the converter's range, which are clipped.
 ValueRule range_of_the_converter(const std::string& unit) {
-  return {
-      {"command.torque.through", "dac.bits", "dac.resolution"},
-      true,
-      [unit](Limits l, Limits levels) -> Faults {
-        if (l[0].low != static_cast<double>(trial::TorquePath::dac)) return {};
-        const loop::DacParameters dac{.bits = static_cast<int>(l[1].low), .resolution = l[2].low};
-        const double lowest = static_cast<double>(loop::lowest_code(dac)) * dac.resolution;
-        const double highest = static_cast<double>(loop::highest_code(dac)) * dac.resolution;
-        Faults faults;
-        for (std::size_t i = 0; i < levels.size(); ++i) {
-          if (levels[i].low >= lowest && levels[i].high <= highest) continue;
-          const double beyond = levels[i].high > highest ? levels[i].high : levels[i].low;
-          faults.push_back({fmt::format("{} {} can be beyond the converter's range from {:.6g} to {:.6g} {}, "
-                                        "and is clipped to it",
-                                        beyond, unit, lowest, highest, unit),
-                            "",
-                            {i}});
-        }
-        return faults;
-      },
-      true};
+  return {{"command.torque.through", "dac.bits", "dac.resolution"},
+          true,
+          [unit](Limits l, Limits levels) -> Faults {
+            if (l[0].low != static_cast<double>(trial::TorquePath::dac)) return {};
+            const loop::DacParameters dac{.bits = static_cast<int>(l[1].low), .resolution = l[2].low};
+            const double lowest = static_cast<double>(loop::lowest_code(dac)) * dac.resolution;
+            const double highest = static_cast<double>(loop::highest_code(dac)) * dac.resolution;
+            Faults faults;
+            for (std::size_t i = 0; i < levels.size(); ++i) {
+              if (levels[i].low >= lowest && levels[i].high <= highest) continue;
+              const double beyond = levels[i].high > highest ? levels[i].high : levels[i].low;
+              faults.push_back({fmt::format("{} {} can be outside the converter's range from {:.6g} to "
+                                            "{:.6g} {}, to which it is clipped",
+                                            beyond, unit, lowest, highest, unit),
+                                "",
+                                {i}});
+            }
+            return faults;
+          },
+          true};
 }
 
 ValueRule order_of_targets() {
-  return {{}, true, [](Limits, Limits targets) -> Faults {
-            Faults faults;
-            for (std::size_t i = 1; i < targets.size(); ++i) {
-              if (targets[i].low > targets[i - 1].high) continue;
-              faults.push_back(
-                  {fmt::format("the target can be at {} counts, at or below the one before it, {} counts",
-                               targets[i].low, targets[i - 1].high),
-                   "targets in ascending order in every trial",
-                   {i, i - 1}});
-            }
-            return faults;
-          }};
+  return {
+      {}, true, [](Limits, Limits targets) -> Faults {
+        Faults faults;
+        for (std::size_t i = 1; i < targets.size(); ++i) {
+          if (targets[i].low > targets[i - 1].high) continue;
+          faults.push_back({fmt::format("the target can be {} counts, not above the one before it, {} counts",
+                                        targets[i].low, targets[i - 1].high),
+                            "targets in ascending order in every trial",
+                            {i, i - 1}});
+        }
+        return faults;
+      }};
 }
 
 ValueRule reach_of_the_overrun() {
@@ -150,7 +150,7 @@ ValueRule reach_of_the_overrun() {
             const double farthest =
                 l[0].high + std::max(std::abs(targets.front().low), std::abs(targets.back().high));
             if (farthest <= parameters::max_count) return {};
-            return {{fmt::format("the sequence can go as far as {} counts", farthest),
+            return {{fmt::format("the sequence can reach {} counts", farthest),
                      fmt::format("at most {} counts from the start", parameters::max_count)}};
           }};
 }
@@ -160,7 +160,7 @@ double longest_step(Limits targets) {
   return std::ranges::max(longest_travels(targets));
 }
 
-// Likewise for a sequence, which moves beyond its targets before it reverses.
+// The longest travel of a sequence, which moves beyond its targets before it reverses, counts.
 double longest_step_of_sequence(Limits targets, const study::ValueLimits& overrun,
                                 const study::SequenceCycle& cycle) {
   const study::ValueLimits below{targets.front().low - overrun.high, targets.front().high - overrun.low};
@@ -210,9 +210,9 @@ ValueRule time_of_travel(parameters::AxisKind axis, const std::optional<study::S
                "limits of the profile with a lowest value above 0"}};
     }
     return {
-        {fmt::format("a travel of {} counts can take {:.6g} s, which leaves no window of {} s in the hold "
-                     "of {} s",
-                     counts, travel.duration(), l[window].high, l[hold].low),
+        {fmt::format(
+             "a travel of {} counts can take {:.6g} s, which leaves no window of {} s in the hold of {} s",
+             counts, travel.duration(), l[window].high, l[hold].low),
          fmt::format("command.hold at least {:.6g} s, or higher limits of the profile", needed)}};
   };
   return rule;

@@ -55,16 +55,16 @@ std::vector<EffectRule> rules_of_the_command(const study::StudyPlan& plan) {
        .off_at_zero = true},
       {.keys = {"command.torque"},
        .has_effect = open_loop ? always : never,
-       .what = "it has no effect: there are no command.torque.levels",
+       .what = "it has no effect without command.torque.levels",
        .expected = "command.torque with its levels, or the key left out"},
       {.keys = {"command.sequence"},
        .has_effect = plan.sequence ? always : never,
-       .what = "it has no effect: there is no command.sequence",
+       .what = "it has no effect without command.sequence",
        .expected = "command.sequence with its targets, or the key left out"},
       {.keys = {"dac"},
        .depends_on = {"command.torque.through"},
        .has_effect = [open_loop](Limits l) { return !open_loop || is_word<trial::TorquePath::dac>(l[0]); },
-       .what = "it has no effect: the torque does not go through the converter at any point",
+       .what = "it has no effect: command.torque.through is never dac",
        .expected = "command.torque.through: dac, or the key left out"},
       {.keys = {"command.profile.velocity_limit", "command.profile.acceleration_limit"},
        .depends_on = {"command.profile.shape"},
@@ -74,7 +74,7 @@ std::vector<EffectRule> rules_of_the_command(const study::StudyPlan& plan) {
       {.keys = {"command.profile.jerk_limit"},
        .depends_on = {"command.profile.shape"},
        .has_effect = [](Limits l) { return is_word<loop::ReferenceShape::s_curve>(l[0]); },
-       .what = "it has no effect: the reference is an s_curve at no point",
+       .what = "it has no effect: the reference is never an s_curve",
        .expected = "command.profile.shape: s_curve, or the key left out"},
   };
 }
@@ -110,7 +110,7 @@ std::vector<EffectRule> rules_of_the_loop() {
                 "controller.coarse.observer"},
        .depends_on = {"controller.coarse.coarse_beyond"},
        .has_effect = [](Limits l) { return study::can_have_coarse_phase(l[0]); },
-       .what = "it has no effect: there is no coarse phase at any point",
+       .what = "it has no effect: no point has a coarse phase",
        .expected = "controller.coarse.coarse_beyond below 1e12, or the key left out"},
       rule_of_an_error("encoder.fine_errors.eccentricity_angle", "encoder.fine_errors.eccentricity"),
       rule_of_an_error("encoder.fine_errors.interpolation_period", "encoder.fine_errors.interpolation"),
@@ -157,8 +157,7 @@ constexpr PhaseNames coarse_phase{"controller.coarse.structure",
                                   "controller.coarse.observer.bandwidth",
                                   "controller.coarse.observer.inertia"};
 
-// Of the blocks of one phase. A gain of 0 in some point's control law may be what a sweep is about: only
-// warnings.
+// Rules of the blocks of one phase. If a gain may be 0 on purpose, as in a sweep, only warnings.
 std::vector<EffectRule> rules_of_the_blocks(const PhaseNames& of) {
   const auto is_cascade = [](const study::ValueLimits& structure) {
     return is_word<loop::ControlStructure::cascade>(structure);
@@ -175,17 +174,17 @@ std::vector<EffectRule> rules_of_the_blocks(const PhaseNames& of) {
       {.keys = {of.cascade},
        .depends_on = {of.structure},
        .has_effect = [is_cascade](Limits l) { return is_cascade(l[0]); },
-       .what = "it has no effect: the control is a cascade at no point",
+       .what = "it has no effect: the control is never a cascade",
        .expected = fmt::format("{}: cascade, or the key left out", of.structure)},
       {.keys = {of.leave},
        .depends_on = {of.enter},
        .has_effect = [](Limits l) { return l[0].high >= 0.0; },
-       .what = "it has no effect: there is no deadband at any point",
+       .what = "it has no effect: no point has a deadband",
        .expected = fmt::format("{} too, or the key left out", of.enter)},
       {.keys = {of.inertia},
        .depends_on = {of.bandwidth},
        .has_effect = [](Limits l) { return can_be_positive(l[0]); },
-       .what = "it has no effect: there is no disturbance observer at any point",
+       .what = "it has no effect: no point has a disturbance observer",
        .expected = fmt::format("{} above 0, or the key left out", of.bandwidth)},
       {.keys = {of.feedforward},
        .depends_on = {"command.profile.shape"},
@@ -196,13 +195,13 @@ std::vector<EffectRule> rules_of_the_blocks(const PhaseNames& of) {
       {.keys = {of.deadband, of.zone},
        .depends_on = {of.structure, of.ki, of.cascade_ki},
        .has_effect = has_integral,
-       .what = "it has no effect: there is no integral control at any point",
+       .what = "it has no effect: no point has integral control",
        .off_at_zero = true,
        .warn_only = true},
       {.keys = {of.cutoff},
        .depends_on = {of.structure, of.kd},
        .has_effect = [is_cascade](Limits l) { return is_cascade(l[0]) || can_be_positive(l[1]); },
-       .what = "it has no effect: nothing of the control uses the difference of counts at any point",
+       .what = "it has no effect: the control never uses the difference of counts",
        .off_at_zero = true,
        .warn_only = true},
   };
@@ -212,7 +211,7 @@ EffectRule rule_of_the_load() {
   return {.keys = {"plant.load.stiffness", "plant.load.damping", "plant.load.encoder"},
           .depends_on = {"plant.load.inertia"},
           .has_effect = [](Limits l) { return can_be_positive(l[0]); },
-          .what = "it has no effect: there is no second mass at any point",
+          .what = "it has no effect: no point has a second mass",
           .expected = "plant.load.inertia above 0, or the key left out"};
 }
 
@@ -221,7 +220,7 @@ EffectRule rule_of_the_limit() {
   return {.keys = {"verdict.limit"},
           .depends_on = {"verdict.stop"},
           .has_effect = [](Limits l) { return l[0].high > 0.0; },
-          .what = "it has no effect: verdict.stop is true at no point",
+          .what = "it has no effect: verdict.stop is never true",
           .warn_only = true};
 }
 
@@ -237,13 +236,13 @@ std::vector<EffectRule> rules_of_the_contact() {
       {.keys = {"initial.history.torque"},
        .depends_on = {"initial.history.reversals", "initial.history.torque"},
        .has_effect = both_positive,
-       .what = "it has no effect: there are no reversals to it at any point",
+       .what = "it has no effect: initial.history.reversals is 0 at every point",
        .expected = "initial.history.reversals at least 1, or the key left out",
        .off_at_zero = true},
       {.keys = {"initial.history.reversals"},
        .depends_on = {"initial.history.reversals", "initial.history.torque"},
        .has_effect = both_positive,
-       .what = "it has no effect: their torque is 0 at every point",
+       .what = "it has no effect: initial.history.torque is 0 at every point",
        .expected = "initial.history.torque above 0, or the key left out",
        .off_at_zero = true},
   };
@@ -264,7 +263,7 @@ EffectRule with_models(const std::function<bool(const friction::LawTraits&)>& pr
   return {.keys = std::move(keys),
           .depends_on = {"friction.model"},
           .has_effect = [property](Limits l) { return property(friction::traits_of(friction_model(l[0]))); },
-          .what = fmt::format("it has no effect: friction.model is at no point one that uses it ({})",
+          .what = fmt::format("it has no effect: friction.model is never one that uses it ({})",
                               models_with(property)),
           .off_at_zero = true,
           .warn_only = true};
@@ -319,19 +318,18 @@ std::vector<EffectRule> rules_of_vanished_terms() {
 
 // The position on the rotor selects from friction profiles and from encoder errors fixed to the rotor.
 EffectRule rule_of_the_position(const study::StudyPlan& plan) {
-  const bool along_the_rotor = !plan.profiles.empty();
-  return {.keys = {"initial.position"},
-          .depends_on = {"encoder.fine_errors.eccentricity", "encoder.fine_errors.interpolation",
-                         "encoder.coarse_errors.eccentricity", "encoder.coarse_errors.interpolation"},
-          .has_effect =
-              [along_the_rotor](Limits l) {
-                return along_the_rotor || std::any_of(l.begin(), l.end(), can_be_positive);
-              },
-          .what =
-              "it has no effect: nothing differs along the rotor, neither friction by a profile nor an "
-              "encoder by its eccentricity or interpolation",
-          .off_at_zero = true,
-          .warn_only = true};
+  const bool has_profile = !plan.profiles.empty();
+  return {
+      .keys = {"initial.position"},
+      .depends_on = {"encoder.fine_errors.eccentricity", "encoder.fine_errors.interpolation",
+                     "encoder.coarse_errors.eccentricity", "encoder.coarse_errors.interpolation"},
+      .has_effect =
+          [has_profile](Limits l) { return has_profile || std::any_of(l.begin(), l.end(), can_be_positive); },
+      .what =
+          "it has no effect: nothing varies along the $track, neither a friction profile nor an eccentricity "
+          "or interpolation error of an encoder",
+      .off_at_zero = true,
+      .warn_only = true};
 }
 
 }  // namespace

@@ -31,9 +31,9 @@ ValueRule weights_of_one_in_all(const std::vector<std::string_view>& weights) {
             }
             if (std::abs(lowest - 1.0) <= rounding && std::abs(highest - 1.0) <= rounding) return {};
             return {{lowest == highest
-                         ? fmt::format("the weights are {:.6g} in all", lowest)
-                         : fmt::format("the weights can be {:.6g} to {:.6g} in all", lowest, highest),
-                     "weights of 1 in all, in every trial"}};
+                         ? fmt::format("the weights sum to {:.6g}", lowest)
+                         : fmt::format("the sum of the weights can be {:.6g} to {:.6g}", lowest, highest),
+                     "weights that sum to 1 in every trial"}};
           }};
 }
 
@@ -58,8 +58,8 @@ std::vector<ValueRule> rules_of_gms(const study::StudyTable& table, const parame
     const std::size_t m = weights.size();
     rules.push_back(
         {{n > 0 ? stiffnesses.front() : weights.front()}, false, [n, m](Limits, Limits) -> Faults {
-           return {{fmt::format("there are {} stiffnesses and {} weights of the elements", n, m),
-                    "friction.gms.stiffness and friction.gms.weight with a value for each"}};
+           return {{fmt::format("{} stiffnesses but {} weights of the elements", n, m),
+                    "friction.gms.stiffness and friction.gms.weight of equal length"}};
          }});
   }
   return rules;

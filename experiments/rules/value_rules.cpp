@@ -38,7 +38,7 @@ std::vector<ValueRule> rules_of_durations(bool open_loop) {
   };
 }
 
-double largest_magnitude(const study::ValueLimits& limits) {
+double max_abs(const study::ValueLimits& limits) {
   return std::max(std::abs(limits.low), std::abs(limits.high));
 }
 
@@ -47,7 +47,7 @@ std::vector<ValueRule> rules_of_the_start(const std::string& torque_unit) {
       {{"initial.preload", "friction.breakaway"},
        false,
        [torque_unit](Limits l, Limits) -> Faults {
-         const double torque = largest_magnitude(l[0]);
+         const double torque = max_abs(l[0]);
          if (torque < l[1].low || torque == 0.0) return {};
          return {{fmt::format("a preload of {} {} can reach the breakaway of {} {}", torque, torque_unit,
                               l[1].low, torque_unit),
@@ -68,7 +68,7 @@ std::vector<ValueRule> rules_of_the_start(const std::string& torque_unit) {
          const bool slides = l[1].low == static_cast<double>(trial::InitialMode::slide) &&
                              friction::traits_of(model).breakaway != friction::Breakaway::never;
          if (!slides || !l[0].can_be_zero) return {};
-         return {{"the velocity can be 0 where the hook slides at the start",
+         return {{"the velocity can be 0 although the hook slides at the start",
                   "a velocity that is never 0 with initial.mode: slide"}};
        }},
   };
@@ -78,10 +78,8 @@ std::vector<ValueRule> rules_of_the_start(const std::string& torque_unit) {
 ValueRule no_stop_in_a_sequence() {
   return {{"verdict.stop"}, false, [](Limits l, Limits) -> Faults {
             if (l[0].high == 0.0) return {};
-            return {
-                {"the values of ISO 230-2 are of the ends of all moves, which a trial that is ended early "
-                 "does not have",
-                 "false with command.sequence"}};
+            return {{"the values of ISO 230-2 need the end of every move, which a stopped trial lacks",
+                     "false with command.sequence"}};
           }};
 }
 
@@ -91,8 +89,8 @@ ValueRule stop_with_two_phases() {
           [](Limits l, Limits) -> Faults {
             if (l[0].high == 0.0 || !study::can_have_coarse_phase(l[1])) return {};
             return {
-                {"the coarse phase may bring a rotor back from beyond verdict.limit, and so change an "
-                 "outcome that was taken as decided",
+                {"the coarse phase may bring the $rotor back from beyond verdict.limit, and so change an "
+                 "outcome that counted as decided",
                  ""}};
           },
           true};
@@ -105,10 +103,9 @@ std::vector<ValueRule> rules_of_two_phases(const std::string& derivative_unit) {
        false,
        [derivative_unit](Limits l, Limits) -> Faults {
          if (!study::can_have_coarse_phase(l[1]) || l[0].high == 0.0) return {};
-         return {{fmt::format("{} {} can act in the fine phase of a control with two", l[0].high,
+         return {{fmt::format("{} {} can act in the fine phase of a control with two phases", l[0].high,
                               derivative_unit),
-                  "0 where there is a coarse phase: the derivative belongs to it alone "
-                  "(controller.coarse.kd)"}};
+                  "0 with a coarse phase, which alone has a derivative (controller.coarse.kd)"}};
        }},
       {{"controller.coarse.fine_within", "controller.coarse.coarse_beyond"},
        false,

@@ -46,7 +46,7 @@ bool are_readable(std::span<const ValueLimits> limits);
 /// Whether `holds` for the limits of these parameters, in their order, at some design point.
 bool holds_somewhere(const StudyPlan& plan, std::span<const std::string_view> names,
                      const std::function<bool(std::span<const ValueLimits>)>& holds);
-/// The same for one parameter.
+/// Whether `holds` for the limits of one parameter at some design point.
 bool holds_somewhere(const StudyPlan& plan, std::string_view name,
                      const std::function<bool(const ValueLimits&)>& holds);
 

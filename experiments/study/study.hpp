@@ -163,7 +163,7 @@ struct Study {
   std::vector<std::string> overrides;  ///< "key=value", as given with --set, in order
   /// The user's controller, which runs the trials if it is loaded; null: there is none.
   std::shared_ptr<const plugin::ControllerPlugin> plugin;
-  /// Of manifest_text, overrides, plugin and samples: equal hashes mean the same trials.
+  /// Hash of manifest_text, overrides, plugin and samples: equal hashes mean the same trials.
   std::string study_sha256;
 
   std::vector<std::string> point_labels;  ///< [point]
@@ -229,8 +229,8 @@ StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t inde
 StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int64_t index);
 
 /// Completes the parameters of a trial after all numbers are set in the manifest's units: converts gains from
-/// SI units with the trial's sample time and encoder, and sets the resolution of a linear axis's coarse
-/// encoder to that of the fine one if it is not given.
+/// SI units with the trial's sample time and encoder, and gives the coarse encoder of a linear axis the
+/// resolution of the fine one by default.
 void complete_trial(const parameters::StudyUnits& units, trial::TrialParameters& trial);
 
 /// The inputs of rig `rig` (0 … rigs − 1): [rig column], in that column's unit.

@@ -34,7 +34,7 @@ struct StudyTable {
   StudyTable& operator=(const StudyTable&) = delete;
 };
 
-/// Adds the rows of a list's values. @param row that of the list
+/// Adds the rows of a list's values. @param row of the list
 RowGroup add_list(StudyTable& table, std::size_t row, std::size_t count);
 
 /// Adds the rows of element `index` of a list, one for each key of its form.
@@ -45,7 +45,7 @@ RowGroup add_element(StudyTable& table, const parameters::ElementList& list, std
 /// Adds the rows of the parameters of the user's controller, which must outlive the table.
 RowGroup add_plugin(StudyTable& table, const plugin::PluginDescription& plugin);
 
-/// The values of a list that the study has. @param row that of the list
+/// The values of a list that the study has. @param row of the list
 std::optional<RowGroup> find_list(const StudyTable& table, std::size_t row);
 
 /// All slots in use, in the order of columns: that of the table of parameters, with the values of a list at

@@ -59,11 +59,11 @@ std::string describe_scalar(const YamlNode& node) {
   if (is_nonfinite(text)) return fmt::format("{} is not finite", shown);
   if (matches(text, "[-+]?0[xob][0-9A-Fa-f_]+")) return fmt::format("{} is not decimal", shown);
   if (matches(text, "[-+]?0[0-9]+.*"))
-    return fmt::format("{} starts with a zero, which some read as octal", shown);
+    return fmt::format("{} starts with a zero, which some programs read as octal", shown);
   if (matches(text, "[-+]?[0-9][0-9.eE+-]*_[0-9_.eE+-]*"))
-    return fmt::format("{} has underscores in it", shown);
+    return fmt::format("{} contains underscores", shown);
   if (matches(text, "[-+]?[0-9]+(:[0-9.]+)+"))
-    return fmt::format("{} has a colon in it, which some read to base 60", shown);
+    return fmt::format("{} contains a colon, which some programs read as base 60", shown);
   if (text.front() == '+') return fmt::format("{} starts with a plus sign", shown);
   return fmt::format("{} is not a number", shown);
 }
@@ -73,9 +73,9 @@ std::string describe(const YamlNode& node) {
     case YamlNode::Kind::null:
       return "the value is empty";
     case YamlNode::Kind::list:
-      return "a list stands here";
+      return "found a list";
     case YamlNode::Kind::map:
-      return "a map stands here";
+      return "found a map";
     case YamlNode::Kind::scalar:
       return describe_scalar(node);
   }
@@ -108,7 +108,7 @@ bool check_kind(const Field& field, YamlNode::Kind kind, const std::string& expe
   const YamlNode& node = *field.node;
   if (node.kind == kind) return true;
   const std::string what = node.kind == YamlNode::Kind::scalar
-                               ? fmt::format("the single value {} stands here", in_quotes(node.text))
+                               ? fmt::format("found the single value {}", in_quotes(node.text))
                                : describe(node);
   problems.add(field, what, expected);
   return false;
@@ -190,7 +190,7 @@ std::optional<std::size_t> read_label(const Field& field, std::span<const std::s
   }
   const std::string what = node.kind == YamlNode::Kind::null
                                ? describe(node)
-                               : fmt::format("{} is none of its words", in_quotes(flow_text(node)));
+                               : fmt::format("unknown value {}", in_quotes(flow_text(node)));
   problems.add(field, what, fmt::format("one of {}", fmt::join(labels, ", ")));
   return std::nullopt;
 }
@@ -202,8 +202,8 @@ std::optional<std::string> read_text(const Field& field, Problems& problems) {
     return std::nullopt;
   }
   if (node.plain && (reads_as_number(node.text) || is_yaml11_truth(node.text) || is_nonfinite(node.text))) {
-    problems.add(field, fmt::format("{} reads as a number or a truth value", in_quotes(node.text)),
-                 "a text, in quotation marks where it could be taken for something else");
+    problems.add(field, fmt::format("{} would be read as a number or a truth value", in_quotes(node.text)),
+                 "a text, in quotation marks if it looks like a number or a truth value");
     return std::nullopt;
   }
   return node.text;

@@ -24,16 +24,15 @@ void require_file(const fs::path& path, std::string_view expected) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) {
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: there is no such file; expected {}", path.string(), expected));
+    throw Failure(ExitCode::bad_input, fmt::format("{}: no such file; expected {}", path.string(), expected));
   }
   if (fs::is_directory(status)) {
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: this is a directory; expected {}", path.string(), expected));
   }
-  if (!fs::is_regular_file(status)) {
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: this is no regular file; expected {}", path.string(), expected));
+  if (!fs::is_regular_file(status) && !fs::is_fifo(status)) {
+    throw Failure(ExitCode::bad_input, fmt::format("{}: this is not a regular file or pipe; expected {}",
+                                                   path.string(), expected));
   }
 }
 
@@ -55,6 +54,11 @@ std::string read_stream(const fs::path& path, std::FILE* stream, std::size_t max
 
 bool is_standard_stream(const fs::path& path) {
   return path == "-";
+}
+
+bool is_stream(const fs::path& path) {
+  std::error_code error;
+  return is_standard_stream(path) || fs::is_fifo(path, error);
 }
 
 std::string name_of_text(const fs::path& path) {

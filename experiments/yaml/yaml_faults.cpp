@@ -12,25 +12,23 @@ namespace zerocount::yaml {
 std::string syntax_fault(const std::string& message) {
   using namespace YAML::ErrorMsg;
   const auto starts = [&](const char* known) { return message.rfind(known, 0) == 0; };
-  if (starts(MAP_VALUE)) return "a ':' stands where no value can start";
-  if (starts(MAP_KEY)) return "a key stands where none can start";
-  if (starts(BLOCK_ENTRY)) return "a '-' stands where no list item can start";
-  if (starts(FLOW_END)) return "a closing bracket matches no opening one";
-  if (starts(END_OF_MAP) || starts(END_OF_MAP_FLOW))
-    return "a map is not complete (bracket, comma or indentation)";
-  if (starts(END_OF_SEQ) || starts(END_OF_SEQ_FLOW))
-    return "a list is not complete (bracket, comma or indentation)";
-  if (starts(TAB_IN_INDENTATION)) return "a tab stands in the indentation";
-  if (starts(EOF_IN_SCALAR)) return "a quotation mark is not closed";
-  if (starts(DOC_IN_SCALAR)) return "a document mark stands inside a quoted text";
+  if (starts(MAP_VALUE)) return "unexpected ':'";
+  if (starts(MAP_KEY)) return "unexpected key";
+  if (starts(BLOCK_ENTRY)) return "unexpected '-'";
+  if (starts(FLOW_END)) return "closing bracket without an opening one";
+  if (starts(END_OF_MAP) || starts(END_OF_MAP_FLOW)) return "incomplete map (bracket, comma or indentation)";
+  if (starts(END_OF_SEQ) || starts(END_OF_SEQ_FLOW)) return "incomplete list (bracket, comma or indentation)";
+  if (starts(TAB_IN_INDENTATION)) return "tab in the indentation";
+  if (starts(EOF_IN_SCALAR)) return "unclosed quotation mark";
+  if (starts(DOC_IN_SCALAR)) return "document mark inside a quoted text";
   if (starts(INVALID_ESCAPE) || starts(INVALID_HEX) || starts(INVALID_UNICODE)) {
-    return "an escape sequence in a quoted text is not known";
+    return "unknown escape sequence in a quoted text";
   }
   if (starts(UNKNOWN_ANCHOR) || starts(ALIAS_NOT_FOUND) || starts(ALIAS_CONTENT)) {
-    return "an alias names no anchor that stands before it";
+    return "alias without an anchor before it";
   }
-  if (starts(UNKNOWN_TOKEN)) return "a character stands here that can start nothing";
-  return "the text is not YAML from here on";
+  if (starts(UNKNOWN_TOKEN)) return "unexpected character";
+  return "not valid YAML from here on";
 }
 
 Place first_bad_byte(const std::string& text, std::string_view source) {

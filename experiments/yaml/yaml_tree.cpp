@@ -49,7 +49,7 @@ class TreeBuilder : public YAML::EventHandler {
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const auto found = anchored_.find(anchor);
     if (found == anchored_.end()) {
-      refuse(place(mark), "the alias stands inside its own anchor", "a document that ends");
+      refuse(place(mark), "the alias lies inside its own anchor", "a document without cycles");
     }
     accept(found->second.node, found->second.size, place(mark));
   }
@@ -59,8 +59,7 @@ class TreeBuilder : public YAML::EventHandler {
     refuse_tag(mark, tag);
     if (tag != "?") refuse_unclosed_quotes(mark);
     if (const auto character = unprintable_character(value))
-      refuse(place(mark), fmt::format("the control character {} stands in a text", *character),
-             "a text that can be shown");
+      refuse(place(mark), fmt::format("control character {} in a text", *character), "a printable text");
     YamlNode node;
     node.kind = YamlNode::Kind::scalar;
     node.place = place(mark);
@@ -125,8 +124,7 @@ class TreeBuilder : public YAML::EventHandler {
 
   void refuse_tag(const YAML::Mark& mark, const std::string& tag) const {
     if (!tag.empty() && tag != "?" && tag != "!") {
-      refuse(place(mark), fmt::format("the tag {} is not understood", in_quotes(tag)),
-             "a value without a tag");
+      refuse(place(mark), fmt::format("unsupported tag {}", in_quotes(tag)), "a value without a tag");
     }
   }
 
@@ -138,7 +136,7 @@ class TreeBuilder : public YAML::EventHandler {
     for (++at; at < text_.size() && text_[at] != '"'; ++at) {
       if (text_[at] == '\\') ++at;
     }
-    if (at >= text_.size()) refuse(place(mark), "a quotation mark is not closed", "valid YAML");
+    if (at >= text_.size()) refuse(place(mark), "unclosed quotation mark", "valid YAML");
   }
 
   void open(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, YamlNode::Kind kind) {
@@ -168,7 +166,7 @@ class TreeBuilder : public YAML::EventHandler {
 
   void refuse_as_key(const Place& where) const {
     if (!open_.empty() && open_.back().node.kind == YamlNode::Kind::map && !open_.back().has_key) {
-      refuse(where, "a list or a map stands where a key should", "a name as the key");
+      refuse(where, "a list or a map cannot be a key", "a name as the key");
     }
   }
 
@@ -181,8 +179,8 @@ class TreeBuilder : public YAML::EventHandler {
     Open& parent = open_.back();
     parent.size += size;
     if (parent.size > max_expanded_nodes) {
-      refuse(where, "the aliases expand to too much",
-             fmt::format("at most {} values once every alias is written out", max_expanded_nodes));
+      refuse(where, "the aliases expand to too many values",
+             fmt::format("at most {} values after expansion", max_expanded_nodes));
     }
     if (parent.node.kind == YamlNode::Kind::list) {
       parent.node.items.push_back(node);
@@ -202,7 +200,7 @@ class TreeBuilder : public YAML::EventHandler {
     parent.node.entries.push_back({key.text, where, nullptr});
     parent.has_key = true;
     if (parent.keys.count(key.text) > 0) {
-      problems_.add(where, path(), "the key stands twice in the same map", "each key once");
+      problems_.add(where, path(), "duplicate key", "each key once");
     }
   }
 
@@ -223,7 +221,8 @@ YamlPointer parse_yaml(const std::string& text, std::string_view source, bool on
   Place bad = first_bad_byte(text, source);
   if (bad.line > 0) {
     if (one_line) bad = {source};
-    problems.add(bad, whole, "this byte is not UTF-8 text", "a manifest in UTF-8 without control characters");
+    problems.add(bad, whole, "invalid UTF-8 or control character",
+                 "a manifest in UTF-8 without control characters");
     return nullptr;
   }
   TreeBuilder builder(text, source, one_line, problems);

@@ -75,9 +75,9 @@ std::vector<RecordField<TraceRecord>> trace_fields(const study::StudyFeatures& f
       field<T>("coarse_count", "count", "reading of the coarse encoder", &T::coarse_count),
       field<T>("error", "count", "target minus count", &T::error),
       field<T>("code", "1", "DAC code decided at this instant", &T::code),
-      field<T>("torque", "N m", "torque decided at this instant", &T::torque),
-      field<T>("theta", "rad", "rotor angle", &T::theta),
-      field<T>("omega", "rad/s", "rotor velocity", &T::omega),
+      field<T>("torque", "N m", "$torque decided at this instant", &T::torque),
+      field<T>("theta", "rad", "$rotor_angle", &T::theta),
+      field<T>("omega", "rad/s", "$rotor velocity", &T::omega),
       field<T>("xp", "rad", "plastic extension", &T::xp),
       field<T>("xh", "rad", "hardening", &T::xh),
       field<T>("depth", "1", "reversal points on the stack", &T::depth),
@@ -89,12 +89,12 @@ std::vector<RecordField<TraceRecord>> trace_fields(const study::StudyFeatures& f
         field<T>("phase", "1", "phase of the control at this instant", &T::phase, {}, phase_words()));
   }
   if (features.load) {
-    fields.push_back(field<T>("load_theta", "rad", "angle of the second mass", &T::load_theta));
+    fields.push_back(field<T>("load_theta", "rad", "$angle of the second mass", &T::load_theta));
     fields.push_back(field<T>("load_omega", "rad/s", "velocity of the second mass", &T::load_omega));
   }
   if (features.drive_torque) {
     fields.push_back(
-        field<T>("drive_torque", "N m", "torque of the motor at this instant", &T::drive_torque));
+        field<T>("drive_torque", "N m", "$torque of the motor at this instant", &T::drive_torque));
   }
   return fields;
 }

@@ -16,7 +16,7 @@ Column rig_scale() {
 }
 
 Column theta_scale() {
-  return {"theta", "rad", "rotor angle from the origin of the profile", hdf5::Element::float64};
+  return {"theta", "rad", "$rotor_angle from the origin of the profile", hdf5::Element::float64};
 }
 
 Column value_of_profile(const std::string& name, const std::string& unit) {

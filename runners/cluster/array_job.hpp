@@ -18,10 +18,10 @@ struct ArrayJob {
 /// @param max_array_size of the cluster
 ArrayJob array_job(std::int64_t parts, std::int64_t max_array_size);
 
-/// The elements that run any of these parts, in order, each once.
+/// The elements that run these parts, in ascending order without repetition.
 std::vector<std::int64_t> elements_of(const ArrayJob& job, std::span<const std::int64_t> parts);
 
-/// Rising numbers as Slurm writes them: "0-3,7".
+/// Ascending numbers in the format of Slurm: "0-3,7".
 std::string index_list(std::span<const std::int64_t> indices);
 
 }  // namespace zerocount::cluster

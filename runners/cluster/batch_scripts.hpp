@@ -10,26 +10,27 @@
 
 namespace zerocount::cluster {
 
-/// What the scripts of a study say.
+/// Contents of the scripts of a study.
 struct BatchRequest {
   std::string name;               ///< of the study
-  std::string study_sha256;       ///< of the study: the jobs refuse another
+  std::string study_sha256;       ///< the jobs refuse a study with another hash
   std::filesystem::path program;  ///< absolute
   std::filesystem::path folder;   ///< absolute; other paths may be relative to it
   std::string manifest;
   std::vector<std::string> overrides;  ///< KEY=VALUE
   std::filesystem::path output;
   ArrayJob job;
-  std::vector<std::int64_t> elements;       ///< that are to run
-  std::optional<std::int64_t> at_once;      ///< most elements that run at the same time
-  std::int64_t cpus{1};                     ///< of each job
-  std::optional<std::string> time;          ///< limit of each job, as Slurm writes it
-  std::vector<std::string> sbatch_options;  ///< further options of sbatch, each a line; the last word
-  bool replaces{false};                     ///< the results file replaces an existing one
+  std::vector<std::int64_t> elements;   ///< of the array, to be run
+  std::optional<std::int64_t> at_once;  ///< maximum number of elements that run at the same time
+  std::int64_t cpus{1};                 ///< of each job
+  std::optional<std::string> time;      ///< limit of each job, in the format of Slurm
+  std::vector<std::string>
+      sbatch_options;    ///< further options of sbatch, one per line, which override the others
+  bool replaces{false};  ///< the results file replaces an existing one
 };
 
-/// The script of the array job: each element runs its parts, one after the other. Parts that are complete
-/// cost nothing, and those that were interrupted go on.
+/// The script of the array job: each element runs its parts, one after the other. Complete parts cost
+/// nothing, and interrupted ones continue.
 std::string array_script(const BatchRequest& request);
 
 /// The script of one job that runs the study as a whole.

@@ -25,8 +25,8 @@ std::optional<Submission> read_submission(const std::filesystem::path& output) {
                       json.at("jobs").get<std::vector<std::string>>()};
   } catch (const nlohmann::json::exception&) {
     throw Failure(ExitCode::bad_data,
-                  fmt::format("{}: damaged; expected the parts, the study and the jobs that were submitted. "
-                              "Remove it when none of the jobs is in the queue",
+                  fmt::format("{}: damaged; expected the parts, the study and the submitted jobs. "
+                              "Remove it when no job is in the queue",
                               path.string()));
   }
 }

@@ -8,7 +8,7 @@
 
 namespace zerocount::cluster {
 
-/// What was submitted for an output: FILE.parts/submission.json.
+/// The jobs submitted for an output: FILE.parts/submission.json.
 struct Submission {
   std::int64_t parts{1};
   std::string study_sha256;       ///< of the study that the jobs run

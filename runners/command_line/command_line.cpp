@@ -95,7 +95,7 @@ Arguments::Arguments(const CommandSpec& spec, const std::vector<std::string>& wo
     refuse(fmt::format("option '{}' {}", error.get_option_name(),
                        is_flag(spec, error.get_option_name()) ? "takes no value" : "needs a value"));
   } catch (const po::error&) {
-    refuse("the words of the command cannot be understood");
+    refuse("invalid arguments");
   }
   for (const OptionSpec& option : spec.options) {
     if (!option.repeatable && values(long_name(option)).size() > option.count) {
@@ -105,13 +105,13 @@ Arguments::Arguments(const CommandSpec& spec, const std::vector<std::string>& wo
   if (has("help")) return;
   if (operands_.size() < spec.min_operands) refuse(fmt::format("{} expected", spec.operands));
   if (operands_.size() > spec.max_operands) {
-    refuse(fmt::format("'{}' is one word too many", operands_[spec.max_operands]));
+    refuse(fmt::format("unexpected argument '{}'", operands_[spec.max_operands]));
   }
   const std::vector<std::string>& words_of_operand = spec.operand_words;
   if (words_of_operand.empty() || operands_.empty()) return;
   if (std::find(words_of_operand.begin(), words_of_operand.end(), operands_.front()) ==
       words_of_operand.end())
-    refuse(fmt::format("'{}' is none of {}", operands_.front(), fmt::join(words_of_operand, ", ")));
+    refuse(fmt::format("'{}' is not one of {}", operands_.front(), fmt::join(words_of_operand, ", ")));
 }
 
 void Arguments::take_values(const OptionSpec& option, const std::vector<std::string>& words) {
@@ -155,7 +155,7 @@ std::string Arguments::choice(std::string_view option) const {
 std::string Arguments::one_of(std::string_view option, const std::vector<std::string>& words) const {
   std::string given = value(option).value_or(words.front());
   if (std::find(words.begin(), words.end(), given) == words.end()) {
-    refuse(fmt::format("option '--{}': '{}' is none of {}", option, given, fmt::join(words, ", ")));
+    refuse(fmt::format("option '--{}': '{}' is not one of {}", option, given, fmt::join(words, ", ")));
   }
   return given;
 }
@@ -166,7 +166,7 @@ std::optional<std::int64_t> Arguments::whole_number(std::string_view option, std
   if (!text) return std::nullopt;
   const std::optional<std::int64_t> number = parse_number<std::int64_t>(*text);
   if (!number || *number < low || *number > high) {
-    refuse(fmt::format("option '--{}': '{}' is no whole number from {} to {}", option, *text, low, high));
+    refuse(fmt::format("option '--{}': '{}' is not a whole number from {} to {}", option, *text, low, high));
   }
   return number;
 }

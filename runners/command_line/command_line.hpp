@@ -9,7 +9,7 @@
 
 namespace zerocount::command_line {
 
-/// The number that the whole text is; nothing if it is something else.
+/// The number if the whole text is one, otherwise nothing.
 template <class Number>
 std::optional<Number> parse_number(std::string_view text) {
   Number number{};
@@ -25,8 +25,8 @@ struct OptionSpec {
   std::string value;  ///< name of its value in the help; empty for a flag
   std::string help;
   bool repeatable{false};
-  std::size_t count{1};              ///< of its values, words that follow the option
-  std::vector<std::string> words{};  ///< of which its value is one, the default first; empty: any text
+  std::size_t count{1};              ///< number of its values
+  std::vector<std::string> words{};  ///< its allowed values, the default first; empty: any text
 };
 
 /// An option whose value is one of `words`, the default first; its help begins with them.
@@ -43,7 +43,7 @@ struct CommandSpec {
   std::vector<OptionSpec> options;
   std::size_t min_operands{1};
   std::size_t max_operands{1};
-  std::vector<std::string> operand_words{};  ///< of which the first operand is one; empty: a file
+  std::vector<std::string> operand_words{};  ///< allowed first operands; empty: a file
 };
 
 /// The parsed arguments of a command. All values are text.

@@ -18,7 +18,7 @@ std::int64_t point_named(const Arguments& arguments, std::string_view option, co
   if (number && *number >= 0 && *number < std::ssize(labels)) return *number;
   const std::string_view near = yaml::nearest_name(text, labels);
   arguments.refuse(fmt::format(
-      "option '--{}': '{}' is no design point; expected a number from 0 to {}, or a label{}", option, text,
+      "option '--{}': '{}' is not a design point; expected a number from 0 to {}, or a label{}", option, text,
       std::ssize(labels) - 1, near.empty() ? "" : fmt::format(" such as '{}'", near)));
 }
 
@@ -29,7 +29,7 @@ std::optional<double> probability_option(const Arguments& arguments, std::string
   if (!text) return std::nullopt;
   const std::optional<double> number = parse_number<double>(*text);
   if (!number || !(*number > 0.0 && *number < 1.0)) {
-    arguments.refuse(fmt::format("option '--{}': '{}' is no number between 0 and 1", option, *text));
+    arguments.refuse(fmt::format("option '--{}': '{}' is not a number between 0 and 1", option, *text));
   }
   return number;
 }

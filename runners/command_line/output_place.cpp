@@ -27,14 +27,14 @@ fs::path file_in_folder(const Arguments& arguments, std::string_view option) {
   }
   const fs::file_status there = fs::symlink_status(output, error);
   if (fs::exists(there) && !fs::is_regular_file(there)) {
-    arguments.refuse(fmt::format("option '--{}': {} is no regular file ({}); name a file to write", option,
+    arguments.refuse(fmt::format("option '--{}': {} is not a regular file ({}); name a file to write", option,
                                  output.string(), fs::is_symlink(there) ? "a link" : "a device or a pipe"));
   }
   const fs::path folder = output.has_parent_path() ? output.parent_path() : ".";
   if (!fs::is_directory(folder, error)) {
     throw Failure(ExitCode::machine_failed,
-                  fmt::format("{}: cannot be written: there is no folder {}; make it first", output.string(),
-                              folder.string()));
+                  fmt::format("{}: cannot be written: the folder {} does not exist; create it first",
+                              output.string(), folder.string()));
   }
   return output;
 }
@@ -45,7 +45,7 @@ void require_apart(const Arguments& arguments, const fs::path& output, std::span
   for (const fs::path& other : others) {
     if (fs::weakly_canonical(fs::absolute(output), error) ==
         fs::weakly_canonical(fs::absolute(other), error)) {
-      arguments.refuse(fmt::format("{} is named for two outputs; name two files", output.string()));
+      arguments.refuse(fmt::format("{} is the name of two outputs; name two files", output.string()));
     }
   }
 }
@@ -54,8 +54,9 @@ void require_apart(const Arguments& arguments, const fs::path& output, std::span
 void require_replaceable(const Arguments& arguments, const fs::path& output) {
   std::error_code error;
   if (arguments.has("force") || !fs::exists(output, error)) return;
-  throw Failure(ExitCode::bad_input,
-                fmt::format("{}: exists already; --force replaces it, or name another", output.string()));
+  throw Failure(
+      ExitCode::bad_input,
+      fmt::format("{}: exists already; give --force to replace it, or name another file", output.string()));
 }
 
 }  // namespace
@@ -83,7 +84,7 @@ void require_no_input(const Arguments& arguments, const fs::path& output, std::s
   for (const fs::path& input : inputs) {
     if (fs::equivalent(input, output, error)) {
       arguments.refuse(
-          fmt::format("{} is read, and must not be written over; name another output", output.string()));
+          fmt::format("{} is an input and must not be overwritten; name another output", output.string()));
     }
   }
 }

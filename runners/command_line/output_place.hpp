@@ -19,7 +19,7 @@ inline constexpr std::string_view overwriting_rule =
     "An existing output is replaced only with --force, and only after the new one is complete.\n";
 
 /// The results file of --output. Checks before any work that its folder exists.
-/// @throws Failure: bad_input if it names a folder, or what exists and is no regular file (a link is none);
+/// @throws Failure: bad_input if it names a folder, a link, a device or a pipe;
 /// machine_failed if its folder does not exist.
 std::filesystem::path output_place(const Arguments& arguments);
 

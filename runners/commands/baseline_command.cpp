@@ -27,7 +27,7 @@ ExitCode baseline(const command_line::Arguments& arguments) {
   const std::filesystem::path output = command_line::output_place(arguments);
   const std::string reason = arguments.required("reason");
   if (reason.find_first_not_of(" \t\n") == std::string::npos) {
-    arguments.refuse("option '--reason': it is empty; say why this becomes the baseline");
+    arguments.refuse("option '--reason' is empty; say why this becomes the baseline");
   }
   const std::filesystem::path file = arguments.operands()[0];
   std::error_code error;
@@ -39,13 +39,13 @@ ExitCode baseline(const command_line::Arguments& arguments) {
   print_fallback_lock(lock, output);
   const comparison::BaselineUpdate update = comparison::update_baseline(file, output, reason);
   if (!update.changed) {
-    status::tell("{}: is this file already, nothing to do\n", output.string());
+    status::tell("{}: already this file, nothing to do\n", output.string());
     return ExitCode::success;
   }
   for (const std::string& warning : update.warnings)
     status::tell("zerocount baseline: warning: {}\n", warning);
   if (!update.comparison.empty())
-    standard_output::print("compared with the baseline before: {}\n", update.comparison);
+    standard_output::print("compared with the previous baseline: {}\n", update.comparison);
   status::tell("wrote {} and recorded it in {}\n", output.string(),
                comparison::baseline_log(output).string());
   return ExitCode::success;
@@ -57,7 +57,7 @@ Command baseline_command() {
   return {{"baseline",
            "FILE -o OUTPUT --reason TEXT",
            {{"output,o", "OUTPUT", "the baseline to make or to replace (required)"},
-            {"reason", "TEXT", "why, for the record (required)"}}},
+            {"reason", "TEXT", "the reason, for the log (required)"}}},
           "make a results file the baseline of later comparisons",
           baseline_help,
           baseline};

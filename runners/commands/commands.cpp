@@ -29,8 +29,8 @@ std::string overview() {
   for (const Command& command : commands())
     text += fmt::format("  {:<12} {}\n", command.spec.name, command.summary);
   text +=
-      "\n'zerocount COMMAND --help' explains a command; 'zerocount --version' (-V) says which program this "
-      "is.\nWhere a manifest, a table or a page is read or written, - is standard input or output.\n";
+      "\n'zerocount COMMAND --help' explains a command; 'zerocount --version' (-V) prints the version.\n"
+      "As the name of a manifest, a table or a page, - is standard input or output.\n";
   text += fmt::format("{}\n", command_line::overwriting_rule);
   return text + exit_codes_help();
 }
@@ -57,14 +57,14 @@ Command find_command(const std::string& name) {
       std::find_if(all.begin(), all.end(), [&](const Command& c) { return c.spec.name == name; });
   if (found != all.end()) return *found;
   throw Failure(ExitCode::bad_input,
-                fmt::format("zerocount: '{}' is no command; see 'zerocount --help'", name));
+                fmt::format("zerocount: unknown command '{}'; see 'zerocount --help'", name));
 }
 
 }  // namespace
 
 void print_fallback_lock(const storage::OutputLock& lock, const std::filesystem::path& output) {
   if (!lock.owner()) return;
-  status::tell("{}: the file system has no locks (flock); {} keeps other commands off this output\n",
+  status::tell("{}: the file system has no locks (flock); {} keeps other commands away from this output\n",
                output.string(), lock.owner()->path().filename().string());
 }
 

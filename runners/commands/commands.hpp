@@ -44,7 +44,7 @@ Command schema_command();
 Command completion_command();
 Command manual_command();
 
-/// Says on stderr that the lock is a file with an owner, if it is.
+/// Prints to stderr that the lock is a file with an owner, if it is.
 void print_fallback_lock(const storage::OutputLock& lock, const std::filesystem::path& output);
 
 /// Prints the warnings about the manifest to stderr.

@@ -31,7 +31,7 @@ constexpr const char* compare_help =
     "  worse, better  significantly (false discovery rate controlled over all measures and\n"
     "                 points), and by more than its margin\n"
     "  equivalent     the bounds of the change are within the margin, both ways\n"
-    "  not worse      only the bound on the side of worse is\n"
+    "  not worse      only the bound on the worse side is within it\n"
     "  undecided      otherwise; the number of trials that would decide is printed\n"
     "Exit code 1 if a measure is worse, 3 if one is undecided, otherwise 0. With --changed-fails\n"
     "a measure that is better gives exit code 1 too, and only equivalent measures pass.\n"
@@ -44,8 +44,7 @@ constexpr const char* compare_help =
     "  require: success_rate ≥ 0.995\n"
     "  points: {b: {success_rate: 0.05}}\n"
     "\n"
-    "With --points two design points of one file are compared: is the second as good as the first, or\n"
-    "better?\n"
+    "With --points two design points of one file are compared: is the second as good as the first?\n"
     "\n"
     "Example: zerocount compare baseline.h5 new.h5 --margins gate.yaml --junit gate.xml\n"
     "         zerocount compare gains.h5 --points low high\n";
@@ -100,12 +99,12 @@ std::vector<FormPlace> places_of(const command_line::Arguments& arguments,
 /// The two design points of the only operand.
 comparison::StudyComparison compare_points(const command_line::Arguments& arguments,
                                            const comparison::CompareOptions& options) {
-  if (arguments.operands().size() > 1) arguments.refuse("option '--points' is for the points of one FILE");
+  if (arguments.operands().size() > 1) arguments.refuse("option '--points' needs a single FILE");
   const reading::StudyFile file(arguments.operands()[0]);
   const std::vector<std::string> labels = file.point_labels();
   const auto points = command_line::point_pair_option(arguments, "points", labels).value();
   if (points.first == points.second) {
-    arguments.refuse(fmt::format("option '--points': both are the point {}; expected two different ones",
+    arguments.refuse(fmt::format("option '--points': both are the point {}; expected different points",
                                  text::printable(labels[static_cast<std::size_t>(points.first)])));
   }
   return comparison::compare_points(file, points.first, points.second, comparison::rules_of(options, labels));

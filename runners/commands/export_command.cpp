@@ -16,8 +16,9 @@ namespace {
 constexpr const char* export_help =
     "Writes the tables of a results file as CSV: points.csv, trials.csv, outcomes.csv and jerks.csv;\n"
     "profiles.csv if there are profiles, rigs.csv and rig_counts.csv if there are rigs, trace.csv if the\n"
-    "study retains trials, levels.csv of an open-loop study, and four tables repeatability_….csv of one\n"
-    "with a sequence of moves. Of a file without its trials (keep), those that it has. The header row has\n"
+    "study retains trials, levels.csv for an open-loop study, and four tables repeatability_….csv for one\n"
+    "with a sequence of moves. A file without its trials (keep) gives the tables that it has. The header row "
+    "has\n"
     "the units, such as settling_time [s]; columns without a unit are dimensionless. Numbers read back to\n"
     "the same double.\n"
     "\n"

@@ -19,9 +19,9 @@ std::string output_of(const std::vector<std::string>& words, std::string_view in
                       std::string_view package) {
   const std::optional<child_process::ChildResult> result = child_process::run_child(words, input);
   if (!result) {
-    throw Failure(ExitCode::machine_failed, fmt::format("there is no {} here, which draws "
-                                                        "the figure; install it (Debian: apt-get install {})",
-                                                        words.front(), package));
+    throw Failure(ExitCode::machine_failed,
+                  fmt::format("{} not found, which draws the figure; install it (Debian: apt-get install {})",
+                              words.front(), package));
   }
   if (result->code == 0 && !result->out.empty()) return result->out;
   throw Failure(ExitCode::machine_failed, fmt::format("{} failed with exit code {}; expected "

@@ -23,17 +23,16 @@ namespace zerocount::commands {
 namespace {
 
 constexpr const char* history_help =
-    "Results over time, in an SQLite database that 'add' makes where there is none.\n"
+    "Results over time, in an SQLite database, which 'add' creates if it does not exist.\n"
     "\n"
-    "history add FILE adds the values of a results file: of each rate, settling time and number of\n"
-    "jerks that 'zerocount compare' judges, at every point, with its 95 % bounds. With --compare\n"
-    "also the verdicts of a comparison of FILE with its baseline. A file that was added before is\n"
-    "not added again.\n"
+    "history add FILE adds the measures of a results file that 'zerocount compare' judges (rates,\n"
+    "settling times, numbers of jerks), at every point, with 95 % bounds. With --compare also the\n"
+    "verdicts of a comparison of FILE with its baseline. A file is added only once.\n"
     "\n"
     "history show prints each series of values and where it changed: the runs and commits between\n"
     "which the change lies, and the run since which it is significant. Runs of a changed manifest\n"
     "are a new series; another seed or number of trials is not. The probability of a false alarm\n"
-    "is stated below the table. How it is found, and the tables of the database:\n"
+    "is stated below the table. The method, and the tables of the database:\n"
     "analysis/history/README.md\n"
     "\n"
     "history plot draws the series: values with bounds, and the first run after each change.\n"
@@ -61,10 +60,10 @@ ExitCode add(const command_line::Arguments& arguments) {
       status::tell("{}: added to {}\n", file, database.string());
       break;
     case history::Addition::already_there:
-      status::tell("{}: is in {} already, nothing to do\n", file, database.string());
+      status::tell("{}: already in {}, nothing to do\n", file, database.string());
       break;
     case history::Addition::comparison_added:
-      status::tell("{}: is in {} already; added its comparison\n", file, database.string());
+      status::tell("{}: already in {}; added its comparison\n", file, database.string());
       break;
   }
   return ExitCode::success;
@@ -89,14 +88,14 @@ ExitCode plot_history(const command_line::Arguments& arguments) {
   const history::History shown = history::history_of(history::read_runs(database), filter_of(arguments));
   if (kind != DrawingKind::page && shown.series.size() > 1)
     arguments.refuse(
-        fmt::format("a picture shows one series, and these are {}; choose with --study, --point and "
+        fmt::format("a picture shows one series, but {} are selected; choose with --study, --point and "
                     "--measure, or write a page (.html)",
                     shown.series.size()));
   command_line::write_text(output, drawing(report::history_page(shown), kind));
   return ExitCode::success;
 }
 
-/// What is done with a history, and the options that it takes.
+/// An action on a history, and its options.
 struct HistoryAction {
   std::string_view name;
   std::vector<std::string_view> options;
@@ -123,7 +122,7 @@ ExitCode run_history(const command_line::Arguments& arguments) {
   for (const HistoryAction& other : all) {
     for (const std::string_view option : other.options) {
       if (arguments.has(option) && std::ranges::find(action->options, option) == action->options.end())
-        arguments.refuse(fmt::format("option '--{}' does not go with 'history {}'", option, name));
+        arguments.refuse(fmt::format("option '--{}' does not apply to 'history {}'", option, name));
     }
   }
   if (name != "add" && arguments.operands().size() > 1)
@@ -137,7 +136,7 @@ Command history_command() {
   return {{"history",
            "add FILE | show | plot -o PLOT",
            {{"database", "DB", "the history (default: history.sqlite)"},
-            {"compare", "FILE", "add: what 'zerocount compare --json FILE' wrote about the results file"},
+            {"compare", "FILE", "add: the output of 'zerocount compare --json FILE' for the results file"},
             {"study", "NAME", "only this study"},
             {"point", "LABEL", "only this design point"},
             {"measure", "NAME", "only this measure, such as success_rate"},

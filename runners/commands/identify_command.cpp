@@ -39,7 +39,7 @@ constexpr const char* identify_help =
     "A table (CSV) has the columns t (s), torque or drive_torque (N m), and theta (rad) or\n"
     "count, for which --counts-per-revolution is needed; 'zerocount trace' writes such tables.\n"
     "--column names other columns and their units: QUANTITY=COLUMN, or QUANTITY=COLUMN[UNIT]\n"
-    "with factors *NUMBER and /NUMBER that make the quantity from the unit, 0.87 N m/A say.\n"
+    "with factors *NUMBER and /NUMBER that convert it, such as *0.87 for 0.87 N m/A.\n"
     "Quantities are time, torque, drive_torque, angle and repetition. COLUMN is a name in the\n"
     "header, #NUMBER, or the path of a dataset in an HDF5 or MAT v7.3 file. A new repetition of\n"
     "the tests begins where the column of the repetition changes, or the time starts again.\n"
@@ -48,23 +48,23 @@ constexpr const char* identify_help =
     "state given by --preload and --hardening.\n"
     "\n"
     "--sliding takes motion records instead, in which the axis slides to and fro, under open or\n"
-    "closed loop, and finds the inertia, the viscous damping, the Coulomb level and, if it shows,\n"
+    "closed loop, and finds the inertia, the viscous damping, the Coulomb level and, if visible,\n"
     "the Stribeck curve; also of a linear axis, with '--column force=…' and '--column position=…'.\n"
     "\n"
     "--model fits another friction law to the same tests (lugre, dahl, gms, spring), and --model all\n"
-    "compares them: what each leaves, and Schwarz's information criterion BIC, by which 10 less is\n"
-    "very strong evidence. The parameters are those of the law with the least BIC. --series-compliance\n"
-    "fits a fixture that gives way under the torque beside the law.\n"
+    "compares them by their residuals and by Schwarz's information criterion BIC, where a difference of\n"
+    "10 is very strong evidence. The parameters are those of the law with the lowest BIC.\n"
+    "--series-compliance also fits the compliance of a fixture that yields under the torque.\n"
     "\n"
     "The output ends with the result as a fragment of a manifest; --format yaml prints only\n"
-    "that. It draws the parameters independently; --posterior writes joint draws, for the key\n"
+    "this. Its parameters are drawn independently; --posterior writes joint draws, for the key\n"
     "samples of a manifest. --plot draws each record with the fit, its residuals, and the torque\n"
     "over the angle: as a page (.html), or one record as a picture (.svg or .png), which needs node,\n"
     "and rsvg-convert for PNG (Debian: nodejs, librsvg2-bin).\n"
     "\n"
     "Unsuitable records are refused with the reason and exit code 4, files that are not such\n"
     "tables with exit code 2. The exit code is 3 if nothing can be identified, or if encoder and\n"
-    "noise do not explain the residuals: the answer is printed, but is not to be trusted.\n"
+    "noise do not explain the residuals: the result is printed, but must not be trusted.\n"
     "\n"
     "Examples: zerocount identify ramps.csv steps.csv holds.csv --counts-per-revolution 1620000\n"
     "          zerocount identify tests.h5 --point 0 --point 1 --format yaml -o friction.yaml\n"
@@ -76,8 +76,8 @@ double number_from(const command_line::Arguments& arguments, const std::string& 
                    double low) {
   const std::optional<double> number = command_line::parse_number<double>(text);
   if (!number || !std::isfinite(*number) || *number < low) {
-    arguments.refuse(fmt::format("option '--{}': '{}' is no number{}", option, text,
-                                 std::isfinite(low) ? fmt::format(" from {}", low) : ""));
+    arguments.refuse(fmt::format("option '--{}': '{}' is not a number{}", option, text,
+                                 std::isfinite(low) ? fmt::format(" from {} upwards", low) : ""));
   }
   return *number;
 }
@@ -151,8 +151,8 @@ identification::KnownParameter known_parameter(const command_line::Arguments& ar
   const double value = number_from(arguments, "fix", text.substr(equals + 1), least_known(coordinate));
   if (coordinate == identification::time_offset && value > identification::max_time_offset) {
     arguments.refuse(
-        fmt::format("option '--fix': a time offset of {:g} samples; expected {:g} to {:g}; what "
-                    "is larger belongs in --delay",
+        fmt::format("option '--fix': a time offset of {:g} samples; expected {:g} to {:g}; "
+                    "put a larger one into --delay",
                     value, -identification::max_time_offset, identification::max_time_offset));
   }
   return {coordinate, value};
@@ -170,7 +170,7 @@ identification::IdentificationOptions identification_options(const command_line:
     }
   }
   if (arguments.has("draws") && !arguments.has("posterior")) {
-    arguments.refuse("option '--draws' goes with '--posterior'");
+    arguments.refuse("option '--draws' needs '--posterior'");
   }
   if (arguments.has("posterior")) {
     constexpr std::int64_t least = 1, most = 10'000, usual = 1000;
@@ -195,7 +195,7 @@ std::vector<records::RawSeries> read_all_series(const command_line::Arguments& a
   const std::vector<std::string>& paths = arguments.operands();
   if ((arguments.has("point") || arguments.has("trial")) &&
       std::none_of(paths.begin(), paths.end(), holds_results)) {
-    arguments.refuse("options '--point' and '--trial' go with a results file");
+    arguments.refuse("options '--point' and '--trial' need a results file");
   }
   std::vector<records::RawSeries> found;
   for (const std::string& path : paths) {
@@ -213,7 +213,7 @@ std::vector<records::RawSeries> read_all_series(const command_line::Arguments& a
   return found;
 }
 
-/// The options that a sliding axis has no use for. Its windows begin at samples, and so does their torque.
+/// Refuses the options of material tests. Windows of sliding begin at samples, and so must their torque.
 void refuse_material_options(const command_line::Arguments& arguments) {
   for (const char* option : {"fix", "model", "series-compliance", "preload", "hardening", "dac-bits",
                              "any-magnitude", "posterior", "plot"}) {
@@ -223,8 +223,8 @@ void refuse_material_options(const command_line::Arguments& arguments) {
   }
   const std::optional<double> delay = delay_option(arguments);
   if (delay && *delay != std::floor(*delay)) {
-    arguments.refuse(fmt::format(
-        "option '--delay': {:g} samples; expected a whole number of them with --sliding", *delay));
+    arguments.refuse(
+        fmt::format("option '--delay': {:g} samples; expected a whole number with --sliding", *delay));
   }
 }
 
@@ -285,7 +285,7 @@ void refuse_picture_of_several(const command_line::Arguments& arguments, const I
                                std::size_t records) {
   if (!outputs.plot || outputs.plot_kind == DrawingKind::page || records == 1) return;
   arguments.refuse(fmt::format(
-      "option '--plot': a picture shows one record, and these are {}; write a page (.html)", records));
+      "option '--plot': a picture shows one record, but there are {}; write a page (.html)", records));
 }
 
 void write_draws(const identification::Identification& found, std::size_t wanted,
@@ -299,7 +299,7 @@ void write_draws(const identification::Identification& found, std::size_t wanted
   command_line::write_text(place, identification::posterior_table(found));
 }
 
-/// Writes what was identified, and tells if it is not to be trusted.
+/// Writes the result, with a message if it must not be trusted.
 ExitCode write_identification(const identification::Identification& found, const std::string& format,
                               const IdentifyOutputs& outputs, std::size_t wanted_draws) {
   command_line::write_text(outputs.report, format == "json"   ? identification::identification_json(found)
@@ -309,18 +309,7 @@ ExitCode write_identification(const identification::Identification& found, const
   if (outputs.plot) {
     command_line::write_text(*outputs.plot, drawing(report::identification_page(found), outputs.plot_kind));
   }
-  if (!found.checks.passed) {
-    status::tell("zerocount identify: the answer is not to be trusted: {}\n",
-                 identification::reason_of_misfit(found.checks));
-    return ExitCode::inconclusive;
-  }
-  const bool any = std::any_of(found.parameters.begin(), found.parameters.end(),
-                               [](const identification::ParameterEstimate& p) {
-                                 return p.status == identification::EstimateStatus::estimated;
-                               });
-  if (any) return ExitCode::success;
-  status::tell("zerocount identify: nothing is identifiable from this\n");
-  return ExitCode::inconclusive;
+  return identification_verdict(found.parameters, found.checks);
 }
 
 ExitCode identify_records(const command_line::Arguments& arguments) {
@@ -348,7 +337,7 @@ ExitCode identify_records(const command_line::Arguments& arguments) {
 
 std::vector<command_line::OptionSpec> identify_options() {
   std::vector<command_line::OptionSpec> options{
-      {"counts-per-revolution", "N", "resolution of the encoder of an angle in counts"}};
+      {"counts-per-revolution", "N", "resolution of the encoder, for an angle in counts"}};
   const auto append = [&](const std::vector<command_line::OptionSpec>& more) {
     options.insert(options.end(), more.begin(), more.end());
   };
@@ -356,8 +345,8 @@ std::vector<command_line::OptionSpec> identify_options() {
   append(law_options());
   append({{"sliding", "", "identify inertia and sliding friction from motion records"},
           {"angle", "COLUMN", "count or theta, if both exist (default count, if N is given)"},
-          {"torque", "COLUMN", "torque or drive_torque, if both exist (default the latter)"},
-          {"amplifier-bandwidth", "HZ", "of the amplifier (default 0: ideal amplifier)"},
+          {"torque", "COLUMN", "torque or drive_torque, if both exist (default drive_torque)"},
+          {"amplifier-bandwidth", "HZ", "bandwidth of the amplifier (default 0: ideal amplifier)"},
           {"delay", "SAMPLES",
            "delay of the column torque, such as 1.5 (default 0); the time offset is fitted about it"},
           {"dac-bits", "BITS", "word length of the converter of the column code, to detect clipping"},

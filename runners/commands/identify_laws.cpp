@@ -14,7 +14,7 @@ namespace zerocount::commands {
 std::vector<command_line::OptionSpec> law_options() {
   return {
       {"model", "LAW",
-       fmt::format("friction law to fit, {} (default presliding), or all; may be repeated, and compares them",
+       fmt::format("friction law to fit, {} (default presliding), or all; may be repeated, to compare laws",
                    fmt::join(law_identification::law_words(), ", ")),
        true},
       {"series-compliance", "", "fit the compliance of a fixture in series with the contact, too"}};
@@ -49,9 +49,24 @@ void refuse_options_beside_laws(const command_line::Arguments& arguments) {
   for (const char* option : {"fix", "posterior", "plot"}) {
     if (!arguments.has(option)) continue;
     arguments.refuse(fmt::format(
-        "option '--{}' goes with the pre-sliding model alone, not with '--model' or '--series-compliance'",
+        "option '--{}' is only for the pre-sliding model, without '--model' and '--series-compliance'",
         option));
   }
+}
+
+ExitCode identification_verdict(std::span<const identification::ParameterEstimate> parameters,
+                                const identification::ResidualChecks& checks) {
+  if (!checks.passed) {
+    status::tell("zerocount identify: the result must not be trusted: {}\n",
+                 identification::reason_of_misfit(checks));
+    return ExitCode::inconclusive;
+  }
+  const bool any = std::ranges::any_of(parameters, [](const identification::ParameterEstimate& one) {
+    return one.status == identification::EstimateStatus::estimated;
+  });
+  if (any) return ExitCode::success;
+  status::tell("zerocount identify: no parameter is identifiable from these records\n");
+  return ExitCode::inconclusive;
 }
 
 LawsReport identify_laws(const command_line::Arguments& arguments,
@@ -68,17 +83,7 @@ LawsReport identify_laws(const command_line::Arguments& arguments,
   report.text = format == "json"   ? law_identification::comparison_json(comparison)
                 : format == "yaml" ? best.fragment
                                    : law_identification::comparison_text(comparison);
-  const bool any = std::any_of(best.parameters.begin(), best.parameters.end(), [](const auto& one) {
-    return one.status == identification::EstimateStatus::estimated;
-  });
-  if (!any) {
-    status::tell("zerocount identify: nothing is identifiable from this\n");
-    report.code = ExitCode::inconclusive;
-  }
-  if (best.checks.passed) return report;
-  status::tell("zerocount identify: the answer is not to be trusted: {}\n",
-               identification::reason_of_misfit(best.checks));
-  report.code = ExitCode::inconclusive;
+  report.code = identification_verdict(best.parameters, best.checks);
   return report;
 }
 

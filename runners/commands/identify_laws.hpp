@@ -1,8 +1,10 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
+#include "analysis/identification/identification.hpp"
 #include "analysis/identification/test_record.hpp"
 #include "analysis/law_identification/law_identification.hpp"
 #include "core/failure/failure.hpp"
@@ -19,6 +21,11 @@ law_identification::LawChoice chosen_laws(const command_line::Arguments& argumen
 
 /// Refuses options that the comparison of laws does not have.
 void refuse_options_beside_laws(const command_line::Arguments& arguments);
+
+/// Success, or inconclusive with a message if no parameter is estimated or the fit does not explain the
+/// records.
+ExitCode identification_verdict(std::span<const identification::ParameterEstimate> parameters,
+                                const identification::ResidualChecks& checks);
 
 /// The report of a comparison, and the exit code: inconclusive if the best law does not explain the records.
 struct LawsReport {

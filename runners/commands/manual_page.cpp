@@ -8,7 +8,7 @@
 namespace zerocount::commands {
 namespace {
 
-/// What man(7) would print as another character.
+/// Escape sequence of a character that man(7) would print as another.
 std::string_view escape_of(char c) {
   switch (c) {
     case '\\':

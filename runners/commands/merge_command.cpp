@@ -31,10 +31,11 @@ void require_everything(const std::vector<shards::ShardInfo>& parts, const study
   for (std::size_t i = 0; i < std::min<std::size_t>(missing.size(), 8); ++i) {
     ranges += fmt::format("{}{} to {}", i > 0 ? ", " : "", missing[i].first, missing[i].end() - 1);
   }
-  throw Failure(ExitCode::bad_data,
-                fmt::format("the inputs do not hold the whole study: of its {} trials, {}{} are missing; run "
-                            "those parts and give them too",
-                            study::trial_count(study), ranges, missing.size() > 8 ? " and more" : ""));
+  throw Failure(
+      ExitCode::bad_data,
+      fmt::format("the inputs do not contain the whole study: of its {} trials, {}{} are missing; run "
+                  "those parts and merge them too",
+                  study::trial_count(study), ranges, missing.size() > 8 ? " and more" : ""));
 }
 
 ExitCode merge(const command_line::Arguments& arguments) {

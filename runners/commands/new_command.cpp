@@ -16,8 +16,9 @@ namespace zerocount::commands {
 namespace {
 
 constexpr const char* new_help =
-    "Copies a manifest that comes with the program to NAME.yaml here, to start a study of one's own from.\n"
-    "--list prints their names and what they ask.\n"
+    "Copies a manifest that comes with the program to NAME.yaml in this folder, as the start of your own "
+    "study.\n"
+    "--list prints the names and questions of these manifests.\n"
     "\n"
     "Examples:\n"
     "  zerocount new --list\n"
@@ -62,7 +63,7 @@ ExitCode make_new(const command_line::Arguments& arguments) {
 Command new_command() {
   return {{"new",
            "[NAME]",
-           {{"list", "", "print the names of the manifests and what they ask"},
+           {{"list", "", "print the names and questions of the manifests"},
             {"output,o", "FILE", "the manifest to make; default: NAME.yaml"},
             command_line::force_option()},
            0,

@@ -10,6 +10,7 @@
 #include "analysis/records/dataset_file.hpp"
 #include "analysis/records/text_table.hpp"
 #include "core/failure/failure.hpp"
+#include "experiments/yaml/text_file.hpp"
 #include "results/hdf5/array_file.hpp"
 #include "results/storage/file_contents.hpp"
 
@@ -29,10 +30,10 @@ std::vector<command_line::OptionSpec> column_options() {
            "column of a quantity, with its unit and factors: time=t[ms], torque=current[A]*0.87; may be "
            "repeated",
            true},
-          {"separator", "NAME", "of the cells: comma, semicolon, tab or blanks (default: detected)", false, 1,
-           records::separator_names()},
-          {"sample-time", "T", "of a record without a column for the time, s"},
-          {"exclude", "FROM:TO", "times whose readings are not used, s; may be repeated", true}};
+          {"separator", "NAME", "separator of the cells: comma, semicolon, tab or blanks (default: detected)",
+           false, 1, records::separator_names()},
+          {"sample-time", "T", "sample time of a record without a column for the time, s"},
+          {"exclude", "FROM:TO", "times to leave out, s; may be repeated", true}};
 }
 
 void set_columns(const command_line::Arguments& arguments, records::SeriesChoice& choice) {
@@ -49,7 +50,7 @@ void set_columns(const command_line::Arguments& arguments, records::SeriesChoice
   if (const std::optional<std::string> text = arguments.value("sample-time")) {
     choice.sample_time = command_line::parse_number<double>(*text);
     if (!choice.sample_time || !std::isfinite(*choice.sample_time) || *choice.sample_time <= 0.0) {
-      arguments.refuse(fmt::format("option '--sample-time': '{}' is no positive number", *text));
+      arguments.refuse(fmt::format("option '--sample-time': '{}' is not a positive number", *text));
     }
   }
   if (const std::string reason = records::contradiction_in(choice); !reason.empty()) arguments.refuse(reason);
@@ -64,7 +65,7 @@ std::vector<records::ExcludedTime> excluded_times(const command_line::Arguments&
                         ? std::nullopt
                         : command_line::parse_number<double>(std::string_view(text).substr(colon + 1));
     if (!from || !to || !std::isfinite(*from) || !std::isfinite(*to) || *from > *to) {
-      arguments.refuse(fmt::format("option '--exclude': '{}' is no FROM:TO, such as 1.2:3.4 (s)", text));
+      arguments.refuse(fmt::format("option '--exclude': '{}' is not FROM:TO, such as 1.2:3.4 (s)", text));
     }
     times.push_back({*from, *to});
   }
@@ -83,10 +84,11 @@ void exclude_times(const command_line::Arguments& arguments, std::vector<records
 
 RecordFile record_file(const std::string& path, const records::SeriesChoice& choice) {
   const std::filesystem::path extension = std::filesystem::path(path).extension();
+  if (extension != ".h5" && yaml::is_stream(path)) return RecordFile::table;
   const bool is_hdf5 = hdf5::is_hdf5_with_user_block(path);
   if (!is_hdf5 && is_old_mat_file(path)) {
     throw Failure(ExitCode::bad_input,
-                  path + ": is a MAT file of an old version; expected one of version 7.3: save('-v7.3', …)");
+                  path + ": a MAT file before version 7.3; expected version 7.3: save('-v7.3', …)");
   }
   if (!is_hdf5 && extension != ".h5") return RecordFile::table;
   return choice.columns.empty() ? RecordFile::results : RecordFile::datasets;

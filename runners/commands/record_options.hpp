@@ -23,7 +23,7 @@ enum class RecordFile { table, datasets, results };
 /// @throws Failure (bad_input) for a MAT file before version 7.3.
 RecordFile record_file(const std::string& path, const records::SeriesChoice& choice);
 
-/// The intervals of `--exclude`. Refuses what is no "FROM:TO".
+/// The intervals of `--exclude`. Refuses anything but "FROM:TO".
 std::vector<records::ExcludedTime> excluded_times(const command_line::Arguments& arguments);
 
 /// Masks the intervals of `--exclude` in all series. Refuses an interval without a sample of any of them.

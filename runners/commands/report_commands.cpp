@@ -121,34 +121,34 @@ ExitCode plot(const command_line::Arguments& arguments) {
   return ExitCode::success;
 }
 
+/// The options of both verbs. @param own those of one of them, which come first
+std::vector<command_line::OptionSpec> options_of_report(std::vector<command_line::OptionSpec> own) {
+  own.insert(own.end(),
+             {{"baseline", "FILE", "compare with these results"},
+              {"margins", "FILE", "the margins and requirements of that comparison"},
+              {"changed-fails", "", "in that comparison an improvement fails too"},
+              {"history", "DB", "show the earlier runs of the study in this history ('zerocount history')"},
+              {"point", "P", "design point whose trials are shown, by label or number (default: the best)"},
+              command_line::force_option()});
+  return own;
+}
+
 }  // namespace
 
 Command report_command() {
-  return {{"report",
-           "FILE",
-           {{"output,o", "PAGE", "the page to write, such as report.html; - is standard output (required)"},
-            {"baseline", "FILE", "compare with these results"},
-            {"margins", "FILE", "the margins and requirements of that comparison"},
-            {"changed-fails", "", "in that comparison a change for the better fails too"},
-            {"history", "DB", "show the earlier runs of the study in this history ('zerocount history')"},
-            {"point", "P", "design point whose trials are shown, by label or number (default: the best)"},
-            command_line::force_option()}},
+  return {{"report", "FILE",
+           options_of_report({{"output,o", "PAGE",
+                               "the page to write, such as report.html; - is standard output (required)"}})},
           "write one HTML page on a results file",
           report_help,
           write_report};
 }
 
 Command plot_command() {
-  return {{"plot",
-           "FILE",
-           {{"figure", "NAME", "which figure"},
-            {"output,o", "PICTURE", "the picture to write, *.svg or *.png; - is standard output, as SVG"},
-            {"baseline", "FILE", "compare with these results"},
-            {"margins", "FILE", "the margins and requirements of that comparison"},
-            {"changed-fails", "", "in that comparison a change for the better fails too"},
-            {"history", "DB", "show the earlier runs of the study in this history ('zerocount history')"},
-            {"point", "P", "design point whose trials are shown, by label or number (default: the best)"},
-            command_line::force_option()}},
+  return {{"plot", "FILE",
+           options_of_report({{"figure", "NAME", "name of the figure"},
+                              {"output,o", "PICTURE",
+                               "the picture to write, *.svg or *.png; - is standard output, as SVG"}})},
           "draw one figure of the report as SVG or PNG",
           plot_help,
           plot};

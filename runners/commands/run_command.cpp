@@ -61,8 +61,8 @@ layout::RowRange part_of(const command_line::Arguments& arguments, const std::st
   }
   const std::int64_t rows = study::trial_count(study);
   if (*parts > rows) {
-    arguments.refuse(
-        fmt::format("option '--shard': the study has {} trials, which cannot make {} parts", rows, *parts));
+    arguments.refuse(fmt::format(
+        "option '--shard': the {} trials of the study cannot be divided into {} parts", rows, *parts));
   }
   const auto start = [&](std::int64_t i) { return rows / *parts * i + std::min(i, rows % *parts); };
   return {start(*part - 1), start(*part) - start(*part - 1)};
@@ -78,12 +78,12 @@ struct RunRequest {
   bool force{false};
 };
 
-/// The engine that is asked for. A plugin decides one torque at a time.
+/// The requested engine. A plugin computes one torque at a time.
 study::Engine engine_of(const command_line::Arguments& arguments, const study::Study& study) {
   const bool batch = arguments.choice("engine") == "batch";
   if (!study.plugin) return batch ? study::Engine::batch : study::Engine::reference;
   if (batch && arguments.has("engine"))
-    arguments.refuse("option '--engine': a controller that is a plugin runs on the reference engine only");
+    arguments.refuse("option '--engine': a controller plugin runs only on the reference engine");
   return study::Engine::reference;
 }
 
@@ -93,24 +93,23 @@ void require_study_of_option(const command_line::Arguments& arguments, const stu
   if (!wanted || *wanted == study.study_sha256) return;
   throw Failure(
       ExitCode::bad_input,
-      fmt::format("{}: with its overrides, samples and plugin it is another study than is asked for: "
-                  "its SHA-256 is {}; expected {}",
+      fmt::format("{}: not the study asked for: with its overrides, samples and plugin its SHA-256 is {}; "
+                  "expected {}",
                   arguments.operands()[0], study.study_sha256, *wanted));
 }
 
 RunRequest run_request(const command_line::Arguments& arguments) {
   RunRequest request;
   request.output = command_line::output_place(arguments);
-  const fs::path manifest = arguments.operands()[0];
-  command_line::require_no_input(arguments, request.output, {&manifest, 1});
-  request.study = load_study(manifest, arguments);
+  request.study = load_study(arguments.operands()[0], arguments, {&request.output, 1});
   require_study_of_option(arguments, request.study);
   request.study.engine = engine_of(arguments, request.study);
   const std::optional<std::string> part = arguments.value("shard");
   request.wanted = part ? part_of(arguments, *part, request.study) : layout::all_rows(request.study);
   if (request.study.stop && part) {
     arguments.refuse(
-        "option '--shard': how many trials a study with `stop` takes can only be decided in one run");
+        "option '--shard': a study with `stop` cannot be divided, because its number of trials is decided "
+        "while it runs");
   }
   request.threads = static_cast<int>(arguments.whole_number("threads", 1, 4096).value_or(0));
   request.quiet = arguments.has("quiet");
@@ -133,7 +132,7 @@ study_run::EarlierShards prepare_shards(const RunRequest& request, const fs::pat
   if (existing != study_run::ExistingUse::extend) return earlier;
   const reading::StudyFile file(request.output);
   if (!request.quiet) {
-    status::tell("{}: its {} trials at each point are kept, and {} are added\n", request.output.string(),
+    status::tell("{}: {} trials at each point are kept, {} are added\n", request.output.string(),
                  file.header().trials, request.study.trials - file.header().trials);
   }
   const std::vector<layout::RowRange> ranges = shards::missing_ranges(earlier.usable, request.wanted);
@@ -164,8 +163,8 @@ void run_rows(const RunRequest& request, study_run::ExistingUse existing, const 
   if (done < wanted.count) {
     throw Failure(
         ExitCode::interrupted,
-        fmt::format("interrupted: {} of {} trials are kept in {}; give the same command again to go on", done,
-                    wanted.count, directory.string()));
+        fmt::format("interrupted: {} of {} trials are kept in {}; give the same command again to continue",
+                    done, wanted.count, directory.string()));
   }
   std::vector<shards::ShardInfo> shards = std::move(earlier.usable);
   shards.insert(shards.end(), finished.shards.begin(), finished.shards.end());
@@ -201,7 +200,7 @@ ExitCode run(const command_line::Arguments& arguments) {
     study_run::remove_shards(
         directory,
         study_run::choose_shards(shards::list_shards(directory, request.study).shards, request.wanted).all);
-    if (!request.quiet) status::tell("{}: complete already, nothing to run\n", request.output.string());
+    if (!request.quiet) status::tell("{}: already complete, nothing to run\n", request.output.string());
     return ExitCode::success;
   }
   if (!request.study.stop) {
@@ -216,22 +215,22 @@ ExitCode run(const command_line::Arguments& arguments) {
 }  // namespace
 
 Command run_command() {
-  return {
-      {"run",
-       "MANIFEST -o FILE",
-       {{"output,o", "FILE", "the results file to make (required)"},
-        {"threads", "N", "threads to use; default: all cores"},
-        command_line::choice_option("engine", "NAME", {"batch", "reference"},
-                                    "many trials at a time in SIMD lanes, or one after the other"),
-        {"shard", "I/N", "run only the I-th of N parts, into a part file for 'zerocount merge'"},
-        {"study", "SHA256", "refuse a study with another hash: one whose manifest has changed since"},
-        {"set", "KEY=VALUE",
-         "override a manifest key, e.g. controller.ki=2e-5; may be repeated; recorded in the file", true},
-        {"quiet,q", "", "print no progress"},
-        {"force", "", "replace FILE, remove unfinished runs of other studies, do not check the disk space"}}},
-      "run a study: manifest in, results file out",
-      run_help,
-      run};
+  return {{"run",
+           "MANIFEST -o FILE",
+           {{"output,o", "FILE", "the results file to make (required)"},
+            {"threads", "N", "threads to use; default: all cores"},
+            command_line::choice_option("engine", "NAME", {"batch", "reference"},
+                                        "many trials at a time in SIMD lanes, or one at a time"),
+            {"shard", "I/N", "run only the I-th of N parts, into a part file for 'zerocount merge'"},
+            {"study", "SHA256", "refuse a study with another hash, such as one whose manifest has changed"},
+            {"set", "KEY=VALUE",
+             "override a manifest key, e.g. controller.ki=2e-5; may be repeated; recorded in the file", true},
+            {"quiet,q", "", "print no progress"},
+            {"force", "",
+             "replace FILE, remove unfinished runs of other studies, skip the check of disk space"}}},
+          "run a study: manifest in, results file out",
+          run_help,
+          run};
 }
 
 }  // namespace zerocount::commands

@@ -30,7 +30,8 @@ constexpr const char* examples =
 std::string full_help() {
   std::string text = sensitivity_help;
   for (const sensitivity::SensitivityOutput& output : sensitivity::sensitivity_outputs()) {
-    text += fmt::format("  {:<15} {}{}\n", output.name, output.meaning,
+    text += fmt::format("  {:<15} {}{}\n", output.name,
+                        parameters::text_on(parameters::AxisKind::rotary, output.meaning),
                         output.unit == "1" ? "" : fmt::format(", {}", output.unit));
   }
   return text + examples;

@@ -10,7 +10,7 @@ namespace zerocount::commands {
 /// The completion of commands, options and files for bash, from the tables of options.
 std::string bash_completion(std::span<const Command> commands);
 
-/// The same for zsh, with the help of each.
+/// The completion for zsh, which also shows the help of each.
 std::string zsh_completion(std::span<const Command> commands);
 
 }  // namespace zerocount::commands

@@ -60,7 +60,7 @@ bool has_control_character(const std::string& text) {
   return std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; });
 }
 
-/// Options that decide how the jobs hang together, and those that this command gives itself. sbatch takes a
+/// Options of the dependencies between jobs, and those that this command sets itself. sbatch takes a
 /// long option by any beginning of its name, and the value of a short one without a space.
 bool is_reserved(const std::string& option) {
   constexpr std::array<std::string_view, 14> names{
@@ -79,12 +79,11 @@ std::vector<std::string> sbatch_options(const command_line::Arguments& arguments
   for (const std::string& option : options) {
     if (!option.starts_with('-') || has_control_character(option)) {
       arguments.refuse(fmt::format(
-          "option '--sbatch': '{}' is no option of sbatch, such as --sbatch=--partition=long", option));
+          "option '--sbatch': '{}' is not an option of sbatch, such as --sbatch=--partition=long", option));
     }
     if (is_reserved(option)) {
-      arguments.refuse(
-          fmt::format("option '--sbatch': {} is for this command to decide, which has --time and --cpus",
-                      option.substr(0, option.find_first_of("= "))));
+      arguments.refuse(fmt::format("option '--sbatch': {} is set by this command; see --time and --cpus",
+                                   option.substr(0, option.find_first_of("= "))));
     }
   }
   return options;
@@ -95,38 +94,42 @@ std::optional<std::string> time_limit(const command_line::Arguments& arguments) 
   std::optional<std::string> time = arguments.value("time");
   if (time && !std::regex_match(*time, form)) {
     arguments.refuse(fmt::format(
-        "option '--time': '{}' is no time of Slurm: minutes, H:MM:SS, or D-HH, such as 2:00:00", *time));
+        "option '--time': '{}' is not a Slurm time: minutes, H:MM:SS, or D-HH, such as 2:00:00", *time));
   }
   return time;
 }
 
-/// The folder whose paths the scripts hold.
+/// The folder to which the paths in the scripts are relative.
 fs::path current_folder(const command_line::Arguments& arguments, const fs::path& output) {
   fs::path folder = fs::current_path();
   const std::string paths = (folder / output).string();
   if (has_control_character(paths) || paths.find('\\') != std::string::npos)
-    arguments.refuse("Slurm takes no path with a backslash or a control character; name another folder");
+    arguments.refuse(
+        "Slurm does not accept a path with a backslash or a control character; name another folder");
   return folder;
 }
 
-study::Study study_to_divide(const command_line::Arguments& arguments, std::int64_t parts) {
-  study::Study study = load_study(arguments.operands()[0], arguments);
+study::Study study_to_divide(const command_line::Arguments& arguments, const fs::path& output,
+                             std::int64_t parts) {
+  study::Study study = load_study(arguments.operands()[0], arguments, {&output, 1});
   study.engine = study.plugin ? study::Engine::reference : study::Engine::batch;
   if (study.stop && parts > 1) {
     arguments.refuse(
-        "option '--tasks': how many trials a study with `stop` takes can only be decided in one run; give "
-        "--tasks 1, or leave `stop` out");
+        "option '--tasks': a study with `stop` cannot be divided, because its number of trials is decided "
+        "while "
+        "it runs; give --tasks 1, or remove `stop`");
   }
   if (parts > study::trial_count(study)) {
-    arguments.refuse(fmt::format("option '--tasks': the study has {} trials, which cannot make {} parts",
-                                 study::trial_count(study), parts));
+    arguments.refuse(
+        fmt::format("option '--tasks': the {} trials of the study cannot be divided into {} parts",
+                    study::trial_count(study), parts));
   }
   return study;
 }
 
-/// The largest array for so many parts; for --dry-run where there is no Slurm to ask, that of its default
-/// configuration.
-/// @throws Failure (machine_failed) if there is no Slurm, or none that runs arrays.
+/// Maximum number of elements of an array job of so many parts. For --dry-run on a machine without Slurm, the
+/// maximum of Slurm's default configuration.
+/// @throws Failure (machine_failed) if Slurm is not installed, or does not run arrays.
 std::int64_t largest_array(const command_line::Arguments& arguments, std::int64_t parts) {
   std::int64_t size = cluster::default_max_array_size;
   try {
@@ -140,7 +143,7 @@ std::int64_t largest_array(const command_line::Arguments& arguments, std::int64_
                 "this Slurm has no array jobs (MaxArraySize is 0 in its configuration); use --tasks 1");
 }
 
-/// What the options ask for; the elements are added when it is known which parts are missing.
+/// The request of the options; its elements are added when the missing parts are known.
 cluster::BatchRequest batch_request(const command_line::Arguments& arguments, const fs::path& output,
                                     const study::Study& study) {
   cluster::BatchRequest request;
@@ -159,24 +162,23 @@ cluster::BatchRequest batch_request(const command_line::Arguments& arguments, co
   return request;
 }
 
-/// @throws Failure (bad_input) if there is what another division of the trials has left.
+/// @throws Failure (bad_input) if files of another division of the trials exist.
 void require_same_division(const fs::path& output, std::int64_t parts) {
   const std::optional<cluster::Submission> earlier = cluster::read_submission(output);
   if (earlier && earlier->parts != parts) {
     throw Failure(
         ExitCode::bad_input,
-        fmt::format("{}: the trials were divided into {} parts before; give --tasks {}, or remove {}",
+        fmt::format("{}: the trials were divided into {} parts earlier; give --tasks {}, or remove {}",
                     output.string(), earlier->parts, earlier->parts,
                     shards::parts_directory(output).string()));
   }
   std::error_code ignored;
   const fs::path shards = layout::shards_directory(output);
   if (parts > 1 && fs::exists(shards, ignored)) {
-    throw Failure(
-        ExitCode::bad_input,
-        fmt::format("{}: a run of the whole study has begun, and {} has what it has finished; end it "
-                    "with --tasks 1, or remove this folder",
-                    output.string(), shards.string()));
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: a run of the whole study has begun and left shards in {}; continue it "
+                              "with --tasks 1, or remove this folder",
+                              output.string(), shards.string()));
   }
 }
 
@@ -215,13 +217,13 @@ std::vector<Script> scripts_of(const cluster::BatchRequest& request) {
   return all;
 }
 
-/// Whether there is anything of this name, be it a link to nothing.
+/// Whether the name exists, even as a dangling link.
 bool has_entry(const fs::path& path) {
   std::error_code ignored;
   return fs::exists(fs::symlink_status(path, ignored));
 }
 
-/// Submits the scripts, and says and records each job as soon as there is one.
+/// Submits the scripts; prints and records each job at once.
 void submit(const fs::path& output, const cluster::BatchRequest& request) {
   cluster::Submission submission{request.job.parts, request.study_sha256, {}};
   for (const Script& script : scripts_of(request)) {
@@ -243,7 +245,7 @@ void submit(const fs::path& output, const cluster::BatchRequest& request) {
                          fmt::join(submission.jobs, ","), output.string());
 }
 
-/// Submits the parts that are not complete, and the merge.
+/// Submits the incomplete parts and the merge.
 void submit_missing(const fs::path& output, const study::Study& study, cluster::BatchRequest& request) {
   const fs::path directory = shards::parts_directory(output);
   const bool is_new = !has_entry(directory);
@@ -266,14 +268,13 @@ void submit_missing(const fs::path& output, const study::Study& study, cluster::
 
 ExitCode slurm(const command_line::Arguments& arguments) {
   const fs::path output = command_line::output_place(arguments);
-  if (yaml::is_standard_stream(arguments.operands()[0]))
-    arguments.refuse("the jobs read the manifest later: name a file that stays");
+  if (yaml::is_stream(arguments.operands()[0]))
+    arguments.refuse("the jobs read the manifest later; name a file instead of a stream");
   arguments.required("tasks");
   const std::int64_t parts = *arguments.whole_number("tasks", 1, max_tasks);
-  if (parts == 1 && arguments.has("at-once"))
-    arguments.refuse("option '--at-once' goes with more than one part");
+  if (parts == 1 && arguments.has("at-once")) arguments.refuse("option '--at-once' needs more than one part");
   command_line::require_places(arguments, {arguments.operands()[0]}, {output});
-  const study::Study study = study_to_divide(arguments, parts);
+  const study::Study study = study_to_divide(arguments, output, parts);
   cluster::BatchRequest request = batch_request(arguments, output, study);
   if (!arguments.has("dry-run")) require_no_job(output);
   require_same_division(output, parts);
@@ -297,12 +298,12 @@ Command slurm_command() {
             {"tasks", "N", "parts that the trials are divided into (required)"},
             {"cpus", "C", "processors of each job (default 1)"},
             {"time", "T", "time limit of each job, as for sbatch, e.g. 2:00:00"},
-            {"at-once", "M", "elements that run at the same time at most"},
+            {"at-once", "M", "maximum number of elements that run at the same time"},
             {"sbatch", "OPTION",
              "further option of sbatch for all jobs, e.g. --sbatch=--partition=long; may be repeated", true},
             {"dry-run", "", "print the scripts; write and submit nothing"},
             {"set", "KEY=VALUE", "override a manifest key, as in 'zerocount run'; may be repeated", true},
-            {"force", "", "replace an existing FILE, and discard the parts of another study or build"}}},
+            {"force", "", "replace FILE, and discard the parts of another study or build"}}},
           "run a study as an array job of Slurm",
           slurm_help,
           slurm};

@@ -15,7 +15,7 @@ namespace zerocount::commands {
 /// soon prints nothing.
 class StageProgress {
  public:
-  /// @param verb of the messages that are no terminal's: "zerocount identify"
+  /// @param verb begins each message: "zerocount identify"
   StageProgress(std::string verb, bool quiet);
   /// Removes the line from a terminal.
   ~StageProgress();

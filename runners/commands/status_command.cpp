@@ -22,13 +22,14 @@ namespace zerocount::commands {
 namespace {
 
 constexpr const char* status_help =
-    "Prints how far a run has come, and the summary of the trials that are finished: of a run on this\n"
-    "machine, which writes FILE.shards/, or of an array job (zerocount slurm), which writes FILE.parts/.\n"
-    "It reads these files alone, so it can be asked for on any machine that sees them. A part is running\n"
-    "if a process has it locked; where the locks of other machines cannot be seen, if a shard of it was\n"
-    "written in the last minute. The rate is that since the jobs were submitted, or the run has begun.\n"
-    "Of a study with `stop` the number of trials is the largest that there may be. JSON has no summary (see\n"
-    "zerocount summary), and with --watch one line each time.\n"
+    "Prints the progress of a run, and the summary of its finished trials: of a run on this machine,\n"
+    "which writes FILE.shards/, or of an array job (zerocount slurm), which writes FILE.parts/.\n"
+    "It reads only these files, so it works on any machine that sees them. A part is running if a\n"
+    "process has locked it; if the locks of another machine cannot be seen, if one of its shards was\n"
+    "written in the last minute. The rate is the mean since the run began or the jobs were submitted.\n"
+    "For a study with `stop` the number of trials is the maximum. JSON has no summary (see\n"
+    "zerocount summary), and is one line each time with --watch.\n"
+    "--watch ends when FILE is complete, or with exit code 4 when no process runs the study any more.\n"
     "\n"
     "Examples:\n"
     "  zerocount status study.h5\n"
@@ -52,8 +53,8 @@ nlohmann::ordered_json json_of(const run_status::RunStatus& status) {
   return json;
 }
 
-/// The summary of the finished trials; why there is none, if a file is damaged or no trial of a rig is
-/// finished before those that are missing.
+/// The summary of the finished trials, or the reason why it cannot be made: a damaged file, or a rig without
+/// a finished trial before the missing ones.
 std::string summary_so_far(const std::filesystem::path& output) {
   try {
     return summary::summary_table(
@@ -77,6 +78,13 @@ run_status::RunStatus print_status(const std::filesystem::path& output, std::opt
   return status;
 }
 
+[[noreturn]] void refuse_to_watch(const std::filesystem::path& output, const run_status::RunStatus& status) {
+  throw Failure(
+      ExitCode::bad_data,
+      fmt::format("{}: the run has stopped with {} of {} trials; give its command again to continue",
+                  output.string(), status.finished, status.trials));
+}
+
 ExitCode print_statuses(const command_line::Arguments& arguments) {
   const std::filesystem::path output = arguments.operands()[0];
   const std::optional<std::int64_t> seconds = arguments.whole_number("watch", 1, 86400);
@@ -85,6 +93,7 @@ ExitCode print_statuses(const command_line::Arguments& arguments) {
   const auto indent = json ? std::optional(seconds ? text::one_line : indented) : std::nullopt;
   run_status::RunStatus status = print_status(output, indent);
   while (seconds && !status.complete) {
+    if (status.stopped) refuse_to_watch(output, status);
     std::fflush(stdout);
     std::this_thread::sleep_for(std::chrono::seconds(*seconds));
     if (isatty(STDOUT_FILENO) == 1) std::fputs(clear_screen, stdout);
@@ -98,9 +107,9 @@ ExitCode print_statuses(const command_line::Arguments& arguments) {
 Command status_command() {
   return {{"status",
            "FILE",
-           {{"watch", "S", "print it again every S seconds until FILE is complete, or you stop it"},
+           {{"watch", "S", "print again every S seconds until FILE is complete or its run has stopped"},
             command_line::format_option({"table", "json"})}},
-          "how far a run or an array job has come, with the summary so far",
+          "print the progress of a run or an array job, with the summary so far",
           status_help,
           print_statuses};
 }

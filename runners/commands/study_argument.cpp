@@ -5,18 +5,28 @@
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/manifest/samples.hpp"
 #include "experiments/yaml/text_file.hpp"
+#include "runners/command_line/output_place.hpp"
 #include "runners/plugins/plugin_library.hpp"
 
 namespace zerocount::commands {
 
-study::Study load_study(const std::filesystem::path& manifest, const command_line::Arguments& arguments) {
-  const std::filesystem::path folder =
-      yaml::is_standard_stream(manifest) ? std::filesystem::path() : manifest.parent_path();
-  const auto read_samples = [&](const std::string& path) {
-    return yaml::read_text(folder / path, manifest::max_samples_size, "a table of samples");
+namespace fs = std::filesystem;
+
+study::Study load_study(const fs::path& manifest, const command_line::Arguments& arguments,
+                        std::span<const fs::path> outputs) {
+  const fs::path folder = yaml::is_stream(manifest) ? fs::path() : manifest.parent_path();
+  const auto input = [&](const fs::path& path) {
+    for (const fs::path& output : outputs) command_line::require_no_input(arguments, output, {&path, 1});
+    return path;
   };
-  return manifest::load_study(manifest, arguments.values("set"),
-                              {.plugin = plugins::plugins_from(folder), .samples = read_samples});
+  const auto load_plugin = [&](const std::string& path) {
+    return plugins::load_plugin(input(folder / path));
+  };
+  const auto read_samples = [&](const std::string& path) {
+    return yaml::read_text(input(folder / path), manifest::max_samples_size, "a table of samples");
+  };
+  return manifest::load_study(input(manifest), arguments.values("set"),
+                              {.plugin = load_plugin, .samples = read_samples});
 }
 
 }  // namespace zerocount::commands

@@ -10,7 +10,7 @@ namespace {
 ExitCode print_parameters_of_study(const command_line::Arguments& arguments, const std::string& manifest,
                                    bool text) {
   if (arguments.has("axis") || arguments.has("units"))
-    arguments.refuse("the units are those of the manifest; --axis and --units cannot be given with it");
+    arguments.refuse("--axis and --units cannot be given with --manifest, which decides the units");
   const study::Study study = load_study(manifest, arguments);
   standard_output::print(
       "{}", text ? manifest::parameters_as_text(study) : manifest::parameters_as_markdown(study));
@@ -21,7 +21,7 @@ ExitCode print_parameters(const command_line::Arguments& arguments) {
   const std::string format = arguments.choice("format");
   if (const auto manifest = arguments.value("manifest"))
     return print_parameters_of_study(arguments, *manifest, format == "text");
-  if (arguments.has("set")) arguments.refuse("--set changes a manifest; expected --manifest FILE with it");
+  if (arguments.has("set")) arguments.refuse("option '--set' needs '--manifest'");
   parameters::StudyUnits units;
   if (arguments.choice("axis") == "linear") units.axis = parameters::AxisKind::linear;
   if (arguments.choice("units") == "si") units.gains = parameters::GainUnits::si;
@@ -38,22 +38,21 @@ ExitCode print_schema(const command_line::Arguments&) {
 }  // namespace
 
 Command parameters_command() {
-  return {
-      {"parameters",
-       "",
-       {command_line::format_option({"text", "markdown"}),
-        {"manifest", "FILE", "list the parameters of this study, with those of the lists in its manifest"},
-        {"set", "KEY=VALUE", "override a key of that manifest; may be repeated", true},
-        command_line::choice_option("axis", "AXIS", {"rotary", "linear"}, "units on this kind of axis"),
-        command_line::choice_option("units", "UNITS", {"count", "si"},
-                                    "unit of the gains (controller.units)")},
-       0,
-       0},
-      "list every parameter: unit, default, range, source",
-      "Every physical value of a manifest is a number or a distribution. Missing values have the\n"
-      "default, unless it is in other units: on a linear axis most values must be given, and with\n"
-      "--units si the integral gain.\n",
-      print_parameters};
+  return {{"parameters",
+           "",
+           {command_line::format_option({"text", "markdown"}),
+            {"manifest", "FILE", "list the parameters of this study, including each value of its lists"},
+            {"set", "KEY=VALUE", "override a key of that manifest; may be repeated", true},
+            command_line::choice_option("axis", "AXIS", {"rotary", "linear"}, "units on this kind of axis"),
+            command_line::choice_option("units", "UNITS", {"count", "si"},
+                                        "unit of the gains (controller.units)")},
+           0,
+           0},
+          "list every parameter: unit, default, range, source",
+          "Every physical value of a manifest is a number or a distribution. Missing values take the\n"
+          "default, unless its unit differs: on a linear axis most values are required, and with\n"
+          "--units si the integral gain.\n",
+          print_parameters};
 }
 
 Command schema_command() {

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -44,14 +46,15 @@ constexpr const char* trace_help =
 
 /// True if `path` is a results file, by its signature or by its name (the signature may be damaged).
 bool is_results_file(const std::string& path) {
-  return std::filesystem::path(path).extension() == ".h5" || hdf5::is_hdf5_with_user_block(path);
+  if (std::filesystem::path(path).extension() == ".h5") return true;
+  return !yaml::is_stream(path) && hdf5::is_hdf5_with_user_block(path);
 }
 
 std::int64_t trial_option(const command_line::Arguments& arguments, const study::Study& study) {
   const std::int64_t value = arguments.whole_number("trial", 0, std::int64_t{1} << 53).value_or(0);
   if (value >= study.trials) {
-    arguments.refuse(fmt::format("option '--trial': {} is too high; '{}' has 0 to {}", value, study.name,
-                                 study.trials - 1));
+    arguments.refuse(fmt::format("option '--trial': {} is too large; '{}' has trials 0 to {}", value,
+                                 study.name, study.trials - 1));
   }
   return value;
 }
@@ -113,19 +116,24 @@ class RecordedFile {
 ExitCode trace(const command_line::Arguments& arguments) {
   const std::string input = arguments.operands()[0];
   const std::optional<std::filesystem::path> output = command_line::text_place(arguments, "output");
-  if (output) command_line::require_places(arguments, {input}, {*output});
+  if (output) {
+    std::vector<std::filesystem::path> inputs{input};
+    if (const auto plugin = arguments.value("plugin")) inputs.emplace_back(*plugin);
+    command_line::require_places(arguments, inputs, {*output});
+  }
+  const std::filesystem::path place = output.value_or("-");
   const bool json = arguments.choice("format") == "json";
   std::optional<RecordedFile> recorded;
   if (is_results_file(input)) recorded.emplace(input);
   const reading::ResultsFile* const file = recorded ? &recorded->file() : nullptr;
   if (file && arguments.has("set"))
-    arguments.refuse("option '--set' goes with a manifest, not with a results file");
+    arguments.refuse("option '--set' needs a manifest instead of a results file");
 
   if (!file && arguments.has("plugin"))
-    arguments.refuse("option '--plugin' goes with a results file; a manifest names its plugin");
+    arguments.refuse("option '--plugin' needs a results file; a manifest names its plugin");
 
   const study::Study study = file ? layout::recorded_study(file->header(), input, plugin_option(arguments))
-                                  : load_study(input, arguments);
+                                  : load_study(input, arguments, std::span(&place, 1));
   if (study.plugin && study.plugin->functions == nullptr) {
     arguments.refuse(
         fmt::format("the controller of {} is the plugin {}, which is not loaded from a results file; give "
@@ -136,20 +144,19 @@ ExitCode trace(const command_line::Arguments& arguments) {
   const std::int64_t index = trial_option(arguments, study);
   const layout::RowRange row{point * study.trials + index, 1};
   if (file && (row.first < file->rows().first || row.end() > file->rows().end())) {
-    arguments.refuse(fmt::format("{} is a part of the study and does not hold that trial", input));
+    arguments.refuse(fmt::format("{} is a part of the study without this trial", input));
   }
   const study::StudyTrial trial = study::study_trial(study, point, index);
-  const shards::TrialResult replayed =
-      write_trace_to(output.value_or("-"), {study, point, index, trial}, json);
+  const shards::TrialResult replayed = write_trace_to(place, {study, point, index, trial}, json);
   const auto failed = [](const trial::MoveOutcome& move) { return move.controller_failed; };
   if (std::any_of(replayed.outcome.moves.begin(), replayed.outcome.moves.end(), failed))
-    status::tell("the controller gave no finite torque at the last sample: the trial ends there\n");
+    status::tell("the controller returned a non-finite torque at the last sample, which ends the trial\n");
   if (!recorded) return ExitCode::success;
 
   const std::vector<std::string> different = recorded->differences(replayed);
   if (different.empty()) return ExitCode::success;
   std::string message =
-      fmt::format("{}: point {}, trial {}: the replay is not the recorded trial", input, point, index);
+      fmt::format("{}: point {}, trial {}: the replay differs from the recorded trial", input, point, index);
   for (const std::string& line : different) message += "\n  " + line;
   throw Failure(ExitCode::bad_data, message);
 }
@@ -164,7 +171,7 @@ Command trace_command() {
             command_line::format_option({"csv", "json"}),
             {"output,o", "FILE", "write there instead of to standard output"},
             command_line::force_option(),
-            {"plugin", "LIBRARY", "the controller of a results file whose study has one of its own"},
+            {"plugin", "LIBRARY", "the controller plugin of a results file"},
             {"set", "KEY=VALUE", "override a manifest key; may be repeated", true}}},
           "run one trial again, sample by sample",
           trace_help,

@@ -40,7 +40,7 @@ class TraceWriter {
   Sink sink_;
   bool json_;
   std::vector<layout::RecordField<layout::TraceRecord>> columns_;  ///< set by begin()
-  std::vector<layout::RecordField<trial::MoveOutcome>> measures_;  ///< likewise
+  std::vector<layout::RecordField<trial::MoveOutcome>> measures_;  ///< set by begin()
   bool first_{true};
 };
 

@@ -18,20 +18,19 @@ namespace {
 constexpr const char* verify_help =
     "Checks the integrity of results files. FILE is a results file, a part of a study or a\n"
     "shard; of a folder, all its files *.h5 are checked. One line per check, ok or FAILED:\n"
-    "checksum: the bytes are those that were written;\n"
-    "header: the file was finished, and its attributes and the hash of the study are those that\n"
-    "its manifest gives;\n"
-    "datasets: all are there, with their types, sizes, units and numbers of rows;\n"
-    "values: inputs are in the ranges of their parameters, measures and jerks in theirs, and no\n"
-    "time is longer than its move;\n"
-    "statistics: design points, profiles, rigs and statistics, made again from the manifest and\n"
-    "the trials, are those of the file (not of a shard); this needs room for a copy of the file in\n"
-    "the folder for temporary files;\n"
+    "checksum: no byte has changed since the file was written;\n"
+    "header: the file was finished, and its attributes and the hash of the study agree with its\n"
+    "manifest;\n"
+    "datasets: all exist, with the right types, sizes, units and numbers of rows;\n"
+    "values: inputs, measures and jerks are in their ranges, and no time is longer than its move;\n"
+    "statistics: design points, profiles, rigs and statistics, recomputed from the manifest and\n"
+    "the trials, equal those of the file (not for a shard); this needs room for a copy of the file\n"
+    "in the folder for temporary files;\n"
     "trials run again: a random sample of the trials gives the recorded inputs, measures, jerks and\n"
-    "sample records, to the bit if this program on this kind of processor made the file; of a file\n"
-    "that keeps failures, as many of these besides;\n"
-    "shards: those of a folder are of one study, and no trial is in two of them;\n"
-    "all trials: the number of trials that no shard of the folder has, if any (no failure).\n"
+    "sample records, bitwise if this program on this kind of processor wrote the file; for a file\n"
+    "that keeps failures, also as many of these;\n"
+    "shards: the shards of a folder belong to one study, and none of them share a trial;\n"
+    "all trials: how many trials no shard of the folder has (not a failure).\n"
     "The exit code is 4 if a check fails, and 5 if a file cannot be read.\n"
     "\n"
     "Examples:\n"
@@ -103,9 +102,9 @@ ExitCode verify(const command_line::Arguments& arguments) {
 Command verify_command() {
   return {{"verify",
            "FILE|FOLDER...",
-           {{"trials", "N", "trials to run again, of each file or of all shards of a folder (default 20)"},
-            {"seed", "S", "of the choice of these trials (default 1)"},
-            {"plugin", "LIBRARY", "the controller of a study that has one of its own"},
+           {{"trials", "N", "trials to run again, per file or per folder of shards (default 20)"},
+            {"seed", "S", "seed of the choice of these trials (default 1)"},
+            {"plugin", "LIBRARY", "the controller plugin of the study"},
             command_line::format_option({"table", "json"})},
            1,
            100000},

@@ -141,7 +141,7 @@ std::vector<std::vector<double>> torques_in_order(const std::vector<trial::Trial
   return torques;
 }
 
-/// The same, the trials in turns, while their states move.
+/// The torques of all samples, with the trials in turns and their states moved to other addresses.
 std::vector<std::vector<double>> torques_in_turns(const std::vector<trial::TrialParameters>& trials,
                                                   const std::vector<Samples>& inputs) {
   constexpr std::size_t samples_between_moves = 7;
@@ -162,11 +162,10 @@ std::vector<std::vector<double>> torques_in_turns(const std::vector<trial::Trial
 }
 
 [[noreturn]] void refuse(const study::Study& study, std::string_view how) {
-  throw Failure(
-      ExitCode::bad_input,
-      fmt::format("the controller {} keeps something outside its state: {}; expected that all that changes "
-                  "is in the state, without pointers into it, and no global or static variables",
-                  study.plugin->description.name, how));
+  throw Failure(ExitCode::bad_input,
+                fmt::format("the controller {} keeps something outside its state: {}; expected all variables "
+                            "in the state, without pointers into it, and no global or static variables",
+                            study.plugin->description.name, how));
 }
 
 }  // namespace
@@ -179,14 +178,14 @@ void require_no_hidden_state(const study::Study& study) {
   for (const trial::TrialParameters& trial : trials) first.push_back(samples_of(trial));
   for (std::size_t i = trials.size(); i-- > 0;) {
     if (!same(samples_of(trials[i]), first[i]))
-      refuse(study, "a trial that is run again, in another order, differs");
+      refuse(study, "a trial that is run again, in another order, gives other results");
   }
   const auto in_order = torques_in_order(trials, first);
   const auto in_turns = torques_in_turns(trials, first);
   for (std::size_t i = 0; i < trials.size(); ++i) {
     if (!std::equal(in_order[i].begin(), in_order[i].end(), in_turns[i].begin(), in_turns[i].end(),
                     same_bits))
-      refuse(study, "trials that run in turns, while their states move to other addresses, differ");
+      refuse(study, "trials run in turns, with their states moved to other addresses, give other results");
   }
 }
 

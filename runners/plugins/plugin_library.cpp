@@ -48,8 +48,8 @@ std::variant<const zerocount_controller*, PluginFault> entry_of(const fs::path& 
     const std::string missing = missing_symbol(dlerror());
     return PluginFault{
         fmt::format("{} is not a shared library that this program can load{}", library.string(),
-                    missing.empty() ? "" : fmt::format(": it calls {}, which no library has", missing)),
-        "one for this machine, linked with all that it calls"};
+                    missing.empty() ? "" : fmt::format(": it calls {}, which no library defines", missing)),
+        "a library for this machine, linked with everything that it calls"};
   }
   const auto entry = reinterpret_cast<Entry>(dlsym(handle, "zerocount_controller_entry"));
   if (entry == nullptr) {
@@ -67,7 +67,7 @@ std::variant<const zerocount_controller*, PluginFault> entry_of(const fs::path& 
 manifest::LoadedPlugin load_plugin(const fs::path& library) {
   std::error_code error;
   if (!fs::exists(library, error))
-    return PluginFault{fmt::format("there is no file {}", library.string()), "the path of a shared library"};
+    return PluginFault{fmt::format("{}: no such file", library.string()), "the path of a shared library"};
   const auto bytes = fs::is_regular_file(library, error) ? bytes_of(library) : std::nullopt;
   if (!bytes) return PluginFault{fmt::format("{} cannot be read", library.string()), "a shared library"};
   // Without a folder in its path, dlopen would look elsewhere.
@@ -79,10 +79,6 @@ manifest::LoadedPlugin load_plugin(const fs::path& library) {
     return PluginFault{fmt::format("{}: {}", library.string(), fault->what), fault->expected};
   return std::make_shared<const plugin::ControllerPlugin>(
       std::move(std::get<plugin::ControllerPlugin>(checked)));
-}
-
-manifest::PluginLoader plugins_from(const fs::path& folder) {
-  return [folder](const std::string& path) { return load_plugin(folder / path); };
 }
 
 }  // namespace zerocount::plugins

@@ -10,7 +10,4 @@ namespace zerocount::plugins {
 /// that the user gave. The library stays loaded until the program ends.
 manifest::LoadedPlugin load_plugin(const std::filesystem::path& library);
 
-/// Loads libraries whose paths begin at `folder`.
-manifest::PluginLoader plugins_from(const std::filesystem::path& folder);
-
 }  // namespace zerocount::plugins

@@ -101,7 +101,7 @@ fs::path lock_file(const fs::path& output) {
   return path += ".lock";
 }
 
-/// When the run has begun; nothing if no file tells.
+/// Start of the run; nothing if no file shows it.
 std::optional<Time> begin_of(const fs::path& output) {
   if (const std::optional<Time> submitted = time_of(cluster::submission_file(output))) return submitted;
   return time_of(lock_file(output));
@@ -175,7 +175,7 @@ PartCounts count_parts(const fs::path& output, const Pieces& found, RunStatus& s
   return counts;
 }
 
-/// Whether the results file is that of the parts: all of them are complete, and none is newer.
+/// Whether the results file was made from the parts: all of them are complete, and none is newer.
 bool is_merged(const fs::path& output, const RunStatus& status, const std::vector<Piece>& pieces) {
   const std::optional<Time> merged = time_of(output);
   if (!merged || !status.parts || status.parts->complete != status.parts->all || status.shards > 0)
@@ -188,14 +188,14 @@ RunStatus status_of_file(const fs::path& output) {
   if (!time_of(output)) {
     throw Failure(
         ExitCode::bad_input,
-        fmt::format("{}: there is neither this file nor a run of it: neither {} nor {}", output.string(),
+        fmt::format("{}: neither this file nor a run of it exists: neither {} nor {}", output.string(),
                     layout::shards_directory(output).string(), shards::parts_directory(output).string()));
   }
   const layout::FileHeader header = layout::read_header(layout::open_results(output));
   if (!header.complete || !header.finished) {
     throw Failure(ExitCode::bad_data,
-                  fmt::format("{}: a part with {} of {} trials; merge it with the others", output.string(),
-                              header.rows.count, header.trials * header.points));
+                  fmt::format("{}: a part with {} of {} trials; merge it with the other parts",
+                              output.string(), header.rows.count, header.trials * header.points));
   }
   RunStatus status;
   status.complete = true;
@@ -212,9 +212,7 @@ RunStatus status_of_merged(const fs::path& output, const RunStatus& of_parts) {
   return status;
 }
 
-}  // namespace
-
-RunStatus status_of(const fs::path& output) {
+RunStatus read_status(const fs::path& output) {
   if (!shards::has_begun(output)) return status_of_file(output);
   const Pieces found = read_pieces(output);
   const bool running = is_running(output, written_lately(found.pieces));
@@ -237,6 +235,16 @@ RunStatus status_of(const fs::path& output) {
     if (is_merged(output, status, found.pieces)) return status_of_merged(output, status);
   }
   if (!status.running) status.rate = std::nan("");
+  status.stopped =
+      !status.running && !is_awaited(output) && storage::lock_state(output) != storage::LockState::unknown;
+  return status;
+}
+
+}  // namespace
+
+RunStatus status_of(const fs::path& output) {
+  RunStatus status = read_status(output);
+  if (status.stopped) status = read_status(output);  // it may have ended while its files were read
   return status;
 }
 

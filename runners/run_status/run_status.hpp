@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-/// How far a run, or an array job, has come, from the files that it has written alone.
+/// Progress of a run or an array job, from the files that it has written.
 namespace zerocount::run_status {
 
 /// The parts of an array job.
@@ -21,12 +21,13 @@ struct PartCounts {
 };
 
 struct RunStatus {
-  bool complete{false};      ///< the results file is there, and is that of the parts
+  bool complete{false};      ///< the results file exists and was made from the parts
   std::string name;          ///< of the study; empty if no file could be read
   std::int64_t trials{0};    ///< of all points together; the most that there may be, if `stop` decides
   std::int64_t finished{0};  ///< trials in complete files
   std::int64_t shards{0};    ///< finished, not counting complete parts
   bool running{false};       ///< the output, or one of its parts
+  bool stopped{false};       ///< incomplete, no process runs it, and no submitted job is awaited
   std::optional<PartCounts> parts{};
   std::vector<std::string> problems{};  ///< files that cannot be read, or were set aside as damaged
   double rate{std::numeric_limits<double>::quiet_NaN()};  ///< trials/s; NaN: unknown
@@ -41,9 +42,9 @@ struct RunStatus {
 /// trials whose files were written since the jobs were submitted, or the run has begun, over the time up to
 /// the newest of them.
 ///
-/// Of each file with trials only the header is read, without its checksum.
-/// @throws Failure: bad_input if there is neither a file nor a run; bad_data if the file is no complete
-/// results file; machine_failed if a directory cannot be read.
+/// Reads only the headers of the files with trials, without checking their checksums.
+/// @throws Failure: bad_input if there is neither a file nor a run; bad_data if the file is not a
+/// complete results file; machine_failed if a directory cannot be read.
 RunStatus status_of(const std::filesystem::path& output);
 
 /// Lines such as

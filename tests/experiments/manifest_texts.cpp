@@ -1,5 +1,6 @@
 #include "tests/experiments/manifest_texts.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "core/failure/failure.hpp"
@@ -88,6 +89,42 @@ sweep:
     sliding: {initial.mode: slide}
   grid: {controller.coarse.kd: [0, 1.0e-3], friction.model: [presliding, spring], command.profile.shape: [step, s_curve]}
 )";
+}
+
+namespace {
+
+std::vector<std::string> split(std::string_view text, std::string_view separator) {
+  std::vector<std::string> parts;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(separator), text.size());
+    parts.emplace_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + separator.size(), text.size()));
+  }
+  return parts;
+}
+
+bool is_fault(const std::string& line, const std::string& fault) {
+  const std::vector<std::string> words = split(fault, " | ");
+  const bool in_manifest = fault.front() >= '0' && fault.front() <= '9';
+  const std::string place = (in_manifest ? "m.yaml:" : "") + words.front() + ": ";
+  return line.starts_with(place) && std::all_of(words.begin() + 1, words.end(), [&](const std::string& word) {
+           return line.find(word, place.size()) != std::string::npos;
+         });
+}
+
+}  // namespace
+
+testing::AssertionResult has_faults(const std::vector<std::string>& warnings, std::string_view faults) {
+  const std::vector<std::string> expected = split(faults, "\n");
+  if (std::equal(warnings.begin(), warnings.end(), expected.begin(), expected.end(), is_fault))
+    return testing::AssertionSuccess();
+  testing::AssertionResult failed = testing::AssertionFailure() << "expected\n" << faults << "\nfound";
+  for (const std::string& line : warnings) failed << "\n" << line;
+  return failed;
+}
+
+testing::AssertionResult has_faults(const std::string& message, std::string_view faults) {
+  return has_faults(split(message, "\n"), faults);
 }
 
 std::string refusal_of(const std::string& text, const std::vector<std::string>& overrides) {

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "experiments/study/study.hpp"
 
@@ -27,5 +30,13 @@ study::Study study_of(const std::string& text, const std::vector<std::string>& o
 
 /// Index of the input column with this name.
 std::size_t column_of(const study::Study& study, const std::string& name);
+
+/// Whether a message has these faults, one a line. "6:9: plant.inertai | inertia" is a line that begins with
+/// "m.yaml:6:9: plant.inertai: " and has the word "inertia" behind it; there may be several words. A fault
+/// that does not begin with a digit names its source, such as "--set trials=x: trials | number".
+testing::AssertionResult has_faults(const std::string& message, std::string_view faults);
+
+/// The same for warnings, of which each is a line.
+testing::AssertionResult has_faults(const std::vector<std::string>& warnings, std::string_view faults);
 
 }  // namespace zerocount

@@ -4,6 +4,7 @@
 usage: installed_prefix.py SOURCE BUILD
 """
 
+import gzip
 import pathlib
 import shutil
 import subprocess
@@ -40,11 +41,11 @@ def check_program(prefix, folder):
 
 
 def check_shell_files(prefix):
-    manual = (prefix / "share/man/man1/zerocount.1").read_text()
+    manual = gzip.decompress((prefix / "share/man/man1/zerocount.1.gz").read_bytes()).decode()
     for command in ("run", "summary", "slurm"):
         require(f".SS {command}\n" in manual, f"the manual page has {command}")
     if shutil.which("groff"):
-        checked = subprocess.run(["groff", "-k", "-man", "-Tutf8", "-ww", "-z", prefix / "share/man/man1/zerocount.1"],
+        checked = subprocess.run(["groff", "-k", "-man", "-Tutf8", "-ww", "-z"], input=manual,
                                  capture_output=True, text=True, check=True)
         require(not checked.stderr, f"groff warns of nothing: {checked.stderr}")
     script = prefix / "share/bash-completion/completions/zerocount"

@@ -94,7 +94,7 @@ TEST_F(IdentifyRefusals, ColumnsAreRefusedWithTheReason) {
   EXPECT_NE(refusal({"log.txt", "--column", "speed=a"}).find("QUANTITY one of time"), std::string::npos);
   EXPECT_NE(refusal({"log.txt", "--column", "time=a", "--column", "time=b"}).find("given twice"),
             std::string::npos);
-  EXPECT_NE(refusal({"log.txt", "--sample-time", "0"}).find("no positive number"), std::string::npos);
+  EXPECT_NE(refusal({"log.txt", "--sample-time", "0"}).find("not a positive number"), std::string::npos);
   EXPECT_NE(refusal({"log.txt", "--separator", "dot"}).find("comma, semicolon, tab"), std::string::npos);
   EXPECT_NE(refusal({"old.mat"}).find("version 7.3"), std::string::npos);
 }

@@ -131,8 +131,7 @@ TEST_F(Identify, DrawsTheFit) {
   EXPECT_EQ(draw(both, "none/fit.html").code, 5) << "there is no such folder";
   const ProgramResult several = draw(both, "fit.svg");
   EXPECT_EQ(several.code, 2);
-  EXPECT_NE(several.err.find("a picture shows one record, and these are 2"), std::string::npos)
-      << several.err;
+  EXPECT_NE(several.err.find("a picture shows one record"), std::string::npos) << several.err;
   ASSERT_EQ(draw({"identify", "tests.h5", "--point", "1"}, "fit.svg").code, 0);
   EXPECT_EQ(folder_.read("fit.svg").find("<svg"), 0U);
 }
@@ -165,7 +164,7 @@ TEST_F(Identify, TellsWhichLawARecordFollows) {
   EXPECT_EQ(run({"check", "study.yaml"}).code, 0) << fragment.out;
   const ProgramResult dahl = identify({"--model", "dahl"});
   EXPECT_EQ(dahl.code, 3) << "it does not explain the record";
-  EXPECT_NE(dahl.err.find("not to be trusted"), std::string::npos) << dahl.err;
+  EXPECT_NE(dahl.err.find("must not be trusted"), std::string::npos) << dahl.err;
 }
 
 // Records of two contacts: the answer is printed, and is not to be trusted.
@@ -178,7 +177,7 @@ TEST_F(Identify, ALackOfFitIsAnExitCode) {
   const ProgramResult result = run({"identify", "one.csv", "other.csv", "--counts-per-revolution", "1620000",
                                     "--fix", "friction.n=2", "--posterior", "p.csv"});
   EXPECT_EQ(result.code, 3) << result.err;
-  EXPECT_NE(result.err.find("not to be trusted"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("must not be trusted"), std::string::npos) << result.err;
   EXPECT_NE(result.out.find("LACK OF FIT"), std::string::npos) << result.out;
   EXPECT_NE(folder_.read("p.csv").find("# Lack of fit"), std::string::npos);
 }

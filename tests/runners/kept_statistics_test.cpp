@@ -127,7 +127,7 @@ TEST_F(KeptStatistics, OfARunThatWasInterruptedAreTheSame) {
   run("out.h5");
   run("whole.h5");
   expect_same_datasets(at("out.h5"), at("whole.h5"));
-  EXPECT_NE(program({"run", "study.yaml", "-o", "out.h5"}).err.find("complete already"), std::string::npos);
+  EXPECT_NE(program({"run", "study.yaml", "-o", "out.h5"}).err.find("already complete"), std::string::npos);
 }
 
 /// The first of the elements that is `number`. @param bytes of the elements

@@ -63,14 +63,15 @@ TEST_F(LinearAxis, HasItsUnitsInFilesTablesAndReports) {
   std::stringstream html;
   html << std::ifstream(folder / "stage.html").rdbuf();
   expect_parts(html.str(), {"Along the travel", "friction.k1 along the travel", "force (N)"});
-  for (const char* word : {"rotor angle", "along the rotor", "torque (N m)", "(rad)"}) {
+  for (const char* word :
+       {"rotor angle", "along the rotor", "torque (N m)", "(rad)", "$torque", "$rotor", "$angle"}) {
     EXPECT_EQ(html.str().find(word), std::string::npos) << word;
   }
 }
 
 TEST_F(LinearAxis, ItsParametersAreListed) {
   const std::string linear = run({"parameters", "--axis", "linear", "--units", "si"}).out;
-  expect_parts(linear, {"encoder.resolution", "N/(m s)", "moving mass"});
+  expect_parts(linear, {"encoder.resolution", "N/(m s)", "mass J of the slide"});
   EXPECT_EQ(linear.find("N m"), linear.find("N m, kg m^2")) << "in the meaning of the key `axis` alone";
 }
 

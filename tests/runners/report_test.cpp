@@ -80,7 +80,7 @@ TEST_F(ReportCommand, SaysWhatIsWrongWithItsWords) {
   EXPECT_EQ(run({"report", "none.h5", "-o", "x.html"}).code, 2);
   const ProgramResult point = run({"report", "a.h5", "-o", "x.html", "--point", "2"});
   EXPECT_EQ(point.code, 2);
-  EXPECT_NE(point.err.find("'2' is no design point; expected a number from 0 to 1"), std::string::npos)
+  EXPECT_NE(point.err.find("'2' is not a design point; expected a number from 0 to 1"), std::string::npos)
       << point.err;
   const ProgramResult place = run({"report", "a.h5", "-o", "nowhere/x.html"});
   EXPECT_EQ(place.code, 5);

@@ -270,7 +270,7 @@ TEST_F(Run, SaysWhyAnOutputCannotBeWritten) {
   const ProgramResult result = run({"run", "study.yaml", "-o", "nowhere/out.h5"});
   EXPECT_EQ(result.code, 5);
   EXPECT_NE(result.err.find("nowhere"), std::string::npos) << result.err;
-  EXPECT_NE(result.err.find("no folder"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("does not exist"), std::string::npos) << result.err;
   EXPECT_EQ(run({"run", "study.yaml", "-o", "new/"}).code, 2);
   EXPECT_EQ(run({"run", "study.yaml", "-o", "."}).code, 2);
 }

@@ -66,6 +66,12 @@ TEST_F(Samples, OfAChangedTableAreAnotherStudy) {
       << compare.out << compare.err;
 }
 
+TEST_F(Samples, AreNeverReplacedByAnOutput) {
+  EXPECT_EQ(run("studies/posterior.csv", {"--force"}).code, 2);
+  EXPECT_EQ(program({"trace", "studies/study.yaml", "-o", "studies/posterior.csv", "--force"}).code, 2);
+  EXPECT_EQ(folder_.read("studies/posterior.csv"), table_text);
+}
+
 TEST_F(Samples, GoWithAStudyThatStopsByItself) {
   const ProgramResult stopped =
       run("out.h5", {"--set", "stop={success_rate_halfwidth: 0.3, max_trials: 6000}"});
@@ -77,7 +83,7 @@ TEST_F(Samples, NameTheFileThatIsNotThere) {
   std::filesystem::remove(folder_ / "studies/posterior.csv");
   const ProgramResult check = program({"check", "studies/study.yaml"});
   EXPECT_EQ(check.code, 2);
-  EXPECT_NE(check.err.find("studies/posterior.csv: there is no such file; expected a table of samples"),
+  EXPECT_NE(check.err.find("studies/posterior.csv: no such file; expected a table of samples"),
             std::string::npos)
       << check.err;
 }

@@ -100,7 +100,7 @@ TEST_F(SlurmCommand, DoesNotMixPartsOfStudies) {
   ASSERT_EQ(run_element(0), 0);
   folder_.write("study.yaml", small_manifest(62));
   EXPECT_NE(run_element(1), 0);
-  EXPECT_NE(folder_.read("element.log").find("another study than is asked for"), std::string::npos);
+  EXPECT_NE(folder_.read("element.log").find("not the study asked for"), std::string::npos);
   expect_refusal(slurm({"--tasks", "2"}), 2, "trials");
   fs::rename(folder_ / "bin/scontrol", folder_ / "bin/no-scontrol");
   expect_refusal(zerocount_program({"slurm", "study.yaml", "-o", "out.h5", "--tasks", "2", "--force"},
@@ -121,11 +121,11 @@ TEST_F(SlurmCommand, IsRefusedWhileAJobIsInTheQueue) {
 
 TEST_F(SlurmCommand, KeepsToOneDivision) {
   ASSERT_EQ(slurm({"--tasks", "2"}).code, 0);
-  expect_refusal(slurm({"--tasks", "3"}), 2, "the trials were divided into 2 parts before; give --tasks 2");
+  expect_refusal(slurm({"--tasks", "3"}), 2, "the trials were divided into 2 parts earlier; give --tasks 2");
   expect_refusal(slurm({"--tasks", "3", "--dry-run"}), 2, "divided into 2 parts");
   fs::remove_all(folder_ / "out.h5.parts");
   fs::create_directory(folder_ / "out.h5.shards");
-  expect_refusal(slurm({"--tasks", "3"}), 2, "out.h5.shards has what it has finished");
+  expect_refusal(slurm({"--tasks", "3"}), 2, "left shards in out.h5.shards");
 }
 
 TEST_F(SlurmCommand, SaysWhatIsSubmittedWhereTheRestCannotBe) {
@@ -187,14 +187,14 @@ TEST_F(SlurmCommand, KeepsWhatWasThereWhereNothingWasSubmitted) {
 
 TEST_F(SlurmCommand, RefusesWhatTheScriptsCannotHold) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
-      {{"--sbatch=partition=long"}, "'partition=long' is no option of sbatch"},
-      {{"--sbatch=--array=0-3"}, "--array is for this command to decide"},
-      {{"--sbatch=-a5"}, "-a5 is for this command to decide"},
-      {{"--sbatch=--arr=5"}, "--arr is for this command to decide"},
-      {{"--sbatch=--comment=a\nb"}, "is no option of sbatch"},
-      {{"--time", ":::"}, "is no time of Slurm"},
-      {{"--time", ""}, "is no time of Slurm"},
-      {{"--time", "1 day"}, "is no time of Slurm"},
+      {{"--sbatch=partition=long"}, "'partition=long' is not an option of sbatch"},
+      {{"--sbatch=--array=0-3"}, "--array is set by this command"},
+      {{"--sbatch=-a5"}, "-a5 is set by this command"},
+      {{"--sbatch=--arr=5"}, "--arr is set by this command"},
+      {{"--sbatch=--comment=a\nb"}, "is not an option of sbatch"},
+      {{"--time", ":::"}, "is not a Slurm time"},
+      {{"--time", ""}, "is not a Slurm time"},
+      {{"--time", "1 day"}, "is not a Slurm time"},
       {{"--cpus", "0"}, "--cpus"},
       {{"--at-once", "0"}, "--at-once"}};
   for (const auto& [words, what] : cases) {
@@ -205,15 +205,15 @@ TEST_F(SlurmCommand, RefusesWhatTheScriptsCannotHold) {
   EXPECT_FALSE(fs::exists(folder_ / "out.h5.parts"));
   EXPECT_EQ(slurm({"--tasks", "2", "--dry-run", "--sbatch=--export=NONE", "--time", "1-12:30"}).code, 0);
   expect_refusal(slurm({"--tasks", "1", "--at-once", "2"}), 2, "--at-once");
-  expect_refusal(slurm({"--tasks", "121"}), 2, "cannot make 121 parts");
+  expect_refusal(slurm({"--tasks", "121"}), 2, "cannot be divided into 121 parts");
   expect_refusal(zerocount_program({"slurm", "study.yaml", "-o", "a\\b.h5", "--tasks", "2", "--dry-run"},
                                    folder_.path(), environment()),
-                 2, "Slurm takes no path with a backslash");
+                 2, "a path with a backslash");
 }
 
 TEST_F(SlurmCommand, RunsAStudyThatStopsItselfAsOneJob) {
   folder_.write("study.yaml", small_manifest(60, "stop: {success_rate_halfwidth: 0.2, max_trials: 600}\n"));
-  expect_refusal(slurm({"--tasks", "2"}), 2, "can only be decided in one run; give --tasks 1");
+  expect_refusal(slurm({"--tasks", "2"}), 2, "give --tasks 1");
   const ProgramResult submitted = slurm({"--tasks", "1"});
   EXPECT_NE(submitted.out.find("submitted: job 71 (out.h5.parts/run.sbatch)"), std::string::npos)
       << submitted.out << submitted.err;

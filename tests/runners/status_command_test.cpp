@@ -42,8 +42,11 @@ TEST_F(StatusOfARun, IsThatOfItsShards) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   std::this_thread::sleep_for(std::chrono::milliseconds(1200));
   const nlohmann::json during = status();
+  RunningProgram watch({"status", "out.h5", "--watch", "1"}, folder_.path());
   run.send(SIGINT);
   EXPECT_EQ(run.wait(), 130);
+  EXPECT_EQ(watch.wait(), 4) << "nobody runs it any more";
+  EXPECT_NE(program({"status", "out.h5", "--watch", "1"}).err.find("has stopped"), std::string::npos);
   EXPECT_TRUE(during["running"].get<bool>());
   EXPECT_EQ(during["trials"], 400000);
   EXPECT_GT(during["finished"], 0);

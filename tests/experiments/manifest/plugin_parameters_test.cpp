@@ -92,36 +92,21 @@ TEST(PluginParameters, AnotherLibraryMakesAnotherStudy) {
 
 TEST(PluginParameters, ErrorsNameThePlace) {
   const std::vector<std::pair<std::string, std::string>> refusals{
-      {"controller: {plugin: own.so, parameters: {gian: 1}}",
-       "m.yaml:6:43: controller.parameters.gian: unknown key, nearest known: gain; expected one of gain, "
-       "offset"},
+      {"controller: {plugin: own.so, parameters: {gian: 1}}", "6:43: controller.parameters.gian | gain"},
       {"controller: {plugin: own.so, parameters: {gain: 11}}",
-       "m.yaml:6:49: controller.parameters.gain: '11' is out of range; expected a number at least 0 and at "
-       "most 10"},
-      {"controller: {plugin: own.so, parameters: 3}",
-       "m.yaml:6:42: controller.parameters: the single value '3' stands here; expected a map"},
-      {"controller: {parameters: {gain: 1}}",
-       "m.yaml:6:26: controller.parameters: there is no plugin whose parameters these are; expected "
-       "controller.plugin, or the key left out"},
-      {"controller: {plugin: own.so, kp: 1.0e-4}",
-       "m.yaml:6:34: controller.kp: it has no effect: the controller is a plugin; expected "
-       "controller.parameters, or "
-       "the key left out"},
+       "6:49: controller.parameters.gain | at least 0 and at most 10"},
+      {"controller: {plugin: own.so, parameters: 3}", "6:42: controller.parameters | '3'"},
+      {"controller: {parameters: {gain: 1}}", "6:26: controller.parameters | controller.plugin"},
+      {"controller: {plugin: own.so, kp: 1.0e-4}", "6:34: controller.kp | no effect | controller.parameters"},
       {"controller: {plugin: own.so, coarse: {coarse_beyond: 200}}",
-       "m.yaml:6:54: controller.coarse.coarse_beyond: a plugin has no phases; expected none with "
-       "controller.plugin"},
-      {"controller: {plugin: [own.so]}",
-       "m.yaml:6:22: controller.plugin: a list stands here; expected a text"},
+       "6:54: controller.coarse.coarse_beyond | has no phases"},
+      {"controller: {plugin: [own.so]}", "6:22: controller.plugin | a list"},
       {"controller: {plugin: own.so}\nsweep: {grid: {controller.parameters.gian: [1]}}",
-       "m.yaml:7:16: sweep.grid.controller.parameters.gian: unknown key, nearest known: "
-       "controller.parameters.gain; "
-       "expected a dotted path of the table of parameters, such as controller.ki"},
+       "7:16: sweep.grid.controller.parameters.gian | controller.parameters.gain"},
   };
-  for (const auto& [text, message] : refusals) EXPECT_EQ(refusal_with_plugin(text), message);
-  EXPECT_EQ(refusal_with_plugin("controller: {plugin: own.so}", {}),
-            "m.yaml:6:22: controller.plugin: this command does not load plugins; expected the command check, "
-            "run or "
-            "trace");
+  for (const auto& [text, message] : refusals) EXPECT_TRUE(has_faults(refusal_with_plugin(text), message));
+  EXPECT_TRUE(has_faults(refusal_with_plugin("controller: {plugin: own.so}", {}),
+                         "6:22: controller.plugin | this command does not"));
 }
 
 TEST(PluginParameters, APluginClosesTheLoop) {
@@ -130,10 +115,8 @@ TEST(PluginParameters, APluginClosesTheLoop) {
                 {}, {.plugin = two_parameters()});
     FAIL();
   } catch (const Failure& failure) {
-    EXPECT_EQ(
-        std::string(failure.what()),
-        "m.yaml:6:22: controller.plugin: it has no effect: the loop is open with command.torque; expected "
-        "command.targets or command.sequence, or the key left out");
+    EXPECT_TRUE(
+        has_faults(std::string(failure.what()), "6:22: controller.plugin | no effect | command.targets"));
   }
 }
 

@@ -61,67 +61,52 @@ TEST(Sections, AreMadeByOverrides) {
 }
 
 TEST(Sections, AreMapsInsideMaps) {
-  EXPECT_EQ(refusal_of(minimal_manifest("controller: {coarse: 3}")),
-            "m.yaml:6:22: controller.coarse: the single value '3' stands here; expected a map");
-  EXPECT_EQ(refusal_of(minimal_manifest("controller: {coarse: [kp, 1]}")),
-            "m.yaml:6:22: controller.coarse: a list stands here; expected a map");
-  EXPECT_EQ(refusal_of(minimal_manifest("controller: {coarse.kp: 1}")),
-            "m.yaml:6:14: controller.coarse.kp: a dotted path stands in place of a key; expected maps inside "
-            "one another, as in coarse: {kp: ...}");
-  EXPECT_EQ(refusal_of(minimal_manifest("plant.inertia: 1")),
-            "m.yaml:6:1: plant.inertia: a dotted path stands in place of a key; expected maps inside one "
-            "another, as in plant: {inertia: ...}");
+  EXPECT_TRUE(
+      has_faults(refusal_of(minimal_manifest("controller: {coarse: 3}")), "6:22: controller.coarse | '3'"));
+  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("controller: {coarse: [kp, 1]}")),
+                         "6:22: controller.coarse | a list"));
+  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("controller: {coarse.kp: 1}")),
+                         "6:14: controller.coarse.kp | nested maps"));
+  EXPECT_TRUE(
+      has_faults(refusal_of(minimal_manifest("plant.inertia: 1")), "6:1: plant.inertia | nested maps"));
   EXPECT_EQ(refusal_of(minimal_manifest("friction: {k1: {kp: 1}}")).find("m.yaml:6:17: friction.k1.kp: "),
             0u);
 }
 
 TEST(Sections, UnknownKeysAreToldTheNearestOfTheirMap) {
-  EXPECT_EQ(
-      refusal_of(minimal_manifest("controller: {coarse: {fine_witin: 1}}")),
-      "m.yaml:6:23: controller.coarse.fine_witin: unknown key, nearest known: fine_within; expected "
-      "one of kp, ki, kd, encoder, fine_within, fine_rate, fine_dwell, coarse_beyond, structure, cascade, "
-      "deadband, integrator_zone, integrator_leak, derivative_cutoff, feedforward, observer, filters");
-  EXPECT_EQ(refusal_of(minimal_manifest("initial: {histroy: {}}")),
-            "m.yaml:6:11: initial.histroy: unknown key, nearest known: history; expected one of "
-            "encoder_phase, position, hardening, preload, history, velocity, integral, mode");
+  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("controller: {coarse: {fine_witin: 1}}")),
+                         "6:23: controller.coarse.fine_witin | fine_within"));
+  EXPECT_TRUE(
+      has_faults(refusal_of(minimal_manifest("initial: {histroy: {}}")), "6:11: initial.histroy | history"));
 }
 
 TEST(Sections, KeysOfAnotherMapAreToldWhereTheyBelong) {
-  EXPECT_EQ(refusal_of(minimal_manifest("friction: {velocity_limit: 1}"))
-                .find("m.yaml:6:12: friction.velocity_limit: unknown key, nearest known: "
-                      "command.profile.velocity_limit; "),
-            0u);
-  EXPECT_EQ(refusal_of(minimal_manifest("encoder: {history: {}}"))
-                .find("m.yaml:6:11: encoder.history: unknown key, nearest known: initial.history; "),
-            0u);
+  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("friction: {velocity_limit: 1}")),
+                         "6:12: friction.velocity_limit | command.profile.velocity_limit"));
+  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("encoder: {history: {}}")),
+                         "6:11: encoder.history | initial.history"));
 }
 
 // initial.mode has this very name; but a letter is sooner forgotten than a section confused.
 TEST(Sections, KeysNearThoseOfTheirMapAreNotLookedForElsewhere) {
-  EXPECT_EQ(refusal_of(minimal_manifest("friction: {mode: coulomb}"))
-                .find("m.yaml:6:12: friction.mode: unknown key, nearest known: model; "),
-            0u);
-  EXPECT_EQ(refusal_of(minimal_manifest(), {"friction.mode=x"})
-                .find("--set friction.mode=x: friction.mode: unknown key, nearest known: model; "),
-            0u);
+  EXPECT_TRUE(
+      has_faults(refusal_of(minimal_manifest("friction: {mode: coulomb}")), "6:12: friction.mode | model"));
+  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest(), {"friction.mode=x"}),
+                         "--set friction.mode=x: friction.mode | model"));
 }
 
 TEST(Sections, SweepsAndOverridesAreToldTheNearestDottedName) {
-  EXPECT_EQ(refusal_of(minimal_manifest("sweep: {grid: {controller.coarse.kdd: [1]}}")),
-            "m.yaml:6:16: sweep.grid.controller.coarse.kdd: unknown key, nearest known: "
-            "controller.coarse.kd; expected a dotted path of the table of parameters, such as controller.ki");
-  EXPECT_EQ(refusal_of(minimal_manifest(), {"initial.history.revesals=1"}),
-            "--set initial.history.revesals=1: initial.history.revesals: unknown key, nearest known: "
-            "reversals; expected one of reversals, torque");
+  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("sweep: {grid: {controller.coarse.kdd: [1]}}")),
+                         "6:16: sweep.grid.controller.coarse.kdd | controller.coarse.kd"));
+  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest(), {"initial.history.revesals=1"}),
+                         "--set initial.history.revesals=1: initial.history.revesals | reversals"));
 }
 
 TEST(Sections, WordsAreThoseOfTheTable) {
-  EXPECT_EQ(refusal_of(minimal_manifest("friction: {model: coulumb}")),
-            "m.yaml:6:19: friction.model: 'coulumb' is none of its words; expected one of presliding, "
-            "spring, coulomb, none, dahl, lugre, gms");
-  EXPECT_EQ(refusal_of(minimal_manifest("initial: {mode: {choice: [0, 1]}}")),
-            "m.yaml:6:17: initial.mode: '{choice: [0, 1]}' is none of its words; expected one of stick, "
-            "slide");
+  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("friction: {model: coulumb}")),
+                         "6:19: friction.model | 'coulumb'"));
+  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("initial: {mode: {choice: [0, 1]}}")),
+                         "6:17: initial.mode | '{choice: [0, 1]}'"));
 }
 
 }  // namespace

@@ -43,43 +43,30 @@ TEST(Stop, CanBeChangedByOverrides) {
 
 struct Refusal {
   const char* line;
-  const char* message;
+  const char* faults;
 };
 
 class RefusedStop : public testing::TestWithParam<Refusal> {};
 
 TEST_P(RefusedStop, SaysWhy) {
-  EXPECT_EQ(refusal_of(minimal_manifest(GetParam().line)), GetParam().message);
+  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest(GetParam().line)), GetParam().faults));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     , RefusedStop,
-    testing::Values(
-        Refusal{"stop: 3",
-                "m.yaml:6:7: stop: the single value '3' stands here; expected stop: {success_rate_halfwidth: "
-                "0.005, max_trials: 100000}"},
-        Refusal{
-            "stop: {max_trials: 500}",
-            "m.yaml:6:7: stop.success_rate_halfwidth: the key is missing; expected half the width that the "
-            "bounds of the success rate may have, 0 to 0.5"},
-        Refusal{
-            "stop: {success_rate_halfwidth: 0.02}",
-            "m.yaml:6:7: stop.max_trials: the key is missing; expected the number of trials at a point at "
-            "which the study ends in any case"},
-        Refusal{"stop: {success_rate_halfwidth: 0.02, max_trails: 500, max_trials: 500}",
-                "m.yaml:6:38: stop.max_trails: unknown key, nearest known: max_trials; expected one of "
-                "success_rate_halfwidth, confidence, min_trials, max_trials"},
-        Refusal{"stop: {success_rate_halfwidth: 0.5, max_trials: 500}",
-                "m.yaml:6:32: stop.success_rate_halfwidth: '0.5' is out of range; expected a number greater "
-                "than 0 and less than 0.5"},
-        Refusal{"stop: {success_rate_halfwidth: 0.1, max_trials: 5}",
-                "m.yaml:6:49: stop.max_trials: 5 trials are fewer than a block, which is the 10 of `trials`; "
-                "expected at least 10"},
-        Refusal{"stop: {success_rate_halfwidth: 0.1, max_trials: 50, min_trials: 60}",
-                "m.yaml:6:65: stop.min_trials: 60 trials are more than max_trials, 50; expected at most 50"},
-        Refusal{"design: sobol\nstop: {success_rate_halfwidth: 0.1, max_trials: 50}",
-                "m.yaml:7:7: stop: trials can be added one block after the other only where each is drawn by "
-                "itself; expected design: monte_carlo"}));
+    testing::Values(Refusal{"stop: 3", "6:7: stop | '3'"},
+                    Refusal{"stop: {max_trials: 500}", "6:7: stop.success_rate_halfwidth | missing"},
+                    Refusal{"stop: {success_rate_halfwidth: 0.02}", "6:7: stop.max_trials | missing"},
+                    Refusal{"stop: {success_rate_halfwidth: 0.02, max_trails: 500, max_trials: 500}",
+                            "6:38: stop.max_trails | max_trials"},
+                    Refusal{"stop: {success_rate_halfwidth: 0.5, max_trials: 500}",
+                            "6:32: stop.success_rate_halfwidth | greater than 0 and less than 0.5"},
+                    Refusal{"stop: {success_rate_halfwidth: 0.1, max_trials: 5}",
+                            "6:49: stop.max_trials | at least 10"},
+                    Refusal{"stop: {success_rate_halfwidth: 0.1, max_trials: 50, min_trials: 60}",
+                            "6:65: stop.min_trials | at most 50"},
+                    Refusal{"design: sobol\nstop: {success_rate_halfwidth: 0.1, max_trials: 50}",
+                            "7:7: stop | monte_carlo"}));
 
 }  // namespace
 }  // namespace zerocount::manifest

@@ -77,9 +77,7 @@ TEST(Sweep, TheGridWinsOverTheCasesWithAWarning) {
   EXPECT_EQ(study::study_trial(study, 1, 0).parameters.controller.ki, 2e-5);
   ASSERT_EQ(study.axes.size(), 2u);
   EXPECT_EQ(study.axes[1].numbers, (Numbers{1e-5, 2e-5}));
-  EXPECT_EQ(study.warnings,
-            (Labels{"m.yaml:6:16: sweep.grid.controller.ki: the grid's values replace those that the "
-                    "cases give to controller.ki"}));
+  EXPECT_TRUE(has_faults(study.warnings, "6:16: sweep.grid.controller.ki | replace"));
 }
 
 TEST(Sweep, LinspaceAndLogspaceIncludeTheirEnds) {
@@ -96,35 +94,26 @@ TEST(Sweep, LinspaceAndLogspaceIncludeTheirEnds) {
 
 TEST(Sweep, WholeNumbersMayBeSpacedWhereTheyStayWhole) {
   EXPECT_EQ(swept("{grid: {command.targets.0: {linspace: [1, 10, 10]}}}").axes[0].numbers.size(), 10u);
-  EXPECT_EQ(failure_of("{grid: {command.targets.0: {linspace: [1, 2, 3]}}}"),
-            "m.yaml:6:46: sweep.grid.command.targets.0.linspace: the value 1.5 is not allowed; expected "
-            "whole numbers at "
-            "least -1000000000000 and at most 1000000000000 only");
+  EXPECT_TRUE(has_faults(failure_of("{grid: {command.targets.0: {linspace: [1, 2, 3]}}}"),
+                         "6:46: sweep.grid.command.targets.0.linspace | is not allowed"));
 }
 
 TEST(Sweep, SpacedValuesOfAnotherFormAreRefused) {
   const auto of_exponent = [](const std::string& values) {
     return failure_of("{grid: {friction.n: " + values + "}}");
   };
-  EXPECT_EQ(of_exponent("{linspace: [1, 2]}"),
-            "m.yaml:6:39: sweep.grid.friction.n.linspace: a list of 2 stands here; expected linspace: [first "
-            "value, last value, number of values]");
-  EXPECT_EQ(
-      of_exponent("{logspace: [2, 2, 3]}"),
-      "m.yaml:6:39: sweep.grid.friction.n.logspace: the first and the last value are the same; expected "
-      "different values");
-  EXPECT_EQ(of_exponent("{spaced: [1, 2, 3]}"),
-            "m.yaml:6:28: sweep.grid.friction.n: a map stands here; expected a list of values, {linspace: "
-            "[first, last, number]} or {logspace: [first, last, number]}");
-  EXPECT_EQ(
-      failure_of("{grid: {command.targets: {linspace: [1, 2, 3]}}}"),
-      "m.yaml:6:33: sweep.grid.command.targets: a map stands here; expected a list of lists of targets");
+  EXPECT_TRUE(
+      has_faults(of_exponent("{linspace: [1, 2]}"), "6:39: sweep.grid.friction.n.linspace | list of 2"));
+  EXPECT_TRUE(has_faults(of_exponent("{logspace: [2, 2, 3]}"),
+                         "6:39: sweep.grid.friction.n.logspace | different values"));
+  EXPECT_TRUE(has_faults(of_exponent("{spaced: [1, 2, 3]}"), "6:28: sweep.grid.friction.n | a map"));
+  EXPECT_TRUE(has_faults(failure_of("{grid: {command.targets: {linspace: [1, 2, 3]}}}"),
+                         "6:33: sweep.grid.command.targets | a map"));
 }
 
 TEST(Sweep, ValuesOutOfRangeAreReportedAtTheSweep) {
-  EXPECT_EQ(failure_of("{grid: {friction.n: {linspace: [0, 2, 5]}}}"),
-            "m.yaml:6:39: sweep.grid.friction.n.linspace: the value 0 is not allowed; expected numbers at "
-            "least 1 only");
+  EXPECT_TRUE(has_faults(failure_of("{grid: {friction.n: {linspace: [0, 2, 5]}}}"),
+                         "6:39: sweep.grid.friction.n.linspace | is not allowed"));
 }
 
 TEST(Sweep, WordsListsAndDistributionsMayBeSwept) {
@@ -154,78 +143,57 @@ TEST(Sweep, TruthValuesMayBeSweptLikeWords) {
   EXPECT_EQ(study.axes[0].texts, (Labels{"false", "true"}));
   EXPECT_FALSE(study::study_trial(study, 0, 0).parameters.verdict.stop);
   EXPECT_TRUE(study::study_trial(study, 1, 0).parameters.verdict.stop);
-  EXPECT_EQ(failure_of("{grid: {verdict.stop: {linspace: [0, 1, 2]}}}"),
-            "m.yaml:6:41: sweep.grid.verdict.stop.linspace: the value 0 is not allowed; expected one of "
-            "false, true");
-  EXPECT_EQ(failure_of("{grid: {verdict.stop: [0]}}"),
-            "m.yaml:6:31: sweep.grid.verdict.stop.0: '0' is not a truth value; expected true or false");
+  EXPECT_TRUE(has_faults(failure_of("{grid: {verdict.stop: {linspace: [0, 1, 2]}}}"),
+                         "6:41: sweep.grid.verdict.stop.linspace | is not allowed"));
+  EXPECT_TRUE(
+      has_faults(failure_of("{grid: {verdict.stop: [0]}}"), "6:31: sweep.grid.verdict.stop.0 | truth value"));
 }
 
 TEST(Sweep, AnIndexChoosesAMove) {
   const study::Study study = swept("{grid: {command.targets.0: [7, 8]}}");
   EXPECT_EQ(study::study_trial(study, 1, 0).parameters.command.targets, std::vector<std::int64_t>{8});
-  EXPECT_EQ(
-      failure_of("{grid: {command.targets.1: [7]}}"),
-      "m.yaml:6:16: sweep.grid.command.targets.1: there is no such target; expected an index from 0 to 0");
+  EXPECT_TRUE(has_faults(failure_of("{grid: {command.targets.1: [7]}}"),
+                         "6:16: sweep.grid.command.targets.1 | an index from 0 to 0"));
 }
 
 TEST(Sweep, AllPointsHaveTheSameNumberOfMoves) {
-  EXPECT_EQ(failure_of("{cases: {a: {command.targets: [1, 2]}}}"),
-            "m.yaml:6:38: sweep.cases.a.command.targets: a list of 2 targets stands here; expected a list of "
-            "1 targets, as "
-            "at every point");
+  EXPECT_TRUE(has_faults(failure_of("{cases: {a: {command.targets: [1, 2]}}}"),
+                         "6:38: sweep.cases.a.command.targets | list of 2 targets"));
 }
 
 TEST(Sweep, MistakesAreReportedWhereTheyStand) {
-  EXPECT_EQ(failure_of("{grid: {controler.ki: [1]}}"),
-            "m.yaml:6:16: sweep.grid.controler.ki: unknown key, nearest known: controller.ki; expected a "
-            "dotted path of "
-            "the table of parameters, such as controller.ki");
-  EXPECT_EQ(failure_of("{grid: {controller.ki: []}}"),
-            "m.yaml:6:31: sweep.grid.controller.ki: the list is empty; expected at least one value");
-  EXPECT_EQ(
-      failure_of("{grid: {controller.ki: 1}}"),
-      "m.yaml:6:31: sweep.grid.controller.ki: the single value '1' stands here; expected a list of values");
-  EXPECT_EQ(
-      failure_of("{grid: {controller.ki: [0, 1, 0.0]}}"),
-      "m.yaml:6:38: sweep.grid.controller.ki.2: '0.0' stands twice in the list; expected different values");
-  EXPECT_EQ(failure_of("{grid: {controller.ki: {linspace: [1, 1, 3]}}}"),
-            "m.yaml:6:42: sweep.grid.controller.ki.linspace: the first and the last value are the same; "
-            "expected different "
-            "values");
-  EXPECT_EQ(failure_of("{grid: {controller.ki: {logspace: [0, 1, 3]}}}"),
-            "m.yaml:6:43: sweep.grid.controller.ki.logspace.0: '0' is out of range; expected a number "
-            "greater than 0");
-  EXPECT_EQ(failure_of("{grid: {controller.ki: {linspace: [0, 1, 1]}}}"),
-            "m.yaml:6:49: sweep.grid.controller.ki.linspace.2: '1' is out of range; expected a whole number "
-            "from 2 to "
-            "1000000");
-  EXPECT_EQ(failure_of("{grid: {command.targets: [[1], [2]], command.targets.0: [3]}}"),
-            "m.yaml:6:45: sweep.grid.command.targets.0: command.targets.0 is swept twice; expected each "
-            "parameter in one "
-            "axis of the grid");
-  EXPECT_EQ(failure_of("{cases: {a: {command.targets: [1], command.targets.0: 2}}}"),
-            "m.yaml:6:43: sweep.cases.a.command.targets.0: command.targets.0 is given twice in this case; "
-            "expected one "
-            "value");
-  EXPECT_EQ(failure_of("{cases: [a]}"),
-            "m.yaml:6:16: sweep.cases: a list stands here; expected a map from names to cases");
+  EXPECT_TRUE(
+      has_faults(failure_of("{grid: {controler.ki: [1]}}"), "6:16: sweep.grid.controler.ki | controller.ki"));
+  EXPECT_TRUE(has_faults(failure_of("{grid: {controller.ki: []}}"),
+                         "6:31: sweep.grid.controller.ki | the list is empty"));
+  EXPECT_TRUE(has_faults(failure_of("{grid: {controller.ki: 1}}"), "6:31: sweep.grid.controller.ki | '1'"));
+  EXPECT_TRUE(has_faults(failure_of("{grid: {controller.ki: [0, 1, 0.0]}}"),
+                         "6:38: sweep.grid.controller.ki.2 | duplicate"));
+  EXPECT_TRUE(has_faults(failure_of("{grid: {controller.ki: {linspace: [1, 1, 3]}}}"),
+                         "6:42: sweep.grid.controller.ki.linspace | different values"));
+  EXPECT_TRUE(has_faults(failure_of("{grid: {controller.ki: {logspace: [0, 1, 3]}}}"),
+                         "6:43: sweep.grid.controller.ki.logspace.0 | greater than 0"));
+  EXPECT_TRUE(has_faults(failure_of("{grid: {controller.ki: {linspace: [0, 1, 1]}}}"),
+                         "6:49: sweep.grid.controller.ki.linspace.2 | from 2 to 1000000"));
+  EXPECT_TRUE(has_faults(failure_of("{grid: {command.targets: [[1], [2]], command.targets.0: [3]}}"),
+                         "6:45: sweep.grid.command.targets.0 | is swept twice"));
+  EXPECT_TRUE(has_faults(failure_of("{cases: {a: {command.targets: [1], command.targets.0: 2}}}"),
+                         "6:43: sweep.cases.a.command.targets.0 | is given twice"));
+  EXPECT_TRUE(has_faults(failure_of("{cases: [a]}"), "6:16: sweep.cases | a list"));
 }
 
 TEST(Sweep, CrossChecksNameTheSweptValue) {
-  EXPECT_EQ(failure_of("{grid: {command.hold: [1, 0.01]}}"),
-            "m.yaml:6:34: verdict.dwell: 0.05 s can be longer than the hold of 0.01 s; expected at most "
-            "command.hold\n"
-            "m.yaml:6:34: verdict.window: 0.05 s can be longer than the hold of 0.01 s; expected at most "
-            "command.hold");
+  EXPECT_TRUE(has_faults(failure_of("{grid: {command.hold: [1, 0.01]}}"),
+                         "6:34: verdict.dwell | longer than the hold\n"
+                         "6:34: verdict.window | longer than the hold"));
 }
 
 TEST(Sweep, TooManyPointsAreRefusedAtOnce) {
   const auto start = std::chrono::steady_clock::now();
-  EXPECT_EQ(
+  EXPECT_TRUE(has_faults(
       failure_of("{grid: {controller.ki: {linspace: [0, 1, 1000]}, controller.kp: {linspace: [0, 1, 1000]}, "
                  "controller.kd: {linspace: [0, 1, 1000]}}}"),
-      "m.yaml:6:8: sweep: the sweep has too many design points; expected at most 1000000 points");
+      "6:8: sweep | too many design points"));
   EXPECT_NE(failure_of("{grid: {controller.ki: {linspace: [0, 1, 1000000000]}}}").find("from 2 to 1000000"),
             std::string::npos);
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));

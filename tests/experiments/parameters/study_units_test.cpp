@@ -40,19 +40,20 @@ TEST(StudyUnits, NoUnitOrMeaningOfALinearAxisSpeaksOfRotation) {
     for (const Parameter& parameter : parameter_table()) {
       if (!exists_on(parameter, AxisKind::linear)) continue;
       const std::string text = unit_of(parameter, units) + ": " + meaning_of(parameter, units);
-      for (const char* word : {"rad", "N m", "kg m", "rotor", "torque", "angle", "revolution"}) {
+      for (const char* word : {"rad", "N m", "kg m", "rotor", "torque", "angle", "revolution", "$"}) {
         EXPECT_EQ(text.find(word), std::string::npos) << parameter.name << ": " << text;
       }
     }
   }
 }
 
-TEST(StudyUnits, NamesOfKeysAndColumnsAreLeftAsTheyAre) {
-  EXPECT_EQ(text_on(AxisKind::linear, "the torque of command.torque.levels, holding_torque, a torque."),
-            "the force of command.torque.levels, holding_torque, a force.");
-  EXPECT_EQ(text_on(AxisKind::linear, "friction.k1 along the rotor; rotor angle where the trial ended"),
-            "friction.k1 along the travel; position where the trial ended");
-  EXPECT_EQ(text_on(AxisKind::rotary, "torque of the rotor"), "torque of the rotor");
+TEST(StudyUnits, PlaceholdersBecomeTheWordsOfTheAxis) {
+  const char* const text =
+      "$torque of command.torque.levels at a $rotor_angle of the $rotor along the $track";
+  EXPECT_EQ(text_on(AxisKind::rotary, text),
+            "torque of command.torque.levels at a rotor angle of the rotor along the rotor");
+  EXPECT_EQ(text_on(AxisKind::linear, text),
+            "force of command.torque.levels at a position of the slide along the travel");
 }
 
 // What is in other units than the default's has to be given.

@@ -16,8 +16,8 @@ namespace {
 
 struct IdleCase {
   const char* command;
-  const char* more;     // from the sixth line on
-  const char* message;  // the whole message; empty: understood
+  const char* more;    // from the sixth line on
+  const char* faults;  // see has_faults(); empty: understood
 };
 
 void PrintTo(const IdleCase& tested, std::ostream* out) {
@@ -27,88 +27,62 @@ void PrintTo(const IdleCase& tested, std::ostream* out) {
 class EffectRules : public testing::TestWithParam<IdleCase> {};
 
 TEST_P(EffectRules, AreChecked) {
-  EXPECT_EQ(refusal_of(manifest_commanding(GetParam().command, GetParam().more)), GetParam().message);
+  EXPECT_TRUE(
+      has_faults(refusal_of(manifest_commanding(GetParam().command, GetParam().more)), GetParam().faults));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     OpenLoop, EffectRules,
-    testing::Values(
-        IdleCase{
-            "{torque: {levels: [0.1]}}", "controller: {kp: 1.0e-4}",
-            "m.yaml:6:18: controller.kp: it has no effect: the loop is open with command.torque; expected "
-            "command.targets or command.sequence, or the key left out"},
-        IdleCase{
-            "{torque: {levels: [0.1]}}", "sweep: {grid: {controller.ki: [0, 1]}}",
-            "m.yaml:6:32: controller.ki: it has no effect: the loop is open with command.torque; expected "
-            "command.targets or command.sequence, or the key left out"},
-        IdleCase{"{torque: {levels: [0.1]}}", "controller: {coarse: {coarse_beyond: 10}}",
-                 "m.yaml:6:38: controller.coarse.coarse_beyond: it has no effect: the loop is open with "
-                 "command.torque; expected command.targets or command.sequence, or the key left out"},
-        IdleCase{
-            "{torque: {levels: [0.1]}, profile: {shape: s_curve}}", "initial: {integral: 0.1}",
-            "m.yaml:5:53: command.profile.shape: it has no effect: the loop is open with command.torque; "
-            "expected command.targets or command.sequence, or the key left out\n"
-            "m.yaml:6:21: initial.integral: it has no effect: the loop is open with command.torque; "
-            "expected command.targets or command.sequence, or the key left out"},
-        IdleCase{
-            "{torque: {levels: [0.1]}}", "verdict: {window: 0.1}",
-            "m.yaml:6:19: verdict.window: it has no effect: the loop is open with command.torque; expected "
-            "command.targets or command.sequence, or the key left out"},
-        IdleCase{
-            "{torque: {levels: [0.1]}}", "verdict: {stop: true}",
-            "m.yaml:6:17: verdict.stop: it has no effect: the loop is open with command.torque; expected "
-            "command.targets or command.sequence, or the key left out"},
-        IdleCase{"{torque: {levels: [0.1]}}", "controller: {sample_rate: 1000, delay: 2}", ""},
-        // An integral of nought asks for nothing.
-        IdleCase{"{torque: {levels: [0.1]}}", "initial: {integral: 0}", ""},
-        IdleCase{
-            "{torque: {levels: [0.1], through: exact}}", "dac: {bits: 14}",
-            "m.yaml:6:13: dac.bits: it has no effect: the torque does not go through the converter at any "
-            "point; expected command.torque.through: dac, or the key left out"},
-        IdleCase{"{torque: {levels: [0.1], through: exact}}", "amplifier: {bandwidth: 100}", ""},
-        IdleCase{"{torque: {levels: [0.1]}}",
-                 "dac: {bits: 14}\nsweep: {grid: {command.torque.through: [dac, exact]}}", ""}));
+    testing::Values(IdleCase{"{torque: {levels: [0.1]}}", "controller: {kp: 1.0e-4}",
+                             "6:18: controller.kp | no effect | command.targets"},
+                    IdleCase{"{torque: {levels: [0.1]}}", "sweep: {grid: {controller.ki: [0, 1]}}",
+                             "6:32: controller.ki | no effect | command.targets"},
+                    IdleCase{"{torque: {levels: [0.1]}}", "controller: {coarse: {coarse_beyond: 10}}",
+                             "6:38: controller.coarse.coarse_beyond | no effect | command.targets"},
+                    IdleCase{"{torque: {levels: [0.1]}, profile: {shape: s_curve}}",
+                             "initial: {integral: 0.1}",
+                             "5:53: command.profile.shape | no effect | command.targets\n"
+                             "6:21: initial.integral | no effect | command.targets"},
+                    IdleCase{"{torque: {levels: [0.1]}}", "verdict: {window: 0.1}",
+                             "6:19: verdict.window | no effect | command.targets"},
+                    IdleCase{"{torque: {levels: [0.1]}}", "verdict: {stop: true}",
+                             "6:17: verdict.stop | no effect | command.targets"},
+                    IdleCase{"{torque: {levels: [0.1]}}", "controller: {sample_rate: 1000, delay: 2}", ""},
+                    // An integral of nought asks for nothing.
+                    IdleCase{"{torque: {levels: [0.1]}}", "initial: {integral: 0}", ""},
+                    IdleCase{"{torque: {levels: [0.1], through: exact}}", "dac: {bits: 14}",
+                             "6:13: dac.bits | no effect | command.torque.through"},
+                    IdleCase{"{torque: {levels: [0.1], through: exact}}", "amplifier: {bandwidth: 100}", ""},
+                    IdleCase{"{torque: {levels: [0.1]}}",
+                             "dac: {bits: 14}\nsweep: {grid: {command.torque.through: [dac, exact]}}", ""}));
 
 INSTANTIATE_TEST_SUITE_P(
     OtherForms, EffectRules,
-    testing::Values(
-        IdleCase{"{targets: [1]}", "sweep: {grid: {command.torque.rate: [1, 2]}}",
-                 "m.yaml:6:38: command.torque.rate: it has no effect: there are no command.torque.levels; "
-                 "expected command.torque with its levels, or the key left out"},
-        IdleCase{"{targets: [1]}", "sweep: {cases: {a: {command.sequence.overrun: 3}}}",
-                 "m.yaml:6:47: command.sequence.overrun: it has no effect: there is no command.sequence; "
-                 "expected command.sequence with its targets, or the key left out"}));
+    testing::Values(IdleCase{"{targets: [1]}", "sweep: {grid: {command.torque.rate: [1, 2]}}",
+                             "6:38: command.torque.rate | no effect | command.torque"},
+                    IdleCase{"{targets: [1]}", "sweep: {cases: {a: {command.sequence.overrun: 3}}}",
+                             "6:47: command.sequence.overrun | no effect | command.sequence"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Profiles, EffectRules,
-    testing::Values(
-        IdleCase{"{targets: [1], profile: {velocity_limit: 1}}", "",
-                 "m.yaml:5:51: command.profile.velocity_limit: it has no effect: the reference is a step at "
-                 "every point; expected command.profile.shape: trapezoidal or s_curve, or the key left out"},
-        IdleCase{
-            "{targets: [1], profile: {shape: trapezoidal, jerk_limit: 1}}", "",
-            "m.yaml:5:67: command.profile.jerk_limit: it has no effect: the reference is an s_curve at no "
-            "point; expected command.profile.shape: s_curve, or the key left out"},
-        IdleCase{
-            "{targets: [1], profile: {acceleration_limit: 1, jerk_limit: 1}}",
-            "sweep: {grid: {command.profile.shape: [step, trapezoidal]}}",
-            "m.yaml:5:70: command.profile.jerk_limit: it has no effect: the reference is an s_curve at no "
-            "point; expected command.profile.shape: s_curve, or the key left out"},
-        IdleCase{"{targets: [1], profile: {acceleration_limit: 1, jerk_limit: 10}}",
-                 "sweep: {grid: {command.profile.shape: [step, s_curve]}}", ""}));
+    testing::Values(IdleCase{"{targets: [1], profile: {velocity_limit: 1}}", "",
+                             "5:51: command.profile.velocity_limit | no effect | command.profile.shape"},
+                    IdleCase{"{targets: [1], profile: {shape: trapezoidal, jerk_limit: 1}}", "",
+                             "5:67: command.profile.jerk_limit | no effect | command.profile.shape"},
+                    IdleCase{"{targets: [1], profile: {acceleration_limit: 1, jerk_limit: 1}}",
+                             "sweep: {grid: {command.profile.shape: [step, trapezoidal]}}",
+                             "5:70: command.profile.jerk_limit | no effect | command.profile.shape"},
+                    IdleCase{"{targets: [1], profile: {acceleration_limit: 1, jerk_limit: 10}}",
+                             "sweep: {grid: {command.profile.shape: [step, s_curve]}}", ""}));
 
 INSTANTIATE_TEST_SUITE_P(
     TwoPhases, EffectRules,
     testing::Values(
-        IdleCase{
-            "{targets: [1]}", "controller: {coarse: {kp: 1.0e-4, fine_rate: 2}}",
-            "m.yaml:6:27: controller.coarse.kp: it has no effect: there is no coarse phase at any point; "
-            "expected controller.coarse.coarse_beyond below 1e12, or the key left out\n"
-            "m.yaml:6:46: controller.coarse.fine_rate: it has no effect: there is no coarse phase at any "
-            "point; expected controller.coarse.coarse_beyond below 1e12, or the key left out"},
+        IdleCase{"{targets: [1]}", "controller: {coarse: {kp: 1.0e-4, fine_rate: 2}}",
+                 "6:27: controller.coarse.kp | no effect | controller.coarse.coarse_beyond\n"
+                 "6:46: controller.coarse.fine_rate | no effect | controller.coarse.coarse_beyond"},
         IdleCase{"{targets: [1]}", "controller: {coarse: {encoder: coarse, coarse_beyond: 1.0e12}}",
-                 "m.yaml:6:32: controller.coarse.encoder: it has no effect: there is no coarse phase at any "
-                 "point; expected controller.coarse.coarse_beyond below 1e12, or the key left out"},
+                 "6:32: controller.coarse.encoder | no effect | controller.coarse.coarse_beyond"},
         IdleCase{"{targets: [1]}",
                  "controller: {coarse: {kp: 1.0e-4}}\n"
                  "sweep: {cases: {one: {}, two: {controller.coarse.coarse_beyond: 1000}}}",
@@ -116,56 +90,46 @@ INSTANTIATE_TEST_SUITE_P(
         IdleCase{"{targets: [1]}", "controller: {coarse: {coarse_beyond: 1.0e12}}", ""},
         // What could not be read may have had any effect.
         IdleCase{"{targets: [1]}", "controller: {coarse: {kp: 1, coarse_beyond: far}}",
-                 "m.yaml:6:45: controller.coarse.coarse_beyond: 'far' is not a number; expected a number at "
-                 "least 0 and at most 1000000000000, or none"}));
+                 "6:45: controller.coarse.coarse_beyond | is not a number"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Blocks, EffectRules,
     testing::Values(
         IdleCase{"{targets: [1]}", "controller: {structure: cascade, ki: 1.0e-5}",
-                 "m.yaml:6:38: controller.ki: it has no effect: the control is a cascade at every point; "
-                 "expected controller.structure: pid, or the key left out"},
+                 "6:38: controller.ki | no effect | controller.structure"},
         IdleCase{"{targets: [1]}", "controller: {cascade: {kv: 10}}",
-                 "m.yaml:6:28: controller.cascade.kv: it has no effect: the control is a cascade at no "
-                 "point; expected controller.structure: cascade, or the key left out"},
+                 "6:28: controller.cascade.kv | no effect | controller.structure"},
         IdleCase{"{targets: [1]}",
                  "controller: {ki: 1.0e-5, cascade: {kv: 10}}\n"
                  "sweep: {grid: {controller.structure: [pid, cascade]}}",
                  ""},
         IdleCase{"{targets: [1]}", "controller: {deadband: {leave: 2}}",
-                 "m.yaml:6:32: controller.deadband.leave: it has no effect: there is no deadband at any "
-                 "point; expected controller.deadband.enter too, or the key left out"},
+                 "6:32: controller.deadband.leave | no effect | controller.deadband.enter"},
         IdleCase{"{targets: [1]}", "controller: {observer: {inertia: 1.0e-3}}",
-                 "m.yaml:6:34: controller.observer.inertia: it has no effect: there is no disturbance "
-                 "observer at any point; expected controller.observer.bandwidth above 0, or the key left "
-                 "out"},
+                 "6:34: controller.observer.inertia | no effect | controller.observer.bandwidth"},
         IdleCase{"{targets: [1]}", "controller: {feedforward: {friction: 0.1}}",
-                 "m.yaml:6:38: controller.feedforward.friction: it has no effect: the reference is a step at "
-                 "every point; expected command.profile.shape: trapezoidal or s_curve, or the key left out"},
+                 "6:38: controller.feedforward.friction | no effect | command.profile.shape"},
         IdleCase{"{targets: [1], profile: {shape: s_curve}}", "controller: {feedforward: {friction: 0.1}}",
                  ""},
         IdleCase{"{targets: [1]}", "controller: {coarse: {deadband: 1}}",
-                 "m.yaml:6:33: controller.coarse.deadband.enter: it has no effect: there is no coarse phase "
-                 "at any point; expected controller.coarse.coarse_beyond below 1e12, or the key left out"},
+                 "6:33: controller.coarse.deadband.enter | no effect | controller.coarse.coarse_beyond"},
         IdleCase{"{torque: {levels: [0.1]}}", "controller: {deadband: 1}",
-                 "m.yaml:6:24: controller.deadband.enter: it has no effect: the loop is open with "
-                 "command.torque; expected command.targets or command.sequence, or the key left out"}));
+                 "6:24: controller.deadband.enter | no effect | command.targets"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Encoders, EffectRules,
     testing::Values(
-        IdleCase{"{targets: [1]}", "encoder: {fine_errors: {eccentricity_angle: 1}}",
-                 "m.yaml:6:45: encoder.fine_errors.eccentricity_angle: it has no effect: that error is 0 at "
-                 "every point; expected encoder.fine_errors.eccentricity above 0, or the key left out"},
+        IdleCase{
+            "{targets: [1]}", "encoder: {fine_errors: {eccentricity_angle: 1}}",
+            "6:45: encoder.fine_errors.eccentricity_angle | no effect | encoder.fine_errors.eccentricity"},
         IdleCase{"{targets: [1]}", "encoder: {coarse_errors: {interpolation_period: 1, interpolation: 0}}",
-                 "m.yaml:6:49: encoder.coarse_errors.interpolation_period: it has no effect: that error is 0 "
-                 "at every point; expected encoder.coarse_errors.interpolation above 0, or the key left out"},
+                 "6:49: encoder.coarse_errors.interpolation_period | no effect | "
+                 "encoder.coarse_errors.interpolation"},
         // The amplitude of the other encoder does not help.
         IdleCase{
             "{targets: [1]}",
             "encoder: {fine_errors: {interpolation_period: 1}, coarse_errors: {interpolation: 1}}",
-            "m.yaml:6:47: encoder.fine_errors.interpolation_period: it has no effect: that error is 0 at "
-            "every point; expected encoder.fine_errors.interpolation above 0, or the key left out"},
+            "6:47: encoder.fine_errors.interpolation_period | no effect | encoder.fine_errors.interpolation"},
         IdleCase{"{targets: [1]}",
                  "encoder: {coarse_errors: {eccentricity_angle: 1}}\n"
                  "sweep: {grid: {encoder.coarse_errors.eccentricity: [0, 1.0e-4]}}",
@@ -174,26 +138,20 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Start, EffectRules,
     testing::Values(
-        IdleCase{
-            "{targets: [1]}", "initial: {history: {reversals: 3}}",
-            "m.yaml:6:32: initial.history.reversals: it has no effect: their torque is 0 at every point; "
-            "expected initial.history.torque above 0, or the key left out"},
+        IdleCase{"{targets: [1]}", "initial: {history: {reversals: 3}}",
+                 "6:32: initial.history.reversals | no effect | initial.history.torque"},
         IdleCase{"{targets: [1]}", "initial: {history: {torque: 0.1}}",
-                 "m.yaml:6:29: initial.history.torque: it has no effect: there are no reversals to it at any "
-                 "point; expected initial.history.reversals at least 1, or the key left out"},
-        IdleCase{
-            "{targets: [1]}",
-            "initial: {history: {torque: 0.1}}\n"
-            "sweep: {cases: {a: {initial.history.reversals: 4, initial.history.torque: 0}}}",
-            "m.yaml:7:48: initial.history.reversals: it has no effect: their torque is 0 at every point; "
-            "expected initial.history.torque above 0, or the key left out"},
+                 "6:29: initial.history.torque | no effect | initial.history.reversals"},
+        IdleCase{"{targets: [1]}",
+                 "initial: {history: {torque: 0.1}}\n"
+                 "sweep: {cases: {a: {initial.history.reversals: 4, initial.history.torque: 0}}}",
+                 "7:48: initial.history.reversals | no effect | initial.history.torque"},
         IdleCase{"{targets: [1]}",
                  "initial: {history: {torque: 0.1}}\nsweep: {grid: {initial.history.reversals: [0, 4]}}", ""},
         // Nought of nothing asks for nothing.
         IdleCase{"{targets: [1]}", "initial: {history: {reversals: 0, torque: 0}}", ""},
         IdleCase{"{targets: [1]}", "initial: {mode: slide, velocity: 1, preload: 0.1, hardening: 0}",
-                 "m.yaml:6:46: initial.preload: it has no effect: the hook slides at the start, at every "
-                 "point; expected initial.mode: stick, or the key left out"},
+                 "6:46: initial.preload | no effect | initial.mode"},
         IdleCase{"{targets: [1]}",
                  "initial: {velocity: 1, preload: 0.1}\nsweep: {grid: {initial.mode: [stick, slide]}}", ""}));
 
@@ -204,27 +162,21 @@ std::vector<std::string> warnings(const std::string& more) {
 // A model is compared with others by changing one word; what it does not use may stay.
 TEST(IdleKeys, WhatAFrictionModelDoesNotUseIsAWarningAtMost) {
   using Warnings = std::vector<std::string>;
-  EXPECT_EQ(
-      warnings("friction: {model: coulomb, k1: 100, breakaway: 0.2}\n"),
-      (Warnings{"m.yaml:6:32: friction.k1: it has no effect: friction.model is at no point one that uses it "
-                "(presliding, spring)"}));
-  EXPECT_EQ(
-      warnings("friction: {model: spring, k1: 100, alpha: {uniform: [0.1, 0.2]}}\n"),
-      (Warnings{
-          "m.yaml:6:43: friction.alpha: it has no effect: friction.model is at no point one that uses it "
-          "(presliding)"}));
+  EXPECT_TRUE(has_faults(warnings("friction: {model: coulomb, k1: 100, breakaway: 0.2}\n"),
+                         "6:32: friction.k1 | (presliding, spring)"));
+  EXPECT_TRUE(has_faults(warnings("friction: {model: spring, k1: 100, alpha: {uniform: [0.1, 0.2]}}\n"),
+                         "6:43: friction.alpha | (presliding)"));
   EXPECT_EQ(warnings("friction: {k1: 100, alpha: 0.5}\n"
                      "sweep: {grid: {friction.model: [coulomb, spring, presliding]}}\n"),
             Warnings{});
-  EXPECT_EQ(
+  EXPECT_TRUE(has_faults(
       warnings("friction: {k1: 100, alpha: 0.5}\nsweep: {grid: {friction.model: [coulomb, spring]}}\n"),
-      (Warnings{"m.yaml:6:28: friction.alpha: it has no effect: friction.model is at no point one that uses "
-                "it (presliding)"}));
+      "6:28: friction.alpha | (presliding)"));
 }
 
 // Each law says which parameters it has; a parameter without effect is told the models that have it.
 TEST(IdleKeys, AModelUsesTheParametersOfItsLaw) {
-  const std::string idle = ": it has no effect: friction.model is at no point one that uses it ";
+  const std::string idle = ": it has no effect: friction.model is never one that uses it ";
   EXPECT_EQ(
       warnings("friction: {model: none, breakaway: 0.2}\n"
                "plant: {presliding_damping: 0.1, sliding_damping: 0.1}\n"
@@ -245,9 +197,9 @@ TEST(IdleKeys, AModelUsesTheParametersOfItsLaw) {
 
 TEST(IdleKeys, ALimitWithoutAStopIsAWarning) {
   using Warnings = std::vector<std::string>;
-  const Warnings idle{"m.yaml:6:18: verdict.limit: it has no effect: verdict.stop is true at no point"};
-  EXPECT_EQ(warnings("verdict: {limit: 500}\n"), idle);
-  EXPECT_EQ(warnings("verdict: {limit: 500, stop: false}\n"), idle);
+  const char* const idle = "6:18: verdict.limit | no effect";
+  EXPECT_TRUE(has_faults(warnings("verdict: {limit: 500}\n"), idle));
+  EXPECT_TRUE(has_faults(warnings("verdict: {limit: 500, stop: false}\n"), idle));
   EXPECT_EQ(warnings("verdict: {limit: 500, stop: true}\n"), Warnings{});
   EXPECT_EQ(warnings("verdict: {limit: 500}\nsweep: {grid: {verdict.stop: [false, true]}}\n"), Warnings{});
 }
@@ -265,20 +217,15 @@ class VanishedTerms : public testing::TestWithParam<VanishedTerm> {};
 
 // A manifest that switches a term off by its size may keep the rest of it, and is told.
 TEST_P(VanishedTerms, AreWarningsForWhatBelongsToThem) {
-  const std::string expected = GetParam().warning;
-  EXPECT_EQ(warnings(GetParam().more),
-            expected.empty() ? std::vector<std::string>{} : std::vector<std::string>{expected});
+  EXPECT_TRUE(has_faults(warnings(GetParam().more), GetParam().warning));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     OfThePosition, VanishedTerms,
     testing::Values(
-        VanishedTerm{"initial: {position: 1}",
-                     "m.yaml:6:21: initial.position: it has no effect: nothing differs along the rotor, "
-                     "neither friction by a profile nor an encoder by its eccentricity or interpolation"},
+        VanishedTerm{"initial: {position: 1}", "6:21: initial.position | no effect"},
         VanishedTerm{"initial: {position: {uniform: [0, 1]}}\nencoder: {fine_errors: {noise: 0.1}}",
-                     "m.yaml:6:21: initial.position: it has no effect: nothing differs along the rotor, "
-                     "neither friction by a profile nor an encoder by its eccentricity or interpolation"},
+                     "6:21: initial.position | no effect"},
         VanishedTerm{"initial: {position: 0}", ""},
         VanishedTerm{"initial: {position: 1}\nencoder: {fine_errors: {eccentricity: 1.0e-5}}", ""},
         VanishedTerm{"initial: {position: 1}\nencoder: {coarse_errors: {interpolation: {uniform: [0, 1]}}}",
@@ -290,40 +237,30 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     OfFriction, VanishedTerms,
     testing::Values(
-        VanishedTerm{"friction: {alpha: 0, lambda: 5}",
-                     "m.yaml:6:30: friction.lambda: it has no effect: friction.alpha is 0 wherever "
-                     "friction.model is presliding"},
+        VanishedTerm{"friction: {alpha: 0, lambda: 5}", "6:30: friction.lambda | no effect"},
         VanishedTerm{"friction: {alpha: 0}\ninitial: {hardening: 1.0e-6}",
-                     "m.yaml:7:22: initial.hardening: it has no effect: friction.alpha is 0 wherever "
-                     "friction.model is presliding"},
+                     "7:22: initial.hardening | no effect"},
         VanishedTerm{"friction: {alpha: {uniform: [0, 1]}, lambda: 5, n: 3}\ninitial: {hardening: 1.0e-6}",
                      ""},
         VanishedTerm{"friction: {lambda: 5}\nsweep: {grid: {friction.alpha: [0, 1]}}", ""},
         // Each alone would act somewhere, but not at the same point.
         VanishedTerm{"friction: {n: 1}\n"
                      "sweep: {cases: {a: {friction.alpha: 0}, b: {friction.model: spring}}}",
-                     "m.yaml:6:15: friction.n: it has no effect: friction.alpha is 0 wherever friction.model "
-                     "is presliding"},
-        VanishedTerm{"friction: {beta: 1.0e+5, k2: 0}",
-                     "m.yaml:6:18: friction.beta: it has no effect: friction.k2 is 0 wherever friction.model "
-                     "has a spring"},
+                     "6:15: friction.n | no effect"},
+        VanishedTerm{"friction: {beta: 1.0e+5, k2: 0}", "6:18: friction.beta | no effect"},
         VanishedTerm{"friction: {beta: 1.0e+5}\nsweep: {grid: {friction.k2: [0, 750]}}", ""},
         VanishedTerm{"friction: {coulomb_ratio: 1, stribeck_velocity: 0.1}",
-                     "m.yaml:6:49: friction.stribeck_velocity: it has no effect: friction.coulomb_ratio is 1 "
-                     "at every point"},
+                     "6:49: friction.stribeck_velocity | no effect"},
         VanishedTerm{"friction: {coulomb_ratio: {choice: [1, 0.9]}, stribeck_velocity: 0.1}", ""}));
 
 INSTANTIATE_TEST_SUITE_P(
     OfTheMode, VanishedTerms,
-    testing::Values(
-        VanishedTerm{
-            "friction: {model: coulomb}\ninitial: {mode: slide, velocity: 1}",
-            "m.yaml:7:17: initial.mode: it has no effect: friction.model is at no point one that uses it "
-            "(presliding, spring, dahl, lugre, gms)"},
-        VanishedTerm{"friction: {model: coulomb}\ninitial: {mode: stick, velocity: 1}", ""},
-        VanishedTerm{"initial: {mode: slide, velocity: 1}\n"
-                     "sweep: {grid: {friction.model: [coulomb, spring]}}",
-                     ""}));
+    testing::Values(VanishedTerm{"friction: {model: coulomb}\ninitial: {mode: slide, velocity: 1}",
+                                 "7:17: initial.mode | (presliding, spring, dahl, lugre, gms)"},
+                    VanishedTerm{"friction: {model: coulomb}\ninitial: {mode: stick, velocity: 1}", ""},
+                    VanishedTerm{"initial: {mode: slide, velocity: 1}\n"
+                                 "sweep: {grid: {friction.model: [coulomb, spring]}}",
+                                 ""}));
 
 // The rules name what there is.
 TEST(IdleKeys, SpeakOfParametersAndSectionsAlone) {

@@ -54,39 +54,37 @@ TEST(YamlTree, AnAliasSharesTheNodeOfItsAnchor) {
 
 TEST(YamlTree, ReportsEveryDuplicateKeyWhereItStands) {
   EXPECT_EQ(problem_with("a: 1\nb: {c: 1, c: 2}\na: 3\n"),
-            "m.yaml:2:11: b.c: the key stands twice in the same map; expected each key once\n"
-            "m.yaml:3:1: a: the key stands twice in the same map; expected each key once");
+            "m.yaml:2:11: b.c: duplicate key; expected each key once\n"
+            "m.yaml:3:1: a: duplicate key; expected each key once");
 }
 
 TEST(YamlTree, RefusesWhatIsNotYaml) {
-  EXPECT_NE(problem_with("b: 1\na: [1, 2\n").find("m.yaml:3:1: manifest: a list is not complete"),
+  EXPECT_NE(problem_with("b: 1\na: [1, 2\n").find("m.yaml:3:1: manifest: incomplete list"),
             std::string::npos);
-  EXPECT_NE(problem_with("b: 1\na: [1, 2").find("m.yaml:2:1: manifest: a list is not complete"),
+  EXPECT_NE(problem_with("b: 1\na: [1, 2").find("m.yaml:2:1: manifest: incomplete list"), std::string::npos);
+  EXPECT_NE(problem_with("a: b: c\n").find("m.yaml:1:5: manifest: unexpected ':'"), std::string::npos);
+  EXPECT_NE(problem_with("a: \"x\\\"\nb: 1\n").find("m.yaml:1:4: a: unclosed quotation mark"),
             std::string::npos);
-  EXPECT_NE(problem_with("a: b: c\n").find("m.yaml:1:5: manifest: a ':' stands where no value can start"),
+  EXPECT_NE(problem_with("a: 1\n\tb: 2\n").find("m.yaml:2:1: manifest: tab in the indentation"),
             std::string::npos);
-  EXPECT_NE(problem_with("a: \"x\\\"\nb: 1\n").find("m.yaml:1:4: a: a quotation mark is not closed"),
-            std::string::npos);
-  EXPECT_NE(problem_with("a: 1\n\tb: 2\n").find("m.yaml:2:1: manifest: a tab stands in the indentation"),
-            std::string::npos);
-  EXPECT_NE(problem_with("a: *nothing\n").find("an alias names no anchor"), std::string::npos);
+  EXPECT_NE(problem_with("a: *nothing\n").find("alias without an anchor"), std::string::npos);
   EXPECT_NE(problem_with("a: ]\n").find("m.yaml:1:"), std::string::npos);
 }
 
 TEST(YamlTree, RefusesASecondDocumentTagsAndOddKeys) {
   EXPECT_NE(problem_with("a: 1\n---\nb: 2\n").find("a second document starts here"), std::string::npos);
-  EXPECT_NE(problem_with("a: !!float 1\n").find("a: the tag"), std::string::npos);
-  EXPECT_NE(problem_with("a: !mine [1]\n").find("a: the tag '!mine'"), std::string::npos);
-  EXPECT_NE(problem_with("? [1, 2]\n: 3\n").find("stands where a key should"), std::string::npos);
-  EXPECT_NE(problem_with("? {a: 2}\n: 3\n").find("stands where a key should"), std::string::npos);
+  EXPECT_NE(problem_with("a: !!float 1\n").find("a: unsupported tag"), std::string::npos);
+  EXPECT_NE(problem_with("a: !mine [1]\n").find("a: unsupported tag '!mine'"), std::string::npos);
+  EXPECT_NE(problem_with("? [1, 2]\n: 3\n").find("cannot be a key"), std::string::npos);
+  EXPECT_NE(problem_with("? {a: 2}\n: 3\n").find("cannot be a key"), std::string::npos);
   EXPECT_NE(problem_with("~: 3\n").find("the key is empty"), std::string::npos);
-  EXPECT_NE(problem_with("x: &l [1]\ny: {*l : 2}\n").find("stands where a key should"), std::string::npos);
+  EXPECT_NE(problem_with("x: &l [1]\ny: {*l : 2}\n").find("cannot be a key"), std::string::npos);
 }
 
 TEST(YamlTree, RefusesAnchorsThatContainThemselves) {
-  EXPECT_EQ(problem_with("a: &x [1, *x]\n"),
-            "m.yaml:1:11: a.1: the alias stands inside its own anchor; expected a document that ends");
-  EXPECT_NE(problem_with("a: &x {b: {c: *x}}\n").find("a.b.c: the alias stands inside"), std::string::npos);
+  EXPECT_NE(problem_with("a: &x [1, *x]\n").find("m.yaml:1:11: a.1: the alias lies inside"),
+            std::string::npos);
+  EXPECT_NE(problem_with("a: &x {b: {c: *x}}\n").find("a.b.c: the alias lies inside"), std::string::npos);
 }
 
 TEST(YamlTree, RefusesExponentialAliases) {
@@ -94,7 +92,7 @@ TEST(YamlTree, RefusesExponentialAliases) {
   for (int i = 1; i < 12; ++i) {
     laughs += fmt::format("a{0}: &a{0} [*a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}]\n", i, i - 1);
   }
-  EXPECT_NE(problem_with(laughs).find("the aliases expand to too much"), std::string::npos);
+  EXPECT_NE(problem_with(laughs).find("the aliases expand to too many"), std::string::npos);
 }
 
 TEST(YamlTree, RefusesDeepNesting) {
@@ -105,8 +103,7 @@ TEST(YamlTree, RefusesDeepNesting) {
 }
 
 TEST(YamlTree, RefusesBytesThatAreNotText) {
-  EXPECT_NE(problem_with("a: 1\nb: \xff\n").find("m.yaml:2:4: manifest: this byte is not UTF-8"),
-            std::string::npos);
+  EXPECT_NE(problem_with("a: 1\nb: \xff\n").find("m.yaml:2:4: manifest: invalid UTF-8"), std::string::npos);
   EXPECT_NE(problem_with(std::string("a: 1\0b", 6)).find("m.yaml:1:5"), std::string::npos);
   EXPECT_NE(problem_with("a: \xc3").find("m.yaml:1:4"), std::string::npos);
   EXPECT_EQ(problem_with("a: λ # θ\r\nb: ω\r\n"), "");
@@ -115,9 +112,8 @@ TEST(YamlTree, RefusesBytesThatAreNotText) {
 TEST(YamlTree, RefusesControlCharactersInTexts) {
   for (const char* text : {"\\0", "\\e", "\\x7F", "\\u0085", "\\u202E", "\\u2067", "\\r"}) {
     const std::string refused = problem_with(fmt::format("a: {{b: \"x{}y\"}}\n", text));
-    EXPECT_NE(refused.find("m.yaml:1:8: a.b: the control character U+"), std::string::npos) << refused;
-    EXPECT_NE(problem_with(fmt::format("\"x{}y\": 1\n", text)).find("the control character"),
-              std::string::npos);
+    EXPECT_NE(refused.find("m.yaml:1:8: a.b: control character U+"), std::string::npos) << refused;
+    EXPECT_NE(problem_with(fmt::format("\"x{}y\": 1\n", text)).find("control character"), std::string::npos);
   }
   EXPECT_NE(problem_with("a: \u202Eb\n").find("m.yaml:1:4"), std::string::npos);
   EXPECT_EQ(problem_with("a: \"two\\nlines and\\ta tab\"\n"), "");

@@ -54,6 +54,14 @@ TEST_F(PluginStudy, ItsParametersAreColumnsAndAxes) {
   EXPECT_NE(listing.find("\ncontroller.parameters.zone "), std::string::npos);
 }
 
+TEST_F(PluginStudy, ItsLibraryIsNeverReplacedByAnOutput) {
+  const std::string library = folder_.read("own.so");
+  EXPECT_EQ(run_study({"--force"}, "own.so").code, 2);
+  ASSERT_EQ(run_study().code, 0);
+  EXPECT_EQ(run({"trace", "out.h5", "--plugin", "own.so", "-o", "own.so", "--force"}).code, 2);
+  EXPECT_EQ(folder_.read("own.so"), library);
+}
+
 TEST_F(PluginStudy, OtherCommandsDoWithoutTheLibrary) {
   ASSERT_EQ(run_study().code, 0);
   fs::remove(folder_ / "own.so");

@@ -136,7 +136,7 @@ TEST_F(StoppingRun, IsNotRunTwiceAndOverwritesNothing) {
   complete("study.yaml", "out.h5");
   const ProgramResult again = run("study.yaml", "out.h5");
   EXPECT_EQ(again.code, 0);
-  EXPECT_EQ(again.err, "out.h5: complete already, nothing to run\n");
+  EXPECT_EQ(again.err, "out.h5: already complete, nothing to run\n");
   EXPECT_EQ(run("study.yaml", "out.h5", {"--set", "seed=12"}).code, 2);
   EXPECT_EQ(run("study.yaml", "out.h5", {"--engine", "reference"}).code, 2);
 }

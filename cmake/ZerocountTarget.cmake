@@ -1,12 +1,5 @@
 # Functions that define the targets of this project.
 
-# The functions of core/numerics/elementary_functions.cpp: the compiler must neither compute them itself, where it knows the
-# argument, nor replace them (pow(x, 2) by x·x).
-set(zerocount_elementary_functions
-  exp exp2 expm1 log log2 log10 log1p pow cbrt hypot sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh erf erfc
-  tgamma)
-list(TRANSFORM zerocount_elementary_functions PREPEND -fno-builtin-)
-
 # What a target is optimised for. trial: the loops of a trial; -O3, by the build type. numbers: statistics, draws, files. text:
 # manifests, tables, pages, commands, and most tests: compiling them takes longer than running them.
 set(zerocount_optimisation_numbers -O2)
@@ -22,9 +15,8 @@ function(zerocount_target target optimisation)
   # Clang also warns of a local name that a constant of another file in the same unity build has.
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wshadow>)
   target_compile_options(${target} PUBLIC -ffp-contract=off)
-  target_compile_options(${target} PRIVATE ${zerocount_elementary_functions})
   # Boost would compute in long double, by the x87 unit of the processor.
-  target_compile_definitions(${target} PUBLIC BOOST_MATH_PROMOTE_DOUBLE_POLICY=false)
+  target_compile_definitions(${target} PRIVATE BOOST_MATH_PROMOTE_DOUBLE_POLICY=false)
   if(ZEROCOUNT_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
   endif()

@@ -1,22 +1,15 @@
 #include "analysis/statistics/normal.hpp"
 
-#include <boost/math/distributions/normal.hpp>
-
 #include "analysis/statistics/proportion.hpp"
+#include "core/numerics/normal_distribution.hpp"
 
 namespace zerocount::statistics {
-namespace {
-
-using StandardNormal = boost::math::normal_distribution<double>;
-
-}  // namespace
-
 double normal_quantile(double p) {
-  return boost::math::quantile(StandardNormal(), p);
+  return numerics::normal_quantile(p);
 }
 
 double normal_upper_tail(double z) {
-  return boost::math::cdf(boost::math::complement(StandardNormal(), z));
+  return numerics::normal_probability(-z);
 }
 
 double two_sided_normal_quantile(double confidence) {

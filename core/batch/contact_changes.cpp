@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/batch/lane_trial.hpp"
+#include "core/numerics/elementary_functions.hpp"
 
 namespace zerocount::batch {
 namespace {
@@ -36,7 +37,7 @@ double error_decay(const ContactLanes& c, int lane, double k1) {
 /// torque, and the loop does not amplify them. Never below the tolerance of the reference, `reference` (rad).
 double step_tolerance(const BatchState& batch, int lane, double k1, double reference) {
   const double decay = error_decay(batch.contact, lane, k1) * batch.time.sample_time[lane];
-  return std::max(-1e-7 * std::expm1(-decay) * batch.loop.resolution[lane], reference);
+  return std::max(-1e-7 * numerics::expm1(-decay) * batch.loop.resolution[lane], reference);
 }
 
 void show_contact(BatchState& batch, int lane, const friction::FrictionParameters& contact,
@@ -116,8 +117,8 @@ void turn(BatchState& batch, int lane, LaneTrial& trial) {
   spring.set_direction(static_cast<int>(m.heading[lane]), m.elongation[lane], m.spring_torque[lane]);
   remember_depth(trial);
   show_branch(batch, lane, spring);
-  m.softness[lane] =
-      std::exp(-m.branch_softening_rate[lane] * std::abs(m.elongation[lane] - m.branch_elongation[lane]));
+  m.softness[lane] = numerics::exp(-m.branch_softening_rate[lane] *
+                                   std::abs(m.elongation[lane] - m.branch_elongation[lane]));
 }
 
 void close_loop(BatchState& batch, int lane, LaneTrial& trial) {

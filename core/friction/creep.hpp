@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/friction/parameters.hpp"
+#include "core/numerics/elementary_functions.hpp"
 
 namespace zerocount::friction {
 
@@ -18,7 +19,7 @@ struct CreepState {
 
 /// |σ|ⁿ, (N m)ⁿ: the usual n = 2 without the cost of a power.
 inline double torque_power(const FrictionParameters& friction, double torque) {
-  return friction.n == 2.0 ? torque * torque : std::pow(std::abs(torque), friction.n);
+  return friction.n == 2.0 ? torque * torque : numerics::pow(std::abs(torque), friction.n);
 }
 
 /// |σ|ⁿ/λ: the hardening (rad) at which creep under the torque σ (N m) ends.
@@ -29,7 +30,7 @@ inline double hardening_limit(const FrictionParameters& friction, double torque)
 /// The |σ| (N m) whose hardening limit is `hardening` (rad).
 inline double torque_of_limit(const FrictionParameters& friction, double hardening) {
   const double power = friction.lambda * hardening;
-  return friction.n == 2.0 ? std::sqrt(power) : std::pow(power, 1.0 / friction.n);
+  return friction.n == 2.0 ? std::sqrt(power) : numerics::pow(power, 1.0 / friction.n);
 }
 
 /// The |σ| (N m) beyond which creep goes on in a contact hardened to `hardening` (rad); infinite where α is
@@ -54,7 +55,7 @@ inline CreepState creep_at_constant_torque(const FrictionParameters& friction, C
                                            double torque, double duration) {
   const double remaining = hardening_limit(friction, torque) - start.hardening;
   if (!(remaining > 0.0)) return start;
-  const double growth = -remaining * std::expm1(-friction.alpha * duration);
+  const double growth = -remaining * numerics::expm1(-friction.alpha * duration);
   return {start.extension + std::copysign(growth, torque), start.hardening + growth};
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/numerics/elementary_functions.hpp"
+
 namespace zerocount::friction {
 namespace {
 
@@ -87,7 +89,7 @@ double error_of_creep_at_rest(const CreepAtRest& rest, const motion::PlantParame
 }
 
 double creep_rate_after(const CreepAtRest& rest, double t) {
-  const double z = rest.rate / (rest.g1 + rest.g2 * rest.rate) * std::exp(-rest.g1 * t);
+  const double z = rest.rate / (rest.g1 + rest.g2 * rest.rate) * numerics::exp(-rest.g1 * t);
   return rest.g1 * z / (1.0 - rest.g2 * z);
 }
 
@@ -96,19 +98,19 @@ double creep_until_rate(const CreepAtRest& rest, double rate) {
   const double ratio = (rest.rate - rate) / (rest.g1 + rest.g2 * rate);
   const double x = rest.g2 * ratio;
   if (std::abs(x) < 1e-4) return ratio * (1.0 - x * (0.5 - x * (1.0 / 3.0 - 0.25 * x)));
-  return std::log1p(x) / rest.g2;
+  return numerics::log1p(x) / rest.g2;
 }
 
 double rate_after_creep(const CreepAtRest& rest, double growth) {
   const double x = rest.g2 * growth;
   const double ratio =
-      growth * (std::abs(x) < 1e-4 ? 1.0 + x * (0.5 + x * (1.0 / 6.0 + x / 24.0)) : std::expm1(x) / x);
+      growth * (std::abs(x) < 1e-4 ? 1.0 + x * (0.5 + x * (1.0 / 6.0 + x / 24.0)) : numerics::expm1(x) / x);
   return (rest.rate - ratio * rest.g1) / (1.0 + ratio * rest.g2);
 }
 
 double time_until_rate(const CreepAtRest& rest, double rate) {
   const double z = rate / (rest.g1 + rest.g2 * rate);
-  return std::log(rest.rate / (rest.g1 + rest.g2 * rest.rate) / z) / rest.g1;
+  return numerics::log(rest.rate / (rest.g1 + rest.g2 * rest.rate) / z) / rest.g1;
 }
 
 }  // namespace zerocount::friction

@@ -1,7 +1,6 @@
 #include "core/friction/free_motion.hpp"
 
-#include <cmath>
-
+#include "core/numerics/elementary_functions.hpp"
 #include "core/numerics/exponential_differences.hpp"
 
 namespace zerocount::friction {
@@ -13,7 +12,7 @@ FreeMotion free_motion(const motion::PlantParameters& plant, const FreeMotion& s
   const double impulse = settled / plant.inertia * t;                   // U/J·t, rad/s
   const double mean_decay = numerics::exponential_difference(damping);
   FreeMotion end;
-  end.omega = start.omega * std::exp(-damping) + impulse * mean_decay;
+  end.omega = start.omega * numerics::exp(-damping) + impulse * mean_decay;
   end.theta = start.theta + t * (start.omega * mean_decay +
                                  impulse * numerics::second_exponential_difference(0.0, damping));
   if (motion::is_constant(torque)) return end;

@@ -1,8 +1,9 @@
 #include "core/friction/profile.hpp"
 
-#include <cmath>
 #include <complex>
 #include <numbers>
+
+#include "core/numerics/elementary_functions.hpp"
 
 namespace zerocount::friction {
 
@@ -10,7 +11,7 @@ double field_at(const Profile& profile, double position) {
   // exp(imθ) by repeated multiplication: one sine and one cosine whatever the number of harmonics. The
   // rounding grows like m·2⁻⁵³, which is far below any spread a profile can have.
   const double angle = position * (2.0 * std::numbers::pi / profile.period);
-  const std::complex<double> turn = std::polar(1.0, angle);
+  const std::complex<double> turn{numerics::cos(angle), numerics::sin(angle)};
   std::complex<double> harmonic{1.0, 0.0};
   double field = 0.0;
   for (std::size_t m = 0; m < profile.cosine.size(); ++m) {
@@ -22,7 +23,7 @@ double field_at(const Profile& profile, double position) {
 
 double value_at(const Profile& profile, double position) {
   const double value = profile.location + profile.scale * field_at(profile, position);
-  return profile.marginal == Marginal::lognormal ? std::exp(value) : value;
+  return profile.marginal == Marginal::lognormal ? numerics::exp(value) : value;
 }
 
 }  // namespace zerocount::friction

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <cmath>
 #include <numbers>
+
+#include "core/numerics/elementary_functions.hpp"
 
 namespace zerocount::friction {
 
@@ -52,10 +53,10 @@ inline ResidualOscillation residual_oscillation(const OscillationLaw& law, doubl
   const double rate = velocity - law.creep * elongation;
   ResidualOscillation oscillation{elongation, (rate + law.decay * elongation) / law.frequency, law.decay,
                                   law.frequency, law.creep};
-  const double amplitude = std::hypot(oscillation.cosine, oscillation.sine);
+  const double amplitude = numerics::hypot(oscillation.cosine, oscillation.sine);
   oscillation.loss = 2.0 / 3.0 * std::numbers::inv_pi * law.frequency * law.softening * amplitude;
   oscillation.slowing = 0.5 * law.softening * amplitude;
-  if (amplitude > min_amplitude) oscillation.end = std::log(amplitude / min_amplitude) / law.decay;
+  if (amplitude > min_amplitude) oscillation.end = numerics::log(amplitude / min_amplitude) / law.decay;
   return oscillation;
 }
 
@@ -63,18 +64,19 @@ inline ResidualOscillation residual_oscillation(const OscillationLaw& law, doubl
 inline double oscillation_bound(const ResidualOscillation& oscillation, double t) {
   if (!(t < oscillation.end)) return 0.0;
   const double of_creep = 1.0 + 4.0 * oscillation.creep / oscillation.frequency;
-  return of_creep * std::hypot(oscillation.cosine, oscillation.sine) * std::exp(-oscillation.decay * t);
+  return of_creep * numerics::hypot(oscillation.cosine, oscillation.sine) *
+         numerics::exp(-oscillation.decay * t);
 }
 
 inline ResidualOscillation::State oscillation_at(const ResidualOscillation& oscillation, double t) {
   if (!(t < oscillation.end)) return {0.0, 0.0, 0.0};
   // a/a₀ = exp(−γt)/(1 + x) and ∫a/a₀ dt = log(1 + x)/(η·a₀), x = η·a₀·(1 − exp(−γt))/γ.
-  const double elapsed = -std::expm1(-oscillation.decay * t) / oscillation.decay;
+  const double elapsed = -numerics::expm1(-oscillation.decay * t) / oscillation.decay;
   const double x = oscillation.loss * elapsed;
-  const double amplitude = std::exp(-oscillation.decay * t) / (1.0 + x);
+  const double amplitude = numerics::exp(-oscillation.decay * t) / (1.0 + x);
   const double phase = oscillation.frequency * (t - oscillation.slowing * elapsed * (1.0 - 0.5 * x));
-  const double c = std::cos(phase);
-  const double s = std::sin(phase);
+  const double c = numerics::cos(phase);
+  const double s = numerics::sin(phase);
   const double q = amplitude * (oscillation.cosine * c + oscillation.sine * s);
   const double decay = oscillation.decay + oscillation.loss * amplitude;
   const double frequency = oscillation.frequency * (1.0 - oscillation.slowing * amplitude);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/numerics/elementary_functions.hpp"
+
 namespace zerocount::friction {
 namespace {
 
@@ -23,7 +25,7 @@ double travel_at(const SpringBranch& branch, double torque) {
   const double stiffest = branch.k1 + branch.softening_torque * branch.softening_rate;
   double travel = std::max(torque / stiffest, (torque - branch.softening_torque) / branch.k1);
   for (;;) {
-    const double softened = -std::expm1(-branch.softening_rate * travel);
+    const double softened = -numerics::expm1(-branch.softening_rate * travel);
     const double missing = torque - branch.k1 * travel - branch.softening_torque * softened;
     const double stiffness = branch.k1 + branch.softening_torque * branch.softening_rate * (1.0 - softened);
     const double next = travel + missing / stiffness;
@@ -36,12 +38,12 @@ double travel_at(const SpringBranch& branch, double torque) {
 
 double torque_on(const SpringBranch& branch, double x) {
   const double travel = travel_on(branch, x);
-  return torque_after(branch, travel, -std::expm1(-branch.softening_rate * travel));
+  return torque_after(branch, travel, -numerics::expm1(-branch.softening_rate * travel));
 }
 
 double stiffness_on(const SpringBranch& branch, double x) {
   return branch.k1 + branch.softening_torque * branch.softening_rate *
-                         std::exp(-branch.softening_rate * travel_on(branch, x));
+                         numerics::exp(-branch.softening_rate * travel_on(branch, x));
 }
 
 double branch_law(const FrictionParameters& friction, double travel) {

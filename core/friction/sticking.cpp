@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/numerics/elementary_functions.hpp"
 #include "core/numerics/first_root.hpp"
 
 namespace zerocount::friction {
@@ -30,7 +31,7 @@ StickingSeries Sticking::start() const {
   s.extension[0] = creep.extension;
   s.hardening[0] = creep.hardening;
   s.exponent[0] = exponent_coefficient(spring.elongation() - branch.elongation);
-  s.softness[0] = std::exp(s.exponent[0]);
+  s.softness[0] = numerics::exp(s.exponent[0]);
   s.spring_torque[0] = spring.torque();
   s.torque_sign = s.spring_torque[0] < 0.0 ? -1.0 : 1.0;
   s.per_lambda = 1.0 / contact.lambda;

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <cmath>
-
 #include "core/friction/parameters.hpp"
+#include "core/numerics/elementary_functions.hpp"
 #include "core/numerics/power_series.hpp"
 
 namespace zerocount::friction {
@@ -25,7 +24,7 @@ inline StribeckCurve stribeck_curve(const FrictionParameters& contact) {
 
 /// g(ω), N m.
 inline double level_at(const StribeckCurve& curve, double omega) {
-  return curve.coulomb + curve.excess * std::exp(-curve.per_velocity_squared * omega * omega);
+  return curve.coulomb + curve.excess * numerics::exp(-curve.per_velocity_squared * omega * omega);
 }
 
 /// Taylor series in time of exp(−(ω/ωs)²), whose coefficients follow those of ω.
@@ -41,7 +40,7 @@ struct StribeckSeries {
       slope[k - 1] = static_cast<double>(k) * exponent[k];
       decay[k] = numerics::exponential_coefficient(slope.data(), decay.data(), k);
     } else {
-      decay[0] = std::exp(exponent[0]);
+      decay[0] = numerics::exp(exponent[0]);
     }
     return decay[k];
   }

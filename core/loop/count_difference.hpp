@@ -1,16 +1,16 @@
 #pragma once
 
-#include <cmath>
 #include <numbers>
 
 #include "core/loop/block_formulas.hpp"
 #include "core/loop/control_block.hpp"
+#include "core/numerics/elementary_functions.hpp"
 
 namespace zerocount::loop {
 
 /// The pole a = exp(−2π·f·T) of the derivative filter; 0 with an infinite cutoff.
 inline double derivative_pole(const ControlBlocks& blocks, double sample_rate) {
-  return std::exp(-2.0 * std::numbers::pi * blocks.derivative_cutoff / sample_rate);
+  return numerics::exp(-2.0 * std::numbers::pi * blocks.derivative_cutoff / sample_rate);
 }
 
 /// The difference of successive counts, through a first-order low-pass filter:

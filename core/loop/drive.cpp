@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/numerics/elementary_functions.hpp"
 #include "core/random/variates.hpp"
 
 namespace zerocount::loop {
@@ -24,7 +25,7 @@ Drive::Drive(const DacParameters& dac, const AmplifierParameters& amplifier, int
       trial_(randomness.trial),
       delay_(delay),
       rate_(2.0 * std::numbers::pi * std::min(amplifier.bandwidth, highest_bandwidth)),
-      decay_per_sample_(std::exp(-rate_ * sample_time)) {}
+      decay_per_sample_(numerics::exp(-rate_ * sample_time)) {}
 
 double Drive::converted(std::int64_t k, std::int64_t code) const {
   const double torque = torque_with_errors(dac_, code);

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/numerics/elementary_functions.hpp"
+
 namespace zerocount::loop {
 namespace {
 
@@ -22,7 +24,7 @@ BiquadConstants<double> bilinear(double n2, double n1, double n0, double damping
 }
 
 BiquadConstants<double> discretised(const Filter& filter, double sample_rate) {
-  const double w = std::tan(std::numbers::pi * filter.frequency / sample_rate);
+  const double w = numerics::tan(std::numbers::pi * filter.frequency / sample_rate);
   switch (filter.kind) {
     case FilterKind::lowpass:
       return bilinear(0.0, 0.0, 1.0, filter.damping, w);

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/loop/block_formulas.hpp"
 #include "core/loop/control_block.hpp"
+#include "core/numerics/elementary_functions.hpp"
 
 namespace zerocount::loop {
 
@@ -14,7 +14,7 @@ inline IntegralConstants<double> integral_constants(const ControlBlocks& blocks,
   return {enter,
           std::max(enter, leave),
           blocks.integrator_zone,
-          std::exp(-1.0 / (sample_rate * blocks.integrator_leak)),
+          numerics::exp(-1.0 / (sample_rate * blocks.integrator_leak)),
           range.lowest,
           range.highest};
 }

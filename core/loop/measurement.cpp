@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/numerics/elementary_functions.hpp"
 #include "core/random/variates.hpp"
 
 namespace zerocount::loop {
@@ -38,7 +39,7 @@ ImperfectEncoder::ImperfectEncoder(const Encoder& encoder, const EncoderErrors& 
       trial_(trial),
       noise_(noise),
       missed_(missed),
-      start_eccentricity_(std::sin(position - errors.eccentricity_angle)),
+      start_eccentricity_(numerics::sin(position - errors.eccentricity_angle)),
       start_count_(std::floor(position / encoder.resolution)) {
   if (errors.interpolation != 0.0) start_interpolation_ = interpolation_error(encoder.phase);
 }
@@ -47,12 +48,12 @@ double ImperfectEncoder::interpolation_error(double x) const {
   // The remainder is exact, and keeps the sine's argument small.
   const double periods =
       std::remainder(start_count_ + x, errors_.interpolation_period) / errors_.interpolation_period;
-  return errors_.interpolation * std::sin(2.0 * std::numbers::pi * periods);
+  return errors_.interpolation * numerics::sin(2.0 * std::numbers::pi * periods);
 }
 
 std::int64_t ImperfectEncoder::read(std::int64_t k, double theta) {
   if (errors_.eccentricity != 0.0) {
-    const double sine = std::sin(position_ + theta - errors_.eccentricity_angle);
+    const double sine = numerics::sin(position_ + theta - errors_.eccentricity_angle);
     theta += errors_.eccentricity * (sine - start_eccentricity_);
   }
   double x = theta / encoder_.resolution + encoder_.phase;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/numerics/elementary_functions.hpp"
+
 namespace zerocount::loop {
 
 Reference::Reference(const ReferenceProfile& profile, std::int64_t from, std::int64_t to, double resolution)
@@ -34,12 +36,12 @@ void Reference::plan_s_curve(const ReferenceProfile& limits) {
   // acceleration limit a is reached, and 2√(v/j) where it is not. Solved for v:
   const double a = limits.acceleration_limit;
   const double full_jerk_time = a / limits.jerk_limit;
-  const double half_root = std::cbrt(0.5 * travel_);
+  const double half_root = numerics::cbrt(0.5 * travel_);
   const bool reaches_full_acceleration = travel_ >= 2.0 * a * full_jerk_time * full_jerk_time;
   const double velocity_without_cruise =
       reaches_full_acceleration
           ? 0.5 * a * (std::sqrt(full_jerk_time * full_jerk_time + 4.0 * travel_ / a) - full_jerk_time)
-          : std::cbrt(limits.jerk_limit) * half_root * half_root;
+          : numerics::cbrt(limits.jerk_limit) * half_root * half_root;
 
   velocity_ = std::min(limits.velocity_limit, velocity_without_cruise);
   jerk_ = limits.jerk_limit;

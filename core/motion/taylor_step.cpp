@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/numerics/elementary_functions.hpp"
 #include "core/numerics/first_root.hpp"
 
 namespace zerocount::motion {
@@ -27,7 +28,8 @@ double step_within(const numerics::Series& position, const numerics::Series& vel
   for (;;) {
     const double excess = last_terms(t) / (tolerance * t / longest);
     if (!(excess > 1.0) || t == 0.0) break;
-    t *= std::clamp(0.9 * std::pow(excess, -1.0 / static_cast<double>(numerics::series_order)), 0.01, 0.9);
+    t *= std::clamp(0.9 * numerics::pow(excess, -1.0 / static_cast<double>(numerics::series_order)), 0.01,
+                    0.9);
   }
   const double highest = std::max(exponent[0] + max_exponent_growth, negligible_exponent);
   while (exponent[0] + numerics::growth_bound(exponent, t) > highest && t > 0.0) t *= 0.7;

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/motion/load.hpp"
+#include "core/numerics/elementary_functions.hpp"
 
 namespace zerocount::motion {
 
@@ -25,7 +26,7 @@ void let_load_follow(const TorqueCourse& course, double omega) {
 TorqueCourse course_after(const TorqueCourse& course, double t) {
   if (motor_is_constant(course)) return course;
   // Computed as a change of `now`, so that a small change keeps its digits.
-  const double change = (course.now - course.settled) * std::expm1(-course.rate * t);
+  const double change = (course.now - course.settled) * numerics::expm1(-course.rate * t);
   return {course.now + change, course.settled, course.rate, course.load};
 }
 
@@ -35,7 +36,7 @@ double time_until(const TorqueCourse& course, double torque) {
   const double change = (torque - course.now) / (course.now - course.settled);  // from 0 to −1
   if (change >= 0.0) return 0.0;
   if (change <= -1.0) return std::numeric_limits<double>::infinity();
-  return -std::log1p(change) / course.rate;
+  return -numerics::log1p(change) / course.rate;
 }
 
 }  // namespace zerocount::motion

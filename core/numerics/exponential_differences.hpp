@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/numerics/elementary_functions.hpp"
+
 namespace zerocount::numerics {
 
 // Divided differences of the exponential function at points that are not positive. They are what the response
@@ -11,12 +13,12 @@ namespace zerocount::numerics {
 
 /// exp[0, −x] = (1 − e^(−x))/x, x ≥ 0; 1 at x = 0.
 inline double exponential_difference(double x) {
-  return x == 0.0 ? 1.0 : -std::expm1(-x) / x;
+  return x == 0.0 ? 1.0 : -expm1(-x) / x;
 }
 
 /// exp[−x, −y] = (e^(−x) − e^(−y))/(y − x), x, y ≥ 0; e^(−x) at x = y.
 inline double exponential_difference(double x, double y) {
-  return std::exp(-std::min(x, y)) * exponential_difference(std::abs(x - y));
+  return exp(-std::min(x, y)) * exponential_difference(std::abs(x - y));
 }
 
 /// exp[0, −x, −y] = (exp[0, −x] − exp[0, −y])/(y − x), x, y ≥ 0; ½ at x = y = 0.

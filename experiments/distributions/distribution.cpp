@@ -4,9 +4,10 @@
 #include <cmath>
 #include <exception>
 
-#include <boost/math/distributions/lognormal.hpp>
-#include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/triangular.hpp>
+
+#include "core/numerics/elementary_functions.hpp"
+#include "core/numerics/normal_distribution.hpp"
 
 namespace zerocount::distributions {
 namespace {
@@ -32,15 +33,14 @@ double quantile_of(const Uniform& d, double u) {
 }
 
 double quantile_of(const LogUniform& d, double u) {
-  return kept_inside(std::exp(std::lerp(std::log(d.low), std::log(d.high), u)), d.low, d.high);
+  return kept_inside(numerics::exp(std::lerp(numerics::log(d.low), numerics::log(d.high), u)), d.low, d.high);
 }
 
 double quantile_of(const Normal& d, double u) {
-  return boost::math::quantile(boost::math::normal(d.mean, d.sd), u);
+  return numerics::normal_quantile(u, d.mean, d.sd);
 }
 
 double quantile_of(const TruncatedNormal& d, double u) {
-  const boost::math::normal standard;
   double low = (d.low - d.mean) / d.sd;
   double high = (d.high - d.mean) / d.sd;
   // Mirrors an upper tail: its probabilities would be differences of numbers near 1.
@@ -51,14 +51,14 @@ double quantile_of(const TruncatedNormal& d, double u) {
     high = -high;
     u = 1.0 - u;
   }
-  const double z = boost::math::quantile(
-      standard, std::lerp(boost::math::cdf(standard, low), boost::math::cdf(standard, high), u));
+  const double z = numerics::normal_quantile(
+      std::lerp(numerics::normal_probability(low), numerics::normal_probability(high), u));
   return kept_inside(d.mean + d.sd * (mirrored ? -z : z), d.low, d.high);
 }
 
 double quantile_of(const Lognormal& d, double u) {
-  return boost::math::quantile(boost::math::lognormal(std::log(d.median), std::sqrt(std::log1p(d.cv * d.cv))),
-                               u);
+  return numerics::exp(
+      numerics::normal_quantile(u, numerics::log(d.median), std::sqrt(numerics::log1p(d.cv * d.cv))));
 }
 
 double quantile_of(const Triangular& d, double u) {

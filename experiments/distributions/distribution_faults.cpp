@@ -1,6 +1,6 @@
-#include <boost/math/distributions/normal.hpp>
 #include <fmt/format.h>
 
+#include "core/numerics/normal_distribution.hpp"
 #include "experiments/distributions/distribution.hpp"
 
 namespace zerocount::distributions {
@@ -36,11 +36,11 @@ std::optional<Fault> fault_of(const TruncatedNormal& d) {
   if (auto fault = positive_fault("sd", d.sd)) return fault;
   if (auto fault = ends_fault(d.low, d.high)) return fault;
   constexpr double min_probability = 1e-12;
-  const boost::math::normal standard;
   const double low = (d.low - d.mean) / d.sd;
   const double high = (d.high - d.mean) / d.sd;
-  const double probability = low > 0.0 ? boost::math::cdf(standard, -low) - boost::math::cdf(standard, -high)
-                                       : boost::math::cdf(standard, high) - boost::math::cdf(standard, low);
+  const double probability = low > 0.0
+                                 ? numerics::normal_probability(-low) - numerics::normal_probability(-high)
+                                 : numerics::normal_probability(high) - numerics::normal_probability(low);
   if (probability >= min_probability) return std::nullopt;
   return Fault{fmt::format("the normal distribution has a probability of only {:.3g} between low and high",
                            probability),

@@ -4,8 +4,9 @@
 #include <numbers>
 #include <numeric>
 
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/special_functions/erf.hpp>
+#include "core/numerics/elementary_functions.hpp"
+#include "core/numerics/normal_distribution.hpp"
+#include "core/random/variates.hpp"
 
 namespace zerocount::distributions {
 namespace {
@@ -15,8 +16,7 @@ constexpr double neglected_variance = 1e-12;
 double standard_normal(const random::RandomKey& key, std::size_t harmonic, std::uint32_t rotor,
                        random::Draw draw) {
   const std::uint64_t index = harmonic + (std::uint64_t{rotor} << 32);
-  return boost::math::quantile(boost::math::normal{},
-                               random::open_uniform(random::random_bits({.key = key}, index, draw)));
+  return random::standard_normal(random::random_bits({.key = key}, index, draw));
 }
 
 }  // namespace
@@ -26,10 +26,10 @@ std::vector<double> field_spectrum(double correlation_length) {
   // at least max(1, 2√π/ℓ).
   const double whole = std::max(1.0, 2.0 * std::sqrt(std::numbers::pi) / correlation_length);
   const double tail = neglected_variance * whole * correlation_length / (2.0 * std::sqrt(std::numbers::pi));
-  const double last = 2.0 / correlation_length * boost::math::erfc_inv(tail);
+  const double last = -std::numbers::sqrt2 / correlation_length * numerics::normal_quantile(0.5 * tail);
   std::vector<double> spectrum{1.0};
   for (double m = 1.0; m <= std::ceil(last); m += 1.0) {
-    spectrum.push_back(2.0 * std::exp(-0.25 * m * m * correlation_length * correlation_length));
+    spectrum.push_back(2.0 * numerics::exp(-0.25 * m * m * correlation_length * correlation_length));
   }
   const double sum = std::accumulate(spectrum.rbegin(), spectrum.rend(), 0.0);
   for (double& variance : spectrum) variance /= sum;
@@ -49,8 +49,8 @@ friction::Profile realise_profile(const ProfileDescription& description, std::sp
   profile.marginal = description.marginal;
   profile.period = description.period;
   if (description.marginal == friction::Marginal::lognormal) {
-    const double variance = std::log1p(description.cv * description.cv);
-    profile.location = std::log(description.mean) - 0.5 * variance;
+    const double variance = numerics::log1p(description.cv * description.cv);
+    profile.location = numerics::log(description.mean) - 0.5 * variance;
     profile.scale = std::sqrt(variance);
   } else {
     profile.location = description.mean;
@@ -69,12 +69,13 @@ friction::Profile realise_profile(const ProfileDescription& description, std::sp
 numerics::Interval limits(const friction::Profile& profile) {
   double largest = 0.0;
   for (std::size_t m = 0; m < profile.cosine.size(); ++m) {
-    largest += std::hypot(profile.cosine[m], profile.sine[m]);
+    largest += numerics::hypot(profile.cosine[m], profile.sine[m]);
   }
   const double low = profile.location - profile.scale * largest;
   const double high = profile.location + profile.scale * largest;
-  return profile.marginal == friction::Marginal::lognormal ? numerics::closed(std::exp(low), std::exp(high))
-                                                           : numerics::closed(low, high);
+  return profile.marginal == friction::Marginal::lognormal
+             ? numerics::closed(numerics::exp(low), numerics::exp(high))
+             : numerics::closed(low, high);
 }
 
 }  // namespace zerocount::distributions

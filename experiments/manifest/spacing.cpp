@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/numerics/elementary_functions.hpp"
+
 namespace zerocount::manifest {
 namespace {
 
@@ -18,7 +20,8 @@ double spaced(const Spacing& spacing, std::size_t i) {
   if (i + 1 == spacing.count) return spacing.to;
   const double t = static_cast<double>(i) / static_cast<double>(spacing.count - 1);
   if (!spacing.logarithmic) return without_rounding_noise(std::lerp(spacing.from, spacing.to, t));
-  return without_rounding_noise(std::exp(std::lerp(std::log(spacing.from), std::log(spacing.to), t)));
+  return without_rounding_noise(
+      numerics::exp(std::lerp(numerics::log(spacing.from), numerics::log(spacing.to), t)));
 }
 
 }  // namespace

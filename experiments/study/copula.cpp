@@ -5,11 +5,11 @@
 #include <string_view>
 
 #include <Eigen/Core>
-#include <boost/math/distributions/normal.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "core/numerics/dense.hpp"
+#include "core/numerics/normal_distribution.hpp"
 
 namespace zerocount::study {
 
@@ -33,12 +33,11 @@ double copula_uniform(const GaussianCopula& copula, std::size_t member,
   if (std::all_of(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(member),
                   [](double x) { return x == 0.0; }))
     return independent(member);
-  const boost::math::normal standard;
   double score = 0.0;
   for (std::size_t j = 0; j <= member; ++j) {
-    if (row[j] != 0.0) score += row[j] * boost::math::quantile(standard, independent(j));
+    if (row[j] != 0.0) score += row[j] * numerics::normal_quantile(independent(j));
   }
-  return std::clamp(boost::math::cdf(standard, score), 0x1p-53, 1.0 - 0x1p-53);
+  return std::clamp(numerics::normal_probability(score), 0x1p-53, 1.0 - 0x1p-53);
 }
 
 std::string correlations_text(const std::vector<Correlation>& correlations) {

@@ -1,13 +1,9 @@
 // The trials of a study are the same on every processor.
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
-#include <sstream>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -80,37 +76,6 @@ INSTANTIATE_TEST_SUITE_P(ShippedStudies, EveryProcessor,
                            std::replace(name.begin(), name.end(), '-', '_');
                            return name;
                          });
-
-/// The symbols that the program takes from shared libraries: "                 U floor@GLIBC_2.2.5".
-std::vector<std::string> undefined_symbols() {
-  std::vector<std::string> symbols;
-  FILE* const output = popen("nm --dynamic --undefined-only " ZEROCOUNT_PROGRAM, "r");
-  std::array<char, 4096> line{};
-  while (std::fgets(line.data(), line.size(), output) != nullptr) {
-    std::istringstream words(line.data());
-    std::string kind, symbol;
-    words >> kind >> symbol;
-    symbols.push_back(symbol.substr(0, symbol.find('@')));
-  }
-  EXPECT_EQ(pclose(output), 0);
-  return symbols;
-}
-
-TEST(Processors, TheProgramTakesNoElementaryFunctionOfTheCLibrary) {
-  constexpr std::array<std::string_view, 28> functions{
-      "exp",   "exp2",  "exp10", "expm1", "log",  "log2", "log10",  "log1p", "pow",  "cbrt",
-      "sin",   "cos",   "tan",   "asin",  "acos", "atan", "atan2",  "sinh",  "cosh", "tanh",
-      "asinh", "acosh", "atanh", "hypot", "erf",  "erfc", "tgamma", "sincos"};
-  const std::vector<std::string> symbols = undefined_symbols();
-  EXPECT_NE(std::find(symbols.begin(), symbols.end(), "floor"), symbols.end()) << "nm lists the functions";
-  for (const std::string& symbol : symbols) {
-    for (const std::string_view function : functions) {
-      EXPECT_NE(symbol, function);
-      EXPECT_NE(symbol, std::string(function) + "l") << "of the x87 unit";
-      EXPECT_NE(symbol, std::string(function) + "f");
-    }
-  }
-}
 
 }  // namespace
 }  // namespace zerocount::testing

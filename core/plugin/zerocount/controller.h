@@ -16,7 +16,9 @@
  * that change. zerocount runs trials in parallel, and checks this by running some of them twice in another
  * order.
  * - `step` allocates no memory, does no input and output, and does not throw.
- * - The same inputs give the same bits. Compile without -ffast-math and with -ffp-contract=off.
+ * - The same inputs give the same bits. Compile without -ffast-math and with -ffp-contract=off. The last bit of
+ * exp, sin … of the C library may depend on the processor; for the same bits on all of them call functions that
+ * do not, such as those of SLEEF that are compiled without fused operations.
  *
  * On a linear axis read m for rad, and N for N m. */
 

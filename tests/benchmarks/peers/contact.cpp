@@ -1,5 +1,6 @@
 #include "tests/benchmarks/peers/contact.hpp"
 
+#include <cmath>
 #include <limits>
 
 #include "core/friction/creep.hpp"
@@ -113,7 +114,7 @@ void PeerContact::hold(PeerState& y, double duration) {
   }
   if (duration != rest_duration_) {
     rest_duration_ = duration;
-    rest_relaxation_ = -system_functions.expm1(-contact_.alpha * duration);
+    rest_relaxation_ = -std::expm1(-contact_.alpha * duration);
   }
   const double remaining = law_.hardening_limit(rest_torque_) - y[2];
   const double growth = remaining * rest_relaxation_;

@@ -1,5 +1,6 @@
 #include "tests/benchmarks/peers/cvode_memory.hpp"
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -48,7 +49,7 @@ int jacobian(realtype /*time*/, N_Vector y, N_Vector /*slope*/, SUNMatrix matrix
   column[1][1] = -law.damping * law.per_tau * law.tau_per_inertia;
   if (law.sliding) {
     const double w = state[1] * law.softening_rate;
-    const double falling = 2.0 * law.softening_torque * law.softening_rate * w * system_functions.exp(-w * w);
+    const double falling = 2.0 * law.softening_torque * law.softening_rate * w * std::exp(-w * w);
     column[1][1] += law.sign * falling * law.tau_per_inertia;
     return 0;
   }

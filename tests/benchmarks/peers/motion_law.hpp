@@ -3,8 +3,6 @@
 #include <array>
 #include <cmath>
 
-#include "tests/benchmarks/peers/system_functions.hpp"
-
 namespace zerocount::testing {
 
 /// What the peers integrate. While the hook sticks: elongation xs (rad), ω·τ (rad), hardening xh (rad); while
@@ -40,7 +38,7 @@ struct PeerMotionLaw {
     const double omega = y[1] * per_tau;
     if (sliding) {
       const double w = y[1] * softening_rate;
-      const double level = coulomb + softening_torque * system_functions.exp(-w * w);
+      const double level = coulomb + softening_torque * std::exp(-w * w);
       slope = {omega, (torque - damping * omega - sign * level) * tau_per_inertia, 0.0};
       return;
     }
@@ -52,13 +50,13 @@ struct PeerMotionLaw {
   /// σ (N m) at the elongation x (rad).
   double spring_torque(double x) const {
     const double travel = sign * (x - anchor);
-    softness = system_functions.exp(-softening_rate * travel);
+    softness = std::exp(-softening_rate * travel);
     return anchor_torque + sign * (k1 * travel + softening_torque * (1.0 - softness));
   }
 
   /// |σ|ⁿ/λ, rad.
   double hardening_limit(double sigma) const {
-    return (n == 2.0 ? sigma * sigma : system_functions.pow(std::abs(sigma), n)) * per_lambda;
+    return (n == 2.0 ? sigma * sigma : std::pow(std::abs(sigma), n)) * per_lambda;
   }
 
   /// dσ/dx (N m/rad) where the softness is this.

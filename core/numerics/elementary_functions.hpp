@@ -1,0 +1,23 @@
+#pragma once
+
+/// Elementary functions with the same bits on every processor. glibc chooses its exp, log, sin … by the
+/// processor (with or without fused operations, for one), and the last bit of a result with it. What draws
+/// parameters or computes a trial therefore calls these in place of those of <cmath>.
+///
+/// They are SLEEF's functions without fused operations, within 1 ulp where neither argument nor result is
+/// subnormal. log1p is infinite above 1e307.
+namespace zerocount::numerics {
+
+double exp(double x) noexcept;
+double expm1(double x) noexcept;
+double log(double x) noexcept;
+double log1p(double x) noexcept;
+double pow(double x, double y) noexcept;
+double cbrt(double x) noexcept;
+double hypot(double x, double y) noexcept;
+double sin(double x) noexcept;
+double cos(double x) noexcept;
+double tan(double x) noexcept;
+double asin(double x) noexcept;
+
+}  // namespace zerocount::numerics

@@ -27,14 +27,14 @@ class PlantWith : public Law {
     if (motion::has_load(plant)) load_ = motion::Load{plant.load, 0.0, start.velocity};
   }
 
-  /// Applies the torque for `duration` (s). The motion is lost if that takes more than `max_steps` steps.
-  void advance(const motion::TorqueCourse& torque, double duration, int max_steps = max_steps) {
+  /// Applies the torque for `duration` (s). The motion is lost if that takes more than `step_limit` steps.
+  void advance(const motion::TorqueCourse& torque, double duration, int step_limit = max_steps) {
     motion::TorqueCourse ahead = torque;
     ahead.load = load_ ? &*load_ : nullptr;
     bool moves = !motion::motor_is_constant(ahead);
     double remaining = duration;
     for (int step = 0; remaining > 0.0 && finite_; ++step) {
-      if (step == max_steps) finite_ = false;
+      if (step == step_limit) finite_ = false;
       const double used = step_on(ahead, remaining);
       remaining = used < remaining ? remaining - used : 0.0;
       if (moves) {
@@ -91,9 +91,9 @@ class PlantOf {
       : plant_(makers.at(static_cast<std::size_t>(friction.model))(plant, friction, start, tolerance)),
         breakaway_(Laws::traits.at(static_cast<std::size_t>(friction.model)).breakaway) {}
 
-  /// Applies the torque for `duration` (s). The motion is lost if that takes more than `max_steps` steps.
-  void advance(const motion::TorqueCourse& torque, double duration, int max_steps = max_steps) {
-    std::visit([&](auto& plant) { plant.advance(torque, duration, max_steps); }, plant_);
+  /// Applies the torque for `duration` (s). The motion is lost if that takes more than `step_limit` steps.
+  void advance(const motion::TorqueCourse& torque, double duration, int step_limit = max_steps) {
+    std::visit([&](auto& plant) { plant.advance(torque, duration, step_limit); }, plant_);
   }
 
   PlantReading read() const {

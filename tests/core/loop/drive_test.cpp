@@ -39,10 +39,6 @@ std::vector<DacOutput> random_outputs(const DacParameters& dac, unsigned seed, i
   return outputs;
 }
 
-double end_of(const motion::TorqueCourse& course, double duration) {
-  return course.settled + (course.now - course.settled) * std::exp(-course.rate * duration);
-}
-
 TEST(Drive, WithoutErrorsHoldsTheDecidedTorqueExactly) {
   const DacParameters dac;
   for (const int delay : {0, 1, 3}) {

@@ -2,8 +2,8 @@
 
 #include <type_traits>
 
+#include "core/batch/lane_scheduler.hpp"
 #include "core/batch/lane_trial.hpp"
-#include "core/batch/lane_work.hpp"
 #include "core/friction/law.hpp"
 #include "core/loop/control_chain.hpp"
 #include "core/loop/controller.hpp"
@@ -15,8 +15,9 @@ namespace {
 
 constexpr int max_delay = 64;
 
-// The feature that the lanes lack; empty if they have all. Each switch lists all enumerators and each
-// structured binding all members, so that the compiler demands a decision for one that is added later.
+// Each overload returns the feature that the lanes lack, empty if they have all. Each switch lists all
+// enumerators and each structured binding all members, so that the compiler demands a decision for one that
+// is added later.
 
 std::string_view lacking(loop::ReferenceShape shape) {
   switch (shape) {
@@ -53,7 +54,7 @@ bool lanes_have(loop::ControlStructure structure) {
   return false;
 }
 
-/// The feed-forward is of no account: in lanes the reference is a step.
+/// Ignores the feed-forward, which is 0 for a step, the only reference of the lanes.
 std::string_view lacking(const loop::ControlBlocks& blocks) {
   [[maybe_unused]] const auto& [structure, cascade, deadband, zone, leak, cutoff, filters, feedforward,
                                 observer] = blocks;
@@ -102,12 +103,13 @@ bool runs_in_lanes(const trial::TrialParameters& parameters) {
   return lacking_in_lanes(parameters).empty();
 }
 
-BatchEngine::BatchEngine(const BatchSettings& settings) : work_(std::make_unique<LaneWork>(settings)) {}
+BatchEngine::BatchEngine(const BatchSettings& settings)
+    : scheduler_(std::make_unique<LaneScheduler>(settings)) {}
 BatchEngine::~BatchEngine() = default;
 
 void BatchEngine::run(std::span<const trial::TrialParameters* const> trials,
                       std::span<trial::TrialOutcome> outcomes, const BatchObservers& observers) {
-  work_->run(trials, outcomes, observers);
+  scheduler_->run(trials, outcomes, observers);
 }
 
 }  // namespace zerocount::batch

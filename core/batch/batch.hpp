@@ -14,7 +14,7 @@
 
 namespace zerocount::batch {
 
-class LaneWork;
+class LaneScheduler;
 
 /// One sampling instant of a trial in a batch, as SampleRecord has it.
 struct BatchSample {
@@ -27,8 +27,8 @@ struct BatchSample {
   double xh{0.0};         ///< hardening, rad
 };
 
-/// Callbacks while a batch runs; an empty function is not called. Calls for one trial come in order of time;
-/// those for different trials are interleaved.
+/// Callbacks while a batch runs; an empty function is not called. Calls for one trial come in order of time,
+/// interleaved with those for other trials.
 struct BatchObservers {
   std::function<void(std::size_t trial, const trial::Jerk&)> jerk;  ///< at the end of every jerk
   std::function<void(const BatchSample&)> sample;                   ///< at every sampling instant
@@ -40,8 +40,8 @@ struct BatchSettings {
   InstructionSet instructions{widest_instruction_set()};
 };
 
-/// The first feature of a trial that lanes do not have, as a noun phrase; empty: they run the trial. The
-/// engine passes all others to run_trial: those with imperfect encoders or converters, an amplifier, a delay
+/// The first feature of a trial that lanes lack, as a noun phrase; empty if lanes run the trial. The engine
+/// passes all others to run_trial: those with imperfect encoders or converters, an amplifier, a delay
 /// above 64 samples, two phases of control, a reference with a profile, more than four filters of the
 /// controller, a plugin, torque levels, the friction laws coulomb and gms, or a second mass.
 std::string lacking_in_lanes(const trial::TrialParameters& parameters);
@@ -68,7 +68,7 @@ class BatchEngine {
            const BatchObservers& observers = {});
 
  private:
-  std::unique_ptr<LaneWork> work_;
+  std::unique_ptr<LaneScheduler> scheduler_;
 };
 
 }  // namespace zerocount::batch

@@ -10,12 +10,12 @@
 /// Included by the kernels: see lanes.hpp for what must not be in here.
 namespace zerocount::batch {
 
-/// One slot more, which fills up vectors; its contents affect no other lane. Rounded up to a cache line.
+/// The spare lane fills up vectors; its contents affect no other lane. Rounded up to a cache line.
 inline constexpr int lane_slots = max_lanes + 8;
 inline constexpr int spare_lane = max_lanes;
 
 inline constexpr int batch_order = 14;  ///< of the Taylor series
-/// A lane that has tried so many steps since its last stop is left to the reference.
+/// A lane with more steps since its last stop falls back to the reference.
 inline constexpr double max_steps_to_stop = 500.0;
 
 using Lanes = double[lane_slots];
@@ -38,13 +38,13 @@ struct alignas(64) MotionLanes {
   Lanes branch_softening_length;  ///< its reciprocal, rad
   Lanes branch_end;               ///< where the branch ends ahead, rad; ±infinity where it does not
   Lanes direction;                ///< of the elongation: −1, 0, 1
-  Lanes heading;                  ///< the direction that it takes now
-  Lanes turning;                  ///< dxs/dt is zero at this instant
+  Lanes heading;                  ///< the direction from now on: −1, 0, 1
+  Lanes at_reversal;              ///< dxs/dt is zero at this instant
   Lanes creeping;                 ///< the creep law is on
   Lanes creep_onset;              ///< |σ| at which it sets in, N m
   Lanes slide_direction;  ///< −1, 1; 0 while the hook sticks; 1 for laws without a hook, which move θ itself
   Lanes gradual_slide;    ///< the bristle slides at this instant
-  Lanes rest_torque;      ///< under which the lane's plant has come to rest, N m; NaN: it has not
+  Lanes rest_torque;      ///< torque under which the plant is at rest, N m; NaN: it moves
 
   Lanes spring_torque;  ///< σ at the start of the step, N m
   Lanes softness;       ///< exp(−y) of the branch at the start of the step
@@ -65,10 +65,10 @@ struct alignas(64) ContactLanes {
   Lanes breakaway;             ///< Fs, N m
   Lanes coulomb;               ///< Fc, N m
   Lanes per_velocity_squared;  ///< 1/ωs²
-  Lanes fast_velocity;         ///< 8ωs, rad/s: beyond it friction is that of Coulomb
-  Lanes max_oscillation;       ///< that may count as rest at a reversal, rad
-  Lanes bristle_stiffness;     ///< σ0
-  Lanes bristle_damping;       ///< σ1
+  Lanes fast_velocity;         ///< 8ωs, rad/s: faster slides have Coulomb friction
+  Lanes max_oscillation;       ///< amplitude that may count as rest at a reversal, rad
+  Lanes bristle_stiffness;     ///< σ0, N m/rad
+  Lanes bristle_damping;       ///< σ1, N m s/rad
 };
 
 /// The motion without friction over one sample: θ ← θ + travel·ω + push·u, ω ← decay·ω + gain·u.
@@ -79,12 +79,12 @@ struct alignas(64) FreeLanes {
   Lanes gain;    ///< rad/(N m s)
 };
 
-/// The time of a lane, and its steps.
+/// Time and step control of a lane.
 struct alignas(64) TimeLanes {
-  Lanes time_to_stop;     ///< left to the next stop, s
-  Lanes samples_to_stop;  ///< up to and with that of the stop
+  Lanes time_to_stop;     ///< to the next stop, s
+  Lanes samples_to_stop;  ///< including the one at the stop
   Lanes longest_step;     ///< 1/ωn with ωn² = (k1 + k2)/J, s
-  Lanes next_step;        ///< the step that accuracy is thought to allow, s
+  Lanes next_step;        ///< step that is expected to be accurate, s
   Lanes steps;            ///< tried since the last stop
   Lanes sample_time;      ///< T, s
   Lanes sample_rate;      ///< 1/T, Hz
@@ -114,7 +114,7 @@ struct alignas(64) LoopLanes {
 
 inline constexpr int max_lane_filters = 4;
 
-/// The controller's blocks: of a lane whose trial has none, what it had before.
+/// The controller's blocks. A lane whose trial has none keeps those of an earlier trial, unused.
 struct alignas(64) BlockLanes {
   loop::IntegralConstants<Lanes> integral;
   Lanes inside;      ///< IntegralState::inside
@@ -146,39 +146,36 @@ struct alignas(64) MeasureLanes : trial::RunningMeasures<Lanes> {
   Lanes slid;         ///< a bristle slid at a sampling instant of the move
 };
 
-/// Events of a lane that a kernel reports: a sum of these.
+/// Events of a lane that a kernel reports: a sum of these. Those of the contact: friction::Sticking::Event.
 enum LaneEvent : int {
   no_event = 0,
   may_rest = 1 << 0,
-  slides = 1 << 1,
-  ends_creep = 1 << 2,
-  turns = 1 << 3,
-  reversal = 1 << 4,  ///< within the step kernel only: MotionLanes::turning tells it to the others
-  closure = 1 << 5,
-  creep_sets_in = 1 << 6,
-  creep_ends = 1 << 7,
-  breaks_away = 1 << 8,
-  velocity_zero = 1 << 9,
-  beyond_kernel = 1 << 10,  ///< the scalar plant runs the lane up to the next stop
-  jerk_changes = 1 << 11,
-  diverges = 1 << 12,
-  meets_event = 1 << 13,   ///< an event other than a reversal lies in the step
-  delayed = 1 << 14,       ///< the decided torque has to wait
-  count_changes = 1 << 15  ///< in the last half of the move
+  reversal = 1 << 1,  ///< at the end of a step it is stored in MotionLanes::at_reversal instead
+  closure = 1 << 2,
+  creep_on = 1 << 3,
+  creep_off = 1 << 4,
+  breakaway = 1 << 5,
+  velocity_zero = 1 << 6,
+  beyond_kernel = 1 << 7,  ///< the scalar plant runs the lane up to the next stop
+  jerk_changes = 1 << 8,
+  diverges = 1 << 9,
+  meets_event = 1 << 10,   ///< an event other than a reversal lies in the step
+  delayed = 1 << 11,       ///< the decided torque has to wait
+  count_changes = 1 << 12  ///< in the last half of the move
 };
 
-/// A step that went over sampling instants at which the count and the torque stay: for whoever records them.
+/// The sampling instants within a step, at which count and torque stay the same. Kept only for an observer.
 struct PassedSamples {
   int lane;
   double samples;                      ///< how many
   double time_to_stop;                 ///< TimeLanes::time_to_stop at the start of the step, s
   double step;                         ///< s
   double end;                          ///< fraction of the step that was taken
-  double elongation[batch_order + 1];  ///< rad, series in the fraction of the step
-  double growth[batch_order + 1];      ///< of xp, likewise
+  double elongation[batch_order + 1];  ///< xs, rad, as a series in the fraction of the step
+  double creep[batch_order + 1];       ///< xh·sgn(σ), rad, as a series in the fraction of the step
 };
 
-/// All numbers of the lanes but those of blocks: an array a quantity, one after the other.
+/// All numbers of the lanes except those of blocks, as one array of Lanes.
 struct LaneNumbers {
   MotionLanes motion;
   ContactLanes contact;
@@ -194,7 +191,7 @@ struct BatchState : LaneNumbers {
   int event_lanes[max_lanes];  ///< lanes with events of the last kernel
   int event_count;
 
-  PassedSamples* passed;  ///< where to put them; null where nobody records
+  PassedSamples* passed;  ///< null without an observer
   int passed_count;       ///< at most one a lane and kernel call
 
   BlockLanes blocks;  ///< last and apart, since few studies use them

@@ -1,4 +1,4 @@
-// Changes of a lane's contact between its steps.
+// Changes of the contact between steps.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,8 +9,8 @@
 namespace zerocount::batch {
 namespace {
 
-/// The branch that the spring is on, for the kernels.
-void show_branch(BatchState& batch, int lane, const friction::HystereticSpring& spring) {
+/// Copies the present branch of the spring for the kernels.
+void store_branch(BatchState& batch, int lane, const friction::HystereticSpring& spring) {
   MotionLanes& m = batch.motion;
   const friction::SpringBranch& branch = spring.branch();
   m.branch_elongation[lane] = branch.elongation;
@@ -24,8 +24,8 @@ void show_branch(BatchState& batch, int lane, const friction::HystereticSpring& 
   m.branch_end[lane] = spring.branch_end().value_or(none);
 }
 
-/// Rate (1/s) at which an error of the motion decays, at least: that of the slower mode of J·q″ + c·q′ + k1·q
-/// = 0, because k1 is the least stiffness of the spring.
+/// Lower bound of the rate (1/s) at which an error of the motion decays: that of the slower mode of
+/// J·q″ + c·q′ + k1·q = 0, because k1 is the least stiffness of the spring.
 double error_decay(const ContactLanes& c, int lane, double k1) {
   const double gamma = 0.5 * c.damping[lane] * c.per_inertia[lane];
   const double discriminant = gamma * gamma - k1 * c.per_inertia[lane];
@@ -33,15 +33,15 @@ double error_decay(const ContactLanes& c, int lane, double k1) {
 }
 
 /// Truncation error (rad) allowed per torque step, so that the errors of all steps add up to about 1e-7
-/// count: to that of one step over 1 − exp(−decay·T). While the counts are those of the reference, so is the
-/// torque, and the loop does not amplify them. Never below the tolerance of the reference, `reference` (rad).
+/// count, their sum being that of one step over 1 − exp(−decay·T). The loop does not amplify them, because
+/// equal counts give equal torques. At least the tolerance of the reference, `reference` (rad).
 double step_tolerance(const BatchState& batch, int lane, double k1, double reference) {
   const double decay = error_decay(batch.contact, lane, k1) * batch.time.sample_time[lane];
   return std::max(-1e-7 * numerics::expm1(-decay) * batch.loop.resolution[lane], reference);
 }
 
-void show_contact(BatchState& batch, int lane, const friction::FrictionParameters& contact,
-                  double reference_tolerance) {
+void store_contact_parameters(BatchState& batch, int lane, const friction::FrictionParameters& contact,
+                              double reference_tolerance) {
   ContactLanes& c = batch.contact;
   batch.time.tolerance[lane] = step_tolerance(batch, lane, contact.k1, reference_tolerance);
   c.k1[lane] = contact.k1;
@@ -62,7 +62,7 @@ void remember_depth(LaneTrial& trial) {
   trial.deepest = std::max(trial.deepest, static_cast<std::int64_t>(trial.plant->spring().depth()));
 }
 
-/// A torque that is known to stay only until the next sample.
+/// Makes the next sampling instant the next stop.
 void stop_at_next_sample(BatchState& batch, int lane) {
   TimeLanes& time = batch.time;
   time.time_to_stop[lane] -= (time.samples_to_stop[lane] - 1.0) * time.sample_time[lane];
@@ -99,16 +99,16 @@ void store_motion(BatchState& batch, int lane, LaneTrial& trial) {
   m.hook[lane] = motion.hook;
   m.theta[lane] = motion.slide_theta;
   m.slide_direction[lane] = motion.sliding ? motion.slide_direction : 0.0;
-  m.turning[lane] = 0.0;
+  m.at_reversal[lane] = 0.0;
   m.rest_torque[lane] = std::numeric_limits<double>::quiet_NaN();
   trial.breakaway_spring_torque = motion.breakaway_spring_torque;
-  show_branch(batch, lane, trial.plant->spring());
+  store_branch(batch, lane, trial.plant->spring());
   remember_depth(trial);
 }
 
 void store_contact(BatchState& batch, int lane, LaneTrial& trial) {
   store_motion(batch, lane, trial);
-  show_contact(batch, lane, trial.plant->contact(), trial.elongation_tolerance);
+  store_contact_parameters(batch, lane, trial.plant->contact(), trial.elongation_tolerance);
 }
 
 void turn(BatchState& batch, int lane, LaneTrial& trial) {
@@ -116,14 +116,14 @@ void turn(BatchState& batch, int lane, LaneTrial& trial) {
   friction::HystereticSpring& spring = trial.plant->spring();
   spring.set_direction(static_cast<int>(m.heading[lane]), m.elongation[lane], m.spring_torque[lane]);
   remember_depth(trial);
-  show_branch(batch, lane, spring);
+  store_branch(batch, lane, spring);
   m.softness[lane] = numerics::exp(-m.branch_softening_rate[lane] *
                                    std::abs(m.elongation[lane] - m.branch_elongation[lane]));
 }
 
 void close_loop(BatchState& batch, int lane, LaneTrial& trial) {
   trial.plant->spring().move_on_branch(batch.motion.elongation[lane]);
-  show_branch(batch, lane, trial.plant->spring());
+  store_branch(batch, lane, trial.plant->spring());
 }
 
 void end_creep(BatchState& batch, int lane, LaneTrial& trial) {

@@ -4,8 +4,8 @@
 
 namespace zerocount::batch {
 
-/// The motion of each lane without friction to its next stop, one sample ahead: a linear map of ω and torque,
-/// whose numbers are those of friction::free_motion.
+/// Moves each lane without friction to its next stop, one sample ahead, by the linear map of
+/// friction::free_motion.
 template <class V>
 void free_kernel(BatchState& batch, const LaneSet& lanes) {
   for_each_stretch<V>(lanes, [&]<class At>(const At& at) {

@@ -7,11 +7,11 @@ namespace zerocount::batch {
 /// The kernels, compiled for one instruction set.
 struct Kernels {
   LaneSet (*lanes_at_stop)(const BatchState&);
-  void (*sample)(BatchState&, const LaneSet&);         ///< of the PID law alone
-  void (*sample_blocks)(BatchState&, const LaneSet&);  ///< of a controller with blocks
+  void (*sample)(BatchState&, const LaneSet&);         ///< with the PID law alone
+  void (*sample_blocks)(BatchState&, const LaneSet&);  ///< with the blocks of the controller
   void (*stick_start)(BatchState&, const LaneSet&);
   void (*stick_step)(BatchState&, const LaneSet&);
-  void (*stick_event)(BatchState&, const LaneSet&);  ///< a step that may have events
+  void (*stick_event)(BatchState&, const LaneSet&);  ///< a step that locates its events
   void (*slide_fast)(BatchState&, const LaneSet&);
   void (*slide_slow)(BatchState&, const LaneSet&);
   LaneSet (*bristle_rest)(BatchState&, const LaneSet&);

@@ -5,7 +5,7 @@
 
 namespace zerocount::batch {
 
-/// The sample of a vector's lanes, as the control law has it.
+/// Input of the control law at a sample.
 template <class P>
 struct ControlInput {
   using Mask = typename P::Mask;
@@ -39,7 +39,7 @@ ZEROCOUNT_ALWAYS_INLINE P law_torque(BatchState& batch, const At& at, const Cont
                 loop::pid_torque(state.integral, at.load(l.kp), in.error, at.load(l.kd), d));
 }
 
-/// The torque through the filters.
+/// The torque after the filters, N m.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE P filtered_torque(BatchState& batch, const At& at, P torque) {
   BlockLanes& b = batch.blocks;
@@ -73,7 +73,7 @@ ZEROCOUNT_ALWAYS_INLINE P disturbance(BatchState& batch, const At& at, const Con
   return estimate;
 }
 
-/// The torque of the controller with its blocks (ControlChain), N m. The feed-forward of a step is 0.
+/// The torque of the controller with its blocks (ControlChain), N m. A step has no feed-forward.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE P block_torque(BatchState& batch, const At& at, const ControlInput<P>& in) {
   const P torque = filtered_torque(batch, at, law_torque(batch, at, in));

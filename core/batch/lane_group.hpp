@@ -5,7 +5,7 @@
 
 namespace zerocount::batch {
 
-/// Neighbouring lanes of the batch state, as many as a vector has, of which some take part.
+/// As many neighbouring lanes of the batch state as a vector has, of which some take part.
 template <class P>
 class LaneStretch {
  public:
@@ -28,7 +28,7 @@ class LaneStretch {
   unsigned taking_part_;  ///< one bit a lane of the vector
 };
 
-/// Lanes collected from wherever they are, filled up with the spare lane. Takes them out of the set.
+/// Any lanes, filled up with the spare lane. Removes them from the set.
 template <class P>
 class LaneCollection {
  public:
@@ -53,12 +53,12 @@ class LaneCollection {
   ZEROCOUNT_ALWAYS_INLINE void store(double* to, const P& value) const { scatter(to, value); }
 
  private:
-  // Not inlined: the code of dozens of them would push the kernel out of the instruction cache.
+  // Not inlined: dozens of copies would push the kernel out of the instruction cache.
   __attribute__((noinline)) void gather(const double* of, P& to) const {
     constexpr int width = sizeof(to.part[0]) / sizeof(double);
     for (int p = 0; p < P::lanes / width; ++p) to.part[p] = collect<width>(of, lane_ + p * width);
   }
-  /// Not by way of memory: a vector read where single numbers have just been written waits for them.
+  /// Without a detour through memory: a vector load would wait for the scalar stores before it.
   template <int Width>
   static ZEROCOUNT_ALWAYS_INLINE auto collect(const double* of, const int* lane) {
     using Real = typename VectorOf<Width>::Real;
@@ -82,15 +82,14 @@ class LaneCollection {
   int lane_[P::lanes];
 };
 
-/// The vectors that a kernel works on: of one chain of operations, and of `Chains` chains where it has enough
-/// lanes.
+/// The vectors of a kernel: with `Chains` chains of operations where there are enough lanes, else with one.
 template <int Width, int Chains>
 struct Vectors {
   using Wide = Simd<Width, Chains>;
   using Narrow = Simd<Width, 1>;
 };
 
-/// Passes the lanes to `work`, as LaneStretch. A stretch of which one half takes part goes as half.
+/// Passes the lanes to `work` as LaneStretch, a narrow one where all of them are in one half.
 template <class V, class Work>
 ZEROCOUNT_ALWAYS_INLINE void for_each_stretch(const LaneSet& lanes, Work work) {
   using Wide = typename V::Wide;
@@ -109,7 +108,7 @@ ZEROCOUNT_ALWAYS_INLINE void for_each_stretch(const LaneSet& lanes, Work work) {
   }
 }
 
-/// Passes the lanes to `work`: where half of a stretch or more takes part, as LaneStretch, otherwise as
+/// Passes the lanes to `work`: as LaneStretch where at least half of a stretch takes part, the others as
 /// LaneCollection; the last few as narrow ones.
 template <class V, class Work>
 ZEROCOUNT_ALWAYS_INLINE void for_each_vector(LaneSet lanes, Work work) {
@@ -150,7 +149,7 @@ ZEROCOUNT_ALWAYS_INLINE void add_events(BatchState& batch, const At& at, const P
   if (noted.any()) append_events(batch, at, events, noted.bits());
 }
 
-/// For for_each_measure: between lanes and vectors.
+/// Visitors for for_each_measure, between lanes and vectors.
 template <class At>
 struct LoadEach {
   const At& at;
@@ -177,7 +176,7 @@ template <class P>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask to_mask(const P& number) {
   return number != P(0.0);
 }
-/// `event` where true.
+/// `event` where the mask is set, else no_event.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P events_where(const typename P::Mask& mask, LaneEvent event) {
   return select(mask, P(static_cast<double>(event)), P(0.0));

@@ -8,8 +8,9 @@
 namespace zerocount::batch {
 namespace {
 
-/// The time (s) at which θ has moved by `distance` (rad, positive) in the direction of creep; infinite where
-/// it never does. By the stiffness (N m/rad) that the spring has now: good to a small part of a sample.
+/// The time (s) in which θ moves by `distance` (rad, positive) in the direction of creep; infinite if it
+/// never does. Computed with the present stiffness of the spring (N m/rad): accurate to a small fraction of a
+/// sample.
 double time_to_creep(const friction::CreepAtRest& creep, double distance, double stiffness) {
   // The spring stretches as the damper's torque falls, in proportion to the growth of creep.
   const double per_creep = creep.s1 * creep.g1 / stiffness;
@@ -26,7 +27,7 @@ double count_at(const BatchState& batch, int lane, double theta) {
   return loop::ideal_count(theta, batch.loop.resolution[lane], batch.loop.phase[lane]);
 }
 
-/// Rest as it goes on from now.
+/// Rest from now on.
 struct RestAhead {
   friction::CreepAtRest creep;
   friction::ResidualOscillation oscillation;
@@ -39,8 +40,8 @@ RestAhead rest_ahead(const LanePlant::Rest& rest) {
   return ahead;
 }
 
-/// A time (s) for which the count cannot change: until creep and the bound of the residual oscillation reach
-/// the edge of the count. Zero if the oscillation alone could reach an edge.
+/// A time (s) for which the count cannot change: until creep plus the bound of the residual oscillation
+/// reaches an edge of the count. Zero if the oscillation alone may reach one.
 double time_within_count(const BatchState& batch, int lane, const RestAhead& rest, const LanePlant& plant) {
   const LoopLanes& l = batch.loop;
   const double low = (l.count[lane] - l.phase[lane]) * l.resolution[lane];
@@ -62,15 +63,15 @@ double time_within_count(const BatchState& batch, int lane, const RestAhead& res
   return time;
 }
 
-/// The number of samples, from the last processed one, at which the count is likely to be the same still.
+/// The number of samples after the last processed one at which the count is likely to be unchanged.
 double samples_within_count(const BatchState& batch, int lane, const LanePlant& plant, double to_first) {
   const double time = time_within_count(batch, lane, rest_ahead(*plant.rest()), plant);
   if (time == HUGE_VAL) return batch.time.samples_to_stop[lane];
   return std::max(std::ceil((time - to_first) * batch.time.sample_rate[lane]), 0.0);
 }
 
-/// Whether the lane's plant is where its last rest has left it, and nothing has moved the lane since.
-bool stands(const BatchState& batch, int lane, const LanePlant& plant) {
+/// Whether the lane has not moved since its plant was last at rest.
+bool is_unmoved(const BatchState& batch, int lane, const LanePlant& plant) {
   if (!plant.rest()) return false;
   const friction::PlantMotion motion = plant.motion();
   return motion.elongation == batch.motion.elongation[lane] &&
@@ -92,19 +93,19 @@ bool rest(BatchState& batch, int lane, LaneTrial& trial, const PassedSample& pas
   LanePlant& plant = *trial.plant;
   const double torque = batch.motion.torque[lane];
   if (batch.motion.rest_torque[lane] != torque) {
-    if (!stands(batch, lane, plant)) load_motion(batch, lane, trial);
+    if (!is_unmoved(batch, lane, plant)) load_motion(batch, lane, trial);
     plant.forget_deepest();
-    if (!plant.come_to_rest(torque, batch.motion.turning[lane] != 0.0)) return false;
+    if (!plant.come_to_rest(torque, batch.motion.at_reversal[lane] != 0.0)) return false;
     trial.deepest = std::max(trial.deepest, plant.deepest());
   }
   std::optional<LanePlant> before;
   if (passed) before = plant;
 
-  const double most = time.samples_to_stop[lane];
+  const double max_samples = time.samples_to_stop[lane];
   const double sample_time = time.sample_time[lane];
-  const double to_first = time.time_to_stop[lane] - (most - 1.0) * sample_time;
+  const double to_first = time.time_to_stop[lane] - (max_samples - 1.0) * sample_time;
   const double count = batch.loop.count[lane];
-  // Sample i, counted from 1: as far as the count stays, and the sample after that as the encoder sees it.
+  // Advances sample by sample (i, from 1), many at once where the count surely stays the same.
   double i = 0.0;
   double to_next = to_first;
   bool edge_is_next = false;
@@ -112,10 +113,11 @@ bool rest(BatchState& batch, int lane, LaneTrial& trial, const PassedSample& pas
     return count_at(batch, lane, plant.theta_at_rest(to_next + (samples - 1.0) * sample_time)) == count;
   };
   bool same = true;
-  while (same && i < most) {
+  while (same && i < max_samples) {
     double ahead = 1.0;
-    if (!edge_is_next) ahead = std::clamp(samples_within_count(batch, lane, plant, to_next), 1.0, most - i);
-    // The edge may be nearer than thought.
+    if (!edge_is_next)
+      ahead = std::clamp(samples_within_count(batch, lane, plant, to_next), 1.0, max_samples - i);
+    // The edge may be nearer than estimated.
     for (double back = 1.0; ahead > 1.0 && !stays_within(ahead); back *= 2.0) {
       ahead = std::max(1.0, ahead - back);
     }

@@ -6,12 +6,11 @@
 
 namespace zerocount::batch {
 
-/// A sampling instant on the way, at which nothing changed: `passed` samples after the last that was
-/// processed.
+/// A sampling instant at which nothing changed, `passed` samples after the last processed one.
 using PassedSample = std::function<void(double passed, double theta, const friction::CreepState& creep)>;
 
-/// Applies the rest rule. A lane at rest advances, by creep alone and in closed form, to the next stop, or to
-/// the first sampling instant at which its count differs.
+/// Applies the rest rule. A lane at rest advances in closed form, by creep and residual oscillation, to the
+/// next stop or to the first sampling instant at which its count differs.
 /// @param passed called for every sample before that one; may be empty.
 /// @returns whether the lane was at rest; then it is at a stop.
 bool rest(BatchState& batch, int lane, LaneTrial& trial, const PassedSample& passed);

@@ -1,15 +1,15 @@
-// The sampling instants of the lanes.
+// Sampling instants of the lanes.
 #include <cmath>
 
-#include "core/batch/lane_work.hpp"
+#include "core/batch/lane_scheduler.hpp"
 #include "core/numerics/power_series.hpp"
 
 namespace zerocount::batch {
 
-void LaneWork::take_samples() {
+void LaneScheduler::take_samples() {
   const LaneSet at_stop = kernels_.lanes_at_stop(batch_).in_both(active_);
   for_each_lane(at_stop, [&](int lane) {
-    if (batch_.measures.taken[lane] == batch_.measures.limits.samples[lane]) end_move(lane, trial_of(lane));
+    if (batch_.measures.samples[lane] == batch_.measures.limits.samples[lane]) end_move(lane, trial_of(lane));
   });
   const LaneSet due = at_stop.in_both(active_);
   const LaneSet with_blocks = due.in_both(with_blocks_);
@@ -17,8 +17,8 @@ void LaneWork::take_samples() {
   sample(kernels_.sample_blocks, with_blocks);
 }
 
-/// The sampling instant of these lanes.
-void LaneWork::sample(void (*kernel)(BatchState&, const LaneSet&), const LaneSet& due) {
+/// Processes the sampling instant of the lanes `due`.
+void LaneScheduler::sample(void (*kernel)(BatchState&, const LaneSet&), const LaneSet& due) {
   if (due.empty()) return;
   note_gradual_slides(due);
   kernel(batch_, due);
@@ -26,13 +26,13 @@ void LaneWork::sample(void (*kernel)(BatchState&, const LaneSet&), const LaneSet
     const int lane = batch_.event_lanes[i];
     if ((batch_.events[lane] & beyond_kernel) == 0) continue;
     batch_.events[lane] = no_event;
-    batch_.measures.taken[lane] -= 1.0;  // no encoder could count that
+    batch_.measures.samples[lane] -= 1.0;  // run_trial repeats this sample
     fall_back_to_scalar(lane);
   }
   if (observers_->sample) {
     for_each_lane(due.in_both(active_), [&](int lane) {
-      const bool given_up = batch_.measures.taken[lane] == 0.0;
-      if (!given_up) record_sample(lane, trial_of(lane));
+      const bool refilled = batch_.measures.samples[lane] == 0.0;
+      if (!refilled) record_sample(lane, trial_of(lane));
     });
   }
   for (int i = 0; i < batch_.event_count; ++i) {
@@ -46,66 +46,66 @@ void LaneWork::sample(void (*kernel)(BatchState&, const LaneSet&), const LaneSet
   }
 }
 
-void LaneWork::note_gradual_slides(const LaneSet& due) {
+void LaneScheduler::note_gradual_slides(const LaneSet& due) {
   for_each_lane(due.in_both(bristles_), [&](int lane) {
     if (batch_.motion.gradual_slide[lane] != 0.0) batch_.measures.slid[lane] = 1.0;
   });
 }
 
-void LaneWork::record_sample(int lane, const LaneTrial& trial) {
-  const auto k = static_cast<std::int64_t>(batch_.measures.taken[lane]) - 1;
+void LaneScheduler::record_sample(int lane, const LaneTrial& trial) {
+  const auto k = static_cast<std::int64_t>(batch_.measures.samples[lane]) - 1;
   observers_->sample({trial.number, trial.first_sample + k,
                       static_cast<std::int64_t>(batch_.loop.count[lane]),
                       static_cast<std::int64_t>(batch_.loop.code[lane]), batch_.measures.theta[lane],
                       batch_.measures.extension[lane], batch_.motion.hardening[lane]});
 }
 
-/// The samples that steps have gone over, from their series.
-void LaneWork::record_passed() {
+/// Reports the samples within steps, from their series.
+void LaneScheduler::record_passed() {
   for (int i = 0; i < batch_.passed_count; ++i) {
     const PassedSamples& p = passed_[i];
     const LaneTrial& trial = trial_of(p.lane);
     const double sample_time = batch_.time.sample_time[p.lane];
     const double rate = batch_.time.sample_rate[p.lane];
-    const auto taken = static_cast<std::int64_t>(batch_.measures.taken[p.lane] - p.samples);
+    const auto samples = static_cast<std::int64_t>(batch_.measures.samples[p.lane] - p.samples);
     // The stop is `whole` samples after the first.
     const double whole = std::ceil(p.time_to_stop * rate - 1e-9) - 1.0;
     for (int j = 0; j < static_cast<int>(p.samples); ++j) {
       const double x = (p.time_to_stop - (whole - j) * sample_time) / p.step;
       const double extension = batch_.motion.extension[p.lane] +
-                               (numerics::value_at(p.growth, x) - numerics::value_at(p.growth, p.end));
-      observers_->sample({trial.number, trial.first_sample + taken + j,
+                               (numerics::value_at(p.creep, x) - numerics::value_at(p.creep, p.end));
+      observers_->sample({trial.number, trial.first_sample + samples + j,
                           static_cast<std::int64_t>(batch_.loop.count[p.lane]),
                           static_cast<std::int64_t>(batch_.loop.code[p.lane]),
                           batch_.motion.hook[p.lane] + numerics::value_at(p.elongation, x) + extension,
-                          extension, std::abs(numerics::value_at(p.growth, x))});
+                          extension, std::abs(numerics::value_at(p.creep, x))});
     }
   }
 }
 
-void LaneWork::follow_last_half(int lane, LaneTrial& trial) {
+void LaneScheduler::follow_last_half(int lane, LaneTrial& trial) {
   const MeasureLanes& q = batch_.measures;
-  const auto k = static_cast<std::int64_t>(q.taken[lane]) - 1;
+  const auto k = static_cast<std::int64_t>(q.samples[lane]) - 1;
   const auto count = static_cast<std::int64_t>(batch_.loop.count[lane]);
   const auto change = static_cast<std::int64_t>(q.change[lane]);
   const bool first = k == static_cast<std::int64_t>(q.last_half[lane]);
   trial.last_half.add(k, first ? count : count - change, count);
 }
 
-void LaneWork::track_jerk(int lane, LaneTrial& trial) {
-  const auto k = static_cast<std::int64_t>(batch_.measures.taken[lane]) - 1;
+void LaneScheduler::track_jerk(int lane, LaneTrial& trial) {
+  const auto k = static_cast<std::int64_t>(batch_.measures.samples[lane]) - 1;
   if (trial.jerks.add(k, static_cast<std::int64_t>(batch_.loop.error[lane]))) report_jerk(trial);
-  batch_.measures.in_jerk[lane] = trial.jerks.lasts() ? 1.0 : 0.0;
+  batch_.measures.in_jerk[lane] = trial.jerks.in_jerk() ? 1.0 : 0.0;
 }
 
-void LaneWork::report_jerk(LaneTrial& trial) {
+void LaneScheduler::report_jerk(LaneTrial& trial) {
   ++trial.reported_jerks;
   if (observers_->jerk) observers_->jerk(trial.number, trial.jerks.last());
 }
 
-/// The torque that comes through the delay now. It stays as long as the decided one only where all that wait
-/// are alike.
-void LaneWork::delay_torque(int lane, LaneTrial& trial) {
+/// Exchanges the decided torque for the one that leaves the delay now. The applied torque is constant to the
+/// next stop only if all waiting torques are equal.
+void LaneScheduler::delay_torque(int lane, LaneTrial& trial) {
   const double decided = batch_.motion.torque[lane];
   const std::size_t size = trial.waiting.size();
   const double newest = trial.waiting[(trial.oldest_waiting + size - 1) % size];

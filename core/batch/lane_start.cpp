@@ -1,4 +1,4 @@
-// The start of a lane's trial and of its moves.
+// Start of a lane's trial and of its moves.
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
@@ -44,7 +44,7 @@ void start_loop(LoopLanes& l, int lane, const trial::TrialParameters& p) {
   l.delay[lane] = p.controller.delay;
 }
 
-/// The lane's part of each quantity of `to`, in the order of the values.
+/// Stores the values in the lane of the quantities `to`, in this order.
 template <class... Values>
 void put(int lane, std::initializer_list<Lanes*> to, Values... values) {
   auto at = to.begin();
@@ -90,7 +90,7 @@ void start_blocks(BlockLanes& b, int lane, const trial::TrialParameters& p, doub
       observer.a2);
   put(lane, {&b.observes, &b.observer_state.s1, &b.observer_state.s2, &b.first_count}, observes ? 1.0 : 0.0,
       0.0, 0.0, 0.0);
-  // With an error of 0 and no motion, what may change the torque is memory other than the integral's.
+  // At zero error and without motion, only memory other than the integral can change the torque.
   const bool remembers =
       observes || !blocks.filters.empty() || b.pole[lane] != 0.0 || integral.retention != 1.0;
   b.remembers[lane] = remembers ? 1.0 : 0.0;
@@ -107,7 +107,7 @@ void start_time(TimeLanes& time, int lane, const trial::TrialParameters& p, doub
   time.per_count[lane] = 1.0 / resolution;
 }
 
-/// θ itself moves, and the count is looked at in each sample, as while a hook slides.
+/// Laws without a hook move θ itself and read the count at each sample, as a sliding hook does.
 void start_without_hook(BatchState& batch, int lane, double velocity) {
   MotionLanes& m = batch.motion;
   m.slide_direction[lane] = 1.0;

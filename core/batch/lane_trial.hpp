@@ -14,13 +14,13 @@
 
 namespace zerocount::batch {
 
-/// The lanes' friction law: that of the models which run in lanes.
+/// The scalar plant of a lane with a hook.
 using LanePlant = plant::PlantWith<friction::PreslidingFriction>;
 
 /// How the kernels move a lane, by its friction law.
 enum class LaneMotion { contact, bristle, free };
 
-/// Nothing for a law that the kernels do not have.
+/// Empty for a law that the kernels lack.
 std::optional<LaneMotion> lane_motion(friction::FrictionModel model);
 
 /// State of a lane that the kernels do not use: its trial, the memory of the spring, measures per jerk.
@@ -32,8 +32,8 @@ struct LaneTrial {
   std::int64_t first_sample{0};  ///< of the move, from the start of the trial
   LaneMotion motion{LaneMotion::contact};
 
-  /// The contact, in lanes with LaneMotion::contact. Its spring always remembers the reversals of the lane;
-  /// the rest of it is that of the lane only between load() and store().
+  /// The contact, in lanes with LaneMotion::contact. Only its spring is always current; call load_motion()
+  /// before reading anything else.
   std::optional<LanePlant> plant;
   double elongation_tolerance{0.0};     ///< MotionTolerance::elongation, rad
   double breakaway_spring_torque{0.0};  ///< σb of the slide, N m
@@ -48,13 +48,14 @@ struct LaneTrial {
 
   std::vector<double> waiting;  ///< decided torques on their way through the delay, N m
   std::size_t oldest_waiting{0};
-  std::int64_t waiting_alike{0};  ///< how many of the last decided torques were the same
+  std::int64_t waiting_alike{0};  ///< number of equal torques decided last
 };
 
-// The lane's motion from the batch state into its plant and back. The spring's branch goes with it.
+/// Copies the lane's motion from the batch state into its plant.
 void load_motion(const BatchState& batch, int lane, LaneTrial& trial);
+/// Copies the plant's motion and spring branch into the batch state.
 void store_motion(BatchState& batch, int lane, LaneTrial& trial);
-/// The same with the parameters of the contact, which a slide or a scalar step may have changed.
+/// store_motion(), and the contact's parameters, which a slide or a scalar step may have changed.
 void store_contact(BatchState& batch, int lane, LaneTrial& trial);
 
 // Changes of the contact, as PreslidingFriction makes them.
@@ -73,14 +74,14 @@ inline trial::RunningMeasures<double> measures_of(const MeasureLanes& lanes, int
   return measures;
 }
 
-/// Whether the controller has blocks that act on a step: its lane is sampled with them.
+/// Whether the controller has blocks beyond the PID law.
 bool has_blocks(const trial::TrialParameters& parameters);
 
-/// Puts the lane into its trial's start.
+/// Starts the trial in the lane.
 void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t number,
                  const trial::TrialParameters& parameters, trial::TrialOutcome& outcome);
 void start_move(BatchState& batch, int lane, LaneTrial& trial);
-/// The measures of the move that ends here. @param stopped because it has diverged.
+/// The outcome of the move that ends now. @param stopped it has diverged.
 trial::MoveOutcome end_of_move(const BatchState& batch, int lane, LaneTrial& trial, bool stopped);
 
 }  // namespace zerocount::batch

@@ -13,7 +13,7 @@
 ///
 /// A Simd is `Chains` vectors of `Width` doubles that go through the same operations side by side, so that
 /// the latency of one vector's operation is filled with the others'. All operations are those of IEEE
-/// arithmetic, element by element: what comes of a lane depends neither on width and chains nor on other
+/// arithmetic, element by element: the result of a lane depends neither on width and chains nor on other
 /// lanes.
 ///
 /// This header and the kernels are compiled once for each instruction set: see core/numerics/number.hpp for
@@ -228,7 +228,7 @@ struct Simd {
     const Simd shift(0x1.8p52);
     return (a + shift) - shift;
   }
-  /// The same of any a; from 2⁵⁰ on, where no one asks for more, a itself.
+  /// Rounds any a; returns a unchanged for abs(a) ≥ 2⁵⁰.
   friend ZEROCOUNT_ALWAYS_INLINE Simd rint(const Simd& a) {
     return select(abs(a) < Simd(0x1p50), fast_rint(a), a);
   }
@@ -256,8 +256,8 @@ struct Simd {
       m.part[i] = (Real)(((Bits)a.part[i] & ((std::int64_t{1} << stored_bits) - 1)) | of_one);
     }
   }
-  /// (a/b) to the power `fraction`, within 15 %, for positive a and b: the bits of a number, taken as one,
-  /// are about its logarithm.
+  /// (a/b) to the power `fraction`, within 15 %, for positive a and b. The bits of a double, read as an
+  /// integer, approximate its logarithm.
   friend ZEROCOUNT_ALWAYS_INLINE Simd rough_power(const Simd& a, const Simd& b, double fraction) {
     const Simd shift(0x1.8p52);
     Simd r;
@@ -277,7 +277,7 @@ struct Simd {
 inline constexpr double ln2_high = 0x1.62e42fefa3800p-1;
 inline constexpr double ln2_low = 0x1.ef35793c76730p-45;
 
-/// eᵃ for a ≤ 700, to some 2e-16 relative; of a < −700, e⁻⁷⁰⁰.
+/// eᵃ for a ≤ 700, to about 2e-16 relative; e⁻⁷⁰⁰ for a < −700.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P exp(const P& a) {
   const P x = max(a, P(-700.0));
@@ -307,8 +307,8 @@ ZEROCOUNT_ALWAYS_INLINE P log(const P& a) {
   return e * P(ln2_high) + (e * P(ln2_low) + P(2.0) * (s + s * (square * sum)));
 }
 
-/// aⁿ for a ≥ 0 and n > 0, to some 2e-16·(1 + |n·ln a|) relative; from e⁷⁰⁰ on infinite, below e⁻⁷⁰⁰ that, or
-/// 0 of 0. NaN of NaN and of infinity.
+/// aⁿ for a ≥ 0 and n > 0, to about 2e-16·(1 + |n·ln a|) relative. Results from e⁷⁰⁰ on are infinite, those
+/// below e⁻⁷⁰⁰ are e⁻⁷⁰⁰, except 0ⁿ = 0. NaN if a is NaN or infinite.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P pow(const P& a, const P& n) {
   constexpr double infinite = __builtin_inf();

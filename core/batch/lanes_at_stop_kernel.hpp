@@ -5,7 +5,7 @@
 
 namespace zerocount::batch {
 
-/// The lanes that are at a sampling instant, with those that have no trial.
+/// The lanes that are at a sampling instant, and those without a trial.
 template <class P>
 LaneSet lanes_at_stop_kernel(const BatchState& batch) {
   static_assert(max_lanes % P::lanes == 0);

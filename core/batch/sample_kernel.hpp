@@ -19,7 +19,7 @@ ZEROCOUNT_ALWAYS_INLINE P pid_torque(BatchState& batch, const At& at, const Cont
   return torque;
 }
 
-/// The sampling instant of one vector; see sample_kernel.
+/// One sampling instant of one vector; see sample_kernel.
 template <bool Blocks, class At>
 __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
   using P = typename At::Vector;
@@ -67,9 +67,9 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
   trial::for_each_measure(LoadEach<At>{at}, measures, q);
   const trial::MeasureLimits<P> limits{at.load(q.limits.samples), at.load(q.limits.dwell),
                                        at.load(q.limits.window)};
-  const P taken = measures.taken;
+  const P samples = measures.samples;
   const P size = abs(error);
-  const P first_error = select(taken == zero, size, at.load(q.first_error));
+  const P first_error = select(samples == zero, size, at.load(q.first_error));
   const Mask error_diverges = size > at.load(q.max_error) + first_error;
   const Mask dwelt = to_mask(measures.arrived);
   trial::measure_error(measures, limits, error);
@@ -81,13 +81,13 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
   at.store(q.change, change);
 
   // If the torque is steady, the next stop is the last sample of the move.
-  const P remaining = select(steady & ~hook_slides, max(limits.samples - taken - one, one), one);
+  const P remaining = select(steady & ~hook_slides, max(limits.samples - samples - one, one), one);
   at.store(time.samples_to_stop, remaining);
   at.store(time.time_to_stop, remaining * at.load(time.sample_time));
   at.store(time.steps, zero);
   const Mask away = dwelt & (error != zero);
   const Mask back = to_mask(at.load(q.in_jerk));
-  const Mask changes = (change != zero) & (taken >= at.load(q.last_half));
+  const Mask changes = (change != zero) & (samples >= at.load(q.last_half));
   add_events(batch, at,
              events_where<P>(unreadable, beyond_kernel) +
                  events_where<P>(~unreadable & (away | back), jerk_changes) +
@@ -97,7 +97,7 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
 }
 
 /// One sampling instant of each lane: encoder, control, converter, measures. Reports jerk_changes,
-/// count_changes, diverges and delayed, and beyond_kernel where the encoder could not count θ.
+/// count_changes, diverges and delayed, and beyond_kernel where the encoder cannot count θ.
 /// @tparam Blocks the lanes' controllers have blocks.
 template <class V, bool Blocks>
 void sample_kernel(BatchState& batch, const LaneSet& lanes) {

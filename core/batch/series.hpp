@@ -34,9 +34,8 @@ ZEROCOUNT_ALWAYS_INLINE P curvature_bound(const P* c, int order) {
   return sum;
 }
 
-/// Whether a polynomial, of values `at_start` and `at_end` and slope `slope` at the start, surely keeps its
-/// sign on [0, 1] where the two values have the same: it is farther from 0 than it can bend, or it is
-/// monotonic.
+/// Whether a polynomial surely keeps its sign on [0, 1], given equal signs of its values `at_start` and
+/// `at_end`: it is farther from 0 than its curvature can take it, or monotonic. @param slope at the start.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask cannot_turn(const P& at_start, const P& at_end, const P& slope,
                                                      const P& curvature) {
@@ -50,7 +49,7 @@ struct ValueAndSlope {
   P slope;
 };
 
-/// The even and the odd powers apart, and their derivatives: four chains of additions in place of two.
+/// Sums even and odd powers apart, so that four chains of additions run in parallel.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE ValueAndSlope<P> value_and_slope(const P* c, int order, const P& x) {
   const P square = x * x;
@@ -75,8 +74,8 @@ ZEROCOUNT_ALWAYS_INLINE ValueAndSlope<P> value_and_slope(const P* c, int order, 
   return {even + x * odd, odd + P(2.0) * x * (even_slope + x * odd_slope)};
 }
 
-/// Bracketed Newton iteration of the lanes of a vector. Each lane stays as soon as it has arrived, so that it
-/// does not matter how long others take.
+/// Bracketed Newton iteration of the lanes of a vector. A lane that has converged keeps its value, so that
+/// the result does not depend on the other lanes.
 template <class P>
 struct NewtonSearch {
   using Mask = typename P::Mask;
@@ -84,10 +83,10 @@ struct NewtonSearch {
   P high;
   P x;
   P last_change;
-  Mask open;  ///< lanes that have not arrived
+  Mask open;  ///< lanes that have not converged
 
-  /// One step to `newton`, or by bisection where that leaves the bracket or shrinks slowly. @param before the
-  /// root is ahead. @param close change below which the step squared is none.
+  /// One step to `newton`, or by bisection where that leaves the bracket or converges slowly. @param before
+  /// whether the root is above x. @param close change whose square is below rounding.
   ZEROCOUNT_ALWAYS_INLINE void step(const P& newton, const Mask& before, const P& close) {
     low = select(before, x, low);
     high = select(before, high, x);
@@ -102,8 +101,8 @@ struct NewtonSearch {
 
 constexpr int max_newton_steps = 60;
 
-/// The root of a polynomial between 0 and `end`, where it has the sign other than `at_start`'s: from the
-/// secant's. Only the lanes of `wanted` count.
+/// The root of a polynomial between 0 and `end`, its values there having opposite signs. Starts from the root
+/// of the secant. Computed for the lanes of `wanted`.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P root_between(const P* c, int order, const P& at_start, const P& at_end,
                                        const P& end, const typename P::Mask& wanted) {
@@ -115,8 +114,8 @@ ZEROCOUNT_ALWAYS_INLINE P root_between(const P* c, int order, const P& at_start,
   return search.x;
 }
 
-/// About where next_zero will be: the zero of the polynomial of degree 4 that has the same first terms and
-/// the same value at 1.
+/// Start value of next_zero: the zero of the polynomial of degree 4 with equal first terms and equal value
+/// at 1.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P rough_zero(const P* c, const P& at_end, const typename P::Mask& from_zero) {
   const P c0 = select(from_zero, c[1], c[0]);
@@ -137,8 +136,9 @@ ZEROCOUNT_ALWAYS_INLINE P rough_zero(const P* c, const P& at_end, const typename
   return select((x > P(0.0)) & (x < P(1.0)), x, secant);
 }
 
-/// The zero of a polynomial on (0, 1), or where it is zero at 0 (`from_zero`) its next one, that of the
-/// polynomial by x. Its position enters the motion by its square: at a reversal the velocity is zero.
+/// The zero of a polynomial on (0, 1); with `from_zero`, where the polynomial is zero at 0, that of the
+/// polynomial divided by x. An error of its position enters the motion squared, because the velocity at a
+/// reversal is zero.
 /// @param at_start the value at 0, or the slope where that is zero. @param at_end the value at 1.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P next_zero(const P* c, int order, const P& at_start, const P& at_end,

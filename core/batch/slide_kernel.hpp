@@ -19,8 +19,8 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
   const P omega = at.load(m.omega);
   const P direction = at.load(m.slide_direction);
   const P coulomb = at.load(c.coulomb);
-  const P breakaway = at.load(c.breakaway);
-  const P stribeck = direction * (breakaway - coulomb);
+  const P breakaway_torque = at.load(c.breakaway);
+  const P stribeck = direction * (breakaway_torque - coulomb);
   const P per_inertia = at.load(c.per_inertia);
   const P damping = at.load(c.sliding_damping);
   const P per_velocity_squared = at.load(c.per_velocity_squared);
@@ -29,22 +29,21 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
 
   const P stribeck_velocity = one / sqrt(per_velocity_squared);
   const P speed = abs(omega);
-  P lightness_start = zero;
+  P stribeck_decay_start = zero;
   P h = time_to_stop;
   if constexpr (Fast) {
     const P above = speed - P(6.5) * stribeck_velocity;
-    const P slowing = max(breakaway - direction * torque + damping * speed, zero) * per_inertia;
+    const P slowing = max(breakaway_torque - direction * torque + damping * speed, zero) * per_inertia;
     h = select(slowing * time_to_stop > above, above / slowing, time_to_stop);
   } else {
-    lightness_start = exp(-per_velocity_squared * omega * omega);
-    // (ω/ωs)² may change by some 4.
-    const P acceleration = abs(driving - stribeck * lightness_start - damping * omega) * per_inertia;
+    stribeck_decay_start = exp(-per_velocity_squared * omega * omega);
+    // (ω/ωs)² may change by about 4 per step, and by more far above the Stribeck velocity, where its
+    // exponential is negligible.
+    const P acceleration = abs(driving - stribeck * stribeck_decay_start - damping * omega) * per_inertia;
     const P changing = acceleration * (speed + P(2.0) * stribeck_velocity) * per_velocity_squared;
-    // Far above the Stribeck velocity it may change by more, because there its exponential is next to
-    // nothing.
     const P far = per_velocity_squared * omega * omega;
-    const P most = max(P(4.0), P(0.5) * (far - P(23.0)));
-    h = min(min(at.load(time.next_step), most / changing), time_to_stop);
+    const P max_change = max(P(4.0), P(0.5) * (far - P(23.0)));
+    h = min(min(at.load(time.next_step), max_change / changing), time_to_stop);
     h = select((h < time_to_stop) & (time_to_stop < P(1.4) * h), time_to_stop * P(0.5), h);
   }
   const P force_scale = h * h * per_inertia;
@@ -55,10 +54,10 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
   P velocity[batch_order + 1];
   P exponent[batch_order + 1];
   P slope[batch_order + 1];
-  P lightness[batch_order + 1];
+  P stribeck_decay[batch_order + 1];
   theta[0] = at.load(m.theta);
   velocity[0] = omega * h;
-  lightness[0] = lightness_start;
+  stribeck_decay[0] = stribeck_decay_start;
 #pragma GCC unroll 1
   for (int k = 0; k < batch_order; ++k) {
     P force = k == 0 ? driving : zero;
@@ -66,9 +65,9 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
       exponent[k] = -per_step_squared * numerics::square_coefficient(velocity, k);
       if (k > 0) {
         slope[k - 1] = P(static_cast<double>(k)) * exponent[k];
-        lightness[k] = numerics::exponential_coefficient(slope, lightness, k);
+        stribeck_decay[k] = numerics::exponential_coefficient(slope, stribeck_decay, k);
       }
-      force = force - stribeck * lightness[k];
+      force = force - stribeck * stribeck_decay[k];
     }
     theta[k + 1] = velocity[k] * P(numerics::reciprocal.of[k + 1]);
     velocity[k + 1] = (force_scale * force - damping_scale * velocity[k]) * P(numerics::reciprocal.of[k + 1]);
@@ -112,12 +111,11 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
                  events_where<P>(beyond | (at.load(time.steps) > P(max_steps_to_stop)), beyond_kernel));
 }
 
-/// One step of each lane whose hook slides: to the next stop, to ω = 0, or as far as the series carry.
-/// Reports velocity_zero, and beyond_kernel where the slide begins at ω = 0. See
-/// PreslidingFriction::slide.
+/// One step of each lane whose hook slides: to the next stop, to ω = 0, or as far as the series converge.
+/// Reports velocity_zero, and beyond_kernel where the slide starts at ω = 0. See PreslidingFriction::slide.
 ///
-/// Far above the Stribeck velocity, where (ω/ωs)² > 64, friction is that of Coulomb to the last bit; those
-/// lanes go apart, with `Fast`, and step until (ω/ωs)² is down to 42: exp(−42) = 6e-19.
+/// `Fast` is for lanes far above the Stribeck velocity, where (ω/ωs)² > 64 and friction is that of Coulomb to
+/// the last bit. Their steps end where (ω/ωs)² = 42: exp(−42) = 6e-19.
 template <class V, bool Fast>
 void slide_kernel(BatchState& batch, const LaneSet& lanes) {
   batch.event_count = 0;

@@ -10,20 +10,20 @@ ZEROCOUNT_ALWAYS_INLINE P elongation_end(const StickStep<P>& step) {
   return step.elongation_start + step.elongation_change;
 }
 
-/// Events whose threshold the end of a step lies beyond.
+/// Events whose threshold is passed at the end of a step.
 template <class P>
 struct EventsPassed {
   using Mask = typename P::Mask;
-  Mask closes;  ///< the branch has ended
-  Mask stops;   ///< creep has come to its limit, or σ to zero
-  Mask starts;  ///< creep has set in
+  Mask closes;     ///< the branch has ended
+  Mask creep_off;  ///< creep has reached its limit, or σ zero
+  Mask creep_on;   ///< |σ| has passed the onset of creep
 };
 
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE EventsPassed<P> events_passed(const BatchState& batch, const At& at,
                                                       const StickStep<P>& step) {
   const P zero(0.0);
-  const P creep_left = step.torque_sign * step.creep;
+  const P creep_left = step.torque_sign * step.creep_velocity;
   return {step.direction * (elongation_end(step) - at.load(batch.motion.branch_end)) >= zero,
           step.creeping & (~(creep_left > zero) | (step.torque_sign * step.torque <= zero)),
           ~step.creeping & (abs(step.torque) >= at.load(batch.motion.creep_onset))};
@@ -41,44 +41,44 @@ ZEROCOUNT_ALWAYS_INLINE P hook_torque_at_end(const StickStep<P>& step) {
   return step.torque + step.per_step * step.velocity;
 }
 
-/// Whether the hook's torque may reach the breakaway torque between the ends of the step, of which the larger
-/// is `at_ends` (N m).
+/// Whether the hook's torque may reach the breakaway torque within the step. @param at_ends its larger value
+/// at the ends, N m.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask may_slip_within(const StickStep<P>& step, const P& at_ends) {
   P hook[batch_order + 1];
   for (int k = 0; k <= batch_order; ++k) hook[k] = hook_coefficient(step, k);
-  const P bend = curvature_bound(hook, batch_order);
-  return (at_ends + bend * P(0.125) >= step.breakaway) & ~(abs(hook[1]) > bend);
+  const P curvature = curvature_bound(hook, batch_order);
+  return (at_ends + curvature * P(0.125) >= step.breakaway_torque) & ~(abs(hook[1]) > curvature);
 }
 
-/// Marks the lanes whose steps have an event other than a reversal, without looking for it.
+/// Marks the lanes whose steps have an event other than a reversal, without locating it.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void mark_events(const BatchState& batch, const At& at, StickStep<P>& step) {
   using Mask = typename P::Mask;
   const EventsPassed<P> passed = events_passed(batch, at, step);
   const P hook_max = max(abs(step.hook_torque), abs(hook_torque_at_end(step)));
-  Mask slips = hook_max >= step.breakaway;
-  const Mask near = ~step.too_long & (hook_max > P(0.5) * step.breakaway);
+  Mask slips = hook_max >= step.breakaway_torque;
+  const Mask near = ~step.too_long & (hook_max > P(0.5) * step.breakaway_torque);
   if ((near & step.here).any()) slips = slips | (near & may_slip_within(step, hook_max));
-  step.meets = ~step.too_long & (passed.closes | passed.stops | passed.starts | slips);
-  step.beyond = nowhere<P>();
+  step.meets = ~step.too_long & (passed.closes | passed.creep_off | passed.creep_on | slips);
+  step.beyond = no_lanes<P>();
 }
 
-/// Which event each lane looks for.
+/// The event that each lane locates. At most one of the masks is set.
 template <class P>
 struct SoughtEvent {
   using Mask = typename P::Mask;
-  Mask open;  ///< the lanes that look for one
-  Mask loose, closing, start;
-  Mask stop;  ///< none of the others: the end of creep
+  Mask open;  ///< lanes that locate one
+  Mask breaks_away, closes, creep_on, creep_off;
 
-  ZEROCOUNT_ALWAYS_INLINE P choose(const P& if_loose, const P& if_closure, const P& if_start,
-                                   const P& otherwise) const {
-    return select(loose, if_loose, select(closing, if_closure, select(start, if_start, otherwise)));
+  ZEROCOUNT_ALWAYS_INLINE P choose(const P& if_breakaway, const P& if_closure, const P& if_creep_on,
+                                   const P& if_creep_off) const {
+    return select(breaks_away, if_breakaway,
+                  select(closes, if_closure, select(creep_on, if_creep_on, if_creep_off)));
   }
 };
 
-/// Moves the end of the step to where the events are that its end lies beyond.
+/// Moves the end of the step back to the sought event.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void go_back_to(const BatchState& batch, const At& at, const SoughtEvent<P>& sought,
                                         StickStep<P>& step) {
@@ -87,19 +87,20 @@ ZEROCOUNT_ALWAYS_INLINE void go_back_to(const BatchState& batch, const At& at, c
   const P zero(0.0);
   const P hook_sign = sign(hook_torque_at_end(step));
   const P start_sign = sign(step.torque);
-  const P thresholds = sought.choose(step.breakaway, at.load(batch.motion.branch_end) - step.elongation_start,
-                                     at.load(batch.motion.creep_onset), zero);
+  const P thresholds =
+      sought.choose(step.breakaway_torque, at.load(batch.motion.branch_end) - step.elongation_start,
+                    at.load(batch.motion.creep_onset), zero);
   P f[batch_order + 1];
   for (int k = 0; k <= batch_order; ++k) {
     const P elongation = k == 0 ? zero : elongation_coefficient(step, k);
-    const P creep = k == batch_order ? zero : P(static_cast<double>(k + 1)) * s.growth[k + 1];
+    const P creep = k == batch_order ? zero : P(static_cast<double>(k + 1)) * s.scaled_creep[k + 1];
     f[k] = sought.choose(hook_sign * hook_coefficient(step, k), elongation,
                          start_sign * torque_coefficient(step, k), step.torque_sign * step.length * creep);
   }
   f[0] = f[0] - thresholds;
   // Creep ends before σ is zero, beyond which the series of its rate, in σ², would rise again.
   P last = step.x;
-  const Mask crosses = sought.open & sought.stop & (step.torque_sign * step.torque <= zero);
+  const Mask crosses = sought.open & sought.creep_off & (step.torque_sign * step.torque <= zero);
   if (crosses.any()) {
     P torque_left[batch_order + 1];
     for (int k = 0; k <= batch_order; ++k) torque_left[k] = step.torque_sign * torque_coefficient(step, k);
@@ -112,8 +113,8 @@ ZEROCOUNT_ALWAYS_INLINE void go_back_to(const BatchState& batch, const At& at, c
   const P found =
       select(bracketed, root_between(f, batch_order, f[0], f_end, last, sought.open & bracketed), last);
   step.beyond = step.beyond | (sought.open & ~bracketed & ~crosses & (f_end != zero));
-  step.event = select(sought.open, sought.choose(P(breaks_away), P(closure), P(creep_sets_in), P(creep_ends)),
-                      step.event);
+  step.event =
+      select(sought.open, sought.choose(P(breakaway), P(closure), P(creep_on), P(creep_off)), step.event);
   end_at(found, sought.open, step);
   evaluate_creep(step);
   P velocity[batch_order + 1];
@@ -121,37 +122,37 @@ ZEROCOUNT_ALWAYS_INLINE void go_back_to(const BatchState& batch, const At& at, c
   step.velocity = select(sought.open, value_of(velocity, batch_order, step.x), step.velocity);
 }
 
-/// Finds the first event of each lane, and ends its step there.
+/// Locates the first event of each lane, and ends its step there.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void find_first_event(const BatchState& batch, const At& at, StickStep<P>& step) {
   using Mask = typename P::Mask;
-  step.meets = nowhere<P>();
-  step.beyond = abs(step.hook_torque) >= step.breakaway;
-  // One at a time; the next round sees whether another is earlier still.
+  step.meets = no_lanes<P>();
+  step.beyond = abs(step.hook_torque) >= step.breakaway_torque;
+  // Each round locates one event; the next finds whether another is earlier.
   for (int round = 0; round < 4; ++round) {
     const EventsPassed<P> passed = events_passed(batch, at, step);
     const P hook_torque = hook_torque_at_end(step);
-    const Mask loose = (abs(hook_torque) >= step.breakaway) & (step.event != P(breaks_away));
+    const Mask breaks_away = (abs(hook_torque) >= step.breakaway_torque) & (step.event != P(breakaway));
     const Mask closes = passed.closes & (step.event != P(closure));
-    const Mask starts = passed.starts & (step.event != P(creep_sets_in));
-    const Mask stops = passed.stops & (step.event != P(creep_ends));
+    const Mask starts = passed.creep_on & (step.event != P(creep_on));
+    const Mask ends = passed.creep_off & (step.event != P(creep_off));
     SoughtEvent<P> sought;
-    sought.open = step.here & (loose | closes | starts | stops) & ~step.too_long & ~step.beyond;
+    sought.open = step.here & (breaks_away | closes | starts | ends) & ~step.too_long & ~step.beyond;
     if (!sought.open.any()) break;
-    sought.loose = loose;
-    sought.closing = ~loose & closes;
-    sought.start = ~loose & ~closes & starts;
-    sought.stop = ~loose & ~closes & ~starts;
+    sought.breaks_away = breaks_away;
+    sought.closes = ~breaks_away & closes;
+    sought.creep_on = ~breaks_away & ~closes & starts;
+    sought.creep_off = ~breaks_away & ~closes & ~starts;
     go_back_to(batch, at, sought, step);
   }
-  // Between the ends the hook's torque may have been larger.
+  // The hook's torque may have been larger within the step.
   const P hook_at_end = hook_torque_at_end(step);
   const P hook_max = max(abs(step.hook_torque), abs(hook_at_end));
-  const Mask near = (step.event != P(breaks_away)) & (hook_max > P(0.5) * step.breakaway);
+  const Mask near = (step.event != P(breakaway)) & (hook_max > P(0.5) * step.breakaway_torque);
   if ((near & ~step.too_long).any()) {
     step.too_long = step.too_long | (near & may_slip_within(step, hook_max));
   }
-  const Mask slips = step.event == P(breaks_away);
+  const Mask slips = step.event == P(breakaway);
   step.beyond = step.beyond | (slips & ~(step.velocity * hook_at_end > P(0.0)));
   step.beyond = step.beyond & ~step.too_long;
 }

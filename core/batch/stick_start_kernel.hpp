@@ -14,7 +14,7 @@ __attribute__((noinline)) void start_step(BatchState& batch, const At& at) {
   MotionLanes& m = batch.motion;
   ContactLanes& c = batch.contact;
   const P zero(0.0);
-  constexpr double none = __builtin_nan("");  // no header of others may be in here
+  constexpr double none = __builtin_nan("");  // kernels include no header of the library
   const P elongation = at.load(m.elongation);
   const P hardening = at.load(m.hardening);
   const P torque = at.load(m.torque);
@@ -41,13 +41,13 @@ __attribute__((noinline)) void start_step(BatchState& batch, const At& at) {
   const Mask ends = creeping & ~(rate > zero);
   creeping = creeping & ~ends;
   const P extension_rate = select(creeping, torque_sign * rate, zero);
-  const P omega = select(to_mask(at.load(m.turning)), extension_rate, at.load(m.omega));
+  const P omega = select(to_mask(at.load(m.at_reversal)), extension_rate, at.load(m.omega));
   const P elongation_rate = omega - extension_rate;
   const P unbalanced = torque - damping * omega - spring_torque;
   const P acceleration = unbalanced * per_inertia + alpha * extension_rate;
 
-  // Within twice the amplitude of rest, or of a residual oscillation at a reversal, by the leading terms of
-  // CreepAtRest: the rest rule decides.
+  // The rest rule is tried within twice the amplitude of rest, or of a residual oscillation at a reversal, by
+  // the leading terms of CreepAtRest.
   const P balance = torque_sign * torque;
   const P creep_limit = torque_power(torque, exponent) * per_lambda;
   const P limit_rate = alpha * (creep_limit - hardening);
@@ -60,8 +60,8 @@ __attribute__((noinline)) void start_step(BatchState& batch, const At& at) {
   const P velocity_excess = torque_sign * omega - slow_rate * (P(1.0) + alpha * damping / stiffest);
   const P acceleration_excess = (torque_excess + damping * velocity_excess) * per_inertia;
   const P per_time_squared = stiffest * per_inertia;
-  const Mask turning = elongation_rate == zero;
-  const P amplitude = select(turning, at.load(c.max_oscillation), at.load(batch.time.rest));
+  const Mask at_reversal = elongation_rate == zero;
+  const P amplitude = select(at_reversal, at.load(c.max_oscillation), at.load(batch.time.rest));
   const P limit = P(2.0) * amplitude * per_time_squared;
   const Mask at_rest = torque == at.load(m.rest_torque);
   const Mask rests = at_rest | (acceleration_excess * acceleration_excess +
@@ -70,9 +70,10 @@ __attribute__((noinline)) void start_step(BatchState& batch, const At& at) {
 
   const P hook_torque = spring_torque + damping * omega;
   const P motion = select(omega != zero, omega, torque - spring_torque);
-  const Mask loose = ~rests & (abs(hook_torque) >= at.load(c.breakaway)) & (hook_torque * motion > zero);
+  const Mask breaks_away =
+      ~rests & (abs(hook_torque) >= at.load(c.breakaway)) & (hook_torque * motion > zero);
   const P direction = sign(select(elongation_rate != zero, elongation_rate, acceleration));
-  const Mask held = ~rests & ~loose;
+  const Mask held = ~rests & ~breaks_away;
 
   at.store(m.spring_torque, spring_torque);
   at.store(m.softness, softness);
@@ -80,15 +81,15 @@ __attribute__((noinline)) void start_step(BatchState& batch, const At& at) {
   at.store(m.heading, direction);
   at.store(m.rest_torque, select(at_rest, torque, P(none)));
   at.store(m.creeping, to_number<P>(creeping));
-  at.store(m.turning, to_number<P>(turning));
+  at.store(m.at_reversal, to_number<P>(at_reversal));
   add_events(batch, at,
-             events_where<P>(rests, may_rest) + events_where<P>(loose, slides) +
-                 events_where<P>(ends, ends_creep) +
-                 events_where<P>(held & (direction != at.load(m.direction)), turns));
+             events_where<P>(rests, may_rest) + events_where<P>(breaks_away, breakaway) +
+                 events_where<P>(ends, creep_off) +
+                 events_where<P>(held & (direction != at.load(m.direction)), reversal));
 }
 
-/// Prepares the step of a lane whose hook sticks: evaluates the branch, and reports may_rest alone, or
-/// slides, or any of ends_creep and turns. See PreslidingFriction::stick.
+/// Prepares the step of a lane whose hook sticks: evaluates the branch, and reports the events at its start:
+/// creep_off, and one of may_rest, breakaway and reversal. See PreslidingFriction::stick.
 template <class V>
 void stick_start_kernel(BatchState& batch, const LaneSet& lanes) {
   batch.event_count = 0;

@@ -5,59 +5,60 @@
 
 namespace zerocount::batch {
 
-/// A step of the lanes of one vector: where it begins, its series, and the part of it that is taken.
+/// A step of the lanes of one vector: its start, its series, and the part of it that is used.
 template <class P>
 struct StickStep {
   using Mask = typename P::Mask;
 
-  Mask here;       ///< the lanes that take part
+  Mask here;       ///< lanes that take part
   P h;             ///< length, s
   P per_h;         ///< 1/h, 1/s
-  P time_to_stop;  ///< left to the next stop, s
+  P time_to_stop;  ///< to the next stop, s
   P longest_step;  ///< 1/ωn, s
   P length;        ///< unit of the series' lengths: −s/(softening rate), rad
-  P torque_unit;   ///< of their pull: J/h²·length, N m
+  P torque_unit;   ///< unit of scaled_torque: J/h²·length, N m
 
   // The start.
   P elongation_start;  ///< xs, rad
-  P growth_start;      ///< xh·sgn(σ), rad
+  P creep_start;       ///< xh·sgn(σ), rad
   P creep_limit;       ///< ±α·h/λ, by |σ|ⁿ; 0 where creep is off
-  Mask turning;        ///< dxs/dt is zero
+  Mask at_reversal;    ///< dxs/dt is zero
   Mask creeping;
-  P torque_sign;  ///< of σ
-  P direction;    ///< of the elongation
-  P per_step;     ///< c/h: damper's torque by ω·h, N m/rad
-  P breakaway;    ///< N m
-  P hook_torque;  ///< σ + c·ω, N m
+  P torque_sign;       ///< of σ
+  P direction;         ///< of the elongation
+  P per_step;          ///< c/h: damper's torque by ω·h, N m/rad
+  P breakaway_torque;  ///< Fs, N m
+  P hook_torque;       ///< σ + c·ω, N m
   StickLaw<P> law;
   StickSeries<P> series;
 
-  // How long a step the series allows.
+  // Step control.
   Mask reverses;      ///< dxs/dt changes its sign
-  Mask reverses_too;  ///< of them, those whose reversal is to be found
+  Mask reverses_too;  ///< the step ends at that reversal
   Mask too_long;
-  Mask inexact;    ///< too long, because of the terms left out
+  Mask inexact;    ///< too long by the truncation error
   P last_terms;    ///< of elongation and velocity, rad
-  P allowed;       ///< limit of last_terms, rad
-  P left_out;      ///< last_terms at x
+  P allowed;       ///< truncation error allowed in the full step, rad
+  P left_out;      ///< truncation error at x, rad
   P allowed_at_x;  ///< `allowed` for the part of the step up to x, rad
   P rate_start;    ///< dxs/dt·h, or where that is zero its slope, by the softening length
   P rate_end;      ///< dxs/dt·h after the whole step, by the softening length
 
-  // The step that is taken.
-  P x;         ///< the fraction of the full step that is used
-  P event;     ///< LaneEvent at the end of it
-  Mask meets;  ///< it has an event that this kernel does not look for
-  Mask beyond;
+  // The part that is used.
+  P x;                  ///< the fraction of the full step that is used
+  P event;              ///< LaneEvent at the end of it
+  Mask meets;           ///< the step has an event that this kernel does not locate
+  Mask beyond;          ///< the kernel cannot take the step
   P torque;             ///< σ at its end, N m
   P elongation_change;  ///< of xs, rad
-  P growth_change;      ///< of xp, rad
-  P creep;              ///< sgn(σ)·dxp/dt·h at its end, rad
+  P creep_change;       ///< of xp, rad
+  P creep_velocity;     ///< sgn(σ)·dxp/dt·h at its end, rad
   P velocity;           ///< ω·h at its end, rad
 };
 
+/// The empty mask.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE typename P::Mask nowhere() {
+ZEROCOUNT_ALWAYS_INLINE typename P::Mask no_lanes() {
   return P(1.0) < P(0.0);
 }
 
@@ -66,7 +67,7 @@ template <class P>
 ZEROCOUNT_ALWAYS_INLINE P velocity_coefficient(const StickStep<P>& step, int k) {
   const StickSeries<P>& s = step.series;
   if (k == batch_order) return step.length * s.rate[k];
-  return step.length * (s.rate[k] + P(static_cast<double>(k + 1)) * s.growth[k + 1]);
+  return step.length * (s.rate[k] + P(static_cast<double>(k + 1)) * s.scaled_creep[k + 1]);
 }
 
 /// Coefficient k ≥ 1 of xs, rad.
@@ -78,20 +79,19 @@ ZEROCOUNT_ALWAYS_INLINE P elongation_coefficient(const StickStep<P>& step, int k
 /// Coefficient k of σ, N m.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P torque_coefficient(const StickStep<P>& step, int k) {
-  return step.torque_unit * step.series.pull[k];
+  return step.torque_unit * step.series.scaled_torque[k];
 }
 
-/// The step that is thought to be good, at most to the next stop.
+/// Chooses the length of the step, at most to the next stop.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void begin_step(const BatchState& batch, const At& at, StickStep<P>& step) {
   const TimeLanes& time = batch.time;
   step.here = at.taking_part();
   step.time_to_stop = at.load(time.time_to_stop);
   step.longest_step = at.load(time.longest_step);
-  step.turning = to_mask(at.load(batch.motion.turning));
-  // Half a period of the stiffest spring lies between two zeros of dxs/dt. Of these there must be one at
-  // most.
-  const P longest = step.longest_step * select(step.turning, P(4.5), P(3.0));
+  step.at_reversal = to_mask(at.load(batch.motion.at_reversal));
+  // The step must have at most one zero of dxs/dt; between two lies half a period of the stiffest spring.
+  const P longest = step.longest_step * select(step.at_reversal, P(4.5), P(3.0));
   const P h = min(min(at.load(time.next_step), step.time_to_stop), longest);
   step.h = select((h < step.time_to_stop) & (step.time_to_stop < P(1.4) * h), step.time_to_stop * P(0.5), h);
   step.per_h = P(1.0) / step.h;
@@ -116,11 +116,11 @@ ZEROCOUNT_ALWAYS_INLINE void expand_step(const BatchState& batch, const At& at, 
 
   StickLaw<P>& law = step.law;
   const P acceleration = h * h * per_inertia;
-  const P pull = exponent * acceleration;
+  const P per_torque = exponent * acceleration;
   law.damping = damping * h * per_inertia;
-  law.applied = pull * at.load(m.torque);
+  law.applied = per_torque * at.load(m.torque);
   law.stiffness = acceleration * at.load(c.k1);
-  law.softening = pull * (branch_sign * at.load(m.branch_softening_torque));
+  law.softening = per_torque * (branch_sign * at.load(m.branch_softening_torque));
   law.creep_recovery = select(step.creeping, at.load(c.alpha) * h, zero);
   law.creep_exponent = at.load(c.creep_exponent);
   step.creep_limit = step.torque_sign * law.creep_recovery * at.load(c.per_lambda);
@@ -128,43 +128,43 @@ ZEROCOUNT_ALWAYS_INLINE void expand_step(const BatchState& batch, const At& at, 
   law.creep_limit = exponent * step.creep_limit * select(law.creep_exponent == P(2.0), square_unit, P(1.0));
 
   step.elongation_start = at.load(m.elongation);
-  step.growth_start = step.torque_sign * at.load(m.hardening);
+  step.creep_start = step.torque_sign * at.load(m.hardening);
   const P velocity = at.load(m.omega) * h;
   StickStart<P> start;
-  start.growth = exponent * step.growth_start;
+  start.scaled_creep = exponent * step.creep_start;
   start.velocity = exponent * velocity;
-  start.pull = pull * torque;
+  start.scaled_torque = per_torque * torque;
   start.softness = at.load(m.softness);
   start.torque = torque;
-  start.turning = step.turning;
+  start.at_reversal = step.at_reversal;
   start.creeping = step.creeping & step.here;
   expand(law, start, step.series);
 
-  step.breakaway = at.load(c.breakaway);
+  step.breakaway_torque = at.load(c.breakaway);
   step.per_step = damping * step.per_h;
   step.hook_torque = torque + step.per_step * velocity;
 }
 
-/// Inwards along a virgin curve the exponential grows, and must not by many e-folds.
+/// Whether the exponential of the branch grows too much, as it does inwards along a virgin curve.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask grows_too_much(const BatchState& batch, const At& at,
                                                         const StickStep<P>& step) {
   const MotionLanes& m = batch.motion;
   const P branch_sign = at.load(m.branch_sign);
   const typename P::Mask inwards = step.direction * branch_sign < P(0.0);
-  if (!(inwards & step.here).any()) return nowhere<P>();
+  if (!(inwards & step.here).any()) return no_lanes<P>();
   P growth = abs(step.series.rate[0]);
 #pragma GCC unroll 1
   for (int k = 1; k < batch_order; ++k) {
     growth = growth + abs(step.series.rate[k]) * P(numerics::reciprocal.of[k + 1]);
   }
   const P softening_rate = at.load(m.branch_softening_rate);
-  const P travelled = branch_sign * (step.elongation_start - at.load(m.branch_elongation));
-  return inwards & (growth > P(6.0)) & (softening_rate * travelled - growth < P(40.0));
+  const P travel = branch_sign * (step.elongation_start - at.load(m.branch_elongation));
+  return inwards & (growth > P(6.0)) & (softening_rate * travel - growth < P(40.0));
 }
 
-/// The truncation error allowed in this step, rad: that of its part of a torque step, of which each may have
-/// the lane's tolerance, or so small a part of the amplitude of a small oscillation.
+/// The truncation error allowed in this step, rad: its proportion, by time, of the lane's tolerance per
+/// torque step, or of a small fraction of the amplitude of a small oscillation.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE P allowed_error(const BatchState& batch, const At& at, const StickStep<P>& step) {
   constexpr double of_amplitude = 4e-6;
@@ -177,44 +177,45 @@ ZEROCOUNT_ALWAYS_INLINE P allowed_error(const BatchState& batch, const At& at, c
   return min(at.load(time.tolerance), relative) * (step.h * at.load(time.sample_rate));
 }
 
-/// The lanes in which dxs/dt may be zero within the step though it has the same sign at both ends. Creep may
-/// bring it through zero and back where it is as small as the contribution of creep.
+/// The lanes in which dxs/dt may have two zeros within the step, the signs at its ends being equal. Creep may
+/// cause them where dxs/dt is as small as the contribution of creep.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask may_turn_twice(const BatchState& batch, const At& at,
                                                         const StickStep<P>& step) {
   using Mask = typename P::Mask;
   const StickSeries<P>& s = step.series;
-  // Order 1 of the growth is order 0 of its rate.
-  const P creep_velocity = at.load(batch.contact.max_creep_ratio) * abs(s.growth[1]);
+  // Order 1 of creep is order 0 of its rate.
+  const P creep_velocity = at.load(batch.contact.max_creep_ratio) * abs(s.scaled_creep[1]);
   const Mask small = min(abs(step.rate_start), abs(step.rate_end)) <= creep_velocity;
   const Mask unsure = step.here & ~step.reverses & small;
   if (!unsure.any()) return unsure;
   P g[batch_order + 1];
-  for (int k = 0; k < batch_order; ++k) g[k] = select(step.turning, s.rate[k + 1], s.rate[k]);
-  g[batch_order] = select(step.turning, P(0.0), s.rate[batch_order]);
+  for (int k = 0; k < batch_order; ++k) g[k] = select(step.at_reversal, s.rate[k + 1], s.rate[k]);
+  g[batch_order] = select(step.at_reversal, P(0.0), s.rate[batch_order]);
   return unsure & ~cannot_turn(g[0], step.rate_end, g[1], curvature_bound(g, batch_order));
 }
 
-/// Finds the reversal, if there is one, and whether the step is short enough for the series to tell.
+/// Locates the reversal, if any, and decides whether the step is short enough.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void find_reversal(const BatchState& batch, const At& at, StickStep<P>& step) {
   using Mask = typename P::Mask;
   const StickSeries<P>& s = step.series;
   // Where dxs/dt is zero at the start, its next zero is that of (dxs/dt)/t.
   step.rate_end = sum_of(s.rate, batch_order);
-  step.rate_start = select(step.turning, s.rate[1], s.rate[0]);
+  step.rate_start = select(step.at_reversal, s.rate[1], s.rate[0]);
   step.reverses = step.rate_start * step.rate_end < P(0.0);
   step.last_terms = abs(step.length) * s.last_terms;
   step.allowed = allowed_error(batch, at, step);
   step.too_long = grows_too_much(batch, at, step) | may_turn_twice(batch, at, step);
   const Mask seeks = step.here & step.reverses & ~step.too_long;
   step.x = P(1.0);
-  // With a reversal the series has to be accurate up to there only.
+  // The series must be accurate only up to the reversal.
   step.left_out = step.last_terms;
   step.allowed_at_x = step.allowed;
   if (seeks.any()) {
-    step.x = select(
-        seeks, next_zero(s.rate, batch_order, step.rate_start, step.rate_end, step.turning, seeks), P(1.0));
+    step.x =
+        select(seeks, next_zero(s.rate, batch_order, step.rate_start, step.rate_end, step.at_reversal, seeks),
+               P(1.0));
     const P square = step.x * step.x;
     const P fourth = square * square;
     // x to the power of the order − 1
@@ -227,23 +228,23 @@ ZEROCOUNT_ALWAYS_INLINE void find_reversal(const BatchState& batch, const At& at
   step.too_long = step.too_long | step.inexact;
 }
 
-/// Puts the end of the step to `x` in the lanes of `where`, but for its velocity.
+/// Moves the end of the step to `x` in the lanes of `where`, except its velocity.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE void end_at(const P& x, const typename P::Mask& where, StickStep<P>& step) {
   const StickSeries<P>& s = step.series;
-  P pull = s.pull[batch_order];
+  P torque = s.scaled_torque[batch_order];
   P elongation = s.rate[batch_order - 1] * P(numerics::reciprocal.of[batch_order]);
-  P growth = s.growth[batch_order];
+  P creep = s.scaled_creep[batch_order];
 #pragma GCC unroll 1
   for (int k = batch_order - 1; k >= 1; --k) {
-    pull = pull * x + s.pull[k];
+    torque = torque * x + s.scaled_torque[k];
     elongation = elongation * x + s.rate[k - 1] * P(numerics::reciprocal.of[k]);
-    growth = growth * x + s.growth[k];
+    creep = creep * x + s.scaled_creep[k];
   }
   step.x = select(where, x, step.x);
-  step.torque = select(where, step.torque_unit * (pull * x + s.pull[0]), step.torque);
+  step.torque = select(where, step.torque_unit * (torque * x + s.scaled_torque[0]), step.torque);
   step.elongation_change = select(where, step.length * (elongation * x), step.elongation_change);
-  step.growth_change = select(where, step.length * (growth * x), step.growth_change);
+  step.creep_change = select(where, step.length * (creep * x), step.creep_change);
 }
 
 /// The rate of creep at the end of the step, by its law.
@@ -254,20 +255,21 @@ ZEROCOUNT_ALWAYS_INLINE void evaluate_creep(StickStep<P>& step) {
   if (other_powers.any()) {
     power = select(other_powers, pow(abs(step.torque), step.law.creep_exponent), power);
   }
-  step.creep = step.creep_limit * power - step.law.creep_recovery * (step.growth_start + step.growth_change);
+  step.creep_velocity =
+      step.creep_limit * power - step.law.creep_recovery * (step.creep_start + step.creep_change);
 }
 
-/// The motion at the end of the part that is used.
+/// Evaluates the motion at the end of the step.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE void evaluate_end(StickStep<P>& step) {
   const StickSeries<P>& s = step.series;
-  step.torque = step.torque_unit * s.pull_end;
+  step.torque = step.torque_unit * s.scaled_torque_end;
   step.elongation_change = step.length * s.elongation_change;
-  step.growth_change = step.length * s.growth_change;
+  step.creep_change = step.length * s.creep_change;
   if (step.reverses_too.any()) end_at(step.x, step.reverses_too, step);
   evaluate_creep(step);
   // At a reversal only creep moves the rotor.
-  step.velocity = select(step.reverses_too, step.creep, step.length * s.velocity_end);
+  step.velocity = select(step.reverses_too, step.creep_velocity, step.length * s.velocity_end);
 }
 
 }  // namespace zerocount::batch

@@ -4,17 +4,17 @@
 
 namespace zerocount::batch {
 
-/// Sampling instants within a step. They are not sampled, so the count there must be that of both ends.
+/// Sampling instants within a step. They are passed over, so the count must be the same at all of them.
 template <class P>
 struct StepTiming {
   using Mask = typename P::Mask;
   P samples_to_stop;       ///< at the start of the step
-  P time_to_stop_then;     ///< left to the next stop at its end, s
-  P samples_to_stop_then;  ///< samples up to and with that of the stop
+  P time_to_stop_then;     ///< at its end, s
+  P samples_to_stop_then;  ///< at its end
   P passed;                ///< samples within the step
   P elongation;            ///< xs at its end, rad
   P extension;             ///< xp at its end, rad
-  Mask counts;             ///< another count may come on the way: the step is not made
+  Mask counts;             ///< the count may change within the step: it is not made
 };
 
 template <class P, class At>
@@ -32,7 +32,7 @@ ZEROCOUNT_ALWAYS_INLINE StepTiming<P> timing_of(const BatchState& batch, const A
       select(stops_here, one, max(-floor(P(1e-9) - t.time_to_stop_then * at.load(time.sample_rate)), one));
   t.passed = t.samples_to_stop - t.samples_to_stop_then;
   const P extension = at.load(batch.motion.extension);
-  t.extension = extension + step.growth_change;
+  t.extension = extension + step.creep_change;
   t.elongation = step.elongation_start + step.elongation_change;
   const P hook = at.load(batch.motion.hook);
   const P per_count = at.load(time.per_count);
@@ -41,7 +41,7 @@ ZEROCOUNT_ALWAYS_INLINE StepTiming<P> timing_of(const BatchState& batch, const A
   const P start = step.elongation_start;
   const P lowest = (hook + min(start, t.elongation) + min(extension, t.extension)) * per_count + phase;
   const P highest = (hook + max(start, t.elongation) + max(extension, t.extension)) * per_count + phase;
-  // Clear of the edges, where rounding has a say.
+  // The margin covers rounding errors at the edges.
   const Mask same_count = (lowest - count > P(1e-9)) & (highest - count < P(1.0 - 1e-9));
   t.counts = (t.passed > zero) & ~same_count & ~step.too_long & ~step.beyond & ~step.meets;
   return t;
@@ -63,10 +63,10 @@ ZEROCOUNT_ALWAYS_INLINE void store_time(BatchState& batch, const At& at, const S
                           min(one, rough_power(moved, abs(step.length * step.rate_end), 1.0)));
   // From one reversal to the next it takes about as long as from the one before.
   const P half_oscillation =
-      select(step.turning & step.reverses & (P(4.0) * step.left_out <= step.allowed_at_x),
+      select(step.at_reversal & step.reverses & (P(4.0) * step.left_out <= step.allowed_at_x),
              P(1.25) * step.x * h, zero);
   const P longer = max(h * min(max(factor * slower, P(0.3)), P(2.5)), half_oscillation);
-  // A step that a stop has cut short does not shorten the one after it.
+  // A step cut short by a stop does not shorten the next one.
   const P before = at.load(time.next_step);
   const P kept = select(~(h < step.time_to_stop) & (factor > one), max(longer, before), longer);
   at.store(time.next_step, select(step.too_long, shorter, select(done, kept, before)));
@@ -87,12 +87,13 @@ ZEROCOUNT_ALWAYS_INLINE void store_motion_of(BatchState& batch, const At& at, co
   at.store(m.omega, select(done, step.velocity * step.per_h, at.load(m.omega)));
   at.store(m.extension, select(done, t.extension, at.load(m.extension)));
   at.store(m.hardening,
-           select(done, step.torque_sign * (step.growth_start + step.growth_change), at.load(m.hardening)));
-  at.store(m.turning, select(done, to_number<P>(step.event == P(reversal)), to_number<P>(step.turning)));
+           select(done, step.torque_sign * (step.creep_start + step.creep_change), at.load(m.hardening)));
+  at.store(m.at_reversal,
+           select(done, to_number<P>(step.event == P(reversal)), to_number<P>(step.at_reversal)));
   at.store(m.spring_torque, select(done, step.torque, at.load(m.spring_torque)));
 }
 
-/// The measures of `passed` samples with the error 0.
+/// Measures `passed` samples with zero error.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void store_measures(BatchState& batch, const At& at, const P& passed) {
   MeasureLanes& q = batch.measures;
@@ -102,7 +103,7 @@ ZEROCOUNT_ALWAYS_INLINE void store_measures(BatchState& batch, const At& at, con
   trial::for_each_of_arrival(StoreEach<At>{at}, q, arrival);
 }
 
-/// For whoever records the samples that were passed.
+/// Keeps the passed samples for the observer.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void record_passed(BatchState& batch, const At& at, const StickStep<P>& step,
                                            const P& passed) {
@@ -120,7 +121,7 @@ ZEROCOUNT_ALWAYS_INLINE void record_passed(BatchState& batch, const At& at, cons
     record.elongation[0] = step.elongation_start.part[p][j];
     for (int k = 1; k <= batch_order; ++k) record.elongation[k] = elongation_coefficient(step, k).part[p][j];
     for (int k = 0; k <= batch_order; ++k) {
-      record.growth[k] = (step.length * step.series.growth[k]).part[p][j];
+      record.creep[k] = (step.length * step.series.scaled_creep[k]).part[p][j];
     }
   }
 }
@@ -154,10 +155,10 @@ __attribute__((noinline)) void step_of(BatchState& batch, const At& at) {
   if (batch.passed != nullptr) record_passed(batch, at, step, passed);
 }
 
-/// One step of each lane whose hook sticks and that stick_start_kernel and its events have prepared: to the
-/// next stop, to the first event, or as far as the series carry. Reports events other than a reversal;
-/// nothing of a lane changes but its next step where the step was too long. A step with events other than a
-/// reversal is not made but reported as meets_event, unless `Events`.
+/// One step of each lane whose hook sticks, after stick_start_kernel and its events: to the next stop, to the
+/// first event, or as far as the series converge. Where the step was too long, only TimeLanes::next_step
+/// changes. Reports events other than a reversal. With `Events` the step ends at the first of them; without,
+/// a step that has one is not made but reported as meets_event.
 template <class V, bool Events>
 void stick_step_kernel(BatchState& batch, const LaneSet& lanes) {
   batch.event_count = 0;

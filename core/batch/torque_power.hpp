@@ -2,7 +2,7 @@
 
 #include "core/batch/series.hpp"
 
-/// |σ|ⁿ of the creep law in lanes. Lanes whose exponent is 2 have the same bits in any company.
+/// |σ|ⁿ of the creep law in lanes. The bits of a lane whose exponent is 2 do not depend on the other lanes.
 namespace zerocount::batch {
 
 template <class P>

@@ -33,8 +33,7 @@ inline constexpr std::array exit_code_meanings{
     ExitCodeMeaning{ExitCode::interrupted, "interrupted; everything finished is kept"},
 };
 
-/// Something that ends the command: a message for the user, complete in itself, and the exit code that goes
-/// with it.
+/// An error that ends the command: a message for the user, complete in itself, and the exit code.
 class Failure : public std::runtime_error {
  public:
   Failure(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}

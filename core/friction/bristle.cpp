@@ -69,7 +69,7 @@ bool Bristle::sliding() const {
          part_of_level * level;
 }
 
-/// The sign of ω from now on: its own, or that of the first derivative that is not 0.
+/// The sign of ω from now on: that of ω or, at ω = 0, of its first derivative that is not 0.
 double Bristle::direction_under(const motion::TorqueCourse& torque) const {
   if (omega_ != 0.0) return numerics::sign_of(omega_);
   const double excess = motion::torque_on_rotor(torque, omega_) - parameters_.stiffness * deflection_;
@@ -77,7 +77,7 @@ double Bristle::direction_under(const motion::TorqueCourse& torque) const {
   return motion::motor_is_constant(torque) ? 0.0 : numerics::sign_of(torque.settled - torque.now);
 }
 
-/// Whether the bristle is where it stays while the rotor is fast; sets it there.
+/// Whether the bristle is saturated; sets z to its end if so.
 bool Bristle::saturates(double direction) {
   if (!(std::abs(omega_) > parameters_.fast)) return false;
   const double end = direction * parameters_.level.coulomb / parameters_.stiffness;

@@ -15,7 +15,7 @@ struct BristleParameters {
   double damping;          ///< d, of the rotor, N m s/rad
   StribeckCurve level;     ///< g
   double fast;             ///< |ω| beyond which g(ω) = Fc to the last bit, rad/s; 0 where g is constant
-  double slow;  ///< |ω| above which it is so still to 6e-19 of Fs − Fc, rad/s; 0 where g is constant
+  double slow;  ///< |ω| above which g(ω) = Fc to 6e-19 of Fs − Fc, rad/s; 0 where g is constant
 };
 
 /// @param fast, slow of BristleParameters: 8·ωs and 6.5·ωs, with exp(−64) = 2e-28 and exp(−42) = 6e-19.
@@ -31,13 +31,13 @@ struct BristleSeries : StribeckSeries {
   numerics::Series ratio{};       ///< ω·z/g(ω), rad²/(N m s)
 };
 
-/// The motion of a rotor on a bristle, of one sign s of ω:
+/// The motion of a rotor on a bristle, with a constant sign s of ω:
 ///
 ///   dz/dt = ω − σ0·s·ω·z/g(ω),   J·dω/dt = u − σ0·z − σ1·dz/dt − d·ω,   dθ/dt = ω.
 ///
-/// It ends where ω comes to 0. Where g is constant the bristle comes to z = s·g/σ0 within rounding, and stays
-/// there: it is then *saturated*, J·dω/dt = u − s·g − d·ω, until |ω| comes down to `slow`. Without this the
-/// bristle's time constant g/(σ0·|ω|) would limit the steps of a fast rotor.
+/// It ends at ω = 0. Where g is constant the bristle comes to z = s·g/σ0 within rounding, and stays there: it
+/// is *saturated*, J·dω/dt = u − s·g − d·ω, until |ω| falls to `slow`. Otherwise the bristle's time constant
+/// g/(σ0·|ω|) would limit the steps of a fast rotor.
 struct BristleMotion {
   using Expansion = BristleSeries;
   enum class Event { none, velocity_zero, slow_again };
@@ -51,7 +51,7 @@ struct BristleMotion {
 
   BristleSeries start() const;
   double expand(BristleSeries& s, std::size_t k, double torque) const;
-  /// An error of z is one of ω later on: z is as accurate as θ.
+  /// z is as accurate as θ, because an error of z becomes one of ω.
   static double step_of_state(const BristleSeries& series, double tolerance, double duration) {
     return motion::step_within(series.deflection, series.omega, series.exponent, tolerance, duration);
   }
@@ -62,8 +62,8 @@ struct BristleMotion {
 /// Base of the laws of Dahl and LuGre: one elastic bristle that stands for all asperities.
 ///
 /// Rest rule. Where bristle_rests() bounds all further travel under a constant torque u by
-/// MotionTolerance::rest, the rotor stands from there on with ω = 0 and z = u/σ0, for as long as the torque
-/// stays. A bristle without damping never comes to rest.
+/// MotionTolerance::rest, the rotor is at rest, ω = 0 and z = u/σ0, until the torque changes. A bristle
+/// without damping never comes to rest.
 class Bristle : public WithoutCreepAndReversals {
  public:
   static constexpr bool has_presliding_motion = true;
@@ -81,7 +81,7 @@ class Bristle : public WithoutCreepAndReversals {
   const BristleParameters& parameters() const { return parameters_; }
 
  protected:
-  /// At rest with z = 0, or where `start.sliding` and it moves, with the z of steady sliding, sgn(ω)·g(ω)/σ0.
+  /// Starts with z = 0; with `start.sliding` and ω ≠ 0, with that of steady sliding, sgn(ω)·g(ω)/σ0.
   Bristle(const BristleParameters& parameters, double inertia, const motion::PlantStart& start,
           const motion::MotionTolerance& tolerance);
 
@@ -96,7 +96,7 @@ class Bristle : public WithoutCreepAndReversals {
   double theta_{0.0};
   double omega_;
   double deflection_;
-  std::optional<double> rest_torque_;  // under which the rotor stands, N m
+  std::optional<double> rest_torque_;  // under which the rotor is at rest, N m
 };
 
 }  // namespace zerocount::friction

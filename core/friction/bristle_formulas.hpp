@@ -5,8 +5,8 @@
 /// Formulas of a bristle for double and for the vectors of the batch engine.
 namespace zerocount::friction {
 
-/// Whether a bristle of a fast rotor may be set to its end. The rest of its way, |z − end|, would go by
-/// exp(−σ0·∫|ω|dt/Fc), and changes ω by Fc·|z − end|/(J·|ω|): here by no more than 1e-12 of ω.
+/// Whether the bristle of a fast rotor may be set to its end. The distance |z − end|, which decays as
+/// exp(−σ0·∫|ω|dt/Fc), changes ω by Fc·|z − end|/(J·|ω|): here by at most 1e-12 of ω.
 /// @param deflection z, rad. @param end sgn(ω)·Fc/σ0, rad. @param coulomb Fc, N m. @param inertia J, kg m².
 /// @param omega rad/s.
 template <class Number>
@@ -16,7 +16,7 @@ ZEROCOUNT_ALWAYS_INLINE auto is_at_end(const Number& deflection, const Number& e
   return (coulomb * rest <= Number(1e-12) * inertia * omega * omega) & (rest <= Number(1e-6) * abs(end));
 }
 
-/// Whether a bristle that bears `torque` in balance comes to rest: where a bound of all further travel,
+/// Whether a bristle in balance with `torque` comes to rest: a bound of all further travel,
 ///
 ///   4·(|z − u/σ0| + |ω|/ωn + J·|ω|/b)·(1 + J·ωn/b)/m,   m = 1 − |u|/g(0), b = σ1·m + d, ωn² = σ0/J,
 ///

@@ -15,7 +15,7 @@ struct StandingSeries {
   numerics::Series torque{};    ///< on the rotor, N m
 };
 
-/// A rotor that stands while the torque on it, u − Ts, is within the breakaway torque.
+/// A rotor at rest while the torque on it, u − Ts, is within the breakaway torque.
 struct StandingRotor {
   using Expansion = StandingSeries;
   enum class Event { none, released };
@@ -78,8 +78,8 @@ bool CoulombFriction::torque_drives(double direction, const motion::TorqueCourse
 }
 
 /// |u| can pass the breakaway torque at most once, and only towards where it settles, because u is monotonic.
-/// An excess of torque that rounding cannot turn into motion does not start a slide, or the rotor would slide
-/// and stick without end.
+/// An excess of torque too small to change ω in rounding does not start a slide: otherwise the rotor would
+/// slide and stick without end.
 double CoulombFriction::stand(const motion::TorqueCourse& torque, double duration) {
   const double torque_now = motion::torque_on_rotor(torque, 0.0);
   const int towards = numerics::sign_of(torque_now);
@@ -90,7 +90,7 @@ double CoulombFriction::stand(const motion::TorqueCourse& torque, double duratio
   if (torque.load != nullptr) return stand_with_load(torque, duration);
   if (motion::is_constant(torque) || std::abs(torque.settled) <= contact_.breakaway) return duration;
   const double direction = numerics::sign_of(torque.settled);
-  // From the level itself, where rounding has no say in whether it is passed.
+  // Starts at the level itself, so that rounding does not decide whether it is passed.
   const motion::TorqueCourse release{direction * contact_.breakaway, torque.settled, torque.rate};
   const double waiting = motion::time_until(torque, release.now);
   if (!(waiting < duration) || !torque_drives(direction, release)) return duration;

@@ -7,9 +7,9 @@
 
 namespace zerocount::friction {
 
-/// Amonton–Coulomb friction with a static level: the rotor stands, θ constant, while |u| ≤ Fs = breakaway. It
-/// slides towards sgn(u) from the instant at which |u| passes Fs, as Slide has it, until ω = 0; there the
-/// contact is new, with the parameters of that place.
+/// Amonton–Coulomb friction with a static level: θ is constant while |u| ≤ Fs = breakaway. When |u| passes Fs
+/// the rotor slides towards sgn(u), by Slide, until ω = 0; there a new contact forms, with the parameters of
+/// that place.
 class CoulombFriction : public WithoutCreepAndReversals {
  public:
   static constexpr std::string_view word = "coulomb";
@@ -22,7 +22,7 @@ class CoulombFriction : public WithoutCreepAndReversals {
   static constexpr bool remembers_loading = false;
   static constexpr Breakaway breakaway = Breakaway::of_hook;
 
-  /// It slides at the start wherever velocity ≠ 0: nothing else could give way to it.
+  /// Slides at the start wherever velocity ≠ 0.
   CoulombFriction(const motion::PlantParameters& plant, FrictionAlongRotor friction,
                   const motion::PlantStart& start, const motion::MotionTolerance& tolerance);
 

@@ -17,7 +17,7 @@ struct CreepState {
   double hardening{0.0};  ///< xh, rad
 };
 
-/// |σ|ⁿ, (N m)ⁿ: the usual n = 2 without the cost of a power.
+/// |σ|ⁿ, (N m)ⁿ. The usual n = 2 needs no pow().
 inline double torque_power(const FrictionParameters& friction, double torque) {
   return friction.n == 2.0 ? torque * torque : numerics::pow(std::abs(torque), friction.n);
 }
@@ -41,8 +41,8 @@ inline double creep_onset_torque(const FrictionParameters& friction, double hard
 }
 
 /// The |σ| (N m) at which creep that has ended sets in again: beyond the limit of `hardening` (rad), and
-/// beyond the rounding of the present σ = `torque` at `elongation` (rad), or creep would set in again at once
-/// where σ moves by less than that per step.
+/// beyond the rounding error of the present σ = `torque` at `elongation` (rad); otherwise creep would set in
+/// again at once where σ changes by less than that per step.
 inline double creep_onset_after_end(const FrictionParameters& friction, double hardening, double torque,
                                     double elongation) {
   const double rounding = 8.0 * std::numeric_limits<double>::epsilon() *

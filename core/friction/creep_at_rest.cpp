@@ -8,14 +8,14 @@
 namespace zerocount::friction {
 namespace {
 
-constexpr double slow = 0.1;  // α over the rates at which the rotor's own motion dies out
+constexpr double slow = 0.1;  // max α over the rates at which the rotor's own motion decays
 
-/// Each round leaves less than some 1e-2 of the error: the terms that follow from others are small beside
-/// the leading ones, c·p in S and α·p in dp/dt.
+/// Each round reduces the error to less than about 1e-2, because the other terms are small beside the leading
+/// ones, c·p in S and α·p in dp/dt.
 constexpr int rounds = 10;
-constexpr int rounds_of_error = 3;  // of which two digits are enough
+constexpr int rounds_of_error = 3;  // two digits are enough
 
-/// p₀, from p = α·(S(p)ⁿ/λ − xh), by Newton's iteration from its value for S = U.
+/// Solves p₀ = α·(S(p₀)ⁿ/λ − xh) by Newton's iteration, starting with S = U.
 double rate_at_hardening(const CreepAtRest& rest, const FrictionParameters& contact, double hardening) {
   double rate = (hardening_limit(contact, rest.balance) - hardening) * rest.g1;
   for (int iteration = 0; iteration < 3; ++iteration) {
@@ -38,7 +38,7 @@ std::optional<CreepAtRest> creep_at_rest(const motion::PlantParameters& plant,
   const double alpha = contact.alpha;
   if (!(alpha < slow * std::min(damping / (2.0 * inertia), stiffness / damping))) return std::nullopt;
   CreepAtRest r{.balance = sign * torque, .sign = sign};
-  // n·Uⁿ⁻¹/λ and its derivative by U, times α
+  // α·n·Uⁿ⁻¹/λ and its derivative with respect to U
   const double per_torque = alpha * contact.n * hardening_limit(contact, r.balance) / r.balance;
   const double per_torque_squared = per_torque * (contact.n - 1.0) / r.balance;
   r.g1 = alpha;
@@ -65,7 +65,7 @@ double error_of_creep_at_rest(const CreepAtRest& rest, const motion::PlantParame
   const CreepAtRest& r = rest;
   const double n = contact.n;
   const double per_torque = contact.alpha * n * hardening_limit(contact, r.balance) / r.balance;
-  // The coefficients of p³ as those of p and p² follow: of dS/dt first, then of w, S and dp/dt.
+  // The coefficients of p³, in the order dS/dt, w, S, dp/dt.
   const double first = r.g1 * r.s1;
   const double second = 2.0 * r.g1 * r.s2 + r.g2 * r.s1;
   const double curved = (n - 1.0) / r.balance * (r.s1 * second + r.s2 * first) -

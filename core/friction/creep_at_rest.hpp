@@ -10,9 +10,8 @@ namespace zerocount::friction {
 
 /// Quasi-static creep of the rotor under a constant torque u.
 ///
-/// With s = sgn(σ), let S = |σ|, U = s·u, w = s·ω and p = dxh/dt ≥ 0. The
-/// oscillation of the rotor has ended: p decays within about 1/α, far more slowly than the rotor oscillates,
-/// and the other quantities follow it:
+/// With s = sgn(σ), let S = |σ|, U = s·u, w = s·ω and p = dxh/dt ≥ 0. The oscillation of the rotor has ended.
+/// p decays within about 1/α, far more slowly than the rotor oscillates, and determines the other quantities:
 ///
 ///   dp/dt = −(g1·p + g2·p²),   S = U − s1·p − s2·p²,   w = w1·p + w2·p².
 ///
@@ -45,9 +44,8 @@ std::optional<CreepAtRest> creep_at_rest(const motion::PlantParameters& plant,
                                          const FrictionParameters& contact, double torque, double sign,
                                          double stiffness, double hardening);
 
-/// Error bound of θ (rad): twice the contributions of the third powers of p, the first that are left out, and
-/// of the change of the tangent stiffness from k to `last_stiffness` (N m/rad, not above k) while S goes to
-/// U.
+/// Error bound of θ (rad): twice the contributions of p³, the first neglected power, and of the change of the
+/// tangent stiffness from k to `last_stiffness` (N m/rad, at most k) while S goes to U.
 double error_of_creep_at_rest(const CreepAtRest& rest, const motion::PlantParameters& plant,
                               const FrictionParameters& contact, double stiffness, double last_stiffness);
 

@@ -17,7 +17,7 @@ class DahlFriction : public Bristle {
   static constexpr bool has_presliding_damping = true;
   static constexpr bool has_sliding_damping = false;
 
-  /// The contact is that of the start, wherever the rotor goes.
+  /// The parameters are those at the start, wherever the rotor goes.
   DahlFriction(const motion::PlantParameters& plant, const FrictionAlongRotor& friction,
                const motion::PlantStart& start, const motion::MotionTolerance& tolerance)
       : Bristle(constants(plant, friction_at(friction, start.position)), plant.inertia, start, tolerance) {}

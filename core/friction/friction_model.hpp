@@ -19,10 +19,10 @@ enum class FrictionModel {
   gms          ///< GmsFriction
 };
 
-/// Properties of the law.
+/// Properties of a law.
 const LawTraits& traits_of(FrictionModel model);
 
-/// Those of all laws, in the order of FrictionModel.
+/// The properties of all laws, in the order of FrictionModel.
 std::span<const LawTraits> all_traits();
 
 /// Values of friction.model in a manifest, in the order of FrictionModel.

@@ -148,8 +148,7 @@ GmsFriction::GmsFriction(const motion::PlantParameters& plant, const FrictionAlo
   if (!start.history.empty()) load_slowly(0.0);
 }
 
-/// Slowly and from spring to spring: an element yields at ηi·g(0), to which it relaxes while the motion is
-/// slow.
+/// Loads the elements slowly: each yields at ηi·g(0), to which it relaxes in slow motion.
 void GmsFriction::load_slowly(double torque) {
   const double direction = numerics::sign_of(torque - this->torque());
   const double level = level_at(curve_, 0.0);
@@ -190,7 +189,7 @@ bool GmsFriction::sliding() const {
   return std::all_of(elements_.begin(), elements_.end(), [](const GmsState& state) { return state.slips; });
 }
 
-/// The sign of ω from now on: its own, or that of the first derivative that is not 0.
+/// The sign of ω from now on: that of ω or, at ω = 0, of its first derivative that is not 0.
 double GmsFriction::direction_under(const motion::TorqueCourse& torque) const {
   if (omega_ != 0.0) return numerics::sign_of(omega_);
   const double excess = motion::torque_on_rotor(torque, omega_) - this->torque();
@@ -219,7 +218,7 @@ bool GmsFriction::come_to_rest(double torque) {
   return true;
 }
 
-/// Elements within rounding of their level in this direction slip, at the level itself.
+/// Sets elements within rounding of their level in this direction to the level; they slip.
 void GmsFriction::begin_to_slip(double direction) {
   constexpr double rounding = 1e-12;
   const double level = direction * level_at(curve_, omega_);

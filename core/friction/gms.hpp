@@ -24,22 +24,22 @@ struct GmsSeries : StribeckSeries {
   numerics::Series omega{};           ///< ω, rad/s
   numerics::Series level{};           ///< g(ω), N m
   numerics::Series slipping{};        ///< torque of all slipping elements, N m
-  numerics::Series slipping_ratio{};  ///< it over g(ω)
+  numerics::Series slipping_ratio{};  ///< slipping/g(ω)
   numerics::Series fading{};          ///< E of GmsMotion, dimensionless
-  numerics::Series fading_ratio{};    ///< it over g(ω), 1/(N m)
+  numerics::Series fading_ratio{};    ///< fading/g(ω), 1/(N m)
 };
 
-/// The motion of a rotor on elements of which each sticks or slips, with one sign s of ω:
+/// The motion of a rotor on elements that stick or slip, with a constant sign s of ω:
 ///
 ///   J·dω/dt = u − ΣFi − cs·ω,   dθ/dt = ω,
 ///   sticking: dFi/dt = κi·ω, until s·Fi = ηi·g(ω);   slipping: dFi/dt = C·(s·ηi − Fi/g(ω)).
 ///
-/// It ends where an element begins to slip, and where ω comes to 0.
+/// It ends when an element begins to slip, or at ω = 0.
 ///
-/// All slipping elements relax alike. With H = Σηi of them, their torque S = ΣFi obeys dS/dt = C·(s·H − S/g),
-/// and with dE/dt = −C·E/g, E(0) = 1, each is Fi = ηi·S/H + (Fi(0) − ηi·S(0)/H)·E. So the number of series
-/// does not grow with that of the elements. Where g is constant, slipping elements stay at its level,
-/// whatever C is.
+/// All slipping elements relax at the same rate. With H = Σηi over them, their torque S = ΣFi obeys dS/dt =
+/// C·(s·H − S/g), and with dE/dt = −C·E/g, E(0) = 1, each is Fi = ηi·S/H + (Fi(0) − ηi·S(0)/H)·E. The number
+/// of series therefore does not grow with the number of elements. Where g is constant, slipping elements stay
+/// at its level, whatever C is.
 struct GmsMotion {
   using Expansion = GmsSeries;
   enum class Event { none, slip, velocity_zero };
@@ -77,16 +77,16 @@ struct GmsMotion {
 /// The generalised Maxwell-slip model (Al-Bender, Lampaert and Swevers, "The generalized Maxwell-slip model:
 /// a novel model for friction simulation and compensation", IEEE Trans. Automatic Control 50, 2005), by
 /// GmsMotion. An element slips where its torque *in the direction of motion* reaches ηi·g(ω). After a
-/// reversal g may fall below the torque that the element still has from before; it goes on to unload then, as
-/// a spring does. If it slipped at once, its torque would drive the motion.
+/// reversal g may fall below the torque that the element still has; the element then unloads as a spring. If
+/// it slipped at once, its torque would drive the motion.
 ///
 /// Rest rule. While all elements stick, a small oscillation is that of their springs. Where u is constant, no
 /// element slips and A < ε = MotionTolerance::rest with
 ///
 ///   A = |u − ΣFi|/K + |ω|·√(J/K),
 ///
-/// K = Σκi of the elements that no travel of ε can bring to slip, the rotor stands from there on with ω = 0,
-/// and with u − ΣFi taken up by those elements, for as long as the torque stays.
+/// K = Σκi of the elements that no travel of ε can bring to slip, the rotor is at rest, with ω = 0 and u −
+/// ΣFi carried by those elements, until the torque changes.
 class GmsFriction : public WithoutCreepAndReversals {
  public:
   static constexpr std::string_view word = "gms";
@@ -99,7 +99,7 @@ class GmsFriction : public WithoutCreepAndReversals {
   static constexpr bool remembers_loading = true;
   static constexpr Breakaway breakaway = Breakaway::gradual;
 
-  /// The contact is that of the start, wherever the rotor goes. With `start.sliding` and a velocity all
+  /// The parameters are those at the start, wherever the rotor goes. With `start.sliding` and a velocity all
   /// elements slip steadily at first, Fi = sgn(ω)·ηi·g(ω).
   GmsFriction(const motion::PlantParameters& plant, const FrictionAlongRotor& friction,
               const motion::PlantStart& start, const motion::MotionTolerance& tolerance);
@@ -128,7 +128,7 @@ class GmsFriction : public WithoutCreepAndReversals {
   std::vector<GmsState> elements_;
   double theta_{0.0};
   double omega_;
-  std::optional<double> rest_torque_;  // under which the rotor stands, N m
+  std::optional<double> rest_torque_;  // under which the rotor is at rest, N m
 };
 
 }  // namespace zerocount::friction

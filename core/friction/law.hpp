@@ -15,20 +15,20 @@
 
 namespace zerocount::friction {
 
-/// Which of a contact's parameters.
+/// Selects a parameter of a contact.
 using ContactField = double FrictionParameters::*;
 
 /// How a law begins to slide.
 enum class Breakaway {
-  never,    ///< there is no contact to break
-  of_hook,  ///< an event in time, which breakaways() counts
-  gradual   ///< by degrees; whether it slides is asked at the sampling instants
+  never,    ///< without a contact
+  of_hook,  ///< at an instant; breakaways() counts these
+  gradual   ///< by degrees; sliding() is evaluated at the sampling instants
 };
 
-/// A friction law between rotor and bearing (README.md): its state, which includes that of the rotor, and how
-/// it moves. It is either itself a SmoothMotion, which the plant takes on from event to event, or it has
-/// step(torque, duration), which goes on by a step of its own choice, at most by `duration` (s), and returns
-/// the time used: by taylor_step of the smooth motion in force, or in closed form.
+/// A friction law between rotor and bearing (README.md): its state, including the rotor's, and its motion. A
+/// law is either a SmoothMotion, which the plant advances from event to event, or it has step(torque,
+/// duration), which advances by at most `duration` (s), by taylor_step or in closed form, and returns the
+/// time used.
 template <class Law>
 concept FrictionLaw = std::constructible_from<Law, const motion::PlantParameters&, const FrictionAlongRotor&,
                                               const motion::PlantStart&, const motion::MotionTolerance&> &&
@@ -39,7 +39,7 @@ concept FrictionLaw = std::constructible_from<Law, const motion::PlantParameters
                       requires(Law law, const Law now) {
   { Law::word } -> std::convertible_to<std::string_view>;                             // of friction.model
   { Law::contact_parameters } -> std::convertible_to<std::span<const ContactField>>;  // that it uses
-  { Law::has_presliding_motion } -> std::convertible_to<bool>;  // it gives way before it slides
+  { Law::has_presliding_motion } -> std::convertible_to<bool>;  // the contact is elastic
   { Law::has_presliding_damping } -> std::convertible_to<bool>;  // J·dω/dt = u − c·ω − … at some time
   { Law::has_sliding_damping } -> std::convertible_to<bool>;  // J·dω/dt = u − cs·ω − … at some time
   { Law::remembers_loading } -> std::convertible_to<bool>;    // slow torques before the start have an effect

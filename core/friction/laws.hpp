@@ -14,7 +14,7 @@ namespace zerocount::friction {
 template <FrictionLaw... Laws>
 struct LawList {
   template <template <class> class Of>
-  using Variant = std::variant<Of<Laws>...>;  ///< one of a plant with each law, say
+  using Variant = std::variant<Of<Laws>...>;  ///< for instance of a plant with each law
   static constexpr std::array traits{traits_of<Laws>()...};
 };
 

@@ -19,7 +19,7 @@ class LuGreFriction : public Bristle {
   static constexpr bool has_presliding_damping = false;
   static constexpr bool has_sliding_damping = true;
 
-  /// The contact is that of the start, wherever the rotor goes.
+  /// The parameters are those at the start, wherever the rotor goes.
   LuGreFriction(const motion::PlantParameters& plant, const FrictionAlongRotor& friction,
                 const motion::PlantStart& start, const motion::MotionTolerance& tolerance)
       : Bristle(constants(plant, friction_at(friction, start.position)), plant.inertia, start, tolerance) {}

@@ -7,8 +7,8 @@
 
 namespace zerocount::friction {
 
-/// An air bearing: J·dω/dt = u − c·ω and nothing else, by free_motion() where there is no load. There is no
-/// contact; the rotor always slides, and no hook can break away.
+/// An air bearing: J·dω/dt = u − c·ω and nothing else, by free_motion() where there is no load. The
+/// rotor always slides, without a contact that could break away.
 class NoFriction : public WithoutCreepAndReversals {
  public:
   static constexpr std::string_view word = "none";

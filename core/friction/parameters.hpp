@@ -47,8 +47,8 @@ struct ProfiledParameter {
 
 /// A friction parameter that is drawn anew for every contact of a trial. Contact 0, at t = 0, has its value
 /// in FrictionAlongRotor::uniform. Contact k ≥ 1, which forms at the k-th re-stick, has quantile(u), u being
-/// random number k of the trial (random_bits_at). So a contact depends on its number and on nothing else of
-/// the trial's course.
+/// random number k of the trial (random_bits_at). A contact therefore depends only on its number, not on the
+/// course of the trial.
 struct ContactParameter {
   double FrictionParameters::*parameter{nullptr};
   std::function<double(double u)> quantile;  ///< in the parameter's unit, 0 < u < 1
@@ -57,7 +57,7 @@ struct ContactParameter {
 };
 
 /// Friction along the rotor: `uniform` everywhere, except the parameters that have a profile or differ from
-/// contact to contact. A parameter is in one of the two lists at most.
+/// contact to contact. A parameter is in at most one of the two lists.
 struct FrictionAlongRotor {
   FrictionParameters uniform;
   std::vector<ProfiledParameter> profiled;

@@ -103,7 +103,7 @@ double PreslidingFriction::stick(const motion::TorqueCourse& torque, double dura
     motion::let_load_follow(torque, omega_);
     return duration;
   }
-  const bool stood = leave_rest();
+  const bool was_at_rest = leave_rest();
   const double creep_rate_now = switch_creep();
   const double torque_now = motion::torque_on_rotor(torque, omega_);
   const Elongation elongation = elongation_under(torque_now, creep_rate_now);
@@ -111,7 +111,7 @@ double PreslidingFriction::stick(const motion::TorqueCourse& torque, double dura
     const bool quiet =
         motion::load_is_quiet(torque, omega_, plant_.inertia, 0.5 * contact_.k1 * tolerance_.rest,
                               -contact_.alpha * creep_rate_now);
-    if (quiet && begin_rest(torque.now, elongation, stood, torque.load == nullptr)) {
+    if (quiet && begin_rest(torque.now, elongation, was_at_rest, torque.load == nullptr)) {
       go_on_at_rest(duration);
       motion::let_load_follow(torque, omega_);
       return duration;
@@ -122,11 +122,11 @@ double PreslidingFriction::stick(const motion::TorqueCourse& torque, double dura
       return rest;
     }
   }
-  if (const int direction = slides_towards(torque_now); direction != 0) {
+  if (const int direction = breakaway_direction(torque_now); direction != 0) {
     break_away(direction);
     return 0.0;
   }
-  // What stands until the motor's torque changes goes where that goes.
+  // At rest, the motion starts in the direction in which the torque changes.
   const double torque_change = constant ? 0.0 : torque.settled - torque.now;
   for (const double heading : {elongation.rate, elongation.acceleration, torque_change}) {
     if (heading == 0.0) continue;
@@ -142,11 +142,11 @@ double PreslidingFriction::stick(const motion::TorqueCourse& torque, double dura
   return next.time;
 }
 
-/// Turns the creep law on or off where its condition holds. @returns dxp/dt, rad/s.
+/// Turns the creep law on or off by its conditions. @returns dxp/dt, rad/s.
 double PreslidingFriction::switch_creep() {
   if (!creeping_ && std::abs(spring_.torque()) >= creep_onset_torque_) creeping_ = true;
   const double rate = creep_rate();
-  // The end of creep can lie closer to σ = 0 than the series of |σ|ⁿ sees, if n is no whole number.
+  // For a fractional n the end of creep can lie closer to σ = 0 than the series of |σ|ⁿ resolves.
   if (!creeping_ || rate * spring_.torque() > 0.0) return rate;
   end_creep();
   return 0.0;
@@ -174,7 +174,7 @@ bool PreslidingFriction::at_rest(const Elongation& elongation) const {
 /// The time (s) for which a varying torque leaves the elongation at rest.
 double PreslidingFriction::time_at_rest(const Elongation& elongation, const motion::TorqueCourse& torque,
                                         double duration) const {
-  // At least the rounding of the torque, or the rest could end before the torque has changed.
+  // At least the rounding error of the torque, so that the torque changes before the rest ends.
   const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * std::abs(torque.now);
   const double whole =
       std::max(tolerance_.elongation * (contact_.k1 + contact_.k2), rounding) / plant_.inertia;
@@ -183,12 +183,12 @@ double PreslidingFriction::time_at_rest(const Elongation& elongation, const moti
   return std::min(duration, motion::time_until(torque, torque.now + plant_.inertia * missing));
 }
 
-/// The direction in which the hook slides from now on, or 0 where it holds.
-int PreslidingFriction::slides_towards(double torque) const {
+/// The direction in which the hook breaks away now, or 0 if it holds.
+int PreslidingFriction::breakaway_direction(double torque) const {
   const double hook_torque = spring_.torque() + plant_.presliding_damping * omega_;
   const double motion = omega_ != 0.0 ? omega_ : torque - spring_.torque();
-  const bool slides = std::abs(hook_torque) >= contact_.breakaway && hook_torque * motion > 0.0;
-  return slides ? numerics::sign_of(motion) : 0;
+  const bool breaks_away = std::abs(hook_torque) >= contact_.breakaway && hook_torque * motion > 0.0;
+  return breaks_away ? numerics::sign_of(motion) : 0;
 }
 
 void PreslidingFriction::pass(Sticking::Event event) {
@@ -208,7 +208,7 @@ void PreslidingFriction::pass(Sticking::Event event) {
     case Sticking::Event::velocity_zero:
       omega_ = 0.0;
       break;
-    case Sticking::Event::closure:  // the spring has closed it
+    case Sticking::Event::closure:  // handled by the spring
     case Sticking::Event::none:
       break;
   }

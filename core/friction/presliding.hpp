@@ -27,23 +27,23 @@ struct PlantMotion {
   double breakaway_spring_torque{0.0};  ///< σb, N m
 };
 
-/// The model of the paper: the pre-sliding motion (paper, eq. 4, with creep) while the hook sticks,
-/// sliding (paper, eq. 3) after breakaway, and the changes between them: Sticking and Slide.
+/// The model of the paper: pre-sliding motion while the hook sticks (Sticking; paper, eq. 4, with creep), and
+/// sliding after breakaway (Slide; paper, eq. 3).
 ///
-/// Rest rule. Without one, an oscillation would decay for ever, and the sign of the elongation rate would in
-/// the end be a matter of rounding. Let δσ and δω be the deviations of σ and ω from those of a rotor that
-/// only creep moves under the present torque (CreepAtRest; without creep σ = u and ω = 0), ε =
-/// MotionTolerance::rest, ωn² = (k1 + k2)/J, and A the amplitude with
+/// Rest rule. Without one, an oscillation would decay for ever, until rounding decided the sign of the
+/// elongation rate. Let δσ and δω be the deviations of σ and ω from quasi-static creep under the present
+/// torque (CreepAtRest; without creep σ = u and ω = 0), ε = MotionTolerance::rest, ωn² = (k1 + k2)/J, and A
+/// the amplitude with
 ///
 ///   ((δσ + c·δω)/J)² + (ωn·δω)² = (A·ωn²)².
 ///
-/// Where A < ε and |δσ| < 2ε·dσ/dxs, σ and ω are set to those of the creeping rotor, which follows
-/// CreepAtRest for as long as the torque stays. What is left out is an oscillation of amplitude ε.
+/// Where A < ε and |δσ| < 2ε·dσ/dxs, σ and ω are set to those of CreepAtRest, which the rotor follows while
+/// the torque is constant. This neglects an oscillation of amplitude ε.
 ///
-/// At a reversal it comes to rest earlier, where β·A² < ε: a loop of the spring of size A is open by about
-/// β·A², so the remaining oscillation is a ResidualOscillation about CreepAtRest. The spring remembers only
-/// its first reversal. This does not apply where creep starts or ends, or the hook breaks away, within twice
-/// the amplitude.
+/// At a reversal the rotor comes to rest earlier, where β·A² < ε: a loop of the spring of size A is open by
+/// about β·A², so the remaining oscillation is a ResidualOscillation about CreepAtRest. The spring remembers
+/// only its first reversal. This does not apply where creep starts or ends, or the hook breaks away, within
+/// twice the amplitude.
 ///
 /// Both conditions are on the energy of the oscillation, which only falls, and the second holds at reversals
 /// only. The last reversal that the spring remembers is therefore independent of the steps of integration.
@@ -77,13 +77,13 @@ class PreslidingFriction {
     return sliding_ ? slide(torque, duration) : stick(torque, duration);
   }
 
-  // For an engine that integrates the motion itself and leaves rare events to this class.
+  // For an engine that integrates the motion itself and uses this class for rare events.
   PlantMotion motion() const;
-  /// Continues from the state of that engine. The spring must be on the same branch.
+  /// Sets the state of motion. The spring must be on the same branch.
   void set_motion(const PlantMotion& motion);
   /// The hook starts to slide in `direction` (−1, 1).
   void break_away(double direction);
-  /// The hook sticks, where the slide has come to ω = 0.
+  /// The hook sticks again; the slide has come to ω = 0.
   void re_stick();
   /// State of rest under a constant torque.
   struct Rest {
@@ -98,11 +98,11 @@ class PreslidingFriction {
   /// torque takes the whole duration at once.
   /// @param at_reversal dxs/dt is exactly zero.
   bool come_to_rest(double torque, bool at_reversal);
-  /// None while the rotor is not at rest.
+  /// Empty while the rotor is not at rest.
   const std::optional<Rest>& rest() const { return rest_; }
-  /// θ (rad) at rest, after another `time` (s) of it.
+  /// θ (rad) after another `time` (s) at rest.
   double theta_at_rest(double time) const;
-  /// At rest, its elongation is that of the creeping rotor without the residual oscillation.
+  /// At rest, its elongation is that of quasi-static creep, without the residual oscillation.
   HystereticSpring& spring() { return spring_; }
 
   /// θ, rad.
@@ -142,14 +142,14 @@ class PreslidingFriction {
   double slide(const motion::TorqueCourse& torque, double duration);
 
   Elongation elongation_under(double torque, double creep_rate_now) const;
-  bool begin_rest(double torque, const Elongation& elongation, bool stood, bool may_oscillate);
+  bool begin_rest(double torque, const Elongation& elongation, bool was_at_rest, bool may_oscillate);
   std::optional<Excess> excess_over_rest(double torque, const Elongation& elongation, double largest) const;
   bool oscillates_freely(double torque, const Excess& excess) const;
   OscillationLaw oscillation_law(const Excess& excess) const;
   ResidualOscillation begin_oscillation(const Excess& excess);
   CreepState slow_creep(double sign) const;
-  double creep_left_out(const OscillationLaw& law, const Excess& excess) const;
-  void settle(const Excess& excess, bool stood);
+  double neglected_creep(const OscillationLaw& law, const Excess& excess) const;
+  void settle(const Excess& excess, bool was_at_rest);
   std::optional<CreepAtRest> slow_motion(double torque, double sign) const;
   double elongation() const { return spring_.elongation() + oscillation_.elongation; }
   bool leave_rest();
@@ -158,7 +158,7 @@ class PreslidingFriction {
   bool at_rest(const Elongation& elongation) const;
   double time_at_rest(const Elongation& elongation, const motion::TorqueCourse& torque,
                       double duration) const;
-  int slides_towards(double torque) const;
+  int breakaway_direction(double torque) const;
   void pass(Sticking::Event event);
   void hold_at_rest(double duration);
   void end_creep();

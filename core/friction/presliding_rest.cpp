@@ -1,4 +1,4 @@
-// The plant at rest: the oscillation has decayed, or is known in closed form, and creep moves the rotor.
+// The plant at rest: creep moves the rotor, and an oscillation has decayed or is known in closed form.
 #include <algorithm>
 #include <cmath>
 
@@ -7,37 +7,37 @@
 namespace zerocount::friction {
 
 bool PreslidingFriction::come_to_rest(double torque, bool at_reversal) {
-  const bool stood = leave_rest();
+  const bool was_at_rest = leave_rest();
   const double creep_rate_now = switch_creep();
   if (at_reversal) omega_ = creep_rate_now;
-  return begin_rest(torque, elongation_under(torque, creep_rate_now), stood, true);
+  return begin_rest(torque, elongation_under(torque, creep_rate_now), was_at_rest, true);
 }
 
-/// @returns whether the residual oscillation had ended: only creep moved the rotor.
+/// @returns whether the rotor was at rest and its residual oscillation had ended.
 bool PreslidingFriction::leave_rest() {
   if (!rest_) return false;
-  const bool stood = !(rest_->time < rest_->oscillation.end);
+  const bool was_at_rest = !(rest_->time < rest_->oscillation.end);
   spring_.place(elongation());
   oscillation_ = {0.0, 0.0, 0.0};
   rest_.reset();
-  return stood;
+  return was_at_rest;
 }
 
-/// Whether the rotor is at rest under the constant torque `torque` (N m); if so, puts it there.
-/// @param stood it has been at rest until now, under another torque.
+/// Applies the rest rule under the constant torque `torque` (N m). @returns whether the rotor is at rest.
+/// @param was_at_rest the rotor has been at rest until now, under another torque.
 /// @param may_oscillate whether a residual oscillation at a reversal counts as rest.
-bool PreslidingFriction::begin_rest(double torque, const Elongation& elongation, bool stood,
+bool PreslidingFriction::begin_rest(double torque, const Elongation& elongation, bool was_at_rest,
                                     bool may_oscillate) {
-  const bool turns = may_oscillate && elongation.rate == 0.0;
-  const double largest = turns ? std::sqrt(tolerance_.rest / contact_.beta) : 0.0;
+  const bool at_reversal = may_oscillate && elongation.rate == 0.0;
+  const double largest = at_reversal ? std::sqrt(tolerance_.rest / contact_.beta) : 0.0;
   const std::optional<Excess> excess =
       excess_over_rest(torque, elongation, std::max(largest, tolerance_.rest));
   if (!excess) return false;
   const double stiffness = stiffness_on(spring_.branch(), spring_.elongation());
   ResidualOscillation oscillation;
   if (excess->amplitude < tolerance_.rest && std::abs(excess->torque) < 2.0 * tolerance_.rest * stiffness) {
-    settle(*excess, stood);
-  } else if (turns && excess->amplitude < largest && oscillates_freely(torque, *excess)) {
+    settle(*excess, was_at_rest);
+  } else if (at_reversal && excess->amplitude < largest && oscillates_freely(torque, *excess)) {
     oscillation = begin_oscillation(*excess);
   } else {
     return false;
@@ -56,12 +56,12 @@ bool PreslidingFriction::begin_rest(double torque, const Elongation& elongation,
   return true;
 }
 
-/// The state of creep without the part of the present oscillation.
+/// The state of creep without the contribution of the residual oscillation.
 CreepState PreslidingFriction::slow_creep(double sign) const {
   return {creep_.extension - oscillation_.extension, creep_.hardening - sign * oscillation_.extension};
 }
 
-/// None where the amplitude is above `largest` (rad), or creep is as fast as the oscillation.
+/// Empty if the amplitude is above `largest` (rad), or creep is as fast as the oscillation.
 std::optional<PreslidingFriction::Excess> PreslidingFriction::excess_over_rest(double torque,
                                                                                const Elongation& elongation,
                                                                                double largest) const {
@@ -71,7 +71,7 @@ std::optional<PreslidingFriction::Excess> PreslidingFriction::excess_over_rest(d
   const double per_time_squared = stiffest / inertia;
   const double spring_torque = spring_.torque();
   const double creep_now = std::abs(creep_rate());
-  // Quick rejection. Creep decelerates by α·p, and the spring stretches by the damper's part of that.
+  // Quick rejection. Creep decelerates by α·p, and the damper's part of it stretches the spring.
   const double slow_velocity = 2.0 * contact_.alpha * damping * creep_now / contact_.k1;
   const double slow_torque = 2.0 * inertia * contact_.alpha * creep_now;
   if (std::abs(elongation.rate) > largest * std::sqrt(per_time_squared) + slow_velocity) return std::nullopt;
@@ -85,7 +85,7 @@ std::optional<PreslidingFriction::Excess> PreslidingFriction::excess_over_rest(d
   const double remaining_creep =
       sign * torque > 0.0 ? hardening_limit(contact_, torque) - creep_.hardening : 0.0;
   if (creeping_ && remaining_creep > 0.0) {
-    // Not at rest before creep that decays as fast as the oscillation has ended.
+    // While creep decays as fast as the oscillation, the rotor is not at rest.
     if (const std::optional<CreepAtRest> found = slow_motion(torque, sign)) {
       creep = *found;
     } else if (remaining_creep > 0.1 * tolerance_.rest) {
@@ -101,13 +101,13 @@ std::optional<PreslidingFriction::Excess> PreslidingFriction::excess_over_rest(d
   return Excess{creep, torque_excess, velocity_excess, std::sqrt(energy) / per_time_squared};
 }
 
-/// Moves the spring to the torque at rest. A deviation by rounding alone is kept: the rotor may stand on the
-/// edge of a count. The end of an oscillation leaves no reversal point. A change of the torque on a rotor
-/// that stood does, however small, because a slow ramp consists of such changes.
-void PreslidingFriction::settle(const Excess& excess, bool stood) {
+/// Moves the spring to the torque at rest. A deviation within rounding is kept, because the rotor may stand
+/// on the edge of a count. The end of an oscillation leaves no reversal point; a change of the torque on a
+/// rotor at rest leaves one, however small, because a slow ramp consists of such changes.
+void PreslidingFriction::settle(const Excess& excess, bool was_at_rest) {
   if (!(std::abs(excess.torque) > tolerance_.elongation * (contact_.k1 + contact_.k2))) return;
   const double torque = excess.creep.sign * spring_torque_at_rate(excess.creep, excess.creep.rate);
-  if (stood) {
+  if (was_at_rest) {
     spring_.move_to_torque(torque);
   } else {
     spring_.settle_at_torque(torque);
@@ -127,12 +127,12 @@ bool PreslidingFriction::oscillates_freely(double torque, const Excess& excess) 
   if (!creeping_) return std::abs(torque) + torque_margin < creep_onset_torque_;
   if (!(excess.creep.rate > 0.0 && excess.creep.balance > torque_margin)) return false;
   if (!(law.creep < 0.05 * law.frequency && excess.creep.rate > law.creep * margin)) return false;
-  return creep_left_out(law, excess) < 0.1 * tolerance_.rest;
+  return neglected_creep(law, excess) < 0.1 * tolerance_.rest;
 }
 
-/// Estimate (rad) of the creep that ResidualOscillation leaves out: the second-order term of σⁿ, whose mean
+/// Estimate (rad) of the creep that ResidualOscillation neglects: the second-order term of σⁿ, whose mean
 /// over a period is not zero, and the recovery while xh is ahead of its limit.
-double PreslidingFriction::creep_left_out(const OscillationLaw& law, const Excess& excess) const {
+double PreslidingFriction::neglected_creep(const OscillationLaw& law, const Excess& excess) const {
   const double amplitude = excess.amplitude;
   const double stiffest = contact_.k1 + contact_.k2;
   const double per_time_squared = law.frequency * law.frequency + law.decay * law.decay;
@@ -156,7 +156,7 @@ OscillationLaw PreslidingFriction::oscillation_law(const Excess& excess) const {
   return law;
 }
 
-/// Makes the present elongation a reversal point, and moves the spring to where the oscillation will end.
+/// Makes the present elongation a reversal point, and moves the spring to the end of the oscillation.
 ResidualOscillation PreslidingFriction::begin_oscillation(const Excess& excess) {
   const CreepAtRest& creep = excess.creep;
   const double from = spring_.elongation();

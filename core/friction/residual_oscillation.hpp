@@ -12,9 +12,10 @@ namespace zerocount::friction {
 ///   dq/dt = v − ξ·q,   J·dv/dt = −c·v − σ(q),   de/dt = ξ·q,   ξ = k·dp/d|σ|,   k = k1 + k2,
 ///   σ = (k − k2·β·a)·q ± ½·k2·β·(a² − q²),
 ///
-/// q and e what elongation and creep have beyond those to which they come, + where q grows and − where it
-/// falls, a the amplitude. (The branch law to second order in β·a.) With γ = (c/J + ξ)/2, ω² = (k + c·ξ)/J
-/// and ν² = ω² − γ², by the method of averaging (Nayfeh, Perturbation Methods, section 5.2),
+/// where q and e are the deviations of elongation and creep from their final values, a the amplitude, and the
+/// sign is + where q grows and − where it falls. (The branch law to second order in β·a.) With γ = (c/J +
+/// ξ)/2, ω² = (k + c·ξ)/J and ν² = ω² − γ², by the method of averaging (Nayfeh, Perturbation Methods,
+/// section 5.2),
 ///
 ///   q = a/a₀·(q₀·cos φ + (q₀′ + γq₀)/ν·sin φ),   e = −ξ·(dq/dt + 2γ·q)/ω²,
 ///   da/dt = −γ·a − η·a²,      η = 2/(3π)·ν·k2·β/k,
@@ -29,7 +30,7 @@ struct ResidualOscillation {
   double creep{0.0};      ///< ξ, 1/s
   double loss{0.0};       ///< η·a₀, 1/s
   double slowing{0.0};    ///< κ·a₀
-  double end{0.0};        ///< the time (s) from which q counts as 0
+  double end{0.0};        ///< time from which q counts as 0, s
 
   struct State {
     double elongation;  ///< q, rad
@@ -46,7 +47,7 @@ struct OscillationLaw {
   double softening;  ///< k2·β/k, 1/rad
 };
 
-/// From the elongation q₀ (rad) and the velocity v₀ (rad/s) at t = 0 on.
+/// The oscillation with elongation q₀ (rad) and velocity v₀ (rad/s) at t = 0.
 /// @param min_amplitude amplitude (rad) below which the oscillation has ended.
 inline ResidualOscillation residual_oscillation(const OscillationLaw& law, double elongation, double velocity,
                                                 double min_amplitude) {

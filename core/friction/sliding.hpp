@@ -17,7 +17,7 @@ struct SlidingSeries : StribeckSeries {
 ///
 ///   J·dω/dt = u − cs·ω − d·g(ω),   dθ/dt = ω,
 ///
-/// with g of StribeckCurve. It ends where ω comes to 0.
+/// with g of StribeckCurve. It ends at ω = 0.
 struct Slide {
   using Expansion = SlidingSeries;
   enum class Event { none, velocity_zero };
@@ -47,7 +47,7 @@ struct SlideStep {
   bool ended;   ///< ω has come to 0, or cannot leave it
 };
 
-/// Takes the slide on by a Taylor step, at most by `duration` (s).
+/// Advances the slide by a Taylor step, at most by `duration` (s).
 SlideStep slide_step(Slide& slide, double inertia, const motion::TorqueCourse& torque, double tolerance,
                      double duration);
 

@@ -18,9 +18,8 @@ SpringBranch virgin_branch(const FrictionParameters& friction, double sign) {
 }
 
 /// u ≥ 0 with k1·u + softening_torque·(1 − exp(−softening_rate·u)) = torque ≥ 0. The law is increasing and
-/// concave, so Newton's iteration from below climbs to the root without passing it; it ends where it no
-/// longer climbs. It begins where the law would end if it were as stiff as at its start, or as soft as at its
-/// end.
+/// concave, so Newton's iteration from below rises to the root without passing it; it ends when it no longer
+/// rises. It starts at the root for the constant stiffness of the start, or of the end, of the law.
 double travel_at(const SpringBranch& branch, double torque) {
   const double stiffest = branch.k1 + branch.softening_torque * branch.softening_rate;
   double travel = std::max(torque / stiffest, (torque - branch.softening_torque) / branch.k1);
@@ -126,9 +125,9 @@ void HystereticSpring::settle_at_torque(double torque) {
 HystereticSpring::PointOnBranch HystereticSpring::point_at_torque(double torque) const {
   const ReversalPoint here{elongation_, this->torque()};
   const int direction = torque > here.torque ? 1 : -1;
-  const bool turns = direction_ != 0 && direction != direction_;
+  const bool reverses = direction_ != 0 && direction != direction_;
   const auto point = [&](std::size_t i) { return i < stack_.size() ? stack_[i] : here; };
-  std::size_t depth = stack_.size() + (turns ? 1 : 0);
+  std::size_t depth = stack_.size() + (reverses ? 1 : 0);
   while (depth >= 2 && direction * (torque - point(depth - 2).torque) >= 0.0) depth -= 2;
   if (depth == 1 && direction * (torque + point(0).torque) >= 0.0) depth = 0;
   const SpringBranch branch =
@@ -147,7 +146,7 @@ double HystereticSpring::branch_end_torque() const {
 
 void HystereticSpring::close_loops() {
   bool closed = false;
-  // An empty stack has nothing to close: a virgin curve run inwards only changes sides at the origin.
+  // With an empty stack no loop closes: a virgin curve run inwards changes sides at the origin.
   while (!stack_.empty()) {
     const std::optional<double> end = branch_end();
     if (!end || direction_ * (elongation_ - *end) < 0.0) break;

@@ -66,32 +66,32 @@ class HystereticSpring {
     return std::nullopt;
   }
 
-  /// Sets the direction of motion; a change of it makes the present elongation a reversal point.
+  /// Sets the direction of motion. A change makes the present elongation a reversal point.
   void set_direction(int direction);
 
-  /// The same where the elongation is x (rad) and the torque on the present branch there is known, N m.
+  /// set_direction() at the elongation x (rad), where the torque on the present branch is known, N m.
   void set_direction(int direction, double x, double torque);
 
-  /// Puts the elongation to x (rad) on the present branch, short of its end.
+  /// Sets the elongation to x (rad), on the present branch short of its end.
   void place(double x) { elongation_ = x; }
 
-  /// Moves along the present branch to x (rad), which lies ahead and not beyond branch_end(), and closes what
-  /// x reaches.
+  /// Moves along the present branch to x (rad), which lies ahead and not beyond branch_end(). Closes the loop
+  /// if x is its end.
   void move_on_branch(double x);
 
-  /// Moves to x (rad) through however many branches lie between: the spring by itself, rate independent.
+  /// Moves to x (rad) through all branches between.
   void move_to(double x);
 
-  /// Moves to the nearest elongation that carries `torque` (N m) to rounding: loaded or unloaded slowly, by
-  /// whatever branches lie between. The torque of a reversal point closes its loop.
+  /// Moves to the nearest elongation that carries `torque` (N m) within rounding, through all branches
+  /// between. The torque of a reversal point closes its loop.
   void move_to_torque(double torque);
 
-  /// Moves on in the present direction until it carries `torque` (N m), by whatever branches lie between;
-  /// stays where it carries as much already.
+  /// Moves on in the present direction, through all branches between, until it carries `torque` (N m). Does
+  /// not move if it carries as much already.
   void move_on_to_torque(double torque);
 
-  /// Moves a way too short to be remembered, forwards or backwards along the present branch, until it carries
-  /// `torque` (N m), which is next to the present one.
+  /// Moves forwards or backwards along the present branch, without a reversal point, until it carries
+  /// `torque` (N m), which is close to the present one.
   void settle_at_torque(double torque);
 
   struct PointOnBranch {
@@ -99,7 +99,7 @@ class HystereticSpring {
     double stiffness;   ///< of the tangent, N m/rad
   };
 
-  /// The point it would reach if it moved to `torque` (N m), which differs from the present torque.
+  /// The point that move_to_torque(`torque`) would reach; `torque` (N m) differs from the present one.
   PointOnBranch point_at_torque(double torque) const;
 
  private:
@@ -108,7 +108,7 @@ class HystereticSpring {
   void close_loops();
 
   FrictionParameters friction_;
-  /// A ringing that dies out leaves some forty points: up to there the memory is in here.
+  /// A decaying oscillation leaves about forty points; up to there no memory is allocated.
   boost::container::small_vector<ReversalPoint, 48> stack_;
   SpringBranch branch_;
   double elongation_{0.0};

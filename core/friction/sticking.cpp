@@ -8,7 +8,7 @@
 namespace zerocount::friction {
 namespace {
 
-/// The series minus a constant: its root is where the quantity takes that value.
+/// series − constant.
 numerics::Series less(numerics::Series series, double constant) {
   series[0] -= constant;
   return series;

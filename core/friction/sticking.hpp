@@ -15,15 +15,14 @@ struct StickingSeries {
   numerics::Series extension{};        ///< xp, rad
   numerics::Series hardening{};        ///< xh, rad
   numerics::Series spring_torque{};    ///< σ, N m
-  numerics::Series
-      creep_rate{};  ///< α·(|σ|ⁿ/λ − xh), the rate of xh while creep is on, rad/s; zero while it is off
-  numerics::Series exponent{};   ///< −y, the exponent of the branch law, dimensionless
-  numerics::Series slope{};      ///< −dy/dt, 1/s
-  numerics::Series softness{};   ///< exp(−y)
-  numerics::Series magnitude{};  ///< |σ|, N m
-  numerics::Series power{};      ///< |σ|ⁿ
-  double torque_sign{1.0};       ///< of σ: creep never lasts until σ = 0
-  double per_lambda{0.0};        ///< 1/λ
+  numerics::Series creep_rate{};       ///< dxh/dt, rad/s; zero while creep is off
+  numerics::Series exponent{};         ///< −y, the exponent of the branch law, dimensionless
+  numerics::Series slope{};            ///< −dy/dt, 1/s
+  numerics::Series softness{};         ///< exp(−y)
+  numerics::Series magnitude{};        ///< |σ|, N m
+  numerics::Series power{};            ///< |σ|ⁿ
+  double torque_sign{1.0};             ///< of σ, which does not change while creep is on
+  double per_lambda{0.0};              ///< 1/λ
 };
 
 /// The motion while the hook holds (paper, eqs. 1, 2 and 4, with creep kept):
@@ -68,7 +67,7 @@ struct Sticking {
   void go_to(const StickingSeries& series, const motion::NextEvent<Event>& next);
 
  private:
-  /// The coefficient of −y, the exponent of the branch, that follows that of xs.
+  /// The coefficient of the branch's exponent, −y, for a coefficient of xs.
   double exponent_coefficient(double elongation_coefficient) const {
     return -spring.branch().softening_rate * spring.branch().sign * elongation_coefficient;
   }
@@ -91,7 +90,7 @@ struct Sticking {
     if (!creeping) return;
     s.magnitude[k] = s.torque_sign * s.spring_torque[k];
     if (k > 0) s.power[k] = torque_power_coefficient(s.magnitude, s.power, contact.n, k);
-    // At k = 0 to the last bit as hardening_limit() has it, so that a reversal is at rest exactly.
+    // At k = 0 bitwise equal to hardening_limit(), so that dxs/dt is exactly zero at a reversal.
     const double limit = k == 0 ? s.power[0] / contact.lambda : s.power[k] * s.per_lambda;
     s.creep_rate[k] = contact.alpha * (limit - s.hardening[k]);
   }

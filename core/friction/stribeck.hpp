@@ -27,13 +27,13 @@ inline double level_at(const StribeckCurve& curve, double omega) {
   return curve.coulomb + curve.excess * numerics::exp(-curve.per_velocity_squared * omega * omega);
 }
 
-/// Taylor series in time of exp(−(ω/ωs)²), whose coefficients follow those of ω.
+/// Taylor series in time of exp(−(ω/ωs)²).
 struct StribeckSeries {
   numerics::Series exponent{};  ///< −(ω/ωs)², dimensionless
   numerics::Series slope{};     ///< of the exponent in time, 1/s
   numerics::Series decay{};     ///< exp(−(ω/ωs)²), dimensionless
 
-  /// Makes the coefficients k from ω[0…k], and returns that of the decay.
+  /// Computes coefficient k from ω[0…k]. @returns that of decay.
   double expand(const StribeckCurve& curve, const numerics::Series& omega, std::size_t k) {
     exponent[k] = -curve.per_velocity_squared * numerics::square_coefficient(omega.data(), k);
     if (k > 0) {

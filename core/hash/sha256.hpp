@@ -15,7 +15,7 @@ namespace zerocount::hash {
 using Sha256 = std::array<std::uint8_t, 32>;
 
 /// SHA-256 (FIPS 180-4) of bytes that come piece by piece.
-/// @throws Failure (machine_failed), from every function, where the cryptography library has none.
+/// @throws Failure (machine_failed), from every function, if the cryptography library lacks SHA-256.
 class Sha256Hash {
  public:
   Sha256Hash();

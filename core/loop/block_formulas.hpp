@@ -10,7 +10,7 @@ template <class Number>
 struct IntegralConstants {
   Number enter, leave;     ///< deadband, counts
   Number zone;             ///< counts
-  Number retention;        ///< exp(−T/τ), what a sample leaves of I
+  Number retention;        ///< exp(−T/τ), the factor of I per sample
   Number lowest, highest;  ///< of I, N m
 };
 

@@ -40,7 +40,7 @@ class Cascade {
     integral_.observe(now.error);
   }
 
-  /// I := torque. @returns 0: there is no block before.
+  /// I := torque. @returns 0, because the law is the first block.
   double take_over(double torque) {
     integral_.set(torque);
     return 0.0;

@@ -48,7 +48,7 @@ template <class Block>
 concept ControlBlock = std::constructible_from<Block, const ControllerParameters&, const ControlStart&> &&
     requires(Block block, const Block now, const Feedback& feedback, double torque) {
   { block.step(feedback, torque) } -> std::same_as<double>;  // the torque (N m) from that of the block before
-  block.observe(feedback);  // a sample at which another chain decides: what the next step has to know of it
+  block.observe(feedback);  // updates the memory at a sample at which another chain decides
   // The next step is to go on from this torque (N m). Gives the torque that it needs from the block before.
   { block.take_over(torque) } -> std::same_as<double>;
   { now.linear() } -> std::same_as<LinearChain>;  // its stages, away from its limits; none: it is transparent

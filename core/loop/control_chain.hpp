@@ -30,8 +30,8 @@ class BlockChain {
   void observe(const Feedback& now) {
     for_each([&](auto& block) { block.observe(now); });
   }
-  /// The next sample goes on from this torque in force (N m): from the last block to the first, each says
-  /// what it needs from the one before.
+  /// The next sample continues from this torque in force (N m). From the last block to the first, each
+  /// returns the torque that it needs from the one before.
   void take_over(double torque) { take_over_by<sizeof...(Blocks)>(torque); }
 
   LinearChain linear() const {

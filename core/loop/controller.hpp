@@ -12,8 +12,8 @@ namespace zerocount::loop {
 /// Whether the control has two phases: whether any error is beyond coarse_beyond.
 bool has_coarse_phase(const ControllerParameters& parameters);
 
-/// The gains and blocks of one phase of the control, as those of a control without phases. The fine phase of
-/// a two-phase control has no derivative (paper, practical issue 5): its kd is taken as 0.
+/// The gains and blocks of one phase of the control, as a control without phases. In the fine phase of a
+/// two-phase control kd counts as 0 (paper, practical issue 5).
 ControllerParameters controller_in_phase(ControllerParameters controller, ControlPhase phase);
 
 /// The blocks of a control without phases, away from their limits. @param resolution Δx, rad per count.
@@ -38,7 +38,7 @@ struct CountScale {
 /// therefore changes only by ki·(e_k + e_{k−1}) + kp·e_k − kd·(count_k − count_{k−1}).
 class Controller {
  public:
-  /// @param integral I before the first sample, N m, in whichever phase that is.
+  /// @param integral I before the first sample, N m, of the phase of that sample.
   Controller(const ControllerParameters& parameters, const CountScale& counts, double integral,
              const DacScale& dac);
 

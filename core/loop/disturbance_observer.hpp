@@ -18,7 +18,8 @@ inline ObserverConstants<double> observer_constants(const ObserverParameters& ob
   return {observer.inertia * rate * rate * acceleration.b0 * resolution, q.b0, q.a1, q.a2};
 }
 
-/// A disturbance observer, which takes its estimate d̂ of the disturbance off the torque of the blocks before:
+/// A disturbance observer, which subtracts its estimate d̂ of the disturbance from the torque of the blocks
+/// before:
 ///
 ///   u − d̂,   d̂ = Jn·s²·Q·θm − Q·u₁,   Q = ωq²/(s² + √2·ωq·s + ωq²),   ωq = 2π·bandwidth,
 ///

@@ -11,8 +11,8 @@
 namespace zerocount::loop {
 namespace {
 
-/// Hz. A torque that is there in less than a picosecond is there at once, but the series of its rise would
-/// leave the range of a double.
+/// Bandwidth limit, Hz: a torque settles within a picosecond. The series of a faster rise would leave the
+/// range of a double.
 constexpr double highest_bandwidth = 1e12;
 
 }  // namespace
@@ -36,7 +36,7 @@ double Drive::converted(std::int64_t k, std::int64_t code) const {
 
 void Drive::follow(double input) {
   double lag = (course_.now - course_.settled) * decay_per_sample_;
-  // A lag that is denormal rounds to itself for ever, and slows all arithmetic with it.
+  // A denormal lag would never decay further, and denormal arithmetic is slow.
   if (std::abs(lag) < std::numeric_limits<double>::min()) lag = 0.0;
   course_ = {course_.settled + lag, input, rate_};
 }

@@ -13,7 +13,7 @@
 
 namespace zerocount::loop {
 
-/// Torques on their way from decision to motor: zero until the first has come through.
+/// The decided torques that the delay holds back: zeros at first.
 class TorqueDelay {
  public:
   explicit TorqueDelay(int samples) : waiting_(static_cast<std::size_t>(samples), 0.0) {}
@@ -34,12 +34,12 @@ class TorqueDelay {
 ///
 /// The converter gives torque_with_errors(code) + noise·z_k, z_k standard normal, number k of its key, for
 /// the code decided at sample k. After the delay that is the amplifier's input v, which is held for a sample.
-/// Until the first decided torque has come through the delay, v is exactly 0: the converter's offset and
-/// noise come with it. The amplifier, of bandwidth f, follows from torque 0 at the start by
+/// Until the first decided torque has passed the delay, v is exactly 0, without offset and noise. The
+/// amplifier, of bandwidth f, follows from torque 0 at the start by
 ///
 ///   du/dt = 2πf·(v − u),   so u(t_k + t) = v + (u(t_k) − v)·exp(−2πf·t);
 ///
-/// with f = 0, u = v. Beyond 1e12 Hz, f counts as that.
+/// with f = 0, u = v. Above 1e12 Hz, f counts as 1e12 Hz.
 ///
 /// Call one of the two send functions once at each sample, in order.
 class Drive {
@@ -49,7 +49,7 @@ class Drive {
   Drive(const DacParameters& dac, const AmplifierParameters& amplifier, int delay, double sample_time,
         const random::TrialRandomness& randomness);
 
-  /// Sends what the converter was given at sample k.
+  /// Sends the code of sample k through converter, delay and amplifier.
   /// @returns the motor's torque over [t_k, t_{k+1}].
   const motion::TorqueCourse& send(std::int64_t k, const DacOutput& decided) {
     return apply(converter_errors_ ? converted(k, decided.code) : decided.torque);

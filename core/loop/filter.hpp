@@ -18,8 +18,8 @@ BiquadConstants<double> bilinear(double n2, double n1, double n0, double damping
 ///   lead     (1 + √ratio·p)/(1 + p/√ratio)
 ///
 /// each by the bilinear transform prewarped at ω0, s = ω0/tan(ω0·T/2)·(1 − z⁻¹)/(1 + z⁻¹), so that the
-/// response at ω0 is that of the continuous filter; `biquad` as it is. The frequency must be below half the
-/// sample rate.
+/// response at ω0 equals that of the continuous filter; `biquad` has the given coefficients. The frequency
+/// must be below half the sample rate.
 BiquadConstants<double> discretised(const Filter& filter, double sample_rate);
 
 /// Whether both poles lie inside the unit circle (Jury's criterion).
@@ -35,8 +35,8 @@ class Filters {
     return torque;
   }
   static void observe(const Feedback& /*now*/) {}
-  /// Each filter goes on from the steady state whose output is what the next one needs; one that has no
-  /// steady state, or no gain there, from past values of 0.
+  /// Each filter continues from the steady state whose output the next one needs; one without a steady state,
+  /// or without gain there, from past values of 0.
   double take_over(double torque);
 
   LinearChain linear() const;

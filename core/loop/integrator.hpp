@@ -25,7 +25,7 @@ inline IntegralConstants<double> integral_constants(const ControlBlocks& blocks,
 ///
 ///   I(z) = 1/(1 − ρ·z⁻¹)·Increment(z),   ρ = exp(−T/τ),
 ///
-/// with the deadband's state by inside_deadband, τ the leak's time constant. A leak without end has ρ = 1.
+/// with the deadband's state by inside_deadband, τ the leak's time constant. Without a leak ρ = 1.
 class Integrator {
  public:
   explicit Integrator(const IntegralConstants<double>& constants, double integral)

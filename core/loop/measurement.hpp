@@ -18,7 +18,7 @@ bool has_errors(const EncoderErrors& errors);
 /// than 16·2⁻⁵²·(1 + |n|), so that edges which coincide are not told apart by rounding.
 bool counts_agree(const Encoder& fine, const Encoder& coarse, const EncoderReading& reading);
 
-/// An encoder with what is wrong with it. The count at sample k, where the rotor is at θ, by these steps:
+/// An encoder with errors. The count at sample k, where the rotor is at θ, by these steps:
 ///
 ///   eccentricity   θ′ = θ + a·[sin(p + θ − γ) − sin(p − γ)],   p the initial position on the rotor
 ///                  x = θ′/Δx + phase
@@ -28,10 +28,10 @@ bool counts_agree(const Encoder& fine, const Encoder& coarse, const EncoderReadi
 ///   missed counts  count_k = r_k − lost_k,   lost_k = lost_{k−1} + sgn(r_k − r_{k−1})·b_k,
 ///                  b_k of |r_k − r_{k−1}| counts at the probability of one, number k of its key
 ///
-/// so that the systematic errors are those since the trial's start, where the count is 0, and their places
-/// are fixed on the rotor: m + x is the position in counts from the rotor's zero, but for less than a count.
-/// Missed counts are never recovered. Counts passed forth and back between two samples are not missed,
-/// because the model does not see them. No counts pass before the first sample.
+/// so that the systematic errors are relative to the trial's start, where the count is 0, and fixed on the
+/// rotor: m + x is the position in counts from the rotor's zero, within a count. Missed counts are never
+/// recovered. Counts passed forth and back between two samples are not modelled. No counts pass before the
+/// first sample.
 class ImperfectEncoder {
  public:
   ImperfectEncoder(const Encoder& encoder, const EncoderErrors& errors, double position, std::uint64_t trial,
@@ -58,7 +58,7 @@ class ImperfectEncoder {
   std::int64_t lost_{0};
 };
 
-/// The two encoders of a trial. Where neither has errors, it reads as read_count does.
+/// The two encoders of a trial. Without errors their readings are those of read_count.
 class Measurement {
  public:
   /// @param phase where in a count, of either encoder, θ = 0 lies, in [0, 1).
@@ -76,9 +76,9 @@ class Measurement {
   double coarse_resolution() const { return coarse_.resolution; }  ///< rad per count
   double fine_per_coarse() const { return fine_per_coarse_; }      ///< fine counts in a coarse one
 
-  /// Samples so far at which the coarse count was impossible given the fine one: not counts_agree, and not
-  /// what ideal encoders read at the very angle of the rotor, which rounding may put on either side of an
-  /// edge. Always 0 where neither encoder has errors.
+  /// Samples so far at which the coarse count was impossible given the fine one: counts_agree was false, and
+  /// ideal encoders at this angle would not read the two counts, which rounding at an edge allows. Always 0
+  /// without errors of the encoders.
   std::int64_t disagreements() const { return disagreements_; }
 
  private:

@@ -45,7 +45,7 @@ struct DacParameters {
 
 /// The amplifier between converter and motor.
 struct AmplifierParameters {
-  double bandwidth{0.0};  ///< of its first-order response (−3 dB), Hz; 0: it follows at once
+  double bandwidth{0.0};  ///< of its first-order response (−3 dB), Hz; 0: without lag
 };
 
 enum class AntiWindup { clamp, none };
@@ -56,7 +56,7 @@ enum class EncoderChoice { fine, coarse };
 enum class ControlPhase { fine, coarse };
 
 /// Errors at which the integral stays as it is. Inside from a sample with |e| ≤ enter on, until one with |e|
-/// > max(enter, leave). With negative bounds there is no such zone.
+/// > max(enter, leave). Negative bounds: none.
 struct Deadband {
   double enter{-1.0};  ///< counts
   double leave{-1.0};  ///< counts; below `enter` it counts as `enter`
@@ -84,7 +84,7 @@ struct FeedforwardParameters {
 
 /// Disturbance observer (disturbance_observer.hpp).
 struct ObserverParameters {
-  double bandwidth{0.0};    ///< Hz; 0: there is none
+  double bandwidth{0.0};    ///< Hz; 0: without observer
   double inertia{5.54e-4};  ///< Jn, of the observer's model of the rotor, kg m²
 };
 
@@ -100,7 +100,7 @@ struct CascadeGains {
   double ki{60.0};   ///< of the velocity loop, N m/rad
 };
 
-/// Blocks of a chain of the controller besides the PID gains. By default none acts.
+/// Blocks of the controller besides the PID gains. By default none acts.
 struct ControlBlocks {
   ControlStructure structure{ControlStructure::pid};
   CascadeGains cascade{};
@@ -109,7 +109,7 @@ struct ControlBlocks {
   double integrator_zone{std::numeric_limits<double>::infinity()};
   /// Time constant with which the integral decays, s.
   double integrator_leak{std::numeric_limits<double>::infinity()};
-  /// Of the low-pass filter on the difference of successive counts, Hz.
+  /// Cutoff of the low-pass filter on the difference of successive counts, Hz.
   double derivative_cutoff{std::numeric_limits<double>::infinity()};
   std::vector<Filter> filters{};  ///< in the order in which they act
   FeedforwardParameters feedforward{};
@@ -134,7 +134,7 @@ struct CoarsePhaseParameters {
 
 /// A control law of the user's own in place of kp, ki and kd (user_law.hpp).
 struct UserControl {
-  std::shared_ptr<const plugin::ControllerPlugin> plugin{};  ///< null: there is none
+  std::shared_ptr<const plugin::ControllerPlugin> plugin{};  ///< null: none
   std::vector<double> parameters{};                          ///< in the order of its description
 };
 

@@ -8,7 +8,7 @@
 
 namespace zerocount::loop {
 
-/// The rule by which a two-phase control changes its phase, from what the encoder of the phase in force says:
+/// The rule by which a two-phase control changes its phase, by the readings of the present phase's encoder:
 ///
 /// - fine → coarse at a sample with |e| > coarse_beyond;
 /// - coarse → fine at a sample that ends D = max(1, round(fine_dwell·sample_rate)) successive samples, all of
@@ -21,9 +21,9 @@ class PhaseSwitch {
   /// @param sample_rate Hz.
   PhaseSwitch(const CoarsePhaseParameters& rule, double sample_rate);
 
-  /// Settles the phase of this sample.
-  /// @param fine, coarse what the encoder of the fine and of the coarse phase says.
-  /// @return whether the phase has changed.
+  /// Decides the phase of this sample.
+  /// @param fine, coarse readings of the encoders of the two phases.
+  /// @returns whether the phase has changed.
   bool update(const Feedback& fine, const Feedback& coarse);
 
   ControlPhase phase() const { return phase_; }      ///< of the last sample
@@ -36,7 +36,7 @@ class PhaseSwitch {
   double dwell_;  ///< D, which may be more than any number of samples
   ControlPhase phase_{ControlPhase::fine};
   std::int64_t changes_{0};
-  std::int64_t settled_{0};                    ///< successive samples that ask for the fine phase
+  std::int64_t settled_{0};  ///< successive samples that meet the condition of the fine phase
   std::optional<double> last_coarse_count_{};  ///< none before the first sample
 };
 

@@ -46,13 +46,13 @@ class Pid {
     last_error_ = now.error;
   }
 
-  /// I := torque. @returns 0: there is no block before.
+  /// I := torque. @returns 0, because the law is the first block.
   double take_over(double torque) {
     integral_.set(torque);
     return 0.0;
   }
 
-  /// Parts without gain are left out: an integral with ki = 0 would be a state that nothing moves.
+  /// Without the parts that have no gain: an integral with ki = 0 would be a constant state.
   LinearChain linear() const {
     LinearBlock block{{LoopSignal::error, {{gains_.kp}}}};
     if (gains_.ki != 0.0) block.push_back({LoopSignal::error, integral_.trapezoid(gains_.ki)});

@@ -20,8 +20,8 @@ Reference::Reference(const ReferenceProfile& profile, std::int64_t from, std::in
     plan_s_curve(profile);
   }
   speed_up_time_ = 2.0 * jerk_time_ + acceleration_time_;
-  // The mean velocity of speeding up and of slowing down is half the largest: together they take as much
-  // longer than a cruise over the same distance as one of them lasts.
+  // The mean velocity of speeding up and slowing down is half the largest. Together they take longer than a
+  // cruise over the same distance by the duration of one of them.
   duration_ = speed_up_time_ + travel_ / velocity_;
 }
 
@@ -87,7 +87,7 @@ ReferenceMotion Reference::motion_at(double t) const {
   if (t < 0.0 || t >= duration_ - rounding) return {};
   const double direction = to_ < from_ ? -1.0 : 1.0;
   const bool first_half = t < 0.5 * duration_ - rounding;
-  // The second half is the first one backwards: just after is just before.
+  // The second half is the first one backwards, so just after becomes just before.
   if (first_half) {
     return {direction * velocity(t), direction * acceleration(t + rounding)};
   }
@@ -102,7 +102,7 @@ double Reference::velocity(double t) const {
   return velocity_ - 0.5 * jerk_ * until_cruise * until_cruise;
 }
 
-/// r̈ (rad/s²) likewise.
+/// r̈ (rad/s²) at the time t (s), in the first half, forwards.
 double Reference::acceleration(double t) const {
   if (t < jerk_time_) return jerk_ * t;
   if (t < jerk_time_ + acceleration_time_) return acceleration_;

@@ -13,7 +13,7 @@ namespace zerocount::loop {
 /// - step: the new target at once;
 /// - trapezoidal: acceleration at its limit, cruise at the velocity limit, deceleration; without the cruise
 ///   where the velocity limit is not reached;
-/// - s_curve: the same with the jerk limited too, up to seven segments of constant jerk. The acceleration
+/// - s_curve: trapezoidal with limited jerk, up to seven segments of constant jerk. The acceleration
 ///   rises and falls at the jerk limit, and stays at its own limit in between where it reaches it.
 ///
 /// The second half of a move is the first one backwards. Source: Biagiotti & Melchiorri, "Trajectory Planning
@@ -51,7 +51,7 @@ class Reference {
   std::int64_t to_;
   double resolution_;  ///< rad per count
   double counts_;      ///< |to − from|
-  double travel_;      ///< the same, rad
+  double travel_;      ///< |to − from|, rad
 
   // The first half: acceleration rising for jerk_time_, constant for acceleration_time_, falling for
   // jerk_time_, and none until duration_/2. A trapezoidal move has no jerk_time_.

@@ -9,7 +9,7 @@
 namespace zerocount::loop {
 
 /// A control law of the user's own (ControllerParameters::user): a plugin by the interface in
-/// zerocount/controller.h. It knows no phases, and its transfer function is not known.
+/// zerocount/controller.h. It has no phases, and its transfer function is unknown.
 class UserLaw {
  public:
   /// @throws Failure (bad_input) if the plugin is not loaded, or refuses its parameters.
@@ -18,7 +18,7 @@ class UserLaw {
   UserLaw& operator=(UserLaw&&) noexcept;
   ~UserLaw();
 
-  /// The wanted torque, N m; not finite if the plugin cannot go on.
+  /// The wanted torque, N m; not finite if the plugin fails.
   double step(const Feedback& now, double torque);
   void observe(const Feedback&) {}
   double take_over(double /*torque*/) { return 0.0; }

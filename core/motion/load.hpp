@@ -24,9 +24,9 @@ inline double coupling_torque(const Load& load, double rotor_omega) {
   return load.parameters.stiffness * load.twist + load.parameters.damping * (rotor_omega - load.omega);
 }
 
-/// Whether all oscillation of the load against the rotor stays below `torque` (N m), as a torque of the
-/// coupling.
-/// @param inertia J of the rotor, kg m². @param steady coupling torque of the slow motion without it, N m.
+/// Whether the coupling torque of any oscillation between load and rotor stays below `torque` (N m).
+/// @param inertia J of the rotor, kg m². @param steady coupling torque of the motion without the oscillation,
+/// N m.
 inline bool is_quiet(const Load& load, double rotor_omega, double inertia, double torque, double steady) {
   const auto& [load_inertia, stiffness, damping, encoder] = load.parameters;
   const double reduced = inertia * load_inertia / (inertia + load_inertia);
@@ -47,13 +47,13 @@ struct LoadSeries {
   numerics::Series omega;  ///< ωL, rad/s
 };
 
-/// The coefficients 0.
+/// Sets the coefficients 0.
 inline void start_series(LoadSeries& series, const Load& load) {
   series.twist[0] = load.twist;
   series.omega[0] = load.omega;
 }
 
-/// Makes the coefficients k + 1 from those of ω up to k. @returns the coefficient k of Ts, N m.
+/// Computes the coefficients k + 1 from those of ω up to k. @returns coefficient k of Ts, N m.
 inline double expand(LoadSeries& series, const LoadParameters& load, const numerics::Series& rotor_omega,
                      std::size_t k) {
   const double relative = rotor_omega[k] - series.omega[k];

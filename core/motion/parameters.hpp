@@ -5,9 +5,9 @@ namespace zerocount::motion {
 /// The mass whose angle the encoders read.
 enum class EncoderPlace { motor, load };
 
-/// A second mass behind an elastic coupling, if there is one. All but the inertia is assumed.
+/// A second mass behind an elastic coupling. Defaults except the inertia are assumed.
 struct LoadParameters {
-  double inertia{0.0};      ///< JL, kg m²; 0: there is no second mass
+  double inertia{0.0};      ///< JL, kg m²; 0: without a second mass
   double stiffness{2.0e4};  ///< kL of the coupling, N m/rad
   double damping{0.1};      ///< dL of the coupling, N m s/rad
   EncoderPlace encoder{EncoderPlace::motor};

@@ -13,13 +13,13 @@
 namespace zerocount::motion {
 
 /// The first event within a step: a kink of the motion, which ends the step. `Event` is an enumeration of a
-/// law's events that has `none`.
+/// law's events with a value `none`.
 template <class Event>
 struct NextEvent {
-  double time;  ///< s from the start of the step; its end where nothing happens
+  double time;  ///< s from the start of the step; its end without an event
   Event event{Event::none};
 
-  /// Takes `candidate` (s), if there is one, where it is not later than what is known.
+  /// Takes the event at `candidate` (s), if any, unless it is later than the present one.
   void offer(std::optional<double> candidate, Event what) {
     if (!candidate || *candidate > time) return;
     time = *candidate;
@@ -34,14 +34,14 @@ struct NextEvent {
 ///                               position (rad, its error is bounded), omega (rad/s) and exponent (that of
 ///                               the motion's one exponential, dimensionless; 0 without one)
 ///   start()                     the coefficients 0 of the state
-///   expand(series, k, u_k)      makes the coefficients k of what depends on the state, and those k + 1 of
-///                               the state except ω; returns the coefficient k of u − F, N m
-///   complete(series)            where there is one: makes the coefficients series_order that events need
+///   expand(series, k, u_k)      computes the coefficients k of functions of the state, and k + 1 of the
+///                               state except ω; returns coefficient k of u − F, N m
+///   complete(series)            optional: computes the coefficients series_order that events need
 ///   step_of_state(series, tolerance, duration)
-///                               where there is one: step_within() for a state z that errors of the position
-///                               do not show
+///                               optional: step_within() for a state z whose errors are not errors of the
+///                               position
 ///   first_event(series, step)   the first event within `step` (s), located in time
-///   go_to(series, next)         takes the state to next.time, and passes next.event
+///   go_to(series, next)         advances the state to next.time, through next.event
 template <class Motion>
 concept SmoothMotion = requires(Motion motion, const Motion now, typename Motion::Expansion series,
                                 std::size_t k, double value, const NextEvent<typename Motion::Event> next) {
@@ -80,19 +80,17 @@ typename Motion::Expansion motion_series(const Motion& motion, double inertia, c
 
 /// The longest step t ≤ `longest` (s) over which both hold:
 /// - the last two terms of the series of a position, and those of its velocity times t, stay below
-/// `tolerance`·t/longest
-///   (rad), so that the steps of a whole interval leave out no more than `tolerance`. Two terms, because one
-///   may vanish by chance;
+///   `tolerance`·t/longest (rad), so that the truncation errors of a whole interval sum to at most
+///   `tolerance`. Two terms, because one may vanish by chance;
 /// - the exponent of the motion's one exponential grows by at most 6, or stays below −40. The terms zᵏ/k! of
-/// exp(z) rise up to
-///   k = z: beyond that growth the last terms kept may be small before the largest have come.
-/// The exp(−rt) of a torque that moves needs no such bound: where rt exceeds the order of the series, the
-/// last terms are the largest of all, and a step over which they are small is one over which all of it is.
+///   exp(z) rise up to k = z: with more growth the last terms kept may be small before the largest.
+/// The exp(−rt) of a varying torque needs no such bound: where rt exceeds the order of the series, its last
+/// terms are the largest, so that they limit the step.
 double step_within(const numerics::Series& position, const numerics::Series& velocity,
                    const numerics::Series& exponent, double tolerance, double longest);
 
-/// Takes the motion, and the load of `torque`, on along their series to the end of a Taylor step or to the
-/// motion's first event, whichever comes first.
+/// Advances the motion, and the load of `torque`, to the end of a Taylor step or to the motion's first event,
+/// whichever comes first.
 /// @param tolerance of the position, rad. @param duration longest step, s. @returns the time used and the
 /// event.
 template <SmoothMotion Motion>
@@ -113,7 +111,7 @@ NextEvent<typename Motion::Event> step_along(const typename Motion::Expansion& s
   return next;
 }
 
-/// The same by the series from the present state.
+/// taylor_step() with the series from the present state.
 template <SmoothMotion Motion>
 NextEvent<typename Motion::Event> taylor_step(Motion& motion, double inertia, const TorqueCourse& torque,
                                               double tolerance, double duration) {

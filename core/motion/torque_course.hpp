@@ -8,9 +8,9 @@ namespace zerocount::motion {
 
 struct Load;
 
-/// The torque on the rotor from now on: that of the motor, u(t) = settled + (now − settled)·exp(−rate·t),
-/// less that of a load's coupling, where there is a load. The motor's is constant where now equals settled;
-/// otherwise it is that of a first-order amplifier. It is monotonic.
+/// The torque on the rotor from now on: the motor's, u(t) = settled + (now − settled)·exp(−rate·t), minus
+/// that of a load's coupling, if any. The motor's torque is monotonic: constant if now equals settled,
+/// otherwise the response of a first-order amplifier.
 struct TorqueCourse {
   double now{0.0};      ///< N m
   double settled{0.0};  ///< N m
@@ -36,21 +36,20 @@ inline bool is_constant(const TorqueCourse& course) {
 /// The torque on the rotor at this instant, N m. @param omega ω of the rotor, rad/s.
 double torque_on_rotor(const TorqueCourse& course, double omega);
 
-/// Whether there is no load, or none that oscillates against the rotor by as much as `torque` (N m) of its
-/// coupling.
-/// @param omega ω of the rotor, rad/s. @param inertia J, kg m². @param acceleration of the slow motion that
-/// remains without the oscillation, rad/s²; a tenth of the torque that it asks of the coupling may be
-/// missing.
+/// Whether any oscillation between load and rotor has a coupling torque below `torque` (N m); true without a
+/// load.
+/// @param omega ω of the rotor, rad/s. @param inertia J, kg m². @param acceleration of the slow motion
+/// without the oscillation, rad/s²; up to a tenth of the coupling torque that it needs may be missing.
 bool load_is_quiet(const TorqueCourse& course, double omega, double inertia, double torque,
                    double acceleration = 0.0);
 
-/// The load, if there is one, moves as the rotor does from now on.
+/// Lets the load, if any, move with the rotor from now on.
 void let_load_follow(const TorqueCourse& course, double omega);
 
-/// The same course seen from the time t (s) on.
+/// The course from the time t (s) on.
 TorqueCourse course_after(const TorqueCourse& course, double t);
 
-/// The time (s) at which u reaches `torque` (N m): 0 where it has passed it, infinity where it never does.
+/// The time (s) at which u reaches `torque` (N m): 0 if it has passed it, infinity if it never does.
 double time_until(const TorqueCourse& course, double torque);
 
 /// Taylor coefficients of the motor's u(t), N m/sᵏ: c[0] = now, c[1] = −rate·(now − settled), c[k+1] =

@@ -7,9 +7,9 @@
 
 namespace zerocount::numerics {
 
-// Divided differences of the exponential function at points that are not positive. They are what the response
-// of a linear first-order system to exponential inputs is made of, and stay accurate where the points are
-// close to one another or to 0.
+// Divided differences of the exponential function at points that are not positive: the terms of the response
+// of a linear first-order system to exponential inputs. Accurate also where the points are close to one
+// another or to 0.
 
 /// exp[0, −x] = (1 − e^(−x))/x, x ≥ 0; 1 at x = 0.
 inline double exponential_difference(double x) {

@@ -20,8 +20,8 @@ struct BernsteinPiece {
   double high{0.0};
 };
 
-/// b_i = Σ_{j≤i} [C(i,j)/C(n,j)]·c_j·endʲ. In place: with a_j = c_j·endʲ/C(n,j), b_i = Σ_j C(i,j)·a_j is what
-/// n rounds of adding each entry to its successor give.
+/// b_i = Σ_{j≤i} [C(i,j)/C(n,j)]·c_j·endʲ. In place: with a_j = c_j·endʲ/C(n,j), n rounds of
+/// adding each entry to its successor give b_i = Σ_j C(i,j)·a_j.
 BernsteinPiece bernstein_over(std::span<const double> c, double end) {
   BernsteinPiece piece{{}, c.size(), 0.0, end};
   const std::size_t n = c.size() - 1;
@@ -81,7 +81,7 @@ std::optional<double> first_in(const BernsteinPiece& piece, std::span<const doub
 
 double bracketed_root(std::span<const double> c, double low, double high) {
   const bool rising =
-      value_at(c, low) < 0.0;  // asked at the low end, because the root may lie exactly at the high one
+      value_at(c, low) < 0.0;  // at the low end, because the root may lie exactly at the high one
   double t = 0.5 * (low + high);
   double last_width = high - low;
   for (int iteration = 0; iteration < 200; ++iteration) {
@@ -94,7 +94,7 @@ double bracketed_root(std::span<const double> c, double low, double high) {
     if (value == 0.0) return t;
     ((value > 0.0) == rising ? high : low) = t;
     double next = t - value / slope;
-    // Newton's step where it stays inside the bracket and shrinks; bisection otherwise.
+    // Newton's step if it stays inside the bracket and shrinks, else bisection.
     if (!(next > low && next < high) || std::abs(next - t) > 0.5 * last_width) next = 0.5 * (low + high);
     last_width = std::abs(next - t);
     if (last_width <= 1e-16 * high || next == t) return next;

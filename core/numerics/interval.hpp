@@ -28,7 +28,7 @@ bool contains(const Interval& outer, const Interval& inner);
 /// In mathematical notation: "(0, 1]", "[1, inf)".
 std::string notation(const Interval& interval);
 
-/// In words, for messages: "greater than 0 and at most 1"; "any finite number" where there is no limit.
+/// In words, for messages: "greater than 0 and at most 1"; "any finite number" without limits.
 std::string range_text(const Interval& interval);
 
 }  // namespace zerocount::numerics

@@ -1,12 +1,12 @@
 #pragma once
 
-/// Formulas that stand once for double and for the vectors of the batch engine (core/batch/lanes.hpp) are
-/// templates over the number type. They use these functions, which a vector type has too, found by its
-/// namespace. Comparisons give a mask: bool, or one of the vector's, with & and |.
+/// Formulas for double and for the vectors of the batch engine (core/batch/lanes.hpp) are templates over the
+/// number type. They use these functions; those of a vector type are found by its namespace. Comparisons give
+/// a mask, bool or the vector's, with & and |.
 ///
-/// The vectors' kernels are compiled once for each instruction set. A header that they include has templates
-/// over the number type alone, and includes no other: an inline function of double could be compiled for an
-/// instruction set that not every processor has, and be the one that the linker keeps.
+/// The kernels are compiled once for each instruction set. The headers that they include contain only
+/// templates over the number type, and include no others: of an inline function of double the linker could
+/// keep a copy compiled for an instruction set that the processor lacks.
 namespace zerocount {
 
 #define ZEROCOUNT_ALWAYS_INLINE __attribute__((always_inline)) inline

@@ -4,11 +4,11 @@
 
 #include "core/numerics/number.hpp"
 
-/// Coefficients of functions of power series, one after the other, for double and for the vectors of the
-/// batch engine.
+/// Recurrences for the coefficients of functions of power series, for double and for the vectors of the batch
+/// engine.
 namespace zerocount::numerics {
 
-/// 1/k for the orders of a series, k ≥ 1: dividing by them would take a good part of the time of a step.
+/// 1/k for the orders of a series, k ≥ 1, because divisions would take much of the time of a step.
 inline constexpr struct Reciprocals {
   double of[24]{};
   constexpr Reciprocals() {
@@ -36,7 +36,7 @@ ZEROCOUNT_ALWAYS_INLINE Number quotient_coefficient(const Number& a_k, const Num
   return rest / b[0];
 }
 
-/// Coefficient k of a²: each product a[j]·a[k−j] stands twice, but for the one in the middle.
+/// Coefficient k of a². Each product a[j]·a[k−j] counts twice, except the middle one.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number square_coefficient(const Number* a, std::size_t k) {
   Number sum(0.0);

@@ -11,13 +11,13 @@
 
 namespace zerocount::plant {
 
-/// More steps than this within one torque step of any length mean that the motion cannot be followed.
+/// With more steps than this in one torque step, of any length, the motion counts as lost.
 inline constexpr int max_steps = 200000;
-/// The same within a sample of a trial. A ringing trial of the paper's rig takes about three; one that takes
+/// The limit within a sample of a trial. A ringing trial of the paper's rig needs about three steps; one with
 /// ten thousand in each sample would run for hours.
 inline constexpr int max_steps_of_sample = 10000;
 
-/// A rotor under a motor's torque with a friction law, which the plant takes on from step to step.
+/// A rotor with a friction law under a motor's torque.
 template <friction::FrictionLaw Law>
 class PlantWith : public Law {
  public:
@@ -27,14 +27,14 @@ class PlantWith : public Law {
     if (motion::has_load(plant)) load_ = motion::Load{plant.load, 0.0, start.velocity};
   }
 
-  /// Applies the torque for `duration` (s). The motion is lost if that takes more than `most_steps` steps.
-  void advance(const motion::TorqueCourse& torque, double duration, int most_steps = max_steps) {
+  /// Applies the torque for `duration` (s). The motion is lost if that takes more than `step_limit` steps.
+  void advance(const motion::TorqueCourse& torque, double duration, int step_limit = max_steps) {
     motion::TorqueCourse ahead = torque;
     ahead.load = load_ ? &*load_ : nullptr;
     bool moves = !motion::motor_is_constant(ahead);
     double remaining = duration;
     for (int step = 0; remaining > 0.0 && finite_; ++step) {
-      if (step == most_steps) finite_ = false;
+      if (step == step_limit) finite_ = false;
       const double used = step_on(ahead, remaining);
       remaining = used < remaining ? remaining - used : 0.0;
       if (moves) {
@@ -47,7 +47,7 @@ class PlantWith : public Law {
     }
   }
 
-  /// False once the motion could not be followed any more (non-finite, or steps without end); it stays false.
+  /// False once the motion is lost (non-finite, or too many steps); it stays false.
   bool finite() const { return finite_; }
   /// The second mass; empty without one.
   const std::optional<motion::Load>& load() const { return load_; }
@@ -78,11 +78,11 @@ struct PlantReading {
   friction::CreepState creep{};  ///< of the present contact, or of the last one while sliding
   std::int64_t depth{0};         ///< of the stack of reversal points
   bool sliding{false};
-  double load_theta{0.0};  ///< θL, rad; that of the rotor without a load
-  double load_omega{0.0};  ///< ωL, rad/s; likewise
+  double load_theta{0.0};  ///< θL, rad; θ without a load
+  double load_omega{0.0};  ///< ωL, rad/s; ω without a load
 };
 
-/// The plant of a trial: with that law of the list which its friction.model names.
+/// The plant of a trial, with the law that its friction.model selects.
 template <class Laws>
 class PlantOf {
  public:
@@ -91,9 +91,9 @@ class PlantOf {
       : plant_(makers.at(static_cast<std::size_t>(friction.model))(plant, friction, start, tolerance)),
         breakaway_(Laws::traits.at(static_cast<std::size_t>(friction.model)).breakaway) {}
 
-  /// Applies the torque for `duration` (s). The motion is lost if that takes more than `most_steps` steps.
-  void advance(const motion::TorqueCourse& torque, double duration, int most_steps = max_steps) {
-    std::visit([&](auto& plant) { plant.advance(torque, duration, most_steps); }, plant_);
+  /// Applies the torque for `duration` (s). The motion is lost if that takes more than `step_limit` steps.
+  void advance(const motion::TorqueCourse& torque, double duration, int step_limit = max_steps) {
+    std::visit([&](auto& plant) { plant.advance(torque, duration, step_limit); }, plant_);
   }
 
   PlantReading read() const {
@@ -118,7 +118,7 @@ class PlantOf {
   bool sliding() const {
     return std::visit([](const auto& plant) { return plant.sliding(); }, plant_);
   }
-  /// False once the motion could not be followed any more; it stays false.
+  /// False once the motion is lost; it stays false.
   bool finite() const {
     return std::visit([](const auto& plant) { return plant.finite(); }, plant_);
   }

@@ -4,14 +4,14 @@
 
 namespace zerocount::plugin {
 
-/// The mode of floating-point arithmetic (rounding, denormal numbers, masks) of this thread. Libraries
-/// compiled with -ffast-math, or code that sets it, would change all that is computed after them.
+/// The mode of floating-point arithmetic (rounding, denormal numbers, masks) of this thread. A library
+/// compiled with -ffast-math, or code that sets the mode, would change everything computed after it.
 class ArithmeticMode {
  public:
-  /// The mode in force.
+  /// Saves the present mode.
   ArithmeticMode() : mode_(_mm_getcsr()) {}
 
-  /// Sets the mode back to it. The flags of exceptions that have occurred stay as they are.
+  /// Restores the saved mode, except the flags of exceptions that have occurred.
   void restore() const {
     constexpr unsigned flags = 0x3f;
     if (((_mm_getcsr() ^ mode_) & ~flags) != 0) _mm_setcsr(mode_);

@@ -16,7 +16,7 @@ struct PluginParameter {
   std::string meaning;
   double default_value{0.0};
   double lowest{0.0};   ///< allowed value; may be infinite
-  double highest{0.0};  ///< likewise
+  double highest{0.0};  ///< allowed value; may be infinite
 };
 
 /// Description of a user's controller. A study has it even if the library is not loaded.

@@ -19,7 +19,7 @@ std::int64_t binomial_number(std::int64_t n, double probability, std::uint64_t b
   const double u = open_uniform(bits);
   if (u <= numerics::exp(static_cast<double>(n) * numerics::log1p(-probability))) return 0;
 
-  // Bisection, because Boost's own quantile finds no bracket for some far tails of small probabilities.
+  // By bisection, because Boost's quantile fails in some far tails of small probabilities.
   const boost::math::binomial_distribution<Real> happened(static_cast<double>(n), probability);
   std::int64_t below = 0;  // F(below) < u ≤ F(reached)
   std::int64_t reached = n;

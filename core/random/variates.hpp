@@ -4,12 +4,12 @@
 
 namespace zerocount::random {
 
-/// A standard normal number: Φ⁻¹(u) with u = open_uniform(bits). Of magnitude below 8.21, and exactly
-/// antisymmetric: complementary bits give the negative.
+/// A standard normal number: Φ⁻¹(u) with u = open_uniform(bits). Its absolute value is below 8.21;
+/// complementary bits give exactly the negative.
 double standard_normal(std::uint64_t bits);
 
-/// A binomial number: of `n` independent things that each happen with `probability`, how many happen. By
-/// inversion: the smallest j with F(j) ≥ u, u = open_uniform(bits), F(j) = Σ_{i≤j} C(n, i)·pⁱ·(1 − p)ⁿ⁻ⁱ.
+/// A binomial number: how many of `n` independent events of probability `probability` occur. By inversion:
+/// the smallest j with F(j) ≥ u, u = open_uniform(bits), F(j) = Σ_{i≤j} C(n, i)·pⁱ·(1 − p)ⁿ⁻ⁱ.
 /// @param n not negative. @param probability p, in [0, 1].
 std::int64_t binomial_number(std::int64_t n, double probability, std::uint64_t bits);
 

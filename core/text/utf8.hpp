@@ -6,7 +6,7 @@
 
 namespace zerocount::text {
 
-/// U+FFFD, which stands for what cannot be shown.
+/// U+FFFD, the replacement character.
 inline constexpr std::string_view replacement_utf8 = "\xEF\xBF\xBD";
 
 struct CodePoint {
@@ -19,10 +19,9 @@ struct CodePoint {
 /// surrogates and values beyond U+10FFFF are invalid (RFC 3629).
 CodePoint decode(std::string_view text);
 
-/// True for characters that do not show and change what a terminal or an editor does: the control characters
-/// C0, DEL and C1, the line and paragraph separators, and those that change the direction of the text after
-/// them (Unicode Standard Annex 9: embeddings, overrides and isolates), which can make a text read as
-/// another.
+/// True for the control characters C0, DEL and C1, the line and paragraph separators, and the characters that
+/// change the direction of the text after them (Unicode Standard Annex 9: embeddings, overrides and
+/// isolates), which can make a text read as another.
 bool is_control(char32_t value);
 
 /// True if `text` is UTF-8 without control characters.

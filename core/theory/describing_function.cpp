@@ -18,7 +18,7 @@ double phase_of(int i) {
   return (i + 0.5) * step - 0.5 * std::numbers::pi;
 }
 
-/// Of a relay with the level g(ω): in phase with ω.
+/// The part of a relay with the level g(ω), in phase with ω.
 double relay_damping(const friction::StribeckCurve& curve, double amplitude, double frequency) {
   double sum = 0.0;
   for (int i = 0; i < steps; ++i) {

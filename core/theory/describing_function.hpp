@@ -15,7 +15,7 @@ namespace zerocount::theory {
 /// McGraw-Hill 1968, section 2.2). Its real part is a stiffness, its imaginary part Ω times a damping, the
 /// viscous damping among it.
 ///
-/// Of coulomb, F = sgn(ω)·g(ω) + cs·ω; of dahl and lugre, the bristle follows θ. Defined for these three
+/// For coulomb, F = sgn(ω)·g(ω) + cs·ω; for dahl and lugre, the bristle follows θ. Defined for these three
 /// models.
 /// @param amplitude A, rad. @param frequency Ω, rad/s.
 std::complex<double> describing_function(friction::FrictionModel model,

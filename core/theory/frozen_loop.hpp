@@ -24,7 +24,7 @@ struct FrozenLoop {
 };
 
 /// The loop about a spring of `stiffness` (N m/rad) with the damping c (N m s/rad). While the rotor slides
-/// there is no spring, and the damping is the sliding one.
+/// the stiffness is 0 and the damping that of sliding.
 /// @param controller a control without phases.
 FrozenLoop frozen_loop(double stiffness, double damping, const motion::PlantParameters& plant,
                        const loop::EncoderParameters& encoder, const loop::ControllerParameters& controller,

@@ -18,7 +18,7 @@ struct AnalogueGains {
 double sample_time(const loop::ControllerParameters& controller);
 
 /// The continuous gains that a sampled controller stands for. Δx is that of the fine encoder, whichever
-/// closes the loop: the count of the coarse one is taken in fine counts.
+/// closes the loop; the count of the coarse one is converted to fine counts.
 ///
 /// kP = kp/Δx, kI = 2·ki/(Δx·T), kD = kd·T/Δx: the proportional term counts the error, the trapezoidal rule
 /// adds kI·Δx·T/2 for each of two successive errors, and the difference of successive counts is the velocity

@@ -18,7 +18,7 @@ Eigen::MatrixXd generator_of(double stiffness, double damping, double inertia,
   Eigen::MatrixXd F = Eigen::MatrixXd::Zero(input + 1, input + 1);
   F(0, 1) = 1.0;
   if (loaded) {
-    // Of the other mass: its angle less the measured one, and its rate.
+    // The angle of the other mass minus the measured one, and its rate.
     const bool at_load = load.encoder == motion::EncoderPlace::load;
     const Eigen::Index motor = at_load ? 3 : 1;
     const double measured_inertia = at_load ? load.inertia : inertia;

@@ -8,8 +8,8 @@
 namespace zerocount::theory {
 
 /// The driven plant over one sample: x ← A·x + b·v with x = (count, change of the count per sample at the
-/// present velocity; with a load the same of the mass that the encoder does not read, its angle less the
-/// measured one; where the amplifier lags, its torque), v the torque decided (N m).
+/// present velocity; with a load both of the mass that the encoder does not read, its angle relative to the
+/// measured one; with an amplifier its torque), v the decided torque (N m).
 struct HeldPlant {
   Eigen::MatrixXd A;  ///< of counts and N m
   Eigen::VectorXd b;  ///< counts/(N m); 1 for the torque

@@ -19,7 +19,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Where f changes sign between low and high, at which its values differ in sign.
+/// The root of f between low and high, where its values have opposite signs.
 double sign_change(const std::function<double(double)>& f, double low, double high) {
   const bool rises = f(low) < 0.0;
   for (int i = 0; i < 60; ++i) {
@@ -72,8 +72,8 @@ std::vector<double> resonances(const Balance& balance, double amplitude) {
   return found;
 }
 
-/// The one of `resonances` that is nearest to `frequency` on a logarithmic scale; none beyond a factor
-/// of 1.3.
+/// The one of `resonances` nearest to `frequency` on a logarithmic scale; empty if all differ by more than a
+/// factor of 1.3.
 std::optional<double> nearest(const std::vector<double>& resonances, double frequency) {
   std::optional<double> best;
   for (const double candidate : resonances) {
@@ -83,8 +83,7 @@ std::optional<double> nearest(const std::vector<double>& resonances, double freq
   return best;
 }
 
-/// A slide of the stick-slip cycle with a = 1 and Fs − Fc = `excess`: x where v comes to 0, and when and at
-/// what w.
+/// A slide of the stick-slip cycle with a = 1 and Fs − Fc = `excess`: x, t and w at v = 0.
 struct SlideEnd {
   double x;
   double w;
@@ -180,10 +179,10 @@ std::optional<LimitCycle> stick_slip_cycle(const friction::FrictionParameters& c
   Eigen::Matrix3d generator;
   generator << 0.0, 1.0, 0.0, -gains.kp / plant.inertia, -(gains.kd + plant.sliding_damping) / plant.inertia,
       1.0 / plant.inertia, -gains.ki, 0.0, 0.0;
-  // How far a slide goes grows with Fs − Fc: from what the integral alone does to without bound.
+  // The length of a slide grows with Fs − Fc, from that by the integral alone without bound.
   const auto beyond = [&](double excess) {
     const std::optional<SlideEnd> end = slide_end(generator, gains.kp, excess);
-    return end ? end->x - 1.0 : -1.0;  // it creeps up to its target without end
+    return end ? end->x - 1.0 : -1.0;  // it approaches its target without end
   };
   const double scale = gains.kp + gains.ki / numerics::spectral_radius(generator);  // N m/rad
   const double lowest = 1e-6 * scale;
@@ -193,7 +192,7 @@ std::optional<LimitCycle> stick_slip_cycle(const friction::FrictionParameters& c
   const std::optional<SlideEnd> end = slide_end(generator, gains.kp, excess);
   const double amplitude = contact.breakaway * (1.0 - contact.coulomb_ratio) / excess;
   const double torque = (end->w - gains.kp) * amplitude + contact.coulomb_ratio * contact.breakaway;
-  if (!(std::abs(torque) <= contact.breakaway)) return std::nullopt;  // it would not stand there
+  if (!(std::abs(torque) <= contact.breakaway)) return std::nullopt;  // it would not stick there
   const double stand = (torque + contact.breakaway) / (gains.ki * amplitude);
   return LimitCycle{amplitude, 2.0 * (end->time + stand)};
 }

@@ -17,8 +17,8 @@ struct LimitCycle {
   double period;     ///< s
 };
 
-/// The part of the loop because of which neither prediction holds: "the second mass", "the deadband" or "the
-/// integrator zone"; empty where they hold. Plant and control are linear in both.
+/// The part of the loop that invalidates both predictions, which assume a linear plant and control: "the
+/// second mass", "the deadband" or "the integrator zone"; empty if they hold.
 std::string_view left_out_of_hunting(const motion::PlantParameters& plant,
                                      const loop::ControllerParameters& controller);
 
@@ -27,11 +27,10 @@ std::string_view left_out_of_hunting(const motion::PlantParameters& plant,
 ///
 ///   −J·Ω² + N(A, Ω) + K(Ω) = 0
 ///
-/// at which the damping left, Im of it, rises with A. K is the stiffness of the control, N m/rad: its
-/// response with all its blocks, hold, delay and amplifier. Sought between 0.3 and 1e6 counts and from 1e-4
-/// to 0.9 of half the sample rate. A motion that stands still for a part of its period is no sinusoid, and is
-/// not predicted. Empty where the model has no describing function. Source: as describing_function,
-/// section 3.
+/// at which the net damping, its imaginary part, rises with A. K is the stiffness of the control, N m/rad:
+/// its response with all its blocks, hold, delay and amplifier. Sought between 0.3 and 1e6 counts and from
+/// 1e-4 to 0.9 of half the sample rate. A motion with standstill, far from a sinusoid, is not predicted.
+/// Empty for a model without a describing function. Source: as describing_function, section 3.
 std::vector<LimitCycle> harmonic_balance(friction::FrictionModel model,
                                          const friction::FrictionParameters& contact,
                                          const motion::PlantParameters& plant,
@@ -46,9 +45,9 @@ std::vector<LimitCycle> harmonic_balance(friction::FrictionModel model,
 ///   dx/dt = v,   J·dv/dt = w − kP·x − (kD + cs)·v,   dw/dt = −kI·x,   x(0) = −a, v(0) = 0, w(0) = Fs − Fc −
 ///   kP·a,
 ///
-/// to v = 0 at x = a, and the stand lasts (u + Fs)/(kI·a), u the torque at its start. All of it scales: a is
-/// proportional to Fs − Fc. None where the loop has no such cycle: where it has no static level, no integral,
-/// or blocks beside PID, or where any oscillation of the slides grows. Source: Armstrong and Amin, "PID
+/// to v = 0 at x = a, and the standstill takes (u + Fs)/(kI·a), u the torque at its start. The amplitude a is
+/// proportional to Fs − Fc. Empty if the loop has no such cycle: without a static level or an integral, with
+/// blocks beside PID, or if every oscillation of the slides grows. Source: Armstrong and Amin, "PID
 /// control in the presence of static friction: a comparison of algebraic and describing function analysis",
 /// Automatica 32 (1996), 679–692.
 std::optional<LimitCycle> stick_slip_cycle(const friction::FrictionParameters& contact,

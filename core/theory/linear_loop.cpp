@@ -12,7 +12,7 @@ namespace {
 using Complex = std::complex<double>;
 using Row = Eigen::RowVectorXd;  ///< a signal as a linear form of the loop's states
 
-/// Paths of a stage that have the same poles, and so the same states.
+/// Paths of a stage with equal poles, which share their states.
 struct PathGroup {
   std::vector<double> a;
   std::vector<std::pair<loop::LoopSignal, std::vector<double>>> numerators;
@@ -36,7 +36,7 @@ std::vector<PathGroup> groups_of(const loop::LinearBlock& stage) {
 }
 
 /// The wanted torque where the signals are `count` and `in_force`, the torque in force.
-/// @param pass gives what comes of its input signals through a group of paths.
+/// @param pass returns the output of a group of paths for its input signals.
 template <class Signal, class Pass>
 Signal wanted_torque(const loop::LinearChain& controller, const Signal& count, const Signal& in_force,
                      Pass pass) {

@@ -18,7 +18,7 @@ using Complex = std::complex<double>;
 constexpr double half_turn = std::numbers::pi;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// Adds angles around that of the pole or zero z, as near as its distance from the unit circle.
+/// Adds angles around that of the pole or zero z, spaced by its distance from the unit circle.
 void add_angles_around(Complex z, std::vector<double>& angles) {
   if (std::abs(z) < 0.2) return;
   const double centre = std::abs(std::arg(z));
@@ -82,7 +82,7 @@ StabilityMargins stability_margins(const FrozenLoop& loop) {
 
   StabilityMargins margins{{none, none}, {none, none}};
   const auto add_gain = [&](Complex value, double angle) {
-    // At half the sample rate a loop whose gain is 0 there has one of the size of rounding.
+    // At half the sample rate a gain of 0 may round to a small one.
     constexpr double rounding = 1e-12;
     if (!(value.real() < -rounding)) return;
     const double factor = 1.0 / std::abs(value);

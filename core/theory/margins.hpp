@@ -12,7 +12,7 @@
 /// Systems", 3rd ed., Addison-Wesley 1998, section 7.4.
 namespace zerocount::theory {
 
-/// A margin and the frequency (Hz) of its crossover; both NaN where there is no crossover.
+/// A margin and the frequency (Hz) of its crossover; both NaN without a crossover.
 struct Margin {
   double value;
   double frequency;
@@ -20,11 +20,11 @@ struct Margin {
 
 /// Where a loop has several crossovers, each margin is that of the one nearest to instability.
 struct StabilityMargins {
-  /// 1/|L| where L is negative: the factor of the gain with which the loop is on the edge of stability. Of
-  /// all such frequencies the one with |L| nearest to 1, by their ratio. A factor below 1 is by how far the
-  /// gain may fall, or of an unstable loop has to.
+  /// 1/|L| where L is negative: the factor of the gain at which the loop is on the edge of stability, at the
+  /// frequency where |L| is nearest to 1 by ratio. A factor below 1 limits a decrease of the gain, or is the
+  /// decrease that an unstable loop needs.
   Margin gain;
-  /// 180° + arg L where |L| = 1, in (−180, 180]: of all such frequencies the one nearest to 0.
+  /// 180° + arg L where |L| = 1, in (−180, 180]: the value nearest to 0.
   Margin phase;
 };
 

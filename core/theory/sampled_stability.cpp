@@ -31,7 +31,7 @@ auto& integral_gain_in(Controller& controller) {
   return controller.ki;
 }
 
-/// Of spring and control law without integral, in the torque unit of integral_gain: N m/count or N m/rad.
+/// Stiffness of spring and control law without integral, in the unit of integral_gain: N m/count or N m/rad.
 double static_stiffness(double stiffness, const loop::EncoderParameters& encoder,
                         const loop::ControllerParameters& controller) {
   switch (controller.blocks.structure) {
@@ -64,7 +64,7 @@ double slowest_time_constant(double stiffness, const motion::PlantParameters& pl
   for (const auto& z : eigenvalues) {
     if (z.imag() == 0.0) slowest = std::max(slowest, z.real());
   }
-  constexpr double gone_at_once = 1e-6;  // eigenvalues that are 0, but for rounding
+  constexpr double gone_at_once = 1e-6;  // eigenvalues that are 0 up to rounding
   return slowest > gone_at_once ? -sample_time(controller) / std::log(slowest) : 0.0;
 }
 
@@ -83,8 +83,8 @@ double sampled_critical_integral_gain(double stiffness, const motion::PlantParam
                            controller.delay) < 1.0;
   };
   const double lowest = 1e-6 * static_stiffness(stiffness, encoder, controller);
-  // Without stiffness and kp no integral gain is stable; the eigenvalue 1 of the free rotor may round to
-  // less.
+  // Without stiffness and kp no integral gain is stable; the eigenvalue 1 of the free rotor may round
+  // below 1.
   if (lowest == 0.0 || !stable(lowest)) return 0.0;
   constexpr double step = 1.02;
   double low = lowest;

@@ -4,8 +4,7 @@
 #include "core/motion/parameters.hpp"
 
 /// Stability of the sampled loop about a spring of constant stiffness, the count taken as a continuous
-/// quantity: what remains of the loop when friction, encoder and DAC are made linear, but sampling, hold and
-/// delay are kept exactly.
+/// quantity: friction, encoder and DAC are linear; sampling, hold and delay are exact.
 namespace zerocount::theory {
 
 /// Linear model of converter and amplifier.
@@ -26,11 +25,10 @@ double sampled_spectral_radius(double stiffness, const motion::PlantParameters& 
                                const loop::ControllerParameters& controller, const LinearDrive& drive = {});
 
 /// The slowest time constant with which the sampled loop about a spring of `stiffness` (N m/rad) approaches
-/// its target, s: −T/ln z of the largest real eigenvalue z in (1e-6, 1), which decays as exp(−t/τ); 0 where
-/// there is none. Infinite where the loop is not stable. Modes that oscillate are left to the bounds of
-/// stability.
+/// its target, s: −T/ln z of the largest real eigenvalue z in (1e-6, 1), which decays as exp(−t/τ); 0
+/// without one, infinite for an unstable loop. Oscillating modes do not count.
 ///
-/// An integral control that is slow has τ ≈ T·(k·Δx + kp)/(2·ki).
+/// A slow integral control has τ ≈ T·(k·Δx + kp)/(2·ki).
 double slowest_time_constant(double stiffness, const motion::PlantParameters& plant,
                              const loop::EncoderParameters& encoder,
                              const loop::ControllerParameters& controller, const LinearDrive& drive = {});
@@ -38,13 +36,13 @@ double slowest_time_constant(double stiffness, const motion::PlantParameters& pl
 /// Integral gain of the control law: ki (N m/count), or that of a cascade (N m/rad).
 double integral_gain(const loop::ControllerParameters& controller);
 
-/// Integral gain, as integral_gain has it, below which the sampled loop about a spring of `stiffness` (N
+/// Integral gain, in the unit of integral_gain, below which the sampled loop about a spring of `stiffness` (N
 /// m/rad) is stable: the end of the interval of stable gains that begins at 0, to 1e-9 relative. 0 where the
 /// loop without integral is unstable already. The gain of `controller` itself does not enter.
 ///
 /// The end is searched upwards from 1e-6 of the static stiffness in steps of 2 %, then bisected. The held
 /// plant has more poles than zeros, so a large enough gain drives an eigenvalue out of the unit circle;
-/// infinite where the blocks let none of it through.
+/// infinite if the blocks let no integral through.
 double sampled_critical_integral_gain(double stiffness, const motion::PlantParameters& plant,
                                       const loop::EncoderParameters& encoder,
                                       loop::ControllerParameters controller, const LinearDrive& drive = {});

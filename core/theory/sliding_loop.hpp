@@ -4,8 +4,8 @@
 #include "core/motion/parameters.hpp"
 #include "core/theory/frozen_loop.hpp"
 
-/// The loop while the rotor slides. There is no spring then: the plant is 1/(J·s² + cs·s), and the friction
-/// torque, constant at speeds well above the Stribeck velocity, is a disturbance that the loop has to reject.
+/// The loop while the rotor slides. The plant is 1/(J·s² + cs·s), without a spring, and the friction torque,
+/// constant at speeds well above the Stribeck velocity, is a disturbance that the loop has to reject.
 namespace zerocount::theory {
 
 /// The highest frequency at which the open loop has gain 1.

@@ -17,8 +17,8 @@ namespace zerocount::theory {
 double slow_time_constant(double stiffness, const loop::EncoderParameters& encoder,
                           const loop::ControllerParameters& controller);
 
-/// Time from a step of `step` counts (at least 1) to the count of its target, s, where the rotor reverses as
-/// it begins: the stiffness falls with the travel on the branch, so that, e being the error in counts,
+/// Time (s) from a step of `step` counts (at least 1) to its target, if the rotor reverses at its start: the
+/// stiffness falls with the travel on the branch, so that, e being the error in counts,
 ///
 ///   t = ∫ τ(k1 + k2·exp(−β·Δx·(step − e)))/e de  from ½ to step.
 ///
@@ -27,11 +27,11 @@ double slow_arrival_time(std::int64_t step, const friction::FrictionParameters& 
                          const loop::EncoderParameters& encoder,
                          const loop::ControllerParameters& controller);
 
-/// Time for which the count chatters on the edge of the target before it has held it for `dwell` (s), s. With
-/// each count that the error falls, kp takes kp off the torque, and the rotor falls back over the edge: the
-/// error is then 1 for a proportion of the time that decays with T·kp/(2·ki), as the integral takes over. One
-/// excursion lasts about a period of the contact's natural frequency f, so that there is none within a dwell
-/// once the proportion is 1/(f·dwell):
+/// Time (s) for which the count chatters on the edge of the target before it stays there for `dwell` (s).
+/// When the error falls by a count, the torque falls by kp, and the rotor moves back over the edge: the error
+/// is 1 for a proportion of the time that decays with T·kp/(2·ki), as the integral takes over. One excursion
+/// takes about a period of the contact's natural frequency f, so that a dwell is free of them once the
+/// proportion is 1/(f·dwell):
 ///
 ///   t = T·kp/(2·ki)·ln(f·dwell), at least 0.
 ///

@@ -11,8 +11,8 @@
 namespace zerocount::theory {
 
 /// The part of the loop that the criteria (6) and (7) do not model, so that they do not apply: "the second
-/// mass", "the cascade", "the filters", …; empty where they apply. A derivative filter is no such part where
-/// kd is 0.
+/// mass", "the cascade", "the filters", …; empty if they apply. A derivative filter does not count if kd is
+/// 0.
 std::string_view left_out_of_criteria(const motion::PlantParameters& plant,
                                       const loop::ControllerParameters& controller);
 
@@ -33,7 +33,7 @@ struct IntegralGainBounds {
   double unstable_above{0.0};  ///< (7), k = k1 + k2: unstable above it, N m/count
 };
 
-/// The bounds of (6) and (7) where the contact's parameters are `contact`.
+/// The bounds of (6) and (7) for the contact `contact`.
 IntegralGainBounds integral_gain_bounds(const motion::PlantParameters& plant,
                                         const friction::FrictionParameters& contact,
                                         const loop::EncoderParameters& encoder,

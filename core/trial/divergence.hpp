@@ -8,17 +8,16 @@
 #include "core/trial/outcome.hpp"
 #include "core/trial/parameters.hpp"
 
-/// Early decision: a move that is so far from its target that it does not come back is ended there.
+/// Early decision: a move that has diverged is ended.
 namespace zerocount::trial {
 
-/// Whether a move is ended after a sample with the error e = `error`, counts, because it has diverged. Always
-/// false without `verdict.stop`; otherwise where
+/// Whether a move has diverged at a sample with the error e = `error`, counts. Always false without
+/// `verdict.stop`; otherwise true if
 ///
 ///   |e| > limit + |e_0|,
 ///
-/// e_0 = `first_error` being the error at the move's first sample. A move begins with its step as the error,
-/// whatever its reference does, and one that settles may overshoot by nearly as much: what goes beyond that
-/// tells a move that diverges from one that is long.
+/// e_0 = `first_error` being the error at the move's first sample. That is the size of the step, whatever the
+/// reference does, and a move that settles may overshoot by nearly as much.
 inline bool diverged(const VerdictParameters& verdict, std::int64_t first_error, std::int64_t error) {
   return verdict.stop &&
          static_cast<double>(std::abs(error)) > verdict.limit + static_cast<double>(std::abs(first_error));
@@ -39,7 +38,7 @@ inline MoveOutcome move_not_run() {
   return move;
 }
 
-/// Whether anything of the move was run.
+/// Whether any sample of the move was run.
 inline bool was_run(const MoveOutcome& move) {
   return !move.stopped || !std::isnan(move.final_position);
 }

@@ -14,12 +14,12 @@ class Jerks {
  public:
   explicit Jerks(std::int64_t move = 0, double sample_time = 0.0) : move_(move), sample_time_(sample_time) {}
 
-  /// Takes the error at sample k after the dwell. Samples may be left out where it is 0 and no jerk lasts.
+  /// Takes the error at sample k after the dwell. Samples may be left out where it is 0 outside a jerk.
   /// @returns whether a jerk ended before this sample; then it is in last().
   bool add(std::int64_t k, std::int64_t error) {
     if (error == 0) return end(k);
-    if (!lasts_) {
-      lasts_ = true;
+    if (!in_jerk_) {
+      in_jerk_ = true;
       start_ = k;
       jerk_ = {move_, static_cast<double>(k) * sample_time_, 0.0, 0, -numerics::sign_of(error)};
     }
@@ -27,28 +27,28 @@ class Jerks {
     return false;
   }
 
-  /// Ends the jerk that lasts before sample k, if there is one. @returns whether there was.
+  /// Ends the present jerk, if any, before sample k. @returns whether there was one.
   bool end(std::int64_t k) {
-    if (!lasts_) return false;
-    lasts_ = false;
+    if (!in_jerk_) return false;
+    in_jerk_ = false;
     jerk_.duration = static_cast<double>(k - start_) * sample_time_;
     samples_ += k - start_;
     ++(jerk_.direction > 0 ? up_ : down_);
     return true;
   }
 
-  bool lasts() const { return lasts_; }
+  bool in_jerk() const { return in_jerk_; }
   const Jerk& last() const { return jerk_; }
-  std::int64_t count() const { return up_ + down_; }  ///< that have ended
-  std::int64_t up() const { return up_; }             ///< of them, in the positive direction
-  std::int64_t down() const { return down_; }         ///< and in the negative one
-  std::int64_t samples() const { return samples_; }   ///< in them
+  std::int64_t count() const { return up_ + down_; }  ///< ended jerks
+  std::int64_t up() const { return up_; }             ///< ended jerks in the positive direction
+  std::int64_t down() const { return down_; }         ///< ended jerks in the negative direction
+  std::int64_t samples() const { return samples_; }   ///< in ended jerks
 
  private:
   std::int64_t move_;
   double sample_time_;
   Jerk jerk_;
-  bool lasts_{false};
+  bool in_jerk_{false};
   std::int64_t start_{0};
   std::int64_t up_{0};
   std::int64_t down_{0};

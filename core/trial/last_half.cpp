@@ -46,7 +46,7 @@ double LastHalf::amplitude() const {
 }
 
 double LastHalf::period(double sample_time) const {
-  // c_{k−1} < m ≤ c_k holds for the middle exactly where it does for the whole number above it.
+  // For whole counts, c_{k−1} < m ≤ c_k is equivalent to the condition with m rounded up.
   const std::int64_t middle = min_ + (max_ - min_ + 1) / 2;
   std::int64_t crossings = 0;
   std::int64_t first = 0;

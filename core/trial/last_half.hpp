@@ -19,19 +19,18 @@ constexpr std::int64_t first_of_last_half(std::int64_t samples) {
 ///
 ///   (k_last − k_first)·T/(crossings − 1).
 ///
-/// The middle is known at the end alone. So all rises of the count are remembered, up to max_rises of them:
-/// no half with fewer samples than that can have more. In a longer one that has, the period is that of its
-/// last max_rises rises.
+/// The middle is known only at the end. Therefore all rises of the count are stored, at most the last
+/// max_rises, from which the period of a longer half is computed.
 class LastHalf {
  public:
   static constexpr std::size_t max_rises = 131'072;
 
-  /// Starts the last half of a move of `samples` samples. Keeps the memory; what is needed of it is taken at
-  /// once, with the first rise.
+  /// Starts the last half of a move of `samples` samples. Keeps the allocated memory; the first rise
+  /// allocates all that the half can need.
   void start(std::int64_t samples);
 
   /// Takes the count at sample k ≥ h; `before` is the count at sample k − 1, or `count` itself at sample h.
-  /// Samples at which the count is that of the sample before may be left out, as long as finish() is called.
+  /// Samples without a change of the count may be left out, as long as finish() is called.
   void add(std::int64_t k, std::int64_t before, std::int64_t count) {
     if (!begun_) begin(before);
     if (count > before) {

@@ -14,7 +14,7 @@ Outcome verdict(double largest_error, std::int64_t target, const LastHalf& last_
   return last_half.only_approaches(target) ? Outcome::off_target : Outcome::oscillating;
 }
 
-/// The verdict on a move with a target, and what is known with it alone.
+/// The verdict on a move with a target, and the measures that depend on it.
 void judge_end(const MoveTiming& timing, const RunningMeasures<double>& m, const LastHalf& last_half,
                const MoveEnd& end, MoveOutcome& outcome) {
   if (end.stopped) {
@@ -24,7 +24,7 @@ void judge_end(const MoveTiming& timing, const RunningMeasures<double>& m, const
     outcome.outcome = verdict(m.largest_in_window, target, last_half);
     outcome.midway_error = target - last_half.first();
     if (m.zeros_in_a_row > 0.0) {
-      outcome.final_settling_time = (m.taken - m.zeros_in_a_row) * timing.sample_time;
+      outcome.final_settling_time = (m.samples - m.zeros_in_a_row) * timing.sample_time;
     }
     if (outcome.outcome == Outcome::oscillating) {
       outcome.oscillation_amplitude = last_half.amplitude();
@@ -65,7 +65,7 @@ MoveOutcome outcome_of_move(const MoveTiming& timing, const RunningMeasures<doub
     outcome.stable = end.finite && m.largest_since_arrival <= 1.0;
     outcome.arrival = whole(m.arrival);
     outcome.settling_time = m.arrival * timing.sample_time;
-    const double since_arrival = m.taken - m.arrival;
+    const double since_arrival = m.samples - m.arrival;
     outcome.zero_fraction = (since_arrival - static_cast<double>(jerks.samples())) / since_arrival;
   }
   if (timing.judged) {
@@ -86,7 +86,7 @@ bool MoveMeasures::add(const MoveSample& sample) {
 /// Updates the measures that follow from the error. @returns whether a jerk ended before this sample.
 bool MoveMeasures::judge(const MoveSample& sample) {
   const std::int64_t error = sample.target - sample.count;
-  const std::int64_t k = whole(running_.taken);
+  const std::int64_t k = whole(running_.samples);
   const bool dwelt = running_.arrived != 0.0;  // the dwell ended before this sample
   const MeasureLimits<double> limits{static_cast<double>(timing_.samples), static_cast<double>(timing_.dwell),
                                      static_cast<double>(timing_.window)};
@@ -97,7 +97,7 @@ bool MoveMeasures::judge(const MoveSample& sample) {
 }
 
 bool MoveMeasures::finish(bool broke_away, std::int64_t reversal_depth, bool finite) {
-  const bool jerk_cut = jerks_.end(whole(running_.taken));
+  const bool jerk_cut = jerks_.end(whole(running_.samples));
   if (timing_.judged) last_half_.finish(last_.count);
   outcome_ = outcome_of_move(timing_, running_, jerks_, last_half_,
                              {last_, broke_away, reversal_depth, stopped_, finite});

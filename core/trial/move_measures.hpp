@@ -16,7 +16,7 @@ struct MoveTiming {
   std::int64_t samples{2000};  ///< N, of the move
   std::int64_t dwell{100};     ///< D, samples at zero error that make an arrival
   std::int64_t window{100};    ///< W, last samples that decide the outcome
-  bool judged{true};           ///< false where the move has no target, but a torque level
+  bool judged{true};           ///< false if the move has a torque level in place of a target
 };
 
 MoveTiming move_timing(const TrialParameters& parameters, std::size_t move);
@@ -46,13 +46,13 @@ struct MoveEnd {
   bool finite{true};            ///< the motion could be followed
 };
 
-/// The measures of a move. The last half has been finished, unless the move was ended before it, and so has
-/// the last jerk.
+/// The measures of a move. The last jerk has been ended, and the last half finished unless the move ended
+/// before it.
 MoveOutcome outcome_of_move(const MoveTiming& timing, const RunningMeasures<double>& measures,
                             const Jerks& jerks, const LastHalf& last_half, const MoveEnd& end);
 
-/// The measures of one move, taken sample by sample. What is kept of the move are running values and what
-/// LastHalf keeps, which has a limit: the memory does not grow with the length of the move.
+/// Accumulates the measures of one move sample by sample. Its memory is bounded, whatever the length of the
+/// move.
 class MoveMeasures {
  public:
   MoveMeasures(const MoveTiming& timing, std::int64_t move)
@@ -64,10 +64,10 @@ class MoveMeasures {
   /// @returns whether a jerk ended before this sample; then it is in last_jerk().
   bool add(const MoveSample& sample);
 
-  /// Says that the move has diverged with the sample taken last, and that there will be no other.
+  /// Ends the move as diverged at the last sample.
   void stop() { stopped_ = true; }
 
-  /// Ends the move: takes what the plant did during it. Call once, after the last sample.
+  /// Finishes the move with measures of the plant. Call once, after the last sample.
   /// @returns whether a jerk was cut by the end; then it is in last_jerk().
   bool finish(bool broke_away, std::int64_t reversal_depth, bool finite);
 

@@ -8,17 +8,17 @@
 
 namespace zerocount::trial {
 
-/// Verdict on a move with N samples by the last W of them. The numbers are those stored in results files;
-/// their order from best to worst is that of severity().
+/// Verdict on a move with N samples, by the last W of them. The numbers are stored in results files;
+/// severity() orders them from best to worst.
 ///
 ///   zero_count   all e_k = 0
 ///   one_count    max |e_k| = 1
 ///   off_target   max |e_k| > 1, and for every sample k from h = ⌈N/2⌉ to N − 1 sgn e_k = sgn e_h and
-///                |e_k| ≤ |e_h|: stalled, or still on its way (for N = 1 there is no such sample)
+///                |e_k| ≤ |e_h|: stalled, or still approaching (for N = 1 no such sample exists)
 ///   oscillating  max |e_k| > 1 otherwise, or ended early because it had diverged
 ///   nonfinite    the motion left the finite numbers, or could not be followed (see Plant::finite), or the
 ///                controller gave no finite torque
-///   open_loop    the move had a torque level and no target, so there was nothing to judge
+///   open_loop    the move had a torque level in place of a target
 enum class Outcome : std::int8_t {
   zero_count = 0,
   one_count = 1,
@@ -29,7 +29,7 @@ enum class Outcome : std::int8_t {
 };
 
 /// Position of an outcome from best to worst: zero_count, one_count, off_target, oscillating, nonfinite. A
-/// move that was not judged (open_loop) is no worse than any other.
+/// move that was not judged (open_loop) has the position of the best.
 constexpr int severity(Outcome outcome) {
   switch (outcome) {
     case Outcome::open_loop:
@@ -45,7 +45,7 @@ constexpr int severity(Outcome outcome) {
     case Outcome::nonfinite:
       return 5;
   }
-  return 6;  // no outcome at all: what only a damaged file has
+  return 6;  // an invalid number, from a damaged file
 }
 
 /// Measures of one move.
@@ -68,17 +68,17 @@ struct MoveOutcome {
   /// (max − min)/2 of the count over the last half of an oscillating move that was not ended early (see
   /// LastHalf), counts; otherwise NaN.
   double oscillation_amplitude{std::numeric_limits<double>::quiet_NaN()};
-  /// Likewise: mean time between upward crossings of the middle of the two, s; NaN for fewer than two.
+  /// Mean time between upward crossings of (max + min)/2 in the same samples, s; NaN for fewer than two.
   double oscillation_period{std::numeric_limits<double>::quiet_NaN()};
   double travel_time{0.0};    ///< until the reference, or the torque, is where it is held, s
   std::int64_t overshoot{0};  ///< largest excursion beyond the target, seen from the first count, counts
   /// e at sample ⌈N/2⌉ (of a single sample: that), counts; 0 where the move was cut, or has no target.
   std::int64_t midway_error{0};
-  std::int64_t final_error{0};  ///< e at the last sample, counts; −count where there is no target
+  std::int64_t final_error{0};  ///< e at the last sample, counts; −count without a target
   /// Distance from the rotor, or the load where the encoder is there, to the middle of the target's count at
-  /// the last sample, whatever the encoder says: target − (θ/Δx + encoder_phase − ½) in fine counts. By an
-  /// ideal encoder, final_error is 0 where this is in (−½, ½]. NaN where there is no target, or the motion
-  /// was lost.
+  /// the last sample, whatever the encoder says: target − (θ/Δx + encoder_phase − ½) in fine counts. With
+  /// an ideal encoder, final_error is 0 if this is in (−½, ½]. NaN without a target, or if the motion was
+  /// lost.
   double true_error{std::numeric_limits<double>::quiet_NaN()};
   double final_position{0.0};            ///< θ at the last sample, rad
   double holding_torque{0.0};            ///< torque decided at the last sample, N m
@@ -106,7 +106,7 @@ struct TrialOutcome {
   std::vector<MoveOutcome> moves;
 };
 
-/// The outcome by which a trial counts: that of its worst move.
+/// The outcome of a trial: that of its worst move.
 inline Outcome worst_outcome(std::span<const MoveOutcome> moves) {
   Outcome worst = Outcome::open_loop;
   for (const MoveOutcome& move : moves) {

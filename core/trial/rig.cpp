@@ -5,11 +5,11 @@
 namespace zerocount::trial {
 namespace {
 
-/// Fraction of a fine count that the motion may leave out per torque step. Far below the accuracy asked for,
-/// because a trial that breaks away in every cycle of its ringing multiplies an error from cycle to cycle.
+/// Truncation error of the motion per torque step, in fine counts. Far below the required accuracy, because a
+/// trial that breaks away in every cycle of its oscillation amplifies an error from cycle to cycle.
 constexpr double motion_tolerance_in_counts = 1e-11;
 
-/// Amplitude of an oscillation that counts as rest, in fine counts: a hundredth of the accuracy asked for.
+/// Amplitude of an oscillation that counts as rest, in fine counts: a hundredth of the required accuracy.
 constexpr double rest_in_counts = 1e-8;
 
 }  // namespace

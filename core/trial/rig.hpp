@@ -59,7 +59,7 @@ class Rig {
   /// The angle that the encoders read last: of the rotor, or of the load, rad.
   double last_measured() const { return last_measured_; }
 
-  /// Takes the wanted torque (N m) at t_k through the converter; completes `record`.
+  /// Applies the wanted torque (N m) at t_k through the converter; completes `record`.
   void drive(double torque, SampleRecord& record) {
     const loop::DacOutput output = loop::convert(dac_, torque);
     course_ = drive_.send(record.k, output);
@@ -69,13 +69,13 @@ class Rig {
     record.drive_torque = course_.now;
   }
 
-  /// The same with the controller's torque. If it is not finite the trial ends there.
+  /// drive() with the controller's torque. The trial ends if it is not finite.
   void drive_wanted(double torque, SampleRecord& record) {
     controller_failed_ = !std::isfinite(torque);
     drive(controller_failed_ ? 0.0 : torque, record);
   }
 
-  /// Takes the torque (N m) at t_k to the motor as it is, past the converter; completes `record`.
+  /// Applies the torque (N m) at t_k to the motor, past the converter; completes `record`.
   void drive_exactly(double torque, SampleRecord& record) {
     course_ = drive_.send_exact(torque);
     record.torque = torque;
@@ -85,8 +85,8 @@ class Rig {
   /// Lets the plant move until t_{k+1}.
   void hold() { plant_.advance(course_, sample_time_, plant::max_steps_of_sample); }
 
-  /// Whether the controller's torque and the motion are still finite, the motion within what the counters can
-  /// count.
+  /// Whether the controller's torque and the motion are still finite, and the motion within the counters'
+  /// range.
   bool readable() const {
     const double finest = std::min(measurement_.fine_resolution(), measurement_.coarse_resolution());
     return !controller_failed_ && plant_.finite() && std::abs(plant_.theta()) < max_counts * finest;

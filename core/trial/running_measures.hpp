@@ -10,7 +10,7 @@ namespace zerocount::trial {
 /// @tparam Number double, a vector, or an array with the numbers of many lanes.
 template <class Number>
 struct ArrivalMeasures {
-  Number taken;           ///< samples
+  Number samples;         ///< so far
   Number zeros_in_a_row;  ///< up to the last sample
   Number arrived;         ///< the error was 0 for the whole dwell
   Number arrival;         ///< first sample of that dwell, once arrived
@@ -27,10 +27,10 @@ struct RunningMeasures : ArrivalMeasures<Number> {
   Number saturated;              ///< the converter clipped
 };
 
-/// Calls `visit` with each number of all of `arrivals`, and likewise of `measures`.
+/// Calls `visit` with the same number of all `arrivals` (or all `measures`), for each number in turn.
 template <class Visit, class... Arrivals>
 ZEROCOUNT_ALWAYS_INLINE void for_each_of_arrival(Visit visit, Arrivals&... arrivals) {
-  visit(arrivals.taken...);
+  visit(arrivals.samples...);
   visit(arrivals.zeros_in_a_row...);
   visit(arrivals.arrived...);
   visit(arrivals.arrival...);
@@ -61,25 +61,25 @@ ZEROCOUNT_ALWAYS_INLINE void measure_error(RunningMeasures<Number>& m, const Mea
   const Number zero(0.0);
   const Number one(1.0);
   const Number size = abs(error);
-  m.direction = select(m.taken == zero, sign(error), m.direction);
+  m.direction = select(m.samples == zero, sign(error), m.direction);
   const auto dwelt = m.arrived != zero;  // the dwell ended before this sample
   m.zeros_in_a_row = select(error == zero, m.zeros_in_a_row + one, zero);
   const auto arrives = (m.arrived == zero) & (m.zeros_in_a_row == limits.dwell);
   m.arrived = select(arrives, one, m.arrived);
-  m.arrival = select(arrives, m.taken - limits.dwell + one, m.arrival);
+  m.arrival = select(arrives, m.samples - limits.dwell + one, m.arrival);
   m.largest_since_arrival = select(dwelt, max(m.largest_since_arrival, size), m.largest_since_arrival);
-  m.largest_in_window =
-      select(m.taken >= limits.samples - limits.window, max(m.largest_in_window, size), m.largest_in_window);
+  m.largest_in_window = select(m.samples >= limits.samples - limits.window, max(m.largest_in_window, size),
+                               m.largest_in_window);
   m.overshoot = max(m.overshoot, -m.direction * error);
 }
 
-/// Takes the torque (N m) decided at this sample, which is the last of it.
+/// Takes the torque (N m) decided at this sample, and ends the sample.
 template <class Number, class Mask>
 ZEROCOUNT_ALWAYS_INLINE void measure_torque(RunningMeasures<Number>& m, const Number& torque,
                                             const Mask& clipped) {
   m.peak_torque = max(m.peak_torque, abs(torque));
   m.saturated = select(clipped, Number(1.0), m.saturated);
-  m.taken = m.taken + Number(1.0);
+  m.samples = m.samples + Number(1.0);
 }
 
 /// Takes `samples` samples (0 or more) with the error 0 and the last torque.
@@ -89,9 +89,9 @@ ZEROCOUNT_ALWAYS_INLINE void measure_zeros(ArrivalMeasures<Number>& m, const Num
   const Number zero(0.0);
   const auto arrives = (m.arrived == zero) & (samples > zero) & (m.zeros_in_a_row + samples >= dwell);
   m.arrived = select(arrives, Number(1.0), m.arrived);
-  m.arrival = select(arrives, m.taken - m.zeros_in_a_row, m.arrival);
+  m.arrival = select(arrives, m.samples - m.zeros_in_a_row, m.arrival);
   m.zeros_in_a_row = m.zeros_in_a_row + samples;
-  m.taken = m.taken + samples;
+  m.samples = m.samples + samples;
 }
 
 }  // namespace zerocount::trial

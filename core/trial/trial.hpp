@@ -30,8 +30,8 @@ struct SampleRecord {
   HookMode mode{HookMode::stick};
   std::int64_t reference{0};  ///< that the controller follows, counts: the target once arrived there
   loop::ControlPhase phase{loop::ControlPhase::fine};  ///< that decided the torque
-  double load_theta{0.0};    ///< angle of the second mass, rad; that of the rotor without one
-  double load_omega{0.0};    ///< velocity of the second mass, rad/s; likewise
+  double load_theta{0.0};    ///< angle of the second mass, rad; of the rotor without one
+  double load_omega{0.0};    ///< velocity of the second mass, rad/s; of the rotor without one
   double drive_torque{0.0};  ///< of the motor at this instant, after converter and amplifier, N m
 };
 
@@ -48,11 +48,11 @@ struct Interrupted : std::exception {
 };
 
 /// Runs one trial: quantised DAC → plant with friction → encoder, from t = 0 to the end of the last move.
-/// With `verdict.stop` a trial ends at the sample at which a move has diverged (see divergence.hpp): its
-/// samples and jerks are those of the trial without it, up to there.
+/// With `verdict.stop` a trial ends at the sample at which a move has diverged (see divergence.hpp): up to
+/// there samples and jerks do not depend on it.
 ///
-/// A pure function: the same parameters give the same outcome and the same records, whatever ran before or
-/// runs beside it. The memory it uses does not grow with the number of samples.
+/// A pure function: equal parameters give equal outcomes and records. Its memory does not grow with the
+/// number of samples.
 /// @throws Interrupted if a stop is requested before its last sample.
 TrialOutcome run_trial(const TrialParameters& parameters, const TrialObservers& observers = {});
 

@@ -16,9 +16,9 @@
  * that change. zerocount runs trials in parallel, and checks this by running some of them twice in another
  * order.
  * - `step` allocates no memory, does no input and output, and does not throw.
- * - The same inputs give the same bits. Compile without -ffast-math and with -ffp-contract=off. The last bit of
- * exp, sin … of the C library may depend on the processor; for the same bits on all of them call functions that
- * do not, such as those of SLEEF that are compiled without fused operations.
+ * - The same inputs give the same bits. Compile without -ffast-math and with -ffp-contract=off. The last bit
+ * of exp, sin … of the C library may depend on the processor; for the same bits on all of them call functions
+ * that do not, such as those of SLEEF that are compiled without fused operations.
  *
  * On a linear axis read m for rad, and N for N m. */
 
@@ -44,7 +44,7 @@ typedef struct zerocount_parameter {
   const char* meaning; /* one line */
   double default_value;
   double lowest;  /* allowed value; -INFINITY: no limit */
-  double highest; /* likewise, INFINITY */
+  double highest; /* allowed value; INFINITY: no limit */
 } zerocount_parameter;
 
 /* What is the same at all samples of a trial. */
@@ -56,7 +56,7 @@ typedef struct zerocount_setup {
   double resolution;        /* of the encoder, rad per count */
   double torque_resolution; /* of the converter, N m per code */
   double lowest_torque;     /* that the converter can give, N m */
-  double highest_torque;    /* likewise */
+  double highest_torque;    /* that the converter can give, N m */
   double initial_integral;  /* initial.integral of the manifest, N m */
 } zerocount_setup;
 

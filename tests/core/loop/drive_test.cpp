@@ -39,10 +39,6 @@ std::vector<DacOutput> random_outputs(const DacParameters& dac, unsigned seed, i
   return outputs;
 }
 
-double end_of(const motion::TorqueCourse& course, double duration) {
-  return course.settled + (course.now - course.settled) * std::exp(-course.rate * duration);
-}
-
 TEST(Drive, WithoutErrorsHoldsTheDecidedTorqueExactly) {
   const DacParameters dac;
   for (const int delay : {0, 1, 3}) {
@@ -72,14 +68,6 @@ TEST(Drive, GivesNothingUntilTheFirstTorqueHasComeThrough) {
     torques.push_back(at_once.send(sample, outputs[k]).now);
     EXPECT_EQ(late.send(sample, outputs[k]).now, k < 4 ? 0.0 : torques[k - 4]);
   }
-}
-
-TEST(Drive, ConverterErrorsReachTheMotor) {
-  const DacParameters dac = converter_with_errors();
-  Drive drive(dac, {}, 0, sample_time, randomness_of(1));
-  std::int64_t k = 0;
-  for (const DacOutput& output : random_outputs(dac, 23, 200))
-    EXPECT_EQ(drive.send(k++, output).now, torque_with_errors(dac, output.code));
 }
 
 TEST(Drive, ConverterNoiseIsNormalAndNewAtEverySample) {
@@ -131,39 +119,11 @@ TEST(Drive, ExactTorquePassesTheConverterByButNotDelayAndAmplifier) {
               1e-16);
 }
 
-TEST(Drive, AmplifierStepResponseIsExponential) {
-  for (const double bandwidth : {1.0, 40.0, 300.0, 5000.0}) {
-    Drive drive({}, {bandwidth}, 0, sample_time, randomness_of(1));
-    const DacOutput output = convert({}, 0.2);
-    for (int k = 0; k < 400; ++k) {
-      const motion::TorqueCourse course = drive.send(k, output);
-      const double expected =
-          output.torque * -std::expm1(-2.0 * std::numbers::pi * bandwidth * k * sample_time);
-      ASSERT_NEAR(course.now, expected, 1e-15);
-      ASSERT_EQ(course.settled, output.torque);
-      ASSERT_EQ(drive.torque(), course.now);
-    }
-  }
-}
-
 TEST(Drive, BeyondTheHighestBandwidthThereIsNone) {
   AmplifierParameters fast;
   fast.bandwidth = 1e300;
   Drive drive({}, fast, 0, 5e-4, {});
   EXPECT_EQ(drive.send_exact(0.1).rate, 2.0 * std::numbers::pi * 1e12);
-}
-
-TEST(Drive, TorqueIsContinuousFromSampleToSample) {
-  for (const double bandwidth : {5.0, 200.0, 3000.0}) {
-    Drive drive(converter_with_errors(), {bandwidth}, 1, sample_time, randomness_of(1));
-    double end = 0.0;
-    std::int64_t k = 0;
-    for (const DacOutput& output : random_outputs(converter_with_errors(), 24, 300)) {
-      const motion::TorqueCourse course = drive.send(k++, output);
-      ASSERT_NEAR(course.now, end, 1e-15);
-      end = end_of(course, sample_time);
-    }
-  }
 }
 
 TEST(Drive, AmplifierLetsASineOfItsBandwidthThroughAtMinusThreeDecibels) {
@@ -183,17 +143,6 @@ TEST(Drive, AmplifierLetsASineOfItsBandwidthThroughAtMinusThreeDecibels) {
   }
   EXPECT_NEAR(std::hypot(in_phase, quadrature), std::sqrt(0.5), 1e-3);
   EXPECT_NEAR(std::atan2(quadrature, in_phase), -std::numbers::pi / 4.0, 1e-3);
-}
-
-TEST(Drive, ManyShortSamplesEqualOneLong) {
-  Drive shorter({}, {70.0}, 0, sample_time / 16.0, randomness_of(1));
-  Drive longer({}, {70.0}, 0, sample_time, randomness_of(1));
-  for (int k = 0; k < 200; ++k) {
-    const double level = std::cos(0.7 * k);
-    const double expected = longer.send_exact(level).now;
-    ASSERT_NEAR(shorter.send_exact(level).now, expected, 1e-14);
-    for (int i = 1; i < 16; ++i) shorter.send_exact(level);
-  }
 }
 
 TEST(Drive, AmplifierComesToRest) {

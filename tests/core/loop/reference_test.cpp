@@ -120,30 +120,6 @@ TEST(Reference, NoTravelTakesNoTime) {
   }
 }
 
-TEST(Reference, TrapezoidalMoveTakesTheTimesOfTheTextbook) {
-  // 1 rad/s at 4 rad/s² is reached after 1/4 s and 1/8 rad.
-  const ReferenceProfile profile{ReferenceShape::trapezoidal, 1.0, 4.0, 1.0};
-  EXPECT_DOUBLE_EQ(Reference(profile, 0, 1000, 1e-3).duration(), 1.25);
-  EXPECT_EQ(Reference(profile, 0, 1000, 1e-3).at(0.25), 125);
-  EXPECT_EQ(Reference(profile, 0, 1000, 1e-3).at(1.0), 875);
-  EXPECT_DOUBLE_EQ(Reference(profile, 0, 250, 1e-3).duration(), 0.5);  // just reached
-  EXPECT_DOUBLE_EQ(Reference(profile, 0, 40, 1e-3).duration(), 0.2);   // a triangle: 2√(travel/a)
-  EXPECT_EQ(Reference(profile, 0, 40, 1e-3).at(0.1), 20);
-}
-
-TEST(Reference, SCurveTakesTheTimesOfEachOfItsCases) {
-  // The limits: 2 rad/s, 4 rad/s², 16 rad/s³; full acceleration after 1/4 s, full velocity after 3/4 s.
-  const ReferenceProfile all{ReferenceShape::s_curve, 2.0, 4.0, 16.0};
-  // With all limits reached; with a largest velocity of 1.5 rad/s; with full acceleration just reached; with
-  // the jerk limit alone.
-  EXPECT_DOUBLE_EQ(Reference(all, 0, 4000, 1e-3).duration(), 4.0 / 2.0 + 0.75);
-  EXPECT_DOUBLE_EQ(Reference(all, 0, 9375, 1e-4).duration(), 2 * (1.5 / 4.0 + 0.25));
-  EXPECT_DOUBLE_EQ(Reference(all, 0, 500, 1e-3).duration(), 4 * 0.25);
-  EXPECT_DOUBLE_EQ(Reference(all, 0, 32, 1e-3).duration(), std::cbrt(32 * 0.032 / 16.0));
-  const ReferenceProfile slow{ReferenceShape::s_curve, 0.25, 4.0, 16.0};  // no full acceleration
-  EXPECT_DOUBLE_EQ(Reference(slow, 0, 1000, 1e-3).duration(), 4.0 + 0.25);
-}
-
 TEST(Reference, EveryCountIsTheNearestToTheSegmentsIntegratedOneByOne) {
   Sampler draw(1);
   std::int64_t compared = 0;

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <numbers>
 
+#include <gtest/gtest.h>
+
 #include "tests/core/trial/literal_command.hpp"
 
 namespace zerocount::testing {
@@ -186,6 +188,49 @@ LiteralMeasures literal_measures(const trial::TrialParameters& p, const Samples&
   outcome.true_error = static_cast<double>((middle - last.theta) / resolution);
   judge(errors, p, move, measures);
   return measures;
+}
+
+void expect_same_measures(const trial::MoveOutcome& measured, const trial::MoveOutcome& expected) {
+  EXPECT_EQ(measured.outcome, expected.outcome);
+  EXPECT_EQ(measured.arrived, expected.arrived);
+  EXPECT_EQ(measured.stable, expected.stable);
+  EXPECT_EQ(measured.saturated, expected.saturated);
+  EXPECT_EQ(measured.arrival, expected.arrival);
+  EXPECT_EQ(measured.overshoot, expected.overshoot);
+  EXPECT_EQ(measured.midway_error, expected.midway_error);
+  EXPECT_EQ(measured.final_error, expected.final_error);
+  EXPECT_EQ(measured.final_position, expected.final_position);
+  EXPECT_EQ(measured.holding_torque, expected.holding_torque);
+  EXPECT_EQ(measured.peak_torque, expected.peak_torque);
+  EXPECT_EQ(measured.creep, expected.creep);
+  EXPECT_EQ(measured.phase_changes, expected.phase_changes);
+  EXPECT_EQ(measured.encoder_disagreement, expected.encoder_disagreement);
+  EXPECT_EQ(measured.jerk_count, expected.jerk_count);
+  const auto expect_same = [](double value, double other, double tolerance, const char* name) {
+    EXPECT_EQ(std::isnan(value), std::isnan(other)) << name;
+    if (!std::isnan(other)) {
+      EXPECT_NEAR(value, other, tolerance) << name;
+    }
+  };
+  expect_same(measured.travel_time, expected.travel_time, 1e-12, "travel_time");
+  expect_same(measured.settling_time, expected.settling_time, 1e-12, "settling_time");
+  expect_same(measured.final_settling_time, expected.final_settling_time, 1e-12, "final_settling_time");
+  expect_same(measured.zero_fraction, expected.zero_fraction, 1e-12, "zero_fraction");
+  expect_same(measured.oscillation_amplitude, expected.oscillation_amplitude, 0.0, "amplitude");
+  expect_same(measured.oscillation_period, expected.oscillation_period, 1e-12, "period");
+  expect_same(measured.true_error, expected.true_error, 1e-8, "true_error");
+  expect_same(measured.jerk_agreement, expected.jerk_agreement, 1e-15, "jerk_agreement");
+}
+
+void expect_same_jerks(const std::vector<trial::Jerk>& measured, const std::vector<trial::Jerk>& expected) {
+  ASSERT_EQ(measured.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(measured[i].move, expected[i].move);
+    EXPECT_EQ(measured[i].magnitude, expected[i].magnitude);
+    EXPECT_EQ(measured[i].direction, expected[i].direction);
+    EXPECT_NEAR(measured[i].onset, expected[i].onset, 1e-12);
+    EXPECT_NEAR(measured[i].duration, expected[i].duration, 1e-12);
+  }
 }
 
 }  // namespace zerocount::testing

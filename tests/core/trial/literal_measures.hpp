@@ -19,4 +19,8 @@ LiteralMeasures literal_measures(const trial::TrialParameters& p,
                                  const std::vector<trial::SampleRecord>& samples,
                                  const std::vector<long double>& wanted, std::size_t move);
 
+/// Expects the measures of a move to be those by the definitions.
+void expect_same_measures(const trial::MoveOutcome& measured, const trial::MoveOutcome& expected);
+void expect_same_jerks(const std::vector<trial::Jerk>& measured, const std::vector<trial::Jerk>& expected);
+
 }  // namespace zerocount::testing

@@ -30,35 +30,7 @@ TEST(WidenedMeasures, AreThoseOfTheSamplesOfEachMove) {
       const trial::MoveOutcome measured = trial.outcome.moves[move];
       const trial::MoveOutcome expected =
           literal_measures(trial.parameters, trial.samples, wanted, move).outcome;
-      EXPECT_EQ(measured.outcome, expected.outcome);
-      EXPECT_EQ(measured.arrived, expected.arrived);
-      EXPECT_EQ(measured.stable, expected.stable);
-      EXPECT_EQ(measured.saturated, expected.saturated);
-      EXPECT_EQ(measured.arrival, expected.arrival);
-      EXPECT_EQ(measured.overshoot, expected.overshoot);
-      EXPECT_EQ(measured.midway_error, expected.midway_error);
-      EXPECT_EQ(measured.final_error, expected.final_error);
-      EXPECT_EQ(measured.final_position, expected.final_position);
-      EXPECT_EQ(measured.holding_torque, expected.holding_torque);
-      EXPECT_EQ(measured.peak_torque, expected.peak_torque);
-      EXPECT_EQ(measured.creep, expected.creep);
-      EXPECT_EQ(measured.phase_changes, expected.phase_changes);
-      EXPECT_EQ(measured.encoder_disagreement, expected.encoder_disagreement);
-      EXPECT_EQ(measured.jerk_count, expected.jerk_count);
-      const auto expect_same = [](double value, double other, double tolerance, const char* name) {
-        EXPECT_EQ(std::isnan(value), std::isnan(other)) << name;
-        if (!std::isnan(other)) {
-          EXPECT_NEAR(value, other, tolerance) << name;
-        }
-      };
-      expect_same(measured.travel_time, expected.travel_time, 1e-12, "travel_time");
-      expect_same(measured.settling_time, expected.settling_time, 1e-12, "settling_time");
-      expect_same(measured.final_settling_time, expected.final_settling_time, 1e-12, "final_settling_time");
-      expect_same(measured.zero_fraction, expected.zero_fraction, 1e-12, "zero_fraction");
-      expect_same(measured.oscillation_amplitude, expected.oscillation_amplitude, 0.0, "amplitude");
-      expect_same(measured.oscillation_period, expected.oscillation_period, 1e-12, "period");
-      expect_same(measured.true_error, expected.true_error, 1e-8, "true_error");
-      expect_same(measured.jerk_agreement, expected.jerk_agreement, 1e-15, "jerk_agreement");
+      expect_same_measures(measured, expected);
       // The deepest may lie between two samples. Two reversals fit there at most, half a period of the spring
       // being longer than a sample: while the rotor creeps, dxs/dt may touch zero and come back at once.
       const std::int64_t depth = deepest_sample(trial, span);
@@ -76,14 +48,7 @@ TEST(WidenedMeasures, TellOfTheJerksOfEachMove) {
       for (const trial::Jerk& jerk : literal_measures(trial.parameters, trial.samples, wanted, move).jerks)
         expected.push_back(jerk);
     });
-    ASSERT_EQ(trial.jerks.size(), expected.size());
-    for (std::size_t i = 0; i < expected.size(); ++i) {
-      EXPECT_EQ(trial.jerks[i].move, expected[i].move);
-      EXPECT_EQ(trial.jerks[i].magnitude, expected[i].magnitude);
-      EXPECT_EQ(trial.jerks[i].direction, expected[i].direction);
-      EXPECT_NEAR(trial.jerks[i].onset, expected[i].onset, 1e-12);
-      EXPECT_NEAR(trial.jerks[i].duration, expected[i].duration, 1e-12);
-    }
+    expect_same_jerks(trial.jerks, expected);
   });
 }
 

@@ -11,17 +11,17 @@
 
 namespace zerocount::batch {
 
-/// The lanes of a BatchEngine, and their way through a batch of trials.
-class LaneWork {
+/// The lanes of a BatchEngine: assigns the trials of a batch to them, and runs the kernels in rounds.
+class LaneScheduler {
  public:
-  explicit LaneWork(const BatchSettings& settings);
+  explicit LaneScheduler(const BatchSettings& settings);
 
   /// See BatchEngine::run.
   void run(std::span<const trial::TrialParameters* const> trials, std::span<trial::TrialOutcome> outcomes,
            const BatchObservers& observers);
 
  private:
-  // Trials come and go (lane_work.cpp).
+  // Trials in lanes (lane_scheduler.cpp).
   void fill_spare_lane();
   void refill(int lane);
   void close_gaps();
@@ -43,7 +43,7 @@ class LaneWork {
   void report_jerk(LaneTrial& trial);
   void delay_torque(int lane, LaneTrial& trial);
 
-  // The way from one to the next (lane_steps.cpp).
+  // Motion between sampling instants (lane_steps.cpp).
   void move_sticking();
   void prepare_steps(LaneSet& lanes);
   bool come_to_rest(int lane);
@@ -52,7 +52,7 @@ class LaneWork {
   void end_sliding_steps();
   void move_bristles();
   void move_free();
-  void give_up_lost();
+  void rerun_lost_lanes();
 
   void set_moving(int lane);
   std::array<LaneSet*, 7> sets() {
@@ -64,23 +64,23 @@ class LaneWork {
   const Kernels& kernels_;
   int lane_count_;
   std::vector<LaneTrial> trials_in_work_;
-  std::size_t trial_index_[max_lanes]{};  ///< which of them a lane has
+  std::size_t trial_index_[max_lanes]{};  ///< [lane] index in trials_in_work_
   BatchState batch_{};
   PassedSamples passed_[max_lanes]{};
-  LaneSet active_;    ///< lanes with a trial: those below together
+  LaneSet active_;    ///< lanes with a trial: the union of the next five
   LaneSet sticking_;  ///< the hook sticks
-  LaneSet waiting_;   ///< it sticks; they wait until enough lanes have an event in their step
+  LaneSet waiting_;   ///< the hook sticks; wait until enough lanes have an event in their step
   LaneSet sliding_;   ///< the hook slides
-  LaneSet bristles_;  ///< friction is that of a bristle
-  LaneSet free_;      ///< there is no friction
+  LaneSet bristles_;  ///< with the friction of a bristle
+  LaneSet free_;      ///< without friction
 
-  LaneSet with_blocks_;  ///< of the active ones, those whose controller has blocks
+  LaneSet with_blocks_;  ///< active lanes whose controller has blocks
 
   std::span<const trial::TrialParameters* const> trials_;
   std::span<trial::TrialOutcome> outcomes_;
   const BatchObservers* observers_{nullptr};
   std::size_t next_trial_{0};
-  int used_lanes_{0};  ///< all lanes from this on are idle
+  int used_lanes_{0};  ///< lanes from this one on are idle
 };
 
 }  // namespace zerocount::batch

@@ -1,5 +1,5 @@
-// Loading of trials into lanes, and their results.
-#include "core/batch/lane_work.hpp"
+// Assigns trials to lanes, and collects their outcomes.
+#include "core/batch/lane_scheduler.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -12,15 +12,15 @@
 
 namespace zerocount::batch {
 
-LaneWork::LaneWork(const BatchSettings& settings)
+LaneScheduler::LaneScheduler(const BatchSettings& settings)
     : kernels_(kernels_of(settings.instructions)),
       lane_count_(std::clamp(settings.lanes, 1, max_lanes)),
       trials_in_work_(static_cast<std::size_t>(lane_count_)) {
   fill_spare_lane();
 }
 
-void LaneWork::fill_spare_lane() {
-  // Anything finite will do: a trial of the defaults.
+void LaneScheduler::fill_spare_lane() {
+  // Any finite state will do: a trial with default parameters.
   trial::TrialParameters parameters;
   parameters.command.targets = {0};
   LaneTrial spare;
@@ -29,14 +29,14 @@ void LaneWork::fill_spare_lane() {
   batch_.time.time_to_stop[spare_lane] = batch_.time.sample_time[spare_lane];
 }
 
-void LaneWork::run(std::span<const trial::TrialParameters* const> trials,
-                   std::span<trial::TrialOutcome> outcomes, const BatchObservers& observers) {
+void LaneScheduler::run(std::span<const trial::TrialParameters* const> trials,
+                        std::span<trial::TrialOutcome> outcomes, const BatchObservers& observers) {
   trials_ = trials;
   outcomes_ = outcomes;
   observers_ = &observers;
   next_trial_ = 0;
   batch_.passed = observers.sample ? passed_ : nullptr;
-  // The same trials in the same lanes need no other memory than last time.
+  // Equal trials in equal lanes then need no new memory in the next run.
   std::iota(trial_index_, trial_index_ + lane_count_, std::size_t{0});
   for (int lane = 0; lane < lane_count_; ++lane) refill(lane);
   used_lanes_ = lane_count_;
@@ -51,8 +51,8 @@ void LaneWork::run(std::span<const trial::TrialParameters* const> trials,
   }
 }
 
-/// Gives the lane the next trial, if there is one; what lanes cannot run is run on the way.
-void LaneWork::refill(int lane) {
+/// Gives the lane the next trial that lanes can run, if any. Runs those before it by run_trial.
+void LaneScheduler::refill(int lane) {
   LaneTrial& trial = trial_of(lane);
   for (LaneSet* of : sets()) of->erase(lane);
   while (next_trial_ < trials_.size()) {
@@ -73,8 +73,8 @@ void LaneWork::refill(int lane) {
   }
 }
 
-/// Puts the lane, which has a trial, to those that move alike.
-void LaneWork::set_moving(int lane) {
+/// Inserts the lane, which has a trial, into the set of its kind of motion.
+void LaneScheduler::set_moving(int lane) {
   switch (trial_of(lane).motion) {
     case LaneMotion::contact:
       break;
@@ -91,9 +91,9 @@ void LaneWork::set_moving(int lane) {
   (slides ? sliding_ : sticking_).insert(lane);
 }
 
-/// Moves trials from the last lanes to idle ones, once no trials are left to fill those. The kernels are
-/// faster on lanes that lie side by side: they find more of them in one cache line.
-void LaneWork::close_gaps() {
+/// Moves trials from the last lanes to idle ones, once no trials are left to fill those. Kernels are faster
+/// on neighbouring lanes, which share cache lines.
+void LaneScheduler::close_gaps() {
   const int running = active_.count();
   if (running == used_lanes_ || next_trial_ < trials_.size()) return;
   int gap = 0;
@@ -121,7 +121,7 @@ void copy_lane(Numbers& numbers, int from, int to) {
 
 }  // namespace
 
-void LaneWork::move_lane(int from, int to) {
+void LaneScheduler::move_lane(int from, int to) {
   copy_lane(static_cast<LaneNumbers&>(batch_), from, to);
   if (with_blocks_.contains(from)) copy_lane(batch_.blocks, from, to);
   std::swap(trial_index_[to], trial_index_[from]);
@@ -131,9 +131,9 @@ void LaneWork::move_lane(int from, int to) {
   }
 }
 
-/// The whole trial by run_trial. Of its jerks and samples, the first so many have been told already.
-void LaneWork::run_scalar(const LaneTrial& trial, std::int64_t reported_jerks,
-                          std::int64_t reported_samples) {
+/// Runs the whole trial by run_trial. Jerks and samples already reported are not reported again.
+void LaneScheduler::run_scalar(const LaneTrial& trial, std::int64_t reported_jerks,
+                               std::int64_t reported_samples) {
   trial::TrialObservers single;
   single.stop = observers_->stop;
   std::int64_t jerks = 0;
@@ -151,32 +151,32 @@ void LaneWork::run_scalar(const LaneTrial& trial, std::int64_t reported_jerks,
   *trial.outcome = trial::run_trial(*trial.parameters, single);
 }
 
-/// A motion that cannot be followed, or that has left what encoders can count: run_trial has the words for
-/// it.
-void LaneWork::fall_back_to_scalar(int lane) {
+/// Restarts the lane's trial in run_trial: the kernels cannot follow its motion, or the count of its encoder
+/// has overflowed.
+void LaneScheduler::fall_back_to_scalar(int lane) {
   const LaneTrial& trial = trial_of(lane);
   run_scalar(trial, trial.reported_jerks,
-             trial.first_sample + static_cast<std::int64_t>(batch_.measures.taken[lane]));
+             trial.first_sample + static_cast<std::int64_t>(batch_.measures.samples[lane]));
   refill(lane);
 }
 
-void LaneWork::add_outcome(int lane, LaneTrial& trial, bool stopped) {
-  if (trial.jerks.end(static_cast<std::int64_t>(batch_.measures.taken[lane]))) report_jerk(trial);
+void LaneScheduler::add_outcome(int lane, LaneTrial& trial, bool stopped) {
+  if (trial.jerks.end(static_cast<std::int64_t>(batch_.measures.samples[lane]))) report_jerk(trial);
   trial.outcome->moves.push_back(end_of_move(batch_, lane, trial, stopped));
 }
 
-void LaneWork::end_move(int lane, LaneTrial& trial) {
+void LaneScheduler::end_move(int lane, LaneTrial& trial) {
   add_outcome(lane, trial, false);
   ++trial.move;
   if (trial.move == trial.parameters->command.targets.size()) {
     refill(lane);
     return;
   }
-  trial.first_sample += static_cast<std::int64_t>(batch_.measures.taken[lane]);
+  trial.first_sample += static_cast<std::int64_t>(batch_.measures.samples[lane]);
   start_move(batch_, lane, trial);
 }
 
-void LaneWork::stop_diverged(int lane, LaneTrial& trial) {
+void LaneScheduler::stop_diverged(int lane, LaneTrial& trial) {
   add_outcome(lane, trial, true);
   trial.outcome->moves.resize(trial.parameters->command.targets.size(), trial::move_not_run());
   refill(lane);

@@ -3,7 +3,6 @@
 #include "core/loop/controller.hpp"
 
 #include <cstdint>
-#include <random>
 
 #include <gtest/gtest.h>
 
@@ -122,10 +121,7 @@ TEST(Controller, PresetIntegralIsThatOfThePhaseThatTheControlBeginsIn) {
 }
 
 TEST(Controller, APhaseSeesOnlyItsOwnEncoder) {
-  std::mt19937_64 random(4);
-  const auto count = [&random](std::int64_t low, std::int64_t high) {
-    return std::uniform_int_distribution<std::int64_t>(low, high)(random);
-  };
+  testing::Draws draw(4);
   ControllerParameters p;
   p.kp = 1e-3;
   p.kd = 2e-3;
@@ -136,13 +132,13 @@ TEST(Controller, APhaseSeesOnlyItsOwnEncoder) {
     for (int k = 0; k < 500; ++k) {
       const bool fine = phase == ControlPhase::fine;
       const EncoderReading reading =
-          fine ? EncoderReading{count(-50, 50), 0} : EncoderReading{60, count(7, 1000)};
+          fine ? EncoderReading{draw.integer(-50, 50), 0} : EncoderReading{60, draw.integer(7, 1000)};
       EncoderReading disturbed = reading;
       // At the first sample of a coarse phase the fine encoder was read, and it has to show the same.
       if (fine)
-        disturbed.coarse = count(-1000, 1000);
+        disturbed.coarse = draw.integer(-1000, 1000);
       else if (k > 0)
-        disturbed.fine = count(-1000, 1000);
+        disturbed.fine = draw.integer(-1000, 1000);
       ASSERT_EQ(controller.update(0, reading, 0.1), other.update(0, disturbed, 0.1));
       ASSERT_EQ(other.phase(), phase);
     }

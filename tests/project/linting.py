@@ -14,6 +14,7 @@ import concurrent.futures
 import hashlib
 import itertools
 import json
+import math
 import os
 import pathlib
 import re
@@ -25,7 +26,7 @@ FOLDERS = ("core", "experiments", "results", "analysis", "runners")
 INCLUDE = re.compile(rb'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 # A group includes sources: a local name may be that of a constant of another source. GCC's warnings are not all known to clang.
 OPTIONS = ["--quiet", "--extra-arg=-Wno-unknown-warning-option", "--extra-arg=-Wno-shadow"]
-UNITS_OF_A_GROUP = 12  # more take more memory (1 GB), and are all linted again after a change of one
+MAX_UNITS_OF_A_GROUP = 16  # more take more memory (1 GB), and are all linted again after a change of one
 
 
 class Unit:
@@ -54,8 +55,9 @@ def groups_of(units):
 
     for _, alike in itertools.groupby(sorted(units, key=lambda unit: (kind(unit), unit.path)), key=kind):
         alike = list(alike)
-        for first in range(0, len(alike), UNITS_OF_A_GROUP):
-            yield alike[first : first + UNITS_OF_A_GROUP]
+        size = math.ceil(len(alike) / math.ceil(len(alike) / MAX_UNITS_OF_A_GROUP))
+        for first in range(0, len(alike), size):
+            yield alike[first : first + size]
 
 
 def write_groups(folder, groups):

@@ -114,6 +114,7 @@ if __name__ == "__main__":
     clean = set(json.loads(memory.read_text(encoding="utf-8"))) if memory.exists() else set()
     marks = {source: fingerprint(root, source, settings) for source in sources}
     todo = [source for source in sources if marks[source] not in clean]
+    todo.sort(key=lambda source: source.stat().st_size, reverse=True)  # the group that takes longest must not begin last
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         results = list(pool.map(lint, todo, itertools.repeat(options)))
     failed = {source for source, (code, _) in zip(todo, results) if code}

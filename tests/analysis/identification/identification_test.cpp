@@ -328,8 +328,10 @@ TEST(Identification, KeepsATimeOffsetThatTheRecordDoesNotShow) {
   TestInstrument coarse;
   coarse.counts_per_revolution = 2e5;
   coarse.torque_step = 0.0;
+  identification::ContactParameters contact;
+  contact.friction = without_creep(contact.friction);
   const identification::Identification found =
-      identification::identify({simulated_test({}, slow, coarse, random)}, {{}, 80});
+      identification::identify({simulated_test(contact, slow, coarse, random)}, {no_creep, 80});
   const identification::ParameterEstimate& offset = estimate_of(found, "time_offset");
   EXPECT_EQ(offset.status, identification::EstimateStatus::kept);
   EXPECT_EQ(offset.value, 0.0);

@@ -39,8 +39,10 @@ class Unit:
         words = iter(shlex.split(command["command"]))
         self.folders, self.options = [], []
         for word in words:
-            if word in ("-o", "-c"):
+            if word in ("-o", "-c", "-include"):
                 next(words)
+            elif word.startswith("-O") or word in ("-Winvalid-pch", "-fpch-preprocess"):
+                continue  # the optimisation and the precompiled headers of a unit do not matter here
             elif word.startswith(("-I", "-D")):
                 self.folders.append(word)
             elif word == "-isystem":

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "tests/benchmarks/engines.hpp"
-#include "tests/benchmarks/peers/peers.hpp"
 #include "tests/benchmarks/registration.hpp"
 
 namespace zerocount::testing {
@@ -25,30 +24,26 @@ void check(CheckedEngine& checked, const Workload& workload) {
             << " against the reference: " << checked.agreement->text() << "\n";
 }
 
-void time_engine(benchmark::State& state, const CheckedEngine& checked, const Workload& workload) {
+void time_engine(benchmark::State& state, const TimedEngine& engine, const Workload& workload) {
   double samples = 0.0;
   for (auto _ : state) {
-    checked.engine.simulate(workload);
-    samples += checked.engine.copies * workload.samples;
+    engine.simulate(workload);
+    samples += engine.copies * workload.samples;
   }
   count_samples(state, samples);
-  if (!checked.agreement) return;
-  const Agreement& agreement = checked.agreement->samples;
-  state.counters["theta_error"] = agreement.before_breakaway;
-  state.counters["failures"] = static_cast<double>(agreement.failures.size());
 }
 
 void register_engine(const std::string& name, const TimedEngine& engine, const Workload& workload,
-                     BenchmarkRun* run) {
+                     BenchmarkRun& run) {
   const auto checked = std::make_shared<CheckedEngine>(CheckedEngine{engine, {}});
-  const auto time_checked = [checked, &workload, run](benchmark::State& state) {
+  const auto time_checked = [checked, &workload, &run](benchmark::State& state) {
     check(*checked, workload);
-    if (run != nullptr && checked->agreement && !checked->agreement->holds()) {
-      run->failed = true;
+    if (checked->agreement && !checked->agreement->holds()) {
+      run.failed = true;
       state.SkipWithError("does not agree with the reference");
       return;
     }
-    time_engine(state, *checked, workload);
+    time_engine(state, checked->engine, workload);
   };
   benchmark::RegisterBenchmark(name.c_str(), time_checked)->Unit(benchmark::kMillisecond);
 }
@@ -58,18 +53,7 @@ void register_engine(const std::string& name, const TimedEngine& engine, const W
 void register_engine_benchmarks(BenchmarkRun& run) {
   for (const Workload& workload : run.workloads) {
     for (const TimedEngine& engine : all_engines()) {
-      register_engine("engine/" + workload.name + "/" + engine.name, engine, workload, &run);
-    }
-  }
-}
-
-void register_settings_benchmarks(BenchmarkRun& run) {
-  for (const Workload& workload : run.workloads) {
-    for (const std::vector<Peer>& peers : {all_peers(), alternative_peers()}) {
-      for (const Peer& peer : peers) {
-        // Too coarse a setting is expected to disagree: it is told by its theta_error.
-        register_engine("settings/" + workload.name + "/" + peer.name, engine_of(peer), workload, nullptr);
-      }
+      register_engine("engine/" + workload.name + "/" + engine.name, engine, workload, run);
     }
   }
 }

@@ -12,14 +12,14 @@
 
 namespace zerocount::testing {
 
+namespace {
+
 TimedEngine engine_of(const Peer& peer) {
   const auto simulate = [run = peer.run](const Workload& workload) {
     for (const trial::TrialParameters& trial : workload.trials) benchmark::DoNotOptimize(run(trial));
   };
   return {peer.name, simulate, peer.record, 1};
 }
-
-namespace {
 
 constexpr int copies_of_batch = 8;
 

@@ -25,8 +25,4 @@ struct TimedEngine {
 /// All engines that this was built with, ours first. Another one is one more entry here.
 std::vector<TimedEngine> all_engines();
 
-/// The engine that simulates with a peer.
-struct Peer;
-TimedEngine engine_of(const Peer& peer);
-
 }  // namespace zerocount::testing

@@ -31,8 +31,7 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   BenchmarkRun run{all_workloads()};
   register_engine_benchmarks(run);
-  register_settings_benchmarks(run);
-  register_runner_benchmarks(run);
+  register_runner_benchmarks();
   register_controller_benchmarks(run);
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();

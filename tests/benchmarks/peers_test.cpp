@@ -104,7 +104,7 @@ TEST(BenchmarkPeers, RefuseWhatTheyDoNotKnow) {
 // A peer that is not exact enough, or that has other trials, does not get as far as being timed.
 TEST(EngineAgreement, FailsForAnEngineThatDoesNotAgree) {
   const study::Study study = workload_study("bench-transient");
-  const Peer coarse = odeint_peer("coarse", {.tolerance = 1e-9});
+  const Peer coarse = odeint_peer(1e-9);
   EXPECT_FALSE(agreement_with_reference(coarse.record, study, 20).holds());
   const auto other_phase = [](trial::TrialParameters parameters) {
     parameters.initial.encoder_phase *= 0.5;

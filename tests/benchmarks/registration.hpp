@@ -24,13 +24,8 @@ inline void count_samples(benchmark::State& state, double samples) {
 /// the reference before it is timed; where it does not agree it is not timed, and the run has failed.
 void register_engine_benchmarks(BenchmarkRun& run);
 
-/// settings/<workload>/<peer>: what the settings of the peers were chosen from. The counter failures has the
-/// trials that do not agree with the reference, and theta_error the largest distance of θ from it (counts) in
-/// those that do, before a breakaway.
-void register_settings_benchmarks(BenchmarkRun& run);
-
-/// run/…, threads/…, length/…, trials/…, random/…: what a run adds to its trials, and how its cost grows.
-void register_runner_benchmarks(BenchmarkRun& run);
+/// threads/…, length/…: a run with its drawing and writing, and how its cost grows.
+void register_runner_benchmarks();
 
 /// controller/<example>: a sample of the controller with each of examples/controllers, by turns with the same
 /// law built in. The counters: per_sample of the example, built_in_ns, their difference call_ns and their

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """One table of what a trial-sample costs, in ns per core, by each engine on each workload.
 
-Runs the executable `benchmarks`, or reads what it has written (--json). Every figure is the median of the repetitions,
+Runs the executable `benchmarks`. Every figure is the median of the repetitions,
 which are interleaved: an engine is compared with others that were timed in the same minutes. With --scaling the cost of
-runs follows: threads, length of trials, number of trials, number of random parameters. With --program a whole run of a
+runs follows, by threads and by the length of trials. With --program a whole run of a
 million trials (experiments/bench-million.yaml), from the manifest to the finished file, is a fourth row of the table.
 """
 
@@ -26,15 +26,8 @@ WORKLOADS = {"W1": "W1 transient", "W2": "W2 creep", "W3": "W3 marginal"}
 PEERS = {"odeint": "Boost.odeint", "cvode": "SUNDIALS CVODE"}  # of the rest of the engines, each is ours
 REFERENCE = "reference"
 SCALING = {
-    "run": "a run on one thread",
-    "draw": "drawing its parameters",
     "threads": "threads (W1), wall time",
     "length": "samples of a trial (W1)",
-    "target": "counts of the move (W1)",
-    "gain": "integral gain (W1), % of the study's",
-    "trials": "number of trials (W1)",
-    "random": "random parameters (W1)",
-    "drawing": "drawing so many random parameters (W1)",
 }
 
 
@@ -136,19 +129,12 @@ def print_engines(figures, million):
         print("\n" + "\n".join(notes))
 
 
-def place(name):
-    """Where a row of the scaling belongs: numbers by their size."""
-    last = name.split("/")[1]
-    return (0, int(last), "") if last.isdigit() else (1, 0, last)
-
-
 def print_scaling(figures):
     rows = [["ns per trial-sample of a run", "at", "ns", "to the first"]]
     for key, label in SCALING.items():
-        names = sorted((name for name in figures if name.split("/")[0] == key), key=place)
+        names = sorted((name for name in figures if name.startswith(key + "/")), key=lambda name: int(name.split("/")[1]))
         for name in names:
-            ratio = "" if key in ("run", "draw") else figure(figures[name] / figures[names[0]])
-            rows.append([label, name.split("/")[1], figure(figures[name]), ratio])
+            rows.append([label, name.split("/")[1], figure(figures[name]), figure(figures[name] / figures[names[0]])])
     print()
     print_rows(rows)
 
@@ -166,18 +152,14 @@ def print_machine(report, repetitions):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--benchmarks", type=pathlib.Path, default=BENCHMARKS, help="the executable (default: %(default)s)")
-    parser.add_argument("--json", type=pathlib.Path, help="read this file of --benchmark_out instead of running anything")
     parser.add_argument("--repetitions", type=int, default=5, help="of every benchmark (default: %(default)s)")
     parser.add_argument("--scaling", action="store_true", help="time runs too")
     parser.add_argument("--program", type=pathlib.Path, help="zerocount: time a whole run of a million trials with it")
     arguments = parser.parse_args()
-    if arguments.json:
-        report = json.loads(arguments.json.read_text(encoding="utf-8"))
-    else:
-        report = run_benchmarks(arguments.benchmarks, arguments.repetitions, arguments.scaling)
+    report = run_benchmarks(arguments.benchmarks, arguments.repetitions, arguments.scaling)
     figures, repetitions = medians(report)
     print_engines(figures, time_million(arguments.program) if arguments.program else None)
-    if any(name.split("/")[0] in SCALING for name in figures):
+    if arguments.scaling:
         print_scaling(figures)
     print_machine(report, repetitions)
 

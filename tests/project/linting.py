@@ -14,6 +14,7 @@ import concurrent.futures
 import hashlib
 import itertools
 import json
+import math
 import os
 import pathlib
 import re
@@ -25,7 +26,7 @@ FOLDERS = ("core", "experiments", "results", "analysis", "runners")
 INCLUDE = re.compile(rb'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 # A group includes sources: a local name may be that of a constant of another source. GCC's warnings are not all known to clang.
 OPTIONS = ["--quiet", "--extra-arg=-Wno-unknown-warning-option", "--extra-arg=-Wno-shadow"]
-UNITS_OF_A_GROUP = 12  # more take more memory (1 GB), and are all linted again after a change of one
+MAX_UNITS_OF_A_GROUP = 16  # more take more memory (1 GB), and are all linted again after a change of one
 
 
 class Unit:
@@ -38,8 +39,10 @@ class Unit:
         words = iter(shlex.split(command["command"]))
         self.folders, self.options = [], []
         for word in words:
-            if word in ("-o", "-c"):
+            if word in ("-o", "-c", "-include"):
                 next(words)
+            elif word.startswith("-O") or word in ("-Winvalid-pch", "-fpch-preprocess"):
+                continue  # the optimisation and the precompiled headers of a unit do not matter here
             elif word.startswith(("-I", "-D")):
                 self.folders.append(word)
             elif word == "-isystem":
@@ -54,8 +57,9 @@ def groups_of(units):
 
     for _, alike in itertools.groupby(sorted(units, key=lambda unit: (kind(unit), unit.path)), key=kind):
         alike = list(alike)
-        for first in range(0, len(alike), UNITS_OF_A_GROUP):
-            yield alike[first : first + UNITS_OF_A_GROUP]
+        size = math.ceil(len(alike) / math.ceil(len(alike) / MAX_UNITS_OF_A_GROUP))
+        for first in range(0, len(alike), size):
+            yield alike[first : first + size]
 
 
 def write_groups(folder, groups):
@@ -112,6 +116,7 @@ if __name__ == "__main__":
     clean = set(json.loads(memory.read_text(encoding="utf-8"))) if memory.exists() else set()
     marks = {source: fingerprint(root, source, settings) for source in sources}
     todo = [source for source in sources if marks[source] not in clean]
+    todo.sort(key=lambda source: source.stat().st_size, reverse=True)  # the group that takes longest must not begin last
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         results = list(pool.map(lint, todo, itertools.repeat(options)))
     failed = {source for source, (code, _) in zip(todo, results) if code}

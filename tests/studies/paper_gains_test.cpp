@@ -4,24 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "core/batch/batch.hpp"
 #include "tests/studies/proportion_bounds.hpp"
 #include "tests/studies/shipped_study.hpp"
 
 namespace zerocount::testing {
 namespace {
 
-/// Moves that are stable among the first trials of a gain, by the batch engine, as `run` has it.
 std::int64_t stable_at_gain(const std::string& gain, std::int64_t trials) {
-  const study::Study study = shipped_study("paper-gains");
-  std::vector<trial::TrialParameters> parameters;
-  for (std::int64_t index = 0; index < trials; ++index) parameters.push_back(trial_of(study, gain, index));
-  std::vector<const trial::TrialParameters*> pointers;
-  for (const trial::TrialParameters& trial : parameters) pointers.push_back(&trial);
-  std::vector<trial::TrialOutcome> outcomes(parameters.size());
-  batch::BatchEngine engine;
-  engine.run(pointers, outcomes);
-  return moves_with(outcomes, [](const trial::MoveOutcome& move) { return move.stable; });
+  return moves_with(outcomes_of(shipped_study("paper-gains"), gain, trials),
+                    [](const trial::MoveOutcome& move) { return move.stable; });
 }
 
 TEST(PaperGains, GainAIsStableInAllTests) {

@@ -19,11 +19,9 @@ struct Peaks {
 
 Peaks peaks(const study::Study& study, const std::string& label) {
   std::vector<std::int64_t> highest;
-  for (std::int64_t index = 0; index < study.trials; ++index) {
-    const trial::TrialParameters parameters = trial_of(study, label, index);
-    highest.push_back(parameters.command.targets.back() +
-                      trial::run_trial(parameters).moves.back().overshoot);
-  }
+  const std::int64_t target = trial_of(study, label, 0).command.targets.back();
+  for (const trial::TrialOutcome& trial : outcomes_of(study, label, study.trials))
+    highest.push_back(target + trial.moves.back().overshoot);
   std::sort(highest.begin(), highest.end());
   const std::size_t half = highest.size() / 2;
   return {0.5 * static_cast<double>(highest[half - 1] + highest[half]), highest.back()};

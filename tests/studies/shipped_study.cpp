@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "core/batch/batch.hpp"
 #include "experiments/manifest/load_study.hpp"
 
 namespace zerocount::testing {
@@ -24,10 +25,12 @@ trial::TrialParameters trial_of(const study::Study& study, const std::string& la
 
 std::vector<trial::TrialOutcome> outcomes_of(const study::Study& study, const std::string& label,
                                              std::int64_t trials) {
-  std::vector<trial::TrialOutcome> outcomes;
-  for (std::int64_t index = 0; index < trials; ++index) {
-    outcomes.push_back(trial::run_trial(trial_of(study, label, index)));
-  }
+  std::vector<trial::TrialParameters> parameters;
+  for (std::int64_t index = 0; index < trials; ++index) parameters.push_back(trial_of(study, label, index));
+  std::vector<const trial::TrialParameters*> pointers;
+  for (const trial::TrialParameters& trial : parameters) pointers.push_back(&trial);
+  std::vector<trial::TrialOutcome> outcomes(parameters.size());
+  batch::BatchEngine().run(pointers, outcomes);
   return outcomes;
 }
 

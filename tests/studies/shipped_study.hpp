@@ -18,7 +18,7 @@ std::int64_t point_named(const study::Study& study, const std::string& label);
 /// The parameters of trial `index` at the point with this label.
 trial::TrialParameters trial_of(const study::Study& study, const std::string& label, std::int64_t index);
 
-/// Outcomes of trials 0 … trials − 1 at that point.
+/// Outcomes of trials 0 … trials − 1 at that point, by the batch engine, as `run` has them.
 std::vector<trial::TrialOutcome> outcomes_of(const study::Study& study, const std::string& label,
                                              std::int64_t trials);
 

@@ -14,7 +14,11 @@ class Draws {
     return low + (high - low) * std::ldexp(static_cast<double>(engine_() >> 11), -53);
   }
   double log_uniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
+  std::int64_t integer(std::int64_t low, std::int64_t high) {
+    return low + static_cast<std::int64_t>(engine_() % static_cast<std::uint64_t>(high - low + 1));
+  }
   bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
+  int sign() { return chance(0.5) ? 1 : -1; }
 
  private:
   std::mt19937_64 engine_;

@@ -203,7 +203,7 @@ void OdeintMotion::reverse() {
   stack_.emplace_back(elongation(state_), spring_torque(state_));
   direction_ = -direction_;
   ++events_.reversals;
-  if (events_.reversals > 10'000'000) throw std::runtime_error("odeint_trial: reversals do not end");
+  if (events_.reversals > 10'000'000) throw std::runtime_error("odeint_motion: reversals do not end");
 }
 
 void OdeintMotion::close_loops() {

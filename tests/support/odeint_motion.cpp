@@ -210,7 +210,7 @@ void OdeintMotion::advance(const Torque& torque, Real duration) {
     const Real growth = 0.9L * std::pow(std::max(worst, 1e-8L), -0.125L);
     step_ = length * std::clamp(growth, 0.1L, 3.0L);
     if (worst > 1) {
-      if (step_ < duration * 1e-14L) throw std::runtime_error("odeint_trial: the step does not converge");
+      if (step_ < duration * 1e-14L) throw std::runtime_error("odeint_motion: the step does not converge");
       continue;
     }
     const Crossing crossing = first_crossing(end, length);

@@ -3,29 +3,12 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <random>
+
+#include "tests/support/draws.hpp"
 
 namespace zerocount::testing {
 
 namespace {
-
-/// Draws that are the same on every platform: the standard's distributions are not.
-class Draws {
- public:
-  explicit Draws(std::uint64_t seed) : engine_(seed) {}
-  double uniform(double low, double high) {
-    return low + (high - low) * std::ldexp(double(engine_() >> 11), -53);
-  }
-  double log_uniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
-  std::int64_t integer(std::int64_t low, std::int64_t high) {
-    return low + static_cast<std::int64_t>(engine_() % static_cast<std::uint64_t>(high - low + 1));
-  }
-  bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
-  int sign() { return chance(0.5) ? 1 : -1; }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 std::shared_ptr<const friction::Profile> random_profile(Draws& draws, double mean, double variation) {
   auto profile = std::make_shared<friction::Profile>();

@@ -11,7 +11,7 @@ std::filesystem::path version_1_file(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "version-1.h5";
   const std::string command =
       fmt::format("{} -c 'import lzma, sys; sys.stdout.buffer.write(lzma.open(sys.argv[1]).read())' {} > {}",
-                  ZEROCOUNT_JUDGE_PYTHON, ZEROCOUNT_VERSION_1_FILE, file.string());
+                  ZEROCOUNT_PYTHON, ZEROCOUNT_VERSION_1_FILE, file.string());
   if (std::system(command.c_str()) != 0) throw std::runtime_error("cannot unpack the file of version 1");
   return file;
 }

@@ -121,7 +121,7 @@ TEST(SlidingCoverage, OfClosedLoopRecords) {
 }
 
 TEST(SlidingCoverage, OfClosedLoopRecordsWithUnknownForces) {
-  expect_coverage_with_unknown_forces(4);
+  expect_coverage_with_unknown_forces(2);
 }
 
 TEST(SlidingCoverage, OfCoarselyReadRecordsWithNoise) {

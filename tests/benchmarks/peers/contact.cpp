@@ -19,11 +19,10 @@ constexpr double rounding = 8.0 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
-PeerContact::PeerContact(const trial::TrialParameters& p, double rest)
+PeerContact::PeerContact(const trial::TrialParameters& p)
     : plant_(p.plant),
       friction_(p.friction),
       position_(p.initial.position),
-      rest_(rest),
       contact_(friction::friction_at(p.friction, position_)),
       spring_(contact_),
       hardening_at_anchor_(p.initial.hardening) {
@@ -44,7 +43,7 @@ void PeerContact::adopt_contact(const friction::FrictionParameters& friction) {
   law_.per_lambda = 1.0 / contact_.lambda;
   law_.n = contact_.n;
   law_.alpha = 0.0;
-  creep_onset_torque_ = friction::creep_onset_torque(contact_, hardening_at_anchor_ + rest_);
+  creep_onset_torque_ = friction::creep_onset_torque(contact_, hardening_at_anchor_ + rest_limit);
   rest_duration_ = 0.0;
   adopt_branch();
 }
@@ -74,8 +73,8 @@ void PeerContact::begin(PeerState& y) {
     const double rate = omega - creep;
     const double unbalanced = law_.torque - law_.damping * omega - sigma;
     const double acceleration = unbalanced / plant_.inertia + law_.alpha * creep;  // where rate is 0
-    resting_ =
-        std::abs(rate) < rest_ * frequency_ && std::abs(acceleration) < rest_ * frequency_ * frequency_;
+    resting_ = std::abs(rate) < rest_limit * frequency_ &&
+               std::abs(acceleration) < rest_limit * frequency_ * frequency_;
     rest_torque_ = sigma;
     if (resting_) return;
     const double motion = omega != 0.0 ? omega : unbalanced;
@@ -133,7 +132,7 @@ void PeerContact::end_creep(const PeerState& y) {
   extension_at_anchor_ = extension(y);
   hardening_at_anchor_ = y[2];
   law_.alpha = 0.0;
-  creep_onset_torque_ = friction::creep_onset_torque(contact_, y[2] + rest_);
+  creep_onset_torque_ = friction::creep_onset_torque(contact_, y[2] + rest_limit);
 }
 
 void PeerContact::happen(PeerEvent event, PeerState& y) {

@@ -22,6 +22,9 @@ enum class PeerEvent {
   stop        ///< the slide ends
 };
 
+inline constexpr double rest_limit = 8e-13;                ///< ε of the rest rule, rad
+inline constexpr double tolerance_after_breakaway = 30.0;  ///< over that before the first breakaway
+
 /// The contact of a trial, for an integrator of the ordinary kind: on which branch it is, what can happen
 /// next, and what happens then. The integrator asks `law` for slopes, and says which event it came to.
 ///
@@ -30,8 +33,8 @@ enum class PeerEvent {
 /// k2)/k1.
 class PeerContact {
  public:
-  /// @param parameters must outlive the contact. @param rest ε, rad.
-  PeerContact(const trial::TrialParameters& parameters, double rest);
+  /// @param parameters must outlive the contact.
+  explicit PeerContact(const trial::TrialParameters& parameters);
 
   const PeerMotionLaw& law() const { return law_; }
   bool sliding() const { return law_.sliding; }
@@ -104,7 +107,6 @@ class PeerContact {
   motion::PlantParameters plant_;
   const friction::FrictionAlongRotor& friction_;
   double position_;
-  double rest_;
 
   friction::FrictionParameters contact_;
   friction::HystereticSpring spring_;

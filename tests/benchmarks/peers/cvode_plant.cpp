@@ -18,7 +18,7 @@ constexpr double no_longest_step = 0.0;  // as CVODE has it
 }  // namespace
 
 CvodePlant::CvodePlant(const trial::TrialParameters& p, CvodeMemory& memory)
-    : system_(p, memory.settings()), memory_(memory), now_(contact().start()) {
+    : system_(p), memory_(memory), now_(contact().start()) {
   require_success(CVodeSetUserData(memory_.cvode(), &system_), "CVodeSetUserData");
   restart();
 }
@@ -61,8 +61,8 @@ void CvodePlant::advance(double duration) {
       contact().hold(now_, until - clock_);
       return restart();
     }
-    const bool passes_sample = memory_.settings().pass_samples && stood_;
-    require_success(CVodeSetStopTime(memory_.cvode(), passes_sample ? no_stop : until), "CVodeSetStopTime");
+    // Where the torque has stood for a sample, steps go on past the sampling instant.
+    require_success(CVodeSetStopTime(memory_.cvode(), stood_ ? no_stop : until), "CVodeSetStopTime");
     double time = clock_;
     const int flag = CVode(memory_.cvode(), until, memory_.state(), &time, CV_NORMAL);
     require_success(flag, "CVode");

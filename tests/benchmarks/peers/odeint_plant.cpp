@@ -13,6 +13,7 @@ using ErrorChecker = odeint::default_error_checker<double, odeint::array_algebra
 
 constexpr int max_events = 100000;       // between two samples
 constexpr double shortest_step = 1e-12;  // of the one that was tried first
+constexpr double max_step = 2.0;         // in the pre-sliding motion, over 1/ω₀
 constexpr double never = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -21,10 +22,10 @@ OdeintPlant::Controlled OdeintPlant::controlled(double tolerance) {
   return Controlled(ErrorChecker(tolerance, 0.0, 1.0, 0.0));
 }
 
-OdeintPlant::OdeintPlant(const trial::TrialParameters& p, const OdeintSettings& settings)
-    : contact_(p, settings.rest),
-      settings_(settings),
-      stepper_(controlled(settings.tolerance)),
+OdeintPlant::OdeintPlant(const trial::TrialParameters& p, double tolerance)
+    : contact_(p),
+      tolerance_(tolerance),
+      stepper_(controlled(tolerance)),
       now_(contact_.start()),
       proposed_(0.05 / p.controller.sample_rate) {
   restart();
@@ -74,7 +75,7 @@ void OdeintPlant::advance(double duration) {
 /// After the first breakaway less accuracy is asked for.
 void OdeintPlant::relax() {
   relaxed_ = true;
-  stepper_ = controlled(settings_.after_breakaway * settings_.tolerance);
+  stepper_ = controlled(tolerance_after_breakaway * tolerance_);
 }
 
 /// One step of the method, and what happens in it.
@@ -85,8 +86,7 @@ void OdeintPlant::step(double until) {
   old_time_ = new_time_;
   const double remaining = until - old_time_;
   double length = std::min(proposed_, longest_step());
-  const bool passes_sample = settings_.pass_samples && stood_;
-  const bool ends_at_sample = !passes_sample && length > 0.999 * remaining;
+  const bool ends_at_sample = !stood_ && length > 0.999 * remaining;
   if (ends_at_sample) length = remaining;
   const double tried = length;
   while (stepper_.try_step(std::cref(contact_.law()), old_, old_slope_, new_time_, new_, new_slope_,
@@ -105,7 +105,7 @@ void OdeintPlant::step(double until) {
 }
 
 double OdeintPlant::longest_step() const {
-  if (!contact_.sliding()) return settings_.longest_step / contact_.law().per_tau;
+  if (!contact_.sliding()) return max_step / contact_.law().per_tau;
   if (!contact_.slows_down(new_slope_)) return never;
   const double widths_to_peak =
       (std::abs(new_[1]) - contact_.peak_in_sight()) * contact_.law().softening_rate;

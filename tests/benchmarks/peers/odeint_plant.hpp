@@ -8,21 +8,13 @@
 
 namespace zerocount::testing {
 
-/// How exactly Boost.odeint integrates. tests/benchmarks/peers.md says how these were chosen.
-struct OdeintSettings {
-  double tolerance{5e-13};       ///< largest local error of a step, rad
-  double after_breakaway{30.0};  ///< by how much it is larger after the first breakaway
-  double rest{8e-13};            ///< ε of the rest rule, rad
-  double longest_step{2.0};      ///< of a step in the pre-sliding motion, over 1/ω₀
-  bool pass_samples{true};  ///< steps go on past a sampling instant where the torque has stood for a sample
-};
-
 /// The plant by Boost.odeint: its dopri5 under its own control of the step, and its dense output, in which
 /// the kinks are found and the samples are read.
 class OdeintPlant {
  public:
-  /// @param parameters must outlive the plant.
-  OdeintPlant(const trial::TrialParameters& parameters, const OdeintSettings& settings);
+  /// @param parameters must outlive the plant. @param tolerance largest local error of a step before the
+  /// first breakaway, rad.
+  OdeintPlant(const trial::TrialParameters& parameters, double tolerance);
 
   /// Applies the torque (N m) from now on.
   void set_torque(double torque);
@@ -58,7 +50,7 @@ class OdeintPlant {
   void take(PeerEvent event, double time);
 
   PeerContact contact_;
-  OdeintSettings settings_;
+  double tolerance_;
   Controlled stepper_;
   bool relaxed_{false};
   PeerState now_{};

@@ -5,10 +5,6 @@
 #include <vector>
 
 #include "core/trial/trial.hpp"
-#include "tests/benchmarks/peers/odeint_plant.hpp"
-#ifdef ZEROCOUNT_HAS_CVODE
-#include "tests/benchmarks/peers/cvode_memory.hpp"
-#endif
 
 namespace zerocount::testing {
 
@@ -20,15 +16,10 @@ struct Peer {
       record;  ///< the same with all samples
 };
 
-Peer odeint_peer(const std::string& name, const OdeintSettings& settings);
-#ifdef ZEROCOUNT_HAS_CVODE
-Peer cvode_peer(const std::string& name, const CvodeSettings& settings);
-#endif
+/// Boost.odeint. @param tolerance largest local error of a step before the first breakaway, rad.
+Peer odeint_peer(double tolerance = 5e-13);
 
 /// The peers whose libraries this was built with, each at its best settings.
 std::vector<Peer> all_peers();
-
-/// Other settings of the same libraries: what all_peers() was chosen from.
-std::vector<Peer> alternative_peers();
 
 }  // namespace zerocount::testing

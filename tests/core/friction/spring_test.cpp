@@ -9,6 +9,8 @@
 #include <boost/math/special_functions/lambert_w.hpp>
 #include <gtest/gtest.h>
 
+#include "tests/support/each_seed.hpp"
+
 namespace zerocount::friction {
 namespace {
 
@@ -29,17 +31,18 @@ std::vector<double> random_targets(std::mt19937& random, double beta, int count)
   return targets;
 }
 
-class SpringProperties : public testing::TestWithParam<unsigned> {
- protected:
-  std::mt19937 random_{GetParam()};
+/// A random contact.
+struct SpringProperties {
+  static constexpr unsigned seeds = 40;
+  explicit SpringProperties(unsigned seed) : random_(seed) {}
+
+  std::mt19937 random_;
   FrictionParameters friction_{random_friction(random_)};
   double length_{1.0 / friction_.beta};
   double torque_scale_{friction_.k2 / friction_.beta};
 };
 
-INSTANTIATE_TEST_SUITE_P(RandomParameters, SpringProperties, testing::Range(1u, 41u));
-
-TEST_P(SpringProperties, TangentRunsFromTheHighestToTheLowestStiffness) {
+TEST_EACH_SEED(SpringProperties, TangentRunsFromTheHighestToTheLowestStiffness) {
   HystereticSpring spring(friction_);
   spring.move_to(5.0 * length_);
   spring.set_direction(-1);
@@ -49,7 +52,7 @@ TEST_P(SpringProperties, TangentRunsFromTheHighestToTheLowestStiffness) {
               1e-9 * friction_.k2);
 }
 
-TEST_P(SpringProperties, VirginCurveIsHalfTheBranchLawOfTwiceTheElongation) {
+TEST_EACH_SEED(SpringProperties, VirginCurveIsHalfTheBranchLawOfTwiceTheElongation) {
   for (const double x : random_targets(random_, friction_.beta, 20)) {
     HystereticSpring spring(friction_);
     spring.move_to(x);
@@ -59,7 +62,7 @@ TEST_P(SpringProperties, VirginCurveIsHalfTheBranchLawOfTwiceTheElongation) {
   }
 }
 
-TEST_P(SpringProperties, ReachingTheMirrorImageOfTheOnlyReversalPointRestoresTheVirginCurve) {
+TEST_EACH_SEED(SpringProperties, ReachingTheMirrorImageOfTheOnlyReversalPointRestoresTheVirginCurve) {
   HystereticSpring spring(friction_);
   const double peak = 4.0 * length_;
   spring.move_to(peak);
@@ -71,7 +74,7 @@ TEST_P(SpringProperties, ReachingTheMirrorImageOfTheOnlyReversalPointRestoresThe
   EXPECT_NEAR(spring.torque(), -torque, 1e-13 * torque_scale_);
 }
 
-TEST_P(SpringProperties, ClosedMinorLoopDissipatesTheClosedForm) {
+TEST_EACH_SEED(SpringProperties, ClosedMinorLoopDissipatesTheClosedForm) {
   HystereticSpring spring(friction_);
   spring.move_to(random_targets(random_, friction_.beta, 1)[0] + 10.0 * length_);
   const double top = spring.elongation();
@@ -94,7 +97,7 @@ TEST_P(SpringProperties, ClosedMinorLoopDissipatesTheClosedForm) {
   EXPECT_NEAR(dissipated, closed_form, 1e-10 * closed_form + 1e-14 * torque_scale_ * length_);
 }
 
-TEST_P(SpringProperties, ClosedExcursionIsForgotten) {
+TEST_EACH_SEED(SpringProperties, ClosedExcursionIsForgotten) {
   HystereticSpring spring(friction_);
   for (const double x : random_targets(random_, friction_.beta, 30)) spring.move_to(x);
   const int direction = spring.direction();
@@ -119,7 +122,7 @@ TEST_P(SpringProperties, ClosedExcursionIsForgotten) {
   }
 }
 
-TEST_P(SpringProperties, MinorLoopsOfEqualSpanAreCongruentWhereverTheyLie) {
+TEST_EACH_SEED(SpringProperties, MinorLoopsOfEqualSpanAreCongruentWhereverTheyLie) {
   const double span = length_ * std::uniform_real_distribution<double>(0.1, 4.0)(random_);
   std::vector<double> heights;
   for (int history = 0; history < 10; ++history) {
@@ -133,7 +136,7 @@ TEST_P(SpringProperties, MinorLoopsOfEqualSpanAreCongruentWhereverTheyLie) {
   for (const double height : heights) EXPECT_NEAR(height, branch_law(friction_, span), 1e-12 * torque_scale_);
 }
 
-TEST_P(SpringProperties, OppositeMotionGivesOppositeTorque) {
+TEST_EACH_SEED(SpringProperties, OppositeMotionGivesOppositeTorque) {
   HystereticSpring spring(friction_);
   HystereticSpring mirror(friction_);
   for (const double x : random_targets(random_, friction_.beta, 200)) {
@@ -144,7 +147,7 @@ TEST_P(SpringProperties, OppositeMotionGivesOppositeTorque) {
   }
 }
 
-TEST_P(SpringProperties, ManySmallStepsEqualOneLargeOne) {
+TEST_EACH_SEED(SpringProperties, ManySmallStepsEqualOneLargeOne) {
   HystereticSpring coarse(friction_);
   HystereticSpring fine(friction_);
   for (const double x : random_targets(random_, friction_.beta, 60)) {
@@ -157,7 +160,7 @@ TEST_P(SpringProperties, ManySmallStepsEqualOneLargeOne) {
   }
 }
 
-TEST_P(SpringProperties, TorqueIsContinuousThroughClosures) {
+TEST_EACH_SEED(SpringProperties, TorqueIsContinuousThroughClosures) {
   HystereticSpring spring(friction_);
   const double step = 1e-7 * length_;
   for (const double x : random_targets(random_, friction_.beta, 60)) {
@@ -171,7 +174,7 @@ TEST_P(SpringProperties, TorqueIsContinuousThroughClosures) {
   }
 }
 
-TEST_P(SpringProperties, DepthStaysAlternatingAndNested) {
+TEST_EACH_SEED(SpringProperties, DepthStaysAlternatingAndNested) {
   HystereticSpring spring(friction_);
   for (int n = 40; n > 0; --n) spring.move_to((n % 2 == 0 ? 1.0 : -1.0) * n * 0.3 * length_);
   EXPECT_EQ(spring.depth(), 39u);  // a shrinking zigzag forgets nothing
@@ -179,7 +182,7 @@ TEST_P(SpringProperties, DepthStaysAlternatingAndNested) {
   EXPECT_EQ(spring.depth(), 0u);  // one excursion beyond all of it forgets everything
 }
 
-TEST_P(SpringProperties, InverseOfTheBranchLawIsLambertsW) {
+TEST_EACH_SEED(SpringProperties, InverseOfTheBranchLawIsLambertsW) {
   for (int i = 0; i < 20; ++i) {
     const double torque = 10.0 * torque_scale_ * std::uniform_real_distribution<double>(0.0, 1.0)(random_);
     const double softening = friction_.k2 / friction_.beta;
@@ -195,7 +198,7 @@ TEST_P(SpringProperties, InverseOfTheBranchLawIsLambertsW) {
   }
 }
 
-TEST_P(SpringProperties, PreloadLeavesOneReversalPointAndNoTorque) {
+TEST_EACH_SEED(SpringProperties, PreloadLeavesOneReversalPointAndNoTorque) {
   for (const double preload : {2.0 * torque_scale_, -3.0 * torque_scale_}) {
     HystereticSpring spring(friction_);
     spring.start_preloaded(preload);
@@ -218,7 +221,7 @@ std::vector<double> random_torques(std::mt19937& random, double scale, int count
   return torques;
 }
 
-TEST_P(SpringProperties, ReachesTheTorqueItIsTakenTo) {
+TEST_EACH_SEED(SpringProperties, ReachesTheTorqueItIsTakenTo) {
   HystereticSpring spring(friction_);
   for (const double torque : random_torques(random_, torque_scale_, 300)) {
     spring.move_to_torque(torque);
@@ -228,7 +231,7 @@ TEST_P(SpringProperties, ReachesTheTorqueItIsTakenTo) {
   }
 }
 
-TEST_P(SpringProperties, TakenToATorqueIsTheSpringTakenToItsElongation) {
+TEST_EACH_SEED(SpringProperties, TakenToATorqueIsTheSpringTakenToItsElongation) {
   HystereticSpring by_torque(friction_);
   HystereticSpring by_elongation(friction_);
   for (const double torque : random_torques(random_, torque_scale_, 300)) {
@@ -240,7 +243,7 @@ TEST_P(SpringProperties, TakenToATorqueIsTheSpringTakenToItsElongation) {
   }
 }
 
-TEST_P(SpringProperties, TorqueOfAReversalPointClosesItsLoop) {
+TEST_EACH_SEED(SpringProperties, TorqueOfAReversalPointClosesItsLoop) {
   HystereticSpring spring(friction_);
   const double s = torque_scale_;
   for (const double torque : {2.0 * s, -1.0 * s, 1.0 * s, 0.5 * s}) spring.move_to_torque(torque);
@@ -254,7 +257,7 @@ TEST_P(SpringProperties, TorqueOfAReversalPointClosesItsLoop) {
   EXPECT_NEAR(spring.elongation(), virgin_elongation(friction_, -2.0 * s), 1e-14 * length_);
 }
 
-TEST_P(SpringProperties, TorqueTakesAStretchedVirginSpringThroughItsOrigin) {
+TEST_EACH_SEED(SpringProperties, TorqueTakesAStretchedVirginSpringThroughItsOrigin) {
   HystereticSpring spring(friction_);
   spring.start_virgin(virgin_elongation(friction_, torque_scale_), -1);  // as after a slide backwards
   spring.move_to_torque(0.4 * torque_scale_);

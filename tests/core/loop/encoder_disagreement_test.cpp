@@ -10,11 +10,11 @@
 namespace zerocount::testing {
 namespace {
 
-class EncoderDisagreementProperties : public WithRandomEncoders {};
+struct EncoderDisagreementProperties : WithRandomEncoders {
+  using WithRandomEncoders::WithRandomEncoders;
+};
 
-INSTANTIATE_TEST_SUITE_P(RandomParameters, EncoderDisagreementProperties, ::testing::Range(1u, 13u));
-
-TEST_P(EncoderDisagreementProperties, IdealCountsAgreeAtEveryAngle) {
+TEST_EACH_SEED(EncoderDisagreementProperties, IdealCountsAgreeAtEveryAngle) {
   const loop::EncoderParameters encoders = random_encoders();
   const double phase = random_phase();
   const loop::Encoder fine = loop::fine_encoder(encoders, phase);
@@ -27,7 +27,7 @@ TEST_P(EncoderDisagreementProperties, IdealCountsAgreeAtEveryAngle) {
   }
 }
 
-TEST_P(EncoderDisagreementProperties, CountsThatNoAngleShowsDisagree) {
+TEST_EACH_SEED(EncoderDisagreementProperties, CountsThatNoAngleShowsDisagree) {
   const loop::EncoderParameters encoders = random_encoders();
   const double phase = random_phase();
   const loop::Encoder fine = loop::fine_encoder(encoders, phase);
@@ -65,7 +65,7 @@ TEST(CountsAgree, TellsApartEdgesThatCoincide) {
   }
 }
 
-TEST_P(EncoderDisagreementProperties, EncodersThatShareAnEccentricityNeverDisagree) {
+TEST_EACH_SEED(EncoderDisagreementProperties, EncodersThatShareAnEccentricityNeverDisagree) {
   loop::EncoderParameters encoders = random_encoders();
   encoders.fine_errors.eccentricity = encoders.coarse_errors.eccentricity = uniform(1e-4, 1e-1);
   encoders.fine_errors.eccentricity_angle = encoders.coarse_errors.eccentricity_angle = uniform(-7.0, 7.0);

@@ -13,11 +13,11 @@
 namespace zerocount::testing {
 namespace {
 
-class EncoderErrorProperties : public WithRandomEncoders {};
+struct EncoderErrorProperties : WithRandomEncoders {
+  using WithRandomEncoders::WithRandomEncoders;
+};
 
-INSTANTIATE_TEST_SUITE_P(RandomParameters, EncoderErrorProperties, ::testing::Range(1u, 13u));
-
-TEST_P(EncoderErrorProperties, EccentricityIsFixedOnTheRotorAndReturnsAfterARevolution) {
+TEST_EACH_SEED(EncoderErrorProperties, EccentricityIsFixedOnTheRotorAndReturnsAfterARevolution) {
   loop::EncoderParameters encoders;
   encoders.fine_errors.eccentricity = uniform(1e-4, 1e-2);
   encoders.fine_errors.eccentricity_angle = uniform(-7.0, 7.0);
@@ -36,7 +36,7 @@ TEST_P(EncoderErrorProperties, EccentricityIsFixedOnTheRotorAndReturnsAfterARevo
   }
 }
 
-TEST_P(EncoderErrorProperties, EccentricityReachesItsAmplitudeAQuarterTurnFromItsAngle) {
+TEST_EACH_SEED(EncoderErrorProperties, EccentricityReachesItsAmplitudeAQuarterTurnFromItsAngle) {
   loop::EncoderParameters encoders;
   const double amplitude = uniform(1e-4, 1e-2);
   encoders.fine_errors.eccentricity = amplitude;
@@ -56,7 +56,7 @@ TEST_P(EncoderErrorProperties, EccentricityReachesItsAmplitudeAQuarterTurnFromIt
   }
 }
 
-TEST_P(EncoderErrorProperties, InterpolationMovesTheEdges) {
+TEST_EACH_SEED(EncoderErrorProperties, InterpolationMovesTheEdges) {
   // The edge of count n lies where x + A·(s(x) − s(phase)) = n. Weak enough, the left side rises throughout,
   // and the edge is found by bisection: in the readings, and in the equation.
   loop::EncoderParameters encoders;
@@ -90,7 +90,7 @@ TEST_P(EncoderErrorProperties, InterpolationMovesTheEdges) {
   }
 }
 
-TEST_P(EncoderErrorProperties, InterpolationRepeatsItselfEveryPeriod) {
+TEST_EACH_SEED(EncoderErrorProperties, InterpolationRepeatsItselfEveryPeriod) {
   loop::EncoderParameters encoders;
   encoders.coarse_errors.interpolation = uniform(0.1, 5.0);
   encoders.coarse_errors.interpolation_period = static_cast<double>(1 + random_() % 20);
@@ -104,12 +104,12 @@ TEST_P(EncoderErrorProperties, InterpolationRepeatsItselfEveryPeriod) {
   }
 }
 
-TEST_P(EncoderErrorProperties, NoiseIsNormalBeforeTheRounding) {
+TEST_EACH_SEED(EncoderErrorProperties, NoiseIsNormalBeforeTheRounding) {
   loop::EncoderParameters encoders;
   encoders.fine_errors.noise = uniform(0.1, 3.0);
   encoders.coarse_errors.noise = uniform(0.1, 3.0);
   const double phase = random_phase();
-  loop::Measurement measurement(encoders, phase, 0.0, randomness_of_encoders(GetParam()));
+  loop::Measurement measurement(encoders, phase, 0.0, randomness_of_encoders(seed_));
   const double theta = uniform(-1e-3, 1e-3);
   constexpr int samples = 20000;
   const auto centre = [&](double resolution) { return theta / resolution + phase; };
@@ -159,10 +159,10 @@ TEST_P(EncoderErrorProperties, NoiseIsNormalBeforeTheRounding) {
   EXPECT_NEAR(successive / samples, fine_mean * fine_mean, 4.5 * fine_square / std::sqrt(samples));
 }
 
-TEST_P(EncoderErrorProperties, PassedCountsAreMissedIndependently) {
+TEST_EACH_SEED(EncoderErrorProperties, PassedCountsAreMissedIndependently) {
   loop::EncoderParameters encoders;
   const double p = encoders.fine_errors.missed = uniform(0.01, 0.99);
-  loop::Measurement measurement(encoders, 0.5, 0.0, randomness_of_encoders(GetParam()));
+  loop::Measurement measurement(encoders, 0.5, 0.0, randomness_of_encoders(seed_));
   constexpr int step = 6;  // counts per sample
   constexpr int samples = 5000;
   std::vector<double> observed(step + 1, 0.0);

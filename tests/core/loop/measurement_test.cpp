@@ -19,8 +19,9 @@ loop::EncoderErrors idle_errors() {
   return errors;
 }
 
-class MeasurementProperties : public WithRandomEncoders {
- protected:
+struct MeasurementProperties : WithRandomEncoders {
+  using WithRandomEncoders::WithRandomEncoders;
+
   /// Angles close to edges of either encoder, on them, and one or two roundings beside them.
   std::vector<double> angles_at_edges(const loop::Encoder& fine, const loop::Encoder& coarse) {
     std::vector<double> angles;
@@ -40,9 +41,7 @@ class MeasurementProperties : public WithRandomEncoders {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(RandomParameters, MeasurementProperties, ::testing::Range(1u, 13u));
-
-TEST_P(MeasurementProperties, IdealEncodersReadAsTheyAlwaysDid) {
+TEST_EACH_SEED(MeasurementProperties, IdealEncodersReadAsTheyAlwaysDid) {
   const loop::EncoderParameters encoders = random_encoders();
   const double phase = random_phase();
   const loop::Encoder fine = loop::fine_encoder(encoders, phase);
@@ -84,7 +83,7 @@ TEST(Measurement, OfAbsurdErrorsStaysAWholeNumber) {
   }
 }
 
-TEST_P(MeasurementProperties, SystematicErrorsStartAtCountZero) {
+TEST_EACH_SEED(MeasurementProperties, SystematicErrorsStartAtCountZero) {
   for (int i = 0; i < 100; ++i) {
     loop::EncoderParameters encoders = random_encoders();
     encoders.fine_errors.eccentricity = encoders.coarse_errors.eccentricity = uniform(0.0, 1e-2);
@@ -98,7 +97,7 @@ TEST_P(MeasurementProperties, SystematicErrorsStartAtCountZero) {
   }
 }
 
-TEST_P(MeasurementProperties, ReadingDependsOnItsTrialAndItsPastAlone) {
+TEST_EACH_SEED(MeasurementProperties, ReadingDependsOnItsTrialAndItsPastAlone) {
   loop::EncoderParameters encoders = random_encoders();
   for (loop::EncoderErrors* errors : {&encoders.fine_errors, &encoders.coarse_errors}) {
     errors->eccentricity = 1e-3;

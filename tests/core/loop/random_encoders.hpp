@@ -5,9 +5,8 @@
 #include <numbers>
 #include <random>
 
-#include <gtest/gtest.h>
-
 #include "core/loop/measurement.hpp"
+#include "tests/support/each_seed.hpp"
 
 namespace zerocount::testing {
 
@@ -23,9 +22,11 @@ inline random::TrialRandomness randomness_of_encoders(std::uint64_t trial) {
   return randomness;
 }
 
-/// Tests with encoders and angles drawn by the seed that is their parameter.
-class WithRandomEncoders : public ::testing::TestWithParam<unsigned> {
- protected:
+/// Tests with encoders and angles drawn by a seed.
+struct WithRandomEncoders {
+  static constexpr unsigned seeds = 12;
+  explicit WithRandomEncoders(unsigned seed) : seed_(seed), random_(seed) {}
+
   double uniform(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
@@ -41,7 +42,8 @@ class WithRandomEncoders : public ::testing::TestWithParam<unsigned> {
 
   double random_phase() { return random_() % 4 == 0 ? 0.0 : uniform(0.0, 1.0); }
 
-  std::mt19937 random_{GetParam()};
+  unsigned seed_;
+  std::mt19937 random_;
 };
 
 }  // namespace zerocount::testing

@@ -23,7 +23,7 @@ std::vector<double> longest_travels(const std::string& lines) {
   const std::string input = folder.write("moves", lines).string();
   const std::string output = (folder / "travels").string();
   const std::string command =
-      fmt::format("{} -B '{}' '{}' > '{}'", ZEROCOUNT_JUDGE_PYTHON, ZEROCOUNT_JUDGE_SCRIPT, input, output);
+      fmt::format("{} -B '{}' '{}' > '{}'", ZEROCOUNT_PYTHON, ZEROCOUNT_JUDGE_SCRIPT, input, output);
   if (std::system(command.c_str()) != 0) ADD_FAILURE() << "failed (scipy is needed): " << command;
   std::istringstream stream(folder.read("travels"));
   std::vector<double> travels;

@@ -1,60 +1,12 @@
-// The judges of the friction loop against each other and against closed forms, before they judge anything
-// else.
-
+// The judge of the friction loop against closed forms, before it judges anything else.
 #include <cmath>
-#include <iostream>
-#include <sstream>
 
 #include <gtest/gtest.h>
 
-#include "tests/support/agreement.hpp"
 #include "tests/support/odeint_motion.hpp"
-#include "tests/support/odeint_trial.hpp"
-#include "tests/support/python_trial.hpp"
-#include "tests/support/random_trials.hpp"
-#include "tests/support/trial_json.hpp"
 
 namespace zerocount::testing {
 namespace {
-
-void expect_judges_agree(std::uint64_t trials) {
-  Agreement total;
-  for (const TrialKind kind :
-       {TrialKind::calm, TrialKind::ringing, TrialKind::breaking_away, TrialKind::spring_alone,
-        TrialKind::coulomb, TrialKind::amplified, TrialKind::arriving, TrialKind::remembering}) {
-    for (std::uint64_t index = 1000; index < 1000 + trials; ++index) {
-      trial::TrialParameters parameters = random_trial(kind, index);
-      parameters.command.hold = 120.0 / parameters.controller.sample_rate;
-      const std::string name =
-          "kind " + std::to_string(static_cast<int>(kind)) + " trial " + std::to_string(index);
-      total.add(compare(parameters, odeint_trial(parameters), python_trial(parameters), name));
-    }
-  }
-  std::cout << "odeint against collocation: " << total.figures() << "\n";
-  for (const std::string& failure : total.failures) ADD_FAILURE() << failure;
-  EXPECT_LT(total.before_breakaway, 1e-9);
-  EXPECT_LT(total.after_breakaway, 1e-6);
-  EXPECT_GT(total.slide_samples, 0);
-}
-
-TEST(Judges, AgreeWithEachOther) {
-  expect_judges_agree(1);
-}
-
-TEST(Judges, DISABLED_AgreeWithEachOtherInMoreTrials) {
-  expect_judges_agree(4);
-}
-
-TEST(Judges, ReadBackTheParametersTheyWrite) {
-  for (const TrialKind kind : {TrialKind::breaking_away, TrialKind::amplified, TrialKind::arriving,
-                               TrialKind::coulomb, TrialKind::remembering}) {
-    for (std::uint64_t index = 0; index < 20; ++index) {
-      const std::string text = to_json(random_trial(kind, index));
-      std::istringstream in(text);
-      EXPECT_EQ(to_json(trial_from_json(in)), text);
-    }
-  }
-}
 
 // Under a constant torque U the rotor comes to rest with the spring carrying U less the damper's proportion,
 // and creep follows xh(t) = (|U|ⁿ/λ)·(1 − exp(−αt)). A stiff, well damped rotor brings the start-up to

@@ -1,8 +1,5 @@
-// The trial against two integrations written apart from it: Boost.odeint with located events for some hundred
-// random trials, and collocation in higher precision for a few. Counts and codes are equal, θ within the
-// promised accuracy.
-
-#include <algorithm>
+// The trial against an integration written apart from it, Boost.odeint with located events, in some hundred
+// random trials: counts and codes are equal, θ within the promised accuracy.
 #include <iostream>
 #include <ostream>
 
@@ -11,7 +8,6 @@
 #include "core/trial/trial.hpp"
 #include "tests/support/agreement.hpp"
 #include "tests/support/odeint_trial.hpp"
-#include "tests/support/python_trial.hpp"
 #include "tests/support/random_trials.hpp"
 
 namespace zerocount::testing {
@@ -54,33 +50,12 @@ void expect_odeint(const Family& family, std::uint64_t trials) {
   EXPECT_LT(total.after_breakaway_share, 0.1);
 }
 
-void expect_collocation(const Family& family, std::uint64_t trials) {
-  Agreement total;
-  for (std::uint64_t index = 2000; index < 2000 + trials; ++index) {
-    trial::TrialParameters parameters = random_trial(family.kind, index);
-    parameters.command.hold = std::min(parameters.command.hold, 0.1);
-    const std::string name = std::string(family.name) + " trial " + std::to_string(index);
-    total.add(compare(parameters, records_of_trial(parameters), python_trial(parameters), name));
-  }
-  std::cout << family.name << ": " << total.figures() << "\n";
-  for (const std::string& failure : total.failures) ADD_FAILURE() << failure;
-  EXPECT_EQ(total.edge_trials, 0);
-}
-
 TEST_P(RandomTrialAgreement, EqualsBoostOdeintSampleBySample) {
   expect_odeint(GetParam(), GetParam().trials);
 }
 
-TEST_P(RandomTrialAgreement, EqualsHighPrecisionCollocation) {
-  expect_collocation(GetParam(), 1);
-}
-
 TEST_P(RandomTrialAgreement, DISABLED_EqualsBoostOdeintInManyTrials) {
   expect_odeint(GetParam(), GetParam().many);
-}
-
-TEST_P(RandomTrialAgreement, DISABLED_EqualsHighPrecisionCollocationInMoreTrials) {
-  expect_collocation(GetParam(), 4);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeded, RandomTrialAgreement,

@@ -53,7 +53,7 @@ void check_rebuilt(CheckReport& report, const reading::ResultsFile& file, const 
     const std::filesystem::path rebuilt = folder.path() / "rebuilt.h5";
     const std::array<shards::ShardInfo, 1> trials{{{file.path(), file.rows()}}};
     make(trials, study, rebuilt, file.rows());
-    const reading::DescribedFile other(rebuilt, reading::Require::any_part);
+    const reading::ResultsFile other(rebuilt, reading::Require::any_part);
     const bool exact = equality == Equality::bits;
     const double tolerance = exact ? 0.0 : tolerance_of_rounding;
     for (const reading::DatasetDifference& one : reading::differences(file.root(), other.root(), tolerance)) {

@@ -361,8 +361,9 @@ hdf5::File open_results(const std::filesystem::path& path, Checksum checksum) {
         ExitCode::bad_data,
         fmt::format("{}: not a results file of zerocount: it is not in the HDF5 format", path.string()));
   }
-  if (checksum == Checksum::required) storage::require_valid_checksum(path);
-  return hdf5::open_foreign(path);
+  if (checksum == Checksum::not_yet) return hdf5::open_foreign(path);
+  storage::require_valid_checksum(path);
+  return hdf5::File::open_to_read(path);
 }
 
 }  // namespace zerocount::layout

@@ -113,7 +113,8 @@ std::filesystem::path shards_directory(const std::filesystem::path& output);
 /// Whether a file must have its checksum trailer (see checksum_trailer.hpp) to be opened.
 enum class Checksum { required, not_yet };
 
-/// Opens a file of this program's format.
+/// Opens a file of this program's format. A child process reads it first if its checksum is not checked (see
+/// open_foreign).
 /// @throws Failure: bad_input where there is no such file, machine_failed where it cannot be read,
 /// bad_data where it is damaged or something else.
 hdf5::File open_results(const std::filesystem::path& path, Checksum checksum = Checksum::required);

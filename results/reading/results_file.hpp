@@ -20,7 +20,7 @@ namespace zerocount::reading {
 enum class Require {
   complete,   ///< every trial: what statistics may be made of
   any_part,   ///< also a part or a shard
-  unfinished  ///< also a file that is still being made
+  unfinished  ///< also a file that is still being made; neither checksum nor completion mark is checked
 };
 
 /// A profile as it stands in a results file.
@@ -38,8 +38,8 @@ struct StoredRigs {
   std::int64_t rigs{0};
   std::vector<study::InputColumn> columns;  ///< what differs between them
   std::vector<std::vector<double>> inputs;  ///< [column][rig]
-  std::vector<std::int64_t> success;        ///< [point][rig], flattened: trials that succeeded
-  std::vector<std::int64_t> trials;         ///< likewise: trials that were judged; none of both in a part
+  std::vector<std::int64_t> success;  ///< [point][rig] trials that succeeded, flattened; empty in a part
+  std::vector<std::int64_t> trials;   ///< [point][rig] trials that were judged, flattened; empty in a part
 };
 
 /// A results file, part or shard, open to be read: the description of the study, the tables by design point

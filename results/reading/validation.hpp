@@ -21,7 +21,7 @@ namespace zerocount::reading {
 void validate_numbering(const layout::FileHeader& header, const layout::TableIo& trials,
                         const layout::TableIo& jerks);
 
-/// Measures of the moves: `moves` are those of the global rows from `first_row` on.
+/// Checks the measures of `moves`. @param first_row number of their first trial, for messages
 /// @param fields the columns of `outcomes`; what the file does not have is not looked at.
 void validate_outcomes(const layout::TableIo& outcomes,
                        const std::vector<layout::RecordField<trial::MoveOutcome>>& fields,

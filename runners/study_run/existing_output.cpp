@@ -27,7 +27,7 @@ layout::FileHeader header_of(const fs::path& output) {
     return reading::ResultsFile(output, reading::Require::any_part).header();
   } catch (const Failure& failure) {
     if (failure.code() == ExitCode::machine_failed) throw;  // it may be a good file
-    refuse(output, fmt::format("exists, and is no usable results file ({})", failure.what()));
+    refuse(output, fmt::format("exists, and is not a usable results file ({})", failure.what()));
   }
 }
 

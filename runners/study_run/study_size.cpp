@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t max_sampled_trials = 512;
+constexpr std::int64_t max_sampled_trials = 64;
 constexpr double max_sampled_samples = 4e5;  // takes some hundredths of a second
 constexpr std::int64_t sampled_places = 8;
 

@@ -91,7 +91,7 @@ void check_numbers(const reading::ResultsFile& file, const std::string& path, co
   }
 }
 
-/// The sample records are those of the retained trials, each from its first sample on.
+/// Checks that the sample records belong to the retained trials, each from its first sample on.
 void check_trace_numbers(const reading::ResultsFile& file, const study::Study& study, ProblemList& problems) {
   const reading::TrialTables& trials = *file.trials();
   std::vector<std::int64_t> expected;
@@ -172,7 +172,7 @@ std::optional<Described> check_header(CheckReport& report,
 std::optional<reading::ResultsFile> check_tables(CheckReport& report, const study::Study& study) {
   std::optional<reading::ResultsFile> file;
   add_check(report, "datasets", [&](Check& check, ProblemList& problems) {
-    file.emplace(report.path, reading::Require::any_part);
+    file.emplace(report.path, reading::Require::unfinished);  // the checksum was checked before
     const std::vector<layout::Table> tables = tables_of(*file, study);
     std::size_t columns = 0;
     for (const layout::Table& table : tables) {

@@ -52,11 +52,13 @@ void compare_range(const RecordedFile& recorded, layout::RowRange rows, const Re
 
 /// Runs trials in parallel, and gives the results range by range in order of rows.
 template <class Take>
-void run_in_tasks(const study::Study& study, std::span<const std::int64_t> rows, const Take& take) {
+void run_in_tasks(const study::Study& study, std::span<const std::int64_t> rows, const std::stop_token& stop,
+                  const Take& take) {
   const std::vector<layout::RowRange> ranges = ranges_of(rows);
   oneapi::tbb::enumerable_thread_specific<study_run::TrialRunner> runners(
       [&study] { return study_run::TrialRunner(study); });
   for (std::size_t first = 0; first < ranges.size(); first += tasks_at_once) {
+    require_no_stop(stop);
     const std::size_t count = std::min(tasks_at_once, ranges.size() - first);
     std::vector<Results> results(count);
     oneapi::tbb::parallel_for(std::size_t{0}, count,
@@ -119,7 +121,7 @@ void check_trials(CheckReport& report, const reading::ResultsFile& file, const s
     const std::vector<std::int64_t> rows =
         layout::has_sums(study.kept) ? with_failures(chosen, *file.trials()) : chosen.rows;
     const RecordedFile recorded{file, study_run::places_of_records(*file.trials()), equality};
-    run_in_tasks(study, rows, [&](layout::RowRange range, const Results& results) {
+    run_in_tasks(study, rows, report.stop, [&](layout::RowRange range, const Results& results) {
       compare_range(recorded, range, results, problems);
     });
     check.detail = detail_of(rows.size(), file.rows().count, equality);

@@ -124,8 +124,10 @@ void check_values(CheckReport& report, const reading::ResultsFile& file, const s
       details.emplace_back("sums");
     }
     if (file.trials()) {
-      file.trials()->for_each_block(
-          [&](layout::RowRange positions) { check_block(file, study, positions, problems); });
+      file.trials()->for_each_block([&](layout::RowRange positions) {
+        require_no_stop(report.stop);
+        check_block(file, study, positions, problems);
+      });
       details.push_back(
           fmt::format("{} trials, {} jerks", file.trials()->count(), file.trials()->jerk_count()));
     }

@@ -50,7 +50,7 @@ Equality equality_of(const layout::FileHeader& header) {
 
 /// All checks of one file except running its trials again.
 OpenedFile check_stored(const fs::path& path, const VerifySettings& settings) {
-  OpenedFile opened{{path}, {}};
+  OpenedFile opened{{.path = path, .stop = settings.stop}, {}};
   CheckReport& report = opened.report;
   if (!check_bytes(report)) return opened;
   std::optional<Described> described = check_header(report, settings.plugin);
@@ -71,9 +71,10 @@ void run_again(OpenedFile& opened, std::vector<std::int64_t> chosen, std::uint64
   const auto& [header, study] = *opened.described;
   for (std::int64_t& row : chosen) row += header.rows.first;
   try {
-    check_trials(opened.report, reading::ResultsFile(opened.report.path, reading::Require::any_part), study,
+    check_trials(opened.report, reading::ResultsFile(opened.report.path, reading::Require::unfinished), study,
                  {std::move(chosen), seed}, equality_of(header));
   } catch (const Failure& failure) {  // it has changed since
+    if (failure.code() == ExitCode::interrupted) throw;
     add_check(opened.report, "trials run again", [&](Check&, ProblemList&) { throw failure; });
   }
 }

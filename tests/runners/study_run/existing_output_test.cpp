@@ -151,7 +151,7 @@ TEST_F(ExistingOutput, OfAPartCannotBeExtended) {
 TEST_F(ExistingOutput, ThatIsNoResultsFileIsRefused) {
   folder_.write("study.yaml", small_manifest(4));
   folder_.write("out.h5", "my notes");
-  expect_refused({}, {"no usable results file"});
+  expect_refused({}, {"not a usable results file"});
   complete("study.yaml", "out.h5", {"--force"});
 }
 

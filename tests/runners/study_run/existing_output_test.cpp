@@ -162,13 +162,5 @@ TEST_F(ExistingOutput, OfAnEarlierFormatIsRefused) {
   expect_refused({}, {"out.h5"});
 }
 
-TEST_F(ExistingOutput, IsReplacedWithForceWhateverItHolds) {
-  folder_.write("study.yaml", small_manifest(20));
-  complete("study.yaml", "fresh.h5");
-  complete("study.yaml", "out.h5", {"--set", "seed=43"});
-  complete("study.yaml", "out.h5", {"--force"});
-  expect_same_datasets(at("fresh.h5"), at("out.h5"));
-}
-
 }  // namespace
 }  // namespace zerocount::testing

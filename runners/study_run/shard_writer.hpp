@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "analysis/theory/theory_prediction.hpp"
 #include "analysis/summary/summed_point.hpp"
+#include "analysis/theory/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/row_range.hpp"

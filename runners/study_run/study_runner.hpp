@@ -55,7 +55,7 @@ FinishedTrials run_trials(const study::Study& study, std::span<const layout::Row
 
 struct AssembleSettings {
   std::span<const theory::PointPrediction> predictions{};  ///< see summary::stored_statistics
-  shards::Renumbering renumber{};                             ///< see shards::MergeOptions
+  shards::Renumbering renumber{};                          ///< see shards::MergeOptions
   std::stop_token stop{};
 };
 

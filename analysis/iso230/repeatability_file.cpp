@@ -161,9 +161,9 @@ void write_repeatability(hdf5::File& file, const study::Study& study) {
   write_points(file, study, read_repeatability(file, study));
 }
 
-std::vector<reading::ExportedTable> repeatability_exports(const reading::StudyFile& file) {
-  if (!hdf5::File::open_to_read(file.path()).contains("repeatability")) return {};
-  const parameters::AxisKind axis = file.axis();
+std::vector<reading::ExportedTable> repeatability_exports(const reading::ResultsFile& file) {
+  if (!file.root().contains("repeatability")) return {};
+  const parameters::AxisKind axis = file.trials()->features().axis;
   return {exported("repeatability_trials.csv", layout::on_axis(trial_table_of_axis(), axis)),
           exported("repeatability_trial_targets.csv", layout::on_axis(trial_table_of_targets(), axis)),
           exported("repeatability_points.csv", layout::on_axis(point_table_of_axis(), axis)),

@@ -172,6 +172,10 @@ layout::StoredStatistics stored_statistics(const std::vector<measures::PointSumm
   const std::vector<layout::PointColumn> observed = observed_columns(points, study);
   stored.points.insert(stored.points.end(), observed.begin(), observed.end());
   if (study.open_loop) stored.tables.push_back(measures::level_table(points, table));
+  for (std::size_t point = 0; study.rigs > 0 && point < points.size(); ++point) {
+    stored.rig_successes.push_back(points[point].rigs.successes_of_rigs);
+    stored.rig_successes.back().resize(static_cast<std::size_t>(study.rigs));  // empty in an open loop
+  }
   if (!study.sequence.empty()) {
     stored.groups = [&study](hdf5::File& part) { iso230::write_repeatability(part, study); };
   }

@@ -21,7 +21,7 @@
 #include "experiments/manifest/manifest_keys.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
-#include "results/reading/statistics_file.hpp"
+#include "results/reading/results_file.hpp"
 #include "results/shards/pieces.hpp"
 #include "results/shards/shard.hpp"
 
@@ -159,7 +159,7 @@ class SumsSoFar {
   /// Takes the points of a file whose trials were not taken before. Where trials depend on one another, those
   /// whose trials follow them.
   void add(const std::filesystem::path& path) {
-    const reading::StatisticsFile shard(path, reading::Require::any_part);
+    const reading::ResultsFile shard(path, reading::Require::any_part);
     for (std::int64_t i = 0; i < shard.points(); ++i) {
       const std::int64_t point = shard.first_point() + i;
       const layout::RowRange rows = shard.rows_of(point);
@@ -260,7 +260,7 @@ StudySummary summarise(const reading::StudyFile& file, double confidence, bool b
   return summary;
 }
 
-StudySummary summarise(const reading::StatisticsFile& file, double confidence, bool bootstrap) {
+StudySummary summarise(const reading::ResultsFile& file, double confidence, bool bootstrap) {
   const study::Study study = layout::recorded_study(file.header(), file.path());
   StudySummary summary = summary_of(file, study, confidence);
   StudySums sums(study, confidence, bootstrap);
@@ -273,8 +273,8 @@ StudySummary summarise(const reading::StatisticsFile& file, double confidence, b
 }
 
 StudySummary summarise_file(const std::filesystem::path& path, double confidence, bool bootstrap) {
-  return shards::keeps_trials(path) ? summarise(reading::StudyFile(path), confidence, bootstrap)
-                                    : summarise(reading::StatisticsFile(path), confidence, bootstrap);
+  return shards::keeps_every_trial(path) ? summarise(reading::StudyFile(path), confidence, bootstrap)
+                                         : summarise(reading::ResultsFile(path), confidence, bootstrap);
 }
 
 StudySummary summarise_unfinished(const std::filesystem::path& output, double confidence, bool bootstrap) {

@@ -13,7 +13,7 @@
 #include "analysis/theory/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"
-#include "results/reading/statistics_file.hpp"
+#include "results/reading/results_file.hpp"
 #include "results/reading/study_file.hpp"
 
 namespace zerocount::summary {
@@ -86,8 +86,8 @@ StudySummary summarise(const reading::StudyFile& file, double confidence = stati
                        bool bootstrap = false);
 
 /// Summarises the sums of a file that keeps statistics; errors as above.
-StudySummary summarise(const reading::StatisticsFile& file,
-                       double confidence = statistics::summary_confidence, bool bootstrap = false);
+StudySummary summarise(const reading::ResultsFile& file, double confidence = statistics::summary_confidence,
+                       bool bootstrap = false);
 /// Summarises the file `path`, whether it keeps trials or statistics.
 StudySummary summarise_file(const std::filesystem::path& path,
                             double confidence = statistics::summary_confidence, bool bootstrap = false);

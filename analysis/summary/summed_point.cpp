@@ -83,8 +83,7 @@ StudySums::StudySums(const study::Study& study, double confidence, bool bootstra
   statistics::require_confidence(confidence);
 }
 
-SummedPoint restored_point(const reading::StatisticsFile& file, const study::Study& study,
-                           std::int64_t point) {
+SummedPoint restored_point(const reading::ResultsFile& file, const study::Study& study, std::int64_t point) {
   SummedPoint restored(study, point, 0);
   try {
     restored.restore(file.sums(point - file.first_point()));
@@ -96,13 +95,13 @@ SummedPoint restored_point(const reading::StatisticsFile& file, const study::Stu
   return restored;
 }
 
-void StudySums::add(const reading::StatisticsFile& file, std::int64_t point) {
+void StudySums::add(const reading::ResultsFile& file, std::int64_t point) {
   const SummedPoint added = restored_point(file, study_, point);
   while (!point_ || point_->point() < point) begin_point();
   *point_ += added;
 }
 
-void StudySums::add(const reading::StatisticsFile& file) {
+void StudySums::add(const reading::ResultsFile& file) {
   for (std::int64_t i = 0; i < file.points(); ++i) add(file, file.first_point() + i);
 }
 

@@ -11,7 +11,7 @@
 #include "core/trial/outcome.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/point_sums.hpp"
-#include "results/reading/statistics_file.hpp"
+#include "results/reading/results_file.hpp"
 
 namespace zerocount::summary {
 
@@ -57,8 +57,7 @@ struct SummedStudy {
 
 /// The sums of a point of a file.
 /// @throws Failure (bad_data) with file and point where they cannot be those of its trials
-SummedPoint restored_point(const reading::StatisticsFile& file, const study::Study& study,
-                           std::int64_t point);
+SummedPoint restored_point(const reading::ResultsFile& file, const study::Study& study, std::int64_t point);
 
 /// Results that StudySums collects of each point.
 enum class Collected {
@@ -78,8 +77,8 @@ class StudySums {
 
   /// Adds one point of a file, or all: trials that come after those added before.
   /// @throws Failure (bad_data) where the sums cannot be those of the trials
-  void add(const reading::StatisticsFile& file, std::int64_t point);
-  void add(const reading::StatisticsFile& file);
+  void add(const reading::ResultsFile& file, std::int64_t point);
+  void add(const reading::ResultsFile& file);
   /// @returns the results of the points up to the last with trials; nothing may be added afterwards
   /// @throws Failure (bad_data) where no statistics follow from the sums
   SummedStudy sum();

@@ -49,7 +49,7 @@ void compare_chunks(const Dataset& dataset, std::span<const WrittenChunk> writte
 namespace {
 
 void compare_scales(const Group& root, const Dataset& dataset, const WrittenObject& written) {
-  if (written.is_scale && !dataset.is_scale()) dataset.fail("it is no axis any more");
+  if (written.is_scale && !dataset.is_scale()) dataset.fail("it is not an axis any more");
   for (const auto& [dimension, path] : written.scales) {
     if (!dataset.has_scale(root.open_dataset(path.substr(1)), dimension)) {
       dataset.fail(fmt::format("its axis {} is missing", path));

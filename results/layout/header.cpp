@@ -27,24 +27,18 @@ namespace {
 struct Format {
   std::string_view name;
   FileKind kind;
-  Contents contents;
 };
-constexpr std::array<Format, 4> formats{{
-    {"zerocount-study", FileKind::study, Contents::trials},
-    {"zerocount-shard", FileKind::shard, Contents::trials},
-    {"zerocount-statistics", FileKind::study, Contents::statistics},
-    {"zerocount-statistics-shard", FileKind::shard, Contents::statistics},
-}};
+constexpr std::array<Format, 3> formats{{{"zerocount-study", FileKind::study},
+                                         {"zerocount-statistics", FileKind::study},  // without all trials
+                                         {"zerocount-shard", FileKind::shard}}};
+
+std::string_view format_name(const FileHeader& header) {
+  if (header.kind == FileKind::shard) return formats[2].name;
+  return formats[has_sums(header.kept) ? 1 : 0].name;
+}
 
 std::string_view keep_label(study::Kept kept) {
   return manifest::kept_labels[static_cast<std::size_t>(kept)];
-}
-
-const Format& format_of(const FileHeader& header) {
-  const Contents contents = contents_of(header.kept);
-  return *std::find_if(formats.begin(), formats.end(), [&](const Format& format) {
-    return format.kind == header.kind && format.contents == contents;
-  });
 }
 
 /// A text with a zero byte would be cut there without a word.
@@ -65,40 +59,26 @@ void write_overrides(hdf5::File& file, const std::vector<std::string>& overrides
   dataset.set_text("long_name", "values given on the command line in place of the manifest's");
 }
 
-void write_manifest(hdf5::File& file, const std::string& text) {
-  hdf5::Dataset dataset = file.create_dataset("manifest", {hdf5::Element::text, {}, {}, false});
+void write_single_text(hdf5::File& file, const std::string& name, const std::string& text,
+                       const std::string& meaning) {
+  hdf5::Dataset dataset = file.create_dataset(name, {hdf5::Element::text, {}, {}, false});
   dataset.write_texts(std::vector<std::string>{storable(file, text)});
   dataset.set_text("units", "1");
-  dataset.set_text("long_name", "exact text of the manifest");
+  dataset.set_text("long_name", meaning);
 }
 
-void write_samples(hdf5::File& file, const std::string& text) {
-  hdf5::Dataset dataset = file.create_dataset("samples", {hdf5::Element::text, {}, {}, false});
-  dataset.write_texts(std::vector<std::string>{storable(file, text)});
-  dataset.set_text("units", "1");
-  dataset.set_text("long_name",
-                   "exact text of the table of joint draws that the manifest's key samples names");
-}
-
-std::optional<std::string> read_samples(const hdf5::File& file) {
-  if (!file.contains("samples")) return std::nullopt;
-  const std::vector<std::string> texts = file.open_dataset("samples").read_texts();
-  if (texts.size() != 1) file.fail("the table of joint draws is not a single text");
+/// Nothing if there is no such dataset.
+std::optional<std::string> read_single_text(const hdf5::File& file, const std::string& name) {
+  if (!file.contains(name)) return std::nullopt;
+  const std::vector<std::string> texts = file.open_dataset(name).read_texts();
+  if (texts.size() != 1) file.fail(fmt::format("/{} is not a single text", name));
   return texts.front();
 }
 
-void write_plugin(hdf5::File& file, const plugin::PluginDescription& plugin) {
-  hdf5::Dataset dataset = file.create_dataset("controller_plugin", {hdf5::Element::text, {}, {}, false});
-  dataset.write_texts(std::vector<std::string>{storable(file, plugin_as_json(plugin))});
-  dataset.set_text("units", "1");
-  dataset.set_text("long_name", "the user's controller, as JSON: name, version, SHA-256, parameters");
-}
-
 std::optional<plugin::PluginDescription> read_plugin(const hdf5::File& file) {
-  if (!file.contains("controller_plugin")) return std::nullopt;
-  const std::vector<std::string> texts = file.open_dataset("controller_plugin").read_texts();
-  std::optional<plugin::PluginDescription> plugin;
-  if (texts.size() == 1) plugin = plugin_from_json(texts.front());
+  const std::optional<std::string> text = read_single_text(file, "controller_plugin");
+  if (!text) return std::nullopt;
+  std::optional<plugin::PluginDescription> plugin = plugin_from_json(*text);
   if (!plugin) file.fail("the description of its controller cannot be read");
   return plugin;
 }
@@ -114,8 +94,8 @@ const Format& read_format(const hdf5::File& file) {
                                                   name, formats.front().name));
 }
 
-study::Kept read_kept(const hdf5::File& file, Contents contents) {
-  if (contents == Contents::trials) return study::Kept::trials;
+study::Kept read_kept(const hdf5::File& file) {
+  if (!file.has_attribute("keep")) return study::Kept::trials;
   const std::string name = file.text("keep");
   for (const study::Kept kept : {study::Kept::failures, study::Kept::statistics}) {
     if (name == keep_label(kept)) return kept;
@@ -168,14 +148,16 @@ void check_numbers(const hdf5::File& file, const FileHeader& header) {
 ForeignFile::ForeignFile(const std::filesystem::path& path, const std::string& what_it_is)
     : Failure(ExitCode::bad_data, text::printable_lines(fmt::format("{}: {}", path.string(), what_it_is))) {}
 
-Contents contents_of(study::Kept kept) {
-  return kept == study::Kept::trials ? Contents::trials : Contents::statistics;
+bool has_trials(study::Kept kept) {
+  return kept != study::Kept::statistics;
 }
 
-void require_contents(const std::filesystem::path& path, const FileHeader& header, Contents contents) {
-  if (contents_of(header.kept) == contents) return;
-  if (contents == Contents::statistics)
-    throw ForeignFile(path, "it keeps trials; expected a file of statistics");
+bool has_sums(study::Kept kept) {
+  return kept != study::Kept::trials;
+}
+
+void require_every_trial(const std::filesystem::path& path, const FileHeader& header) {
+  if (!has_sums(header.kept)) return;
   throw ForeignFile(path,
                     fmt::format("it was made with keep: {}, and this needs every trial; a run with keep: {} "
                                 "has them, and 'zerocount summary' reads this file",
@@ -212,9 +194,8 @@ FileHeader make_header(const study::Study& study, FileKind kind, RowRange rows, 
 }
 
 void write_header(hdf5::File& file, const FileHeader& header) {
-  const Format& format = format_of(header);
-  file.set_text("format", std::string(format.name));
-  if (format.contents == Contents::statistics) {
+  file.set_text("format", std::string(format_name(header)));
+  if (has_sums(header.kept)) {
     file.set_text("keep", std::string(keep_label(header.kept)));
     file.set_text("sums_form", sums_form());
   }
@@ -234,10 +215,16 @@ void write_header(hdf5::File& file, const FileHeader& header) {
   file.set_integer("first_trial", header.rows.first);
   file.set_integer("trial_count", header.rows.count);
   file.set_integer("complete", header.complete ? 1 : 0);
-  write_manifest(file, header.manifest);
+  write_single_text(file, "manifest", header.manifest, "exact text of the manifest");
   write_overrides(file, header.overrides);
-  if (header.plugin) write_plugin(file, *header.plugin);
-  if (header.samples) write_samples(file, *header.samples);
+  if (header.plugin) {
+    write_single_text(file, "controller_plugin", plugin_as_json(*header.plugin),
+                      "the user's controller, as JSON: name, version, SHA-256, parameters");
+  }
+  if (header.samples) {
+    write_single_text(file, "samples", *header.samples,
+                      "exact text of the table of joint draws that the manifest's key samples names");
+  }
 }
 
 void mark_finished(hdf5::File& file) {
@@ -246,9 +233,8 @@ void mark_finished(hdf5::File& file) {
 
 FileHeader read_header(const hdf5::File& file) {
   FileHeader header;
-  const Format& format = read_format(file);
-  header.kind = format.kind;
-  header.kept = read_kept(file, format.contents);
+  header.kind = read_format(file).kind;
+  header.kept = read_kept(file);
   header.version = read_version(file);
   header.name = file.text("name");
   header.provenance = {file.text("zerocount_version"), file.text("git_commit"), file.text("compiler"),
@@ -262,12 +248,12 @@ FileHeader read_header(const hdf5::File& file) {
   header.rows = {file.integer("first_trial"), file.integer("trial_count")};
   header.complete = file.integer("complete") != 0;
   header.finished = file.has_attribute("finished") && file.integer("finished") == 1;
-  const std::vector<std::string> manifest = file.open_dataset("manifest").read_texts();
-  if (manifest.size() != 1) file.fail("the manifest is not a single text");
-  header.manifest = manifest.front();
+  const std::optional<std::string> manifest = read_single_text(file, "manifest");
+  if (!manifest) file.fail("the manifest is missing");
+  header.manifest = *manifest;
   header.overrides = file.open_dataset("overrides").read_texts();
   header.plugin = read_plugin(file);
-  header.samples = read_samples(file);
+  header.samples = read_single_text(file, "samples");
   check_numbers(file, header);
   if (hash::sha256_hex(header.manifest) != header.manifest_sha256)
     file.fail("the checksum of the manifest is wrong");
@@ -375,8 +361,9 @@ hdf5::File open_results(const std::filesystem::path& path, Checksum checksum) {
         ExitCode::bad_data,
         fmt::format("{}: not a results file of zerocount: it is not in the HDF5 format", path.string()));
   }
-  if (checksum == Checksum::required) storage::require_valid_checksum(path);
-  return hdf5::open_foreign(path);
+  if (checksum == Checksum::not_yet) return hdf5::open_foreign(path);
+  storage::require_valid_checksum(path);
+  return hdf5::File::open_to_read(path);
 }
 
 }  // namespace zerocount::layout

@@ -35,13 +35,11 @@ bool is_dirty(const Provenance& provenance);
 
 enum class FileKind { study, shard };
 
-/// What a results file holds: its trials, or sums of them.
-enum class Contents {
-  trials,     ///< every trial
-  statistics  ///< the sums that the statistics of each design point follow from, and perhaps the failures
-};
-
-Contents contents_of(study::Kept kept);
+/// Whether files of a study with this `keep` have the tables of trials: of every trial, or of the failures.
+bool has_trials(study::Kept kept);
+/// Whether they have /sums, from which the statistics of the design points follow: exactly those that do not
+/// have every trial.
+bool has_sums(study::Kept kept);
 
 /// The description of a results file: the attributes of its root, and the manifest.
 struct FileHeader {
@@ -65,7 +63,7 @@ struct FileHeader {
   std::optional<std::string> samples;  ///< exact text of the table of joint draws, if there is one
 };
 
-/// A file that is sound as far as it was read, but is not for this use: another format or a newer version of
+/// A file that is valid as far as it was read, but is not for this use: another format or a newer version of
 /// it, or trials of another study or by another build of the program. Its exit code is bad_data.
 class ForeignFile : public Failure {
  public:
@@ -73,8 +71,8 @@ class ForeignFile : public Failure {
   ForeignFile(const std::filesystem::path& path, const std::string& what_it_is);
 };
 
-/// @throws ForeignFile unless the file `path` has these contents.
-void require_contents(const std::filesystem::path& path, const FileHeader& header, Contents contents);
+/// @throws ForeignFile unless the file `path` keeps every trial.
+void require_every_trial(const std::filesystem::path& path, const FileHeader& header);
 
 /// "batch" or "reference".
 std::string_view name_of(study::Engine engine);
@@ -84,7 +82,7 @@ RowRange all_rows(const study::Study& study);
 
 FileHeader make_header(const study::Study& study, FileKind kind, RowRange rows, Provenance provenance);
 
-/// Writes the header, all but the mark that the file is finished.
+/// Writes the header without the mark that the file is finished.
 void write_header(hdf5::File& file, const FileHeader& header);
 void mark_finished(hdf5::File& file);
 
@@ -115,7 +113,8 @@ std::filesystem::path shards_directory(const std::filesystem::path& output);
 /// Whether a file must have its checksum trailer (see checksum_trailer.hpp) to be opened.
 enum class Checksum { required, not_yet };
 
-/// Opens a file of this program's format.
+/// Opens a file of this program's format. A child process reads it first if its checksum is not checked (see
+/// open_foreign).
 /// @throws Failure: bad_input where there is no such file, machine_failed where it cannot be read,
 /// bad_data where it is damaged or something else.
 hdf5::File open_results(const std::filesystem::path& path, Checksum checksum = Checksum::required);

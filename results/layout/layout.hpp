@@ -21,7 +21,7 @@
 namespace zerocount::layout {
 
 /// Version of the layout that is written. A file with a higher number was written by a later program, and is
-/// refused; what those with a lower one lack is told by Measure::file.
+/// refused; Measure::file tells what files with a lower number lack.
 inline constexpr std::int64_t format_version = 3;
 
 /// One value of an enumeration, and its word in `flag_meanings` and in CSV.
@@ -136,14 +136,16 @@ struct StoredStatistics {
   std::vector<PointColumn> points;
   std::vector<StatisticTable> tables;       ///< none twice
   std::function<void(hdf5::File&)> groups;  ///< writes further groups; may be empty
+  /// [point][rig] trials of which all moves ended with a zero count; empty without rigs
+  std::vector<std::vector<std::int64_t>> rig_successes{};
 };
 
 /// Number of angles at which a profile is tabulated, over one revolution, where all trials are on one rotor.
 inline constexpr std::int64_t profile_angles = 4096;
 
-/// The same where every rig has a rotor: the smallest power of two with eight angles in the shortest
-/// wavelength of the field, from 64 to profile_angles; but of many rigs so few that there are at most 2²²
-/// values, as long as two angles are left in that wavelength.
+/// Number of angles of a profile where every rig has a rotor: the smallest power of two with eight angles in
+/// the shortest wavelength of the field, from 64 to profile_angles. With many rigs it is halved until there
+/// are at most 2²² values, as long as two angles remain in that wavelength.
 /// @param harmonics of the profile's series.
 std::int64_t profile_angles_of_rig(std::size_t harmonics, std::int64_t rigs);
 
@@ -161,8 +163,8 @@ Table profile_table(const std::string& name, const std::string& unit);
 Table rotor_table(const std::string& name, const std::string& unit);
 /// The inputs that differ between the rigs: [rig].
 Table rig_table(const std::vector<study::InputColumn>& inputs);
-/// Successes of the rigs at the design points: [point, rig]. In the group of rig_table, whose scale it
-/// proportions.
+/// Successes of the rigs at the design points: [point, rig]. It shares the group and the
+/// dimension scale of rig_table.
 Table rig_count_table();
 
 /// How many of the whole and real numbers in /sums belong to each design point: [point].
@@ -172,10 +174,10 @@ Table whole_sums_table();
 Table real_sums_table();
 
 /// The table with the units and long names that its columns have on an axis of this kind. The tables above
-/// have those of a rotary axis, but for what is a study's own: its sweep, its inputs and its profiles'
-/// values.
+/// have those of a rotary axis. What a study defines itself (its sweep, inputs and profile values) has its
+/// own units.
 Table on_axis(Table table, parameters::AxisKind axis);
-/// The same of one column.
+/// The column with its unit and long name on an axis of this kind.
 PointColumn on_axis(PointColumn column, parameters::AxisKind axis);
 
 /// Name in /trial and /rig of the column of an input parameter.

@@ -26,7 +26,7 @@ struct FileHistory {
 struct CountedValues {
   bool needs_target{false};  ///< moves with a torque level have none; but such a sum is 0
   bool needs_motion{false};  ///< moves whose motion was lost have none
-  bool nan_is_late{false};   ///< NaN is a time later than any other; otherwise it is no value
+  bool nan_is_late{false};   ///< NaN is a time later than any other; otherwise it is not a value
   bool magnitude{false};     ///< statistics are of the absolute value
 };
 

@@ -11,7 +11,7 @@ namespace zerocount::layout {
 /// [{"name", "unit", "meaning", "default", "lowest", "highest"}]}; null is a missing limit.
 std::string plugin_as_json(const plugin::PluginDescription& plugin);
 
-/// Nothing if the text is none of these.
+/// Nothing if the text does not describe a plugin.
 std::optional<plugin::PluginDescription> plugin_from_json(const std::string& text);
 
 }  // namespace zerocount::layout

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
+
+#include "results/hdf5/hdf5.hpp"
 
 namespace zerocount::layout {
 
@@ -12,6 +15,9 @@ struct PointSums {
   std::vector<std::int64_t> whole;
   std::vector<double> real;
 };
+
+/// Writes /sums. @param sums [point, from `first_point` on]
+void write_sums(hdf5::File& file, std::int64_t first_point, std::span<const PointSums> sums);
 
 /// Stands for what the numbers are, and in which order: it differs between programs that do not understand
 /// each other's sums.

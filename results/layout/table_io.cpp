@@ -39,7 +39,7 @@ hdf5::Dataset make_dataset(hdf5::Group& group, const std::string& name, const hd
   return folder.create_dataset(name.substr(slash + 1), storage);
 }
 
-/// The scale of a dimension; that of another table of the group where it is there already.
+/// The scale of a dimension; tables of one group share the scales of equal names.
 hdf5::Dataset make_scale(hdf5::Group& group, const Column& column, std::int64_t size) {
   if (group.contains(column.name)) return group.open_dataset(column.name);
   const bool empty = size == 0;

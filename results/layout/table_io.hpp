@@ -37,7 +37,7 @@ class TableIo {
   std::int64_t width() const { return width_; }
   hdf5::Dataset& row_scale() { return row_scale_; }
   const hdf5::Dataset& row_scale() const { return row_scale_; }
-  /// Of a table with two dimensions. Whole numbers are written to it when it is made, others are not.
+  /// The scale of the second dimension, if there is one. Creation fills it if it counts from 0.
   hdf5::Dataset& second_scale() { return second_scale_.value(); }
   hdf5::Dataset& column(std::size_t index) { return datasets_[index]; }
   const hdf5::Dataset& column(std::size_t index) const { return datasets_[index]; }

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <deque>
 #include <functional>
-#include <numeric>
 #include <string>
 
 #include <fmt/format.h>
@@ -74,48 +73,17 @@ void export_points(const ResultsFile& file, CsvFile& csv) {
   }
 }
 
-/// All trials of a file, as KeptTrials gives those of another.
-class AllTrials {
- public:
-  explicit AllTrials(const StudyFile& file) : file_(file) {}
-
-  std::int64_t count() const { return file_.rows().count; }
-  std::vector<std::int64_t> rows(std::int64_t first, std::int64_t count) const {
-    std::vector<std::int64_t> rows(static_cast<std::size_t>(count));
-    std::iota(rows.begin(), rows.end(), file_.rows().first + first);
-    return rows;
-  }
-  const std::vector<study::InputColumn>& input_columns() const { return file_.input_columns(); }
-  std::vector<double> input(std::size_t column, std::int64_t first, std::int64_t count) const {
-    return file_.input(column, {file_.rows().first + first, count});
-  }
-  std::int64_t moves() const { return file_.moves(); }
-  const std::vector<layout::RecordField<trial::MoveOutcome>>& measures() const { return file_.measures(); }
-  std::vector<trial::MoveOutcome> outcomes(std::int64_t first, std::int64_t count) const {
-    return file_.outcomes({file_.rows().first + first, count});
-  }
-  std::int64_t jerk_count() const { return file_.jerk_count(); }
-  std::vector<layout::JerkRecord> jerks_at(std::int64_t first, std::int64_t count) const {
-    return file_.jerks_at(first, count);
-  }
-  parameters::AxisKind axis() const { return file_.axis(); }
-
- private:
-  const StudyFile& file_;
-};
-
-template <class Trials>
-void export_trials(const Trials& trials, std::int64_t trials_of_point, CsvFile& csv) {
+void export_trials(const TrialTables& trials, std::int64_t trials_of_point, CsvFile& csv) {
   csv.add("trial", "point", "index");
   for (const study::InputColumn& input : trials.input_columns())
     csv.add(head_with_unit(input.name, input.unit));
   csv.end_row();
-  for_each_block(0, trials.count(), layout::chunk_elements, [&](std::int64_t first, std::int64_t count) {
+  trials.for_each_block([&](layout::RowRange block) {
     std::vector<std::vector<double>> inputs;
     for (std::size_t column = 0; column < trials.input_columns().size(); ++column)
-      inputs.push_back(trials.input(column, first, count));
+      inputs.push_back(trials.input(column, block));
     std::size_t position = 0;
-    for (const std::int64_t row : trials.rows(first, count)) {
+    for (const std::int64_t row : trials.rows(block)) {
       csv.add(row, row / trials_of_point, row % trials_of_point);
       for (const std::vector<double>& values : inputs) csv.add(values[position]);
       csv.end_row();
@@ -124,16 +92,15 @@ void export_trials(const Trials& trials, std::int64_t trials_of_point, CsvFile& 
   });
 }
 
-template <class Trials>
-void export_outcomes(const Trials& trials, CsvFile& csv) {
+void export_outcomes(const TrialTables& trials, CsvFile& csv) {
   csv.add("trial", "move");
-  add_names(csv, trials.measures(), trials.axis());
+  add_names(csv, trials.measures(), trials.features().axis);
   csv.end_row();
   const std::int64_t moves = trials.moves();
-  for_each_block(0, trials.count(), layout::chunk_rows(moves), [&](std::int64_t first, std::int64_t count) {
-    const std::vector<std::int64_t> rows = trials.rows(first, count);
+  trials.for_each_block([&](layout::RowRange block) {
+    const std::vector<std::int64_t> rows = trials.rows(block);
     std::int64_t position = 0;
-    for (const trial::MoveOutcome& outcome : trials.outcomes(first, count)) {
+    for (const trial::MoveOutcome& outcome : trials.outcomes(block)) {
       csv.add(rows[static_cast<std::size_t>(position / moves)], position % moves);
       add_values(csv, trials.measures(), outcome);
       csv.end_row();
@@ -142,15 +109,13 @@ void export_outcomes(const Trials& trials, CsvFile& csv) {
   });
 }
 
-template <class Trials>
-void export_jerks(const Trials& trials, CsvFile& csv) {
+void export_jerks(const TrialTables& trials, CsvFile& csv) {
   const auto read = [&](std::int64_t first, std::int64_t count) { return trials.jerks_at(first, count); };
-  export_records(layout::jerk_fields(), trials.jerk_count(), read, trials.axis(), csv);
+  export_records(layout::jerk_fields(), trials.jerk_count(), read, trials.features().axis, csv);
 }
 
 /// @param trials stays as long as the tables
-template <class Trials>
-void add_trial_tables(std::vector<ExportedTable>& tables, const Trials& trials,
+void add_trial_tables(std::vector<ExportedTable>& tables, const TrialTables& trials,
                       std::int64_t trials_of_point) {
   tables.push_back({"trials.csv", [&trials, trials_of_point](const ResultsFile&, CsvFile& csv) {
                       export_trials(trials, trials_of_point, csv);
@@ -204,9 +169,10 @@ void export_rig_counts(const StoredRigs& rigs, CsvFile& csv) {
   }
 }
 
-void export_trace(const StudyFile& file, CsvFile& csv) {
-  const auto read = [&](std::int64_t first, std::int64_t count) { return file.trace_at(first, count); };
-  export_records(layout::trace_fields(file.features()), file.trace_count(), read, file.axis(), csv);
+void export_trace(const TrialTables& trials, CsvFile& csv) {
+  const auto read = [&](std::int64_t first, std::int64_t count) { return trials.trace_at(first, count); };
+  export_records(layout::trace_fields(trials.features()), trials.trace_count(), read, trials.features().axis,
+                 csv);
 }
 
 /// One row per design point and index of the second dimension.
@@ -250,7 +216,7 @@ std::vector<fs::path> write_tables(const std::vector<ExportedTable>& tables, con
   std::error_code unknown;
   if (fs::exists(directory, unknown) && !fs::is_directory(directory, unknown)) {
     throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: is no directory; name one, which is made if need be", directory.string()));
+                  fmt::format("{}: not a directory; name one, which is made if need be", directory.string()));
   }
   storage::make_directory(directory);
   for (const fs::path& path : paths) {
@@ -273,26 +239,18 @@ std::vector<fs::path> write_tables(const std::vector<ExportedTable>& tables, con
 
 }  // namespace
 
-std::vector<fs::path> export_csv(const StudyFile& file, const fs::path& directory,
+std::vector<fs::path> export_csv(const ResultsFile& file, const fs::path& directory,
                                  const std::vector<ExportedTable>& further, ExistingFiles existing) {
-  const AllTrials trials(file);
+  const std::optional<TrialTables>& trials = file.trials();
   std::vector<ExportedTable> tables{{"points.csv", export_points}};
-  add_trial_tables(tables, trials, file.header().trials);
+  if (trials) add_trial_tables(tables, *trials, file.header().trials);
   add_study_tables(tables, file);
-  if (file.has_trace()) {
-    tables.push_back({"trace.csv", [&file](const ResultsFile&, CsvFile& csv) { export_trace(file, csv); }});
+  if (trials && trials->has_trace()) {
+    tables.push_back(
+        {"trace.csv", [&trials](const ResultsFile&, CsvFile& csv) { export_trace(*trials, csv); }});
   }
   add_statistic_tables(tables, file);
   tables.insert(tables.end(), further.begin(), further.end());
-  return write_tables(tables, file, directory, existing);
-}
-
-std::vector<fs::path> export_csv(const StatisticsFile& file, const fs::path& directory,
-                                 ExistingFiles existing) {
-  std::vector<ExportedTable> tables{{"points.csv", export_points}};
-  if (file.failures()) add_trial_tables(tables, *file.failures(), file.header().trials);
-  add_study_tables(tables, file);
-  add_statistic_tables(tables, file);
   return write_tables(tables, file, directory, existing);
 }
 

@@ -1,5 +1,6 @@
 #include "results/reading/results_file.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <string_view>
 #include <utility>
@@ -8,7 +9,6 @@
 
 #include "core/failure/failure.hpp"
 #include "results/layout/table_io.hpp"
-#include "results/reading/trial_tables.hpp"
 #include "results/reading/validation.hpp"
 
 namespace zerocount::reading {
@@ -56,17 +56,38 @@ std::vector<std::pair<std::string, hdf5::Dataset>> point_columns(const hdf5::Fil
   return columns;
 }
 
+/// Where the numbers of each point begin, and where the last of them end.
+std::vector<std::int64_t> begins_of(const layout::TableIo& counts, std::size_t column,
+                                    const layout::TableIo& numbers) {
+  std::vector<std::int64_t> begins{0};
+  for (const std::int64_t count : layout::read_column<std::int64_t>(counts, column)) {
+    if (count < 0 || count > numbers.rows() - begins.back()) break;
+    begins.push_back(begins.back() + count);
+  }
+  if (std::ssize(begins) != counts.rows() + 1 || begins.back() != numbers.rows())
+    counts.column(column).fail("its counts are not those of the numbers in the file");
+  return begins;
+}
+
+template <class Number>
+std::vector<Number> numbers_of(const layout::TableIo& io, const std::vector<std::int64_t>& begins,
+                               std::size_t point) {
+  const std::int64_t count = begins[point + 1] - begins[point];
+  std::vector<Number> numbers(static_cast<std::size_t>(count));
+  io.column(0).read(begins[point], count, numbers.data());
+  return numbers;
+}
+
 }  // namespace
 
-ResultsFile::ResultsFile(const std::filesystem::path& path, Require require)
+ResultsFile::ResultsFile(const std::filesystem::path& path, Require require,
+                         const layout::MeasureTable& table)
     : path_(path),
       file_(layout::open_results(
           path, require == Require::unfinished ? layout::Checksum::not_yet : layout::Checksum::required)),
-      header_(read_required(file_, path, require)) {}
-
-ResultsFile::ResultsFile(const std::filesystem::path& path, Require require, layout::Contents contents)
-    : ResultsFile(path, require) {
-  layout::require_contents(path, header_, contents);
+      header_(read_required(file_, path, require)) {
+  if (layout::has_trials(header_.kept)) trials_.emplace(file_, header_, table);
+  if (layout::has_sums(header_.kept)) sums_.emplace(file_, points());
 }
 
 std::vector<std::string> ResultsFile::point_labels() const {
@@ -139,6 +160,35 @@ std::optional<StoredRigs> ResultsFile::rigs() const {
   stored.trials = layout::read_column<std::int64_t>(counts, 1);
   validate_rigs(header_, counts, stored.success, stored.trials);
   return stored;
+}
+
+ResultsFile::StoredSums::StoredSums(const hdf5::File& file, std::int64_t points)
+    : whole(layout::TableIo::open(file, layout::whole_sums_table())),
+      real(layout::TableIo::open(file, layout::real_sums_table())) {
+  const layout::TableIo counts = layout::TableIo::open(file, layout::sums_table());
+  if (counts.rows() != points)
+    counts.row_scale().fail("it should have the design points of the file's trials");
+  whole_begin = begins_of(counts, 0, whole);
+  real_begin = begins_of(counts, 1, real);
+}
+
+layout::RowRange ResultsFile::rows_of(std::int64_t point) const {
+  const std::int64_t first = std::max(rows().first, point * header().trials);
+  return {first, std::min(rows().end(), (point + 1) * header().trials) - first};
+}
+
+layout::PointSums ResultsFile::sums(std::int64_t index) const {
+  if (!sums_) throw layout::ForeignFile(path_, "it keeps every trial; expected a file of statistics");
+  if (file_.text("sums_form") != layout::sums_form()) {
+    throw Failure(
+        ExitCode::bad_data,
+        fmt::format("{}: its sums are not in the form of this program; zerocount {}, which wrote them, "
+                    "reads them, and 'zerocount export' has the statistics that it stored",
+                    path_.string(), header().provenance.zerocount_version));
+  }
+  const auto point = static_cast<std::size_t>(index);
+  return {numbers_of<std::int64_t>(sums_->whole, sums_->whole_begin, point),
+          numbers_of<double>(sums_->real, sums_->real_begin, point)};
 }
 
 }  // namespace zerocount::reading

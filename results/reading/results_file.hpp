@@ -9,7 +9,10 @@
 #include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/layout.hpp"
+#include "results/layout/point_sums.hpp"
 #include "results/layout/row_range.hpp"
+#include "results/layout/table_io.hpp"
+#include "results/reading/trial_tables.hpp"
 
 namespace zerocount::reading {
 
@@ -17,7 +20,7 @@ namespace zerocount::reading {
 enum class Require {
   complete,   ///< every trial: what statistics may be made of
   any_part,   ///< also a part or a shard
-  unfinished  ///< also a file that is still being made
+  unfinished  ///< also a file that is still being made; neither checksum nor completion mark is checked
 };
 
 /// A profile as it stands in a results file.
@@ -35,14 +38,23 @@ struct StoredRigs {
   std::int64_t rigs{0};
   std::vector<study::InputColumn> columns;  ///< what differs between them
   std::vector<std::vector<double>> inputs;  ///< [column][rig]
-  std::vector<std::int64_t> success;        ///< [point][rig], flattened: trials that succeeded
-  std::vector<std::int64_t> trials;         ///< likewise: trials that were judged; none of both in a part
+  std::vector<std::int64_t> success;  ///< [point][rig] trials that succeeded, flattened; empty in a part
+  std::vector<std::int64_t> trials;   ///< [point][rig] trials that were judged, flattened; empty in a part
 };
 
-/// What all results files have: the description of the study and the tables by design point and rig. Every
-/// function may find that the file is damaged, and throws Failure (bad_data) then. One thread at a time.
+/// A results file, part or shard, open to be read: the description of the study, the tables by design point
+/// and rig, and what it keeps of its trials. Every function may find that the file is damaged, and throws
+/// Failure (bad_data) then. One thread at a time.
 class ResultsFile {
  public:
+  /// Checks checksum trailer, format, version, completion mark, completeness as required, and the numbers of
+  /// the rows (see validation.hpp). Reads the file once from beginning to end.
+  /// @param table the measures that its moves may have; stays as long as this.
+  /// @throws ForeignFile for another format or a newer version; Failure: bad_input where there is no such
+  /// file, machine_failed where it cannot be read, otherwise bad_data.
+  explicit ResultsFile(const std::filesystem::path& path, Require require = Require::complete,
+                       const layout::MeasureTable& table = layout::measure_table());
+
   const std::filesystem::path& path() const { return path_; }
   const layout::FileHeader& header() const { return header_; }
   const hdf5::Group& root() const { return file_; }  ///< for groups that this class does not know
@@ -60,30 +72,32 @@ class ResultsFile {
   /// Nothing in a study without rigs, and in a shard.
   std::optional<StoredRigs> rigs() const;
 
- protected:
-  /// Checks checksum trailer, format, version, completion mark and completeness as required.
-  /// @param contents that the derived class reads
-  /// @throws as the derived classes do
-  ResultsFile(const std::filesystem::path& path, Require require, layout::Contents contents);
-  ResultsFile(const std::filesystem::path& path, Require require);  ///< whatever its contents
-  ~ResultsFile() = default;
-  ResultsFile(ResultsFile&&) = default;
-  ResultsFile& operator=(ResultsFile&&) = delete;
+  /// Nothing with `keep: statistics`.
+  const std::optional<TrialTables>& trials() const { return trials_; }
 
-  const hdf5::File& file() const { return file_; }
+  /// The point of the first trial. The others follow it.
+  std::int64_t first_point() const { return rows().first / header().trials; }
+  std::int64_t points() const { return (rows().end() - 1) / header().trials - first_point() + 1; }
+  layout::RowRange rows_of(std::int64_t point) const;  ///< those in the file
+  /// The sums of a point. @param index of the point, from first_point() on
+  /// @throws ForeignFile if the file has no sums, because it keeps every trial
+  layout::PointSums sums(std::int64_t index) const;
 
  private:
+  /// Of a file with /sums.
+  struct StoredSums {
+    explicit StoredSums(const hdf5::File& file, std::int64_t points);
+
+    layout::TableIo whole;
+    layout::TableIo real;
+    std::vector<std::int64_t> whole_begin, real_begin;  ///< [point] its first number; one more for the end
+  };
+
   std::filesystem::path path_;
   hdf5::File file_;
   layout::FileHeader header_;
-};
-
-/// The description of a results file, whatever it keeps.
-class DescribedFile : public ResultsFile {
- public:
-  /// Reads the file once from beginning to end. @throws as StudyFile does
-  explicit DescribedFile(const std::filesystem::path& path, Require require = Require::complete)
-      : ResultsFile(path, require) {}
+  std::optional<TrialTables> trials_;
+  std::optional<StoredSums> sums_;
 };
 
 }  // namespace zerocount::reading

@@ -1,22 +1,22 @@
 #include "results/reading/trial_tables.hpp"
 
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "results/layout/measure_table.hpp"
+#include "results/reading/validation.hpp"
 
 namespace zerocount::reading {
+namespace {
 
-std::vector<study::InputColumn> read_input_columns(const hdf5::Group& table) {
-  std::vector<study::InputColumn> inputs;
-  if (!table.contains("input")) return inputs;
-  const hdf5::Group group = table.open_group("input");
-  for (const std::string& name : group.children()) {
-    const hdf5::Dataset dataset = group.open_dataset(name);
-    inputs.push_back({name, dataset.text("units"), dataset.text("long_name")});
-  }
-  return inputs;
-}
+/// Columns of /trial before the inputs: point and index.
+constexpr std::size_t columns_before_inputs = 2;
 
+/// The axis by the unit of a position, and the features by their columns.
 study::StudyFeatures read_features(const hdf5::File& file, const layout::MeasureTable& table) {
   const hdf5::Group outcome = file.open_group("outcome");
   study::StudyFeatures features;
@@ -36,6 +36,7 @@ study::StudyFeatures read_features(const hdf5::File& file, const layout::Measure
   return features;
 }
 
+/// Position of the first of `size` rising numbers that is not below `number`.
 std::int64_t first_not_below(const hdf5::Dataset& numbers, std::int64_t size, std::int64_t number) {
   std::int64_t low = 0;
   std::int64_t high = size;
@@ -50,6 +51,142 @@ std::int64_t first_not_below(const hdf5::Dataset& numbers, std::int64_t size, st
     }
   }
   return low;
+}
+
+}  // namespace
+
+std::vector<study::InputColumn> read_input_columns(const hdf5::Group& table) {
+  std::vector<study::InputColumn> inputs;
+  if (!table.contains("input")) return inputs;
+  const hdf5::Group group = table.open_group("input");
+  for (const std::string& name : group.children()) {
+    const hdf5::Dataset dataset = group.open_dataset(name);
+    inputs.push_back({name, dataset.text("units"), dataset.text("long_name")});
+  }
+  return inputs;
+}
+
+TrialTables::TrialTables(const hdf5::File& file, const layout::FileHeader& header,
+                         const layout::MeasureTable& table)
+    : features_(read_features(file, table)),
+      inputs_(read_input_columns(file.open_group("trial"))),
+      trials_(layout::TableIo::open(file, layout::trial_table(inputs_))),
+      table_(&table),
+      measures_(layout::outcome_fields(header.version, features_, table)),
+      outcomes_(layout::TableIo::open(file, layout::outcome_table(header.version, features_, table))),
+      jerks_(layout::TableIo::open(file, layout::jerk_table())) {
+  if (file.contains("trace")) trace_ = layout::TableIo::open(file, layout::trace_table(features_));
+  if (!layout::has_sums(header.kept)) first_row_ = header.rows.first;
+  if (first_row_ && trials_.rows() != header.rows.count)
+    trials_.row_scale().fail("its size differs from the attribute 'trial_count'");
+  if (outcomes_.rows() != trials_.rows())
+    outcomes_.row_scale().fail("its size differs from that of the trials");
+  validate_numbering(header, trials_, jerks_);
+}
+
+std::vector<std::int64_t> TrialTables::rows(layout::RowRange positions) const {
+  std::vector<std::int64_t> rows(static_cast<std::size_t>(positions.count));
+  if (first_row_) {
+    std::iota(rows.begin(), rows.end(), *first_row_ + positions.first);
+  } else {
+    trials_.row_scale().read(positions.first, positions.count, rows.data());
+  }
+  return rows;
+}
+
+layout::RowRange TrialTables::positions_of(layout::RowRange rows) const {
+  if (first_row_) return {rows.first - *first_row_, rows.count};
+  const std::int64_t first = first_not_below(trials_.row_scale(), trials_.rows(), rows.first);
+  return {first, first_not_below(trials_.row_scale(), trials_.rows(), rows.end()) - first};
+}
+
+std::vector<double> TrialTables::input(std::size_t column, layout::RowRange positions) const {
+  std::vector<double> values(static_cast<std::size_t>(positions.count));
+  trials_.column(columns_before_inputs + column).read(positions.first, positions.count, values.data());
+  return values;
+}
+
+std::vector<trial::MoveOutcome> TrialTables::outcomes(layout::RowRange positions) const {
+  std::vector<trial::MoveOutcome> moves =
+      layout::read_records(outcomes_, measures_, positions.first, positions.count);
+  validate_outcomes(outcomes_, measures_, number_of(positions.first), moves);
+  return moves;
+}
+
+std::vector<double> TrialTables::measure(std::string_view name, layout::RowRange positions) const {
+  const auto known = std::find_if(table_->begin(), table_->end(), [name](const layout::Measure& measure) {
+    return measure.field.column.name == name;
+  });
+  if (known == table_->end())
+    throw std::invalid_argument(fmt::format("'{}' is not a measure of a move", name));
+
+  const layout::RecordField<trial::MoveOutcome>& field = known->field;
+  const auto size = static_cast<std::size_t>(positions.count * outcomes_.width());
+  const auto column = std::find_if(measures_.begin(), measures_.end(),
+                                   [name](const auto& one) { return one.column.name == name; });
+  if (column == measures_.end()) return std::vector<double>(size, known->file.before);
+  std::vector<trial::MoveOutcome> moves(size);
+  if (layout::is_computed(field)) {
+    moves = outcomes(positions);
+  } else {
+    std::vector<std::byte> bytes(size * hdf5::size_of(field.column.element));
+    outcomes_.column(static_cast<std::size_t>(column - measures_.begin()))
+        .read(positions.first, positions.count, bytes.data());
+    layout::scatter(field, bytes, std::span(moves));
+    validate_measure(outcomes_, measures_, name, number_of(positions.first), moves);
+  }
+  std::vector<double> values(size);
+  std::transform(moves.begin(), moves.end(), values.begin(),
+                 [&](const trial::MoveOutcome& move) { return layout::value_of(field, move); });
+  return values;
+}
+
+std::vector<layout::JerkRecord> TrialTables::jerks_at(std::int64_t first, std::int64_t count) const {
+  std::vector<layout::JerkRecord> jerks = layout::read_records(jerks_, layout::jerk_fields(), first, count);
+  validate_jerks(jerks_, moves(), first, jerks);
+  return jerks;
+}
+
+std::vector<layout::JerkRecord> TrialTables::jerks_of(layout::RowRange rows) const {
+  const std::int64_t first = first_jerk_from(rows.first);
+  return jerks_at(first, first_jerk_from(rows.end()) - first);
+}
+
+std::int64_t TrialTables::first_jerk_from(std::int64_t row) const {
+  return first_not_below(jerks_.column(0), jerks_.rows(), row);
+}
+
+std::vector<layout::TraceRecord> TrialTables::trace_at(std::int64_t first, std::int64_t count) const {
+  if (!trace_) return {};
+  std::vector<layout::TraceRecord> records =
+      layout::read_records(*trace_, layout::trace_fields(features_), first, count);
+  for (layout::TraceRecord& record : records) {
+    if (!features_.travel) record.reference = record.target;
+    if (!features_.drive_torque) record.drive_torque = record.torque;
+  }
+  return records;
+}
+
+void TrialTables::for_each_block(const std::function<void(layout::RowRange positions)>& take) const {
+  const std::int64_t size = layout::chunk_rows(moves());
+  for (std::int64_t first = 0; first < count(); first += size) take({first, std::min(size, count() - first)});
+}
+
+void TrialTables::require_valid_values() const {
+  std::int64_t jerks = 0;
+  for_each_block([&](layout::RowRange block) {
+    for (std::size_t column = 0; column < inputs_.size(); ++column) input(column, block);
+    const std::vector<trial::MoveOutcome> of_block = outcomes(block);
+    const std::int64_t counted = std::accumulate(
+        of_block.begin(), of_block.end(), std::int64_t{0},
+        [](std::int64_t sum, const trial::MoveOutcome& move) { return sum + move.jerk_count; });
+    if (counted > jerk_count() - jerks) jerks_.column(0).fail("it has fewer jerks than the outcomes count");
+    validate_jerk_counts(jerks_, rows(block), of_block, jerks_at(jerks, counted));
+    jerks += counted;
+  });
+  if (jerks != jerk_count()) jerks_.column(0).fail("it has more jerks than the outcomes count");
+  for (std::int64_t first = 0; first < trace_count(); first += layout::chunk_elements)
+    trace_at(first, std::min(layout::chunk_elements, trace_count() - first));
 }
 
 }  // namespace zerocount::reading

@@ -2,25 +2,90 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <optional>
+#include <string_view>
 #include <vector>
 
+#include "core/trial/outcome.hpp"
 #include "experiments/study/study.hpp"
 #include "results/hdf5/hdf5.hpp"
+#include "results/layout/header.hpp"
 #include "results/layout/layout.hpp"
+#include "results/layout/row_range.hpp"
+#include "results/layout/table_io.hpp"
 
-/// What the tables of trials of a results file tell of their study.
 namespace zerocount::reading {
 
-/// Point and index, in /trial.
-inline constexpr std::size_t columns_before_inputs = 2;
+/// The trials that a results file keeps: /trial, /outcome, /jerk and /trace. With `keep: failures` they are
+/// the trials that did not succeed, otherwise every trial of the file.
+///
+/// Ranges named `positions` count the kept trials from 0, in order of rows; ranges named `rows` are global
+/// rows. Every function may find that the file is damaged, and throws Failure (bad_data) then.
+class TrialTables {
+ public:
+  /// Checks sizes and row numbers (see validation.hpp).
+  /// @param file, table stay as long as this
+  TrialTables(const hdf5::File& file, const layout::FileHeader& header, const layout::MeasureTable& table);
+
+  std::int64_t count() const { return trials_.rows(); }
+  std::vector<std::int64_t> rows(layout::RowRange positions) const;
+  layout::RowRange positions_of(layout::RowRange rows) const;  ///< of the kept trials among these
+
+  /// How often each is drawn is not in the file.
+  const std::vector<study::InputColumn>& input_columns() const { return inputs_; }
+  std::vector<double> input(std::size_t column, layout::RowRange positions) const;
+
+  std::int64_t moves() const { return outcomes_.width(); }
+  /// The measures that the file has; one of an earlier version of the layout lacks some.
+  const std::vector<layout::RecordField<trial::MoveOutcome>>& measures() const { return measures_; }
+  const layout::MeasureTable& table() const { return *table_; }
+  /// All measures of the moves, [trial][move], flattened. Those that the file lacks are 0, or false, which is
+  /// their true value in such files except for final_error; true_error is NaN.
+  std::vector<trial::MoveOutcome> outcomes(layout::RowRange positions) const;
+  /// One measure of a move by its name, [trial][move], flattened, whatever its type in the file, as doubles.
+  /// NaN where it is not known.
+  std::vector<double> measure(std::string_view name, layout::RowRange positions) const;
+
+  std::int64_t jerk_count() const { return jerks_.rows(); }
+  /// By position in the table of jerks.
+  std::vector<layout::JerkRecord> jerks_at(std::int64_t first, std::int64_t count) const;
+  std::vector<layout::JerkRecord> jerks_of(layout::RowRange rows) const;
+  /// Position of the first jerk of a trial not before `row`: the table is ordered by trial.
+  std::int64_t first_jerk_from(std::int64_t row) const;
+
+  bool has_trace() const { return trace_.has_value(); }
+  std::int64_t trace_count() const { return trace_ ? trace_->rows() : 0; }
+  /// By position in the table of sample records. Without its column, `reference` is the target, `phase` fine,
+  /// and `drive_torque` the torque decided, which becomes the motor's after the control's delay.
+  std::vector<layout::TraceRecord> trace_at(std::int64_t first, std::int64_t count) const;
+
+  /// Only the features that decide which columns of /outcome and /trace the file has, and the axis. The axis
+  /// of a shard is always rotary, because its tables have those units.
+  const study::StudyFeatures& features() const { return features_; }
+
+  /// Calls `take(positions)` for blocks of trials that have about a chunk of moves each.
+  void for_each_block(const std::function<void(layout::RowRange positions)>& take) const;
+  /// Reads everything once, for the checks that this makes, and checks that the jerks are those that the
+  /// outcomes count.
+  void require_valid_values() const;
+
+ private:
+  /// In messages about values: a global row, or a position where failures are kept.
+  std::int64_t number_of(std::int64_t position) const { return first_row_.value_or(0) + position; }
+
+  std::optional<std::int64_t> first_row_;  ///< if every trial is kept
+  study::StudyFeatures features_;
+  std::vector<study::InputColumn> inputs_;
+  layout::TableIo trials_;  ///< point, index, then one column per input
+  const layout::MeasureTable* table_;
+  std::vector<layout::RecordField<trial::MoveOutcome>> measures_;
+  layout::TableIo outcomes_;
+  layout::TableIo jerks_;
+  std::optional<layout::TableIo> trace_;
+};
 
 /// The columns of the group `input` of /trial or /rig; none without such a group.
 std::vector<study::InputColumn> read_input_columns(const hdf5::Group& table);
-
-/// The axis by the unit of a position, and the features by their columns.
-study::StudyFeatures read_features(const hdf5::File& file, const layout::MeasureTable& table);
-
-/// Position of the first of `size` rising numbers that is not below `number`.
-std::int64_t first_not_below(const hdf5::Dataset& numbers, std::int64_t size, std::int64_t number);
 
 }  // namespace zerocount::reading

@@ -82,16 +82,38 @@ void require_numbers(const hdf5::Dataset& dataset, std::int64_t rows, Expected e
   }
 }
 
+/// The rows of kept trials rise within those of the file, and agree with point and index.
+void require_kept_rows(const layout::FileHeader& header, const layout::TableIo& trials) {
+  std::int64_t last = header.rows.first - 1;
+  for (std::int64_t first = 0; first < trials.rows(); first += rows_at_once) {
+    const std::int64_t count = std::min(rows_at_once, trials.rows() - first);
+    std::vector<std::int64_t> rows(static_cast<std::size_t>(count)), points = rows, indices = rows;
+    trials.row_scale().read(first, count, rows.data());
+    trials.column(0).read(first, count, points.data());
+    trials.column(1).read(first, count, indices.data());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const bool possible = rows[i] > last && rows[i] < header.rows.end() &&
+                            points[i] == rows[i] / header.trials && indices[i] == rows[i] % header.trials;
+      if (!possible) trials.row_scale().fail("its rows are not rising ones of the file's trials");
+      last = rows[i];
+    }
+  }
+}
+
 }  // namespace
 
 void validate_numbering(const layout::FileHeader& header, const layout::TableIo& trials,
                         const layout::TableIo& jerks) {
   const layout::RowRange rows = header.rows;
   const auto global = [&](std::int64_t row) { return rows.first + row; };
-  require_numbers(trials.column(0), rows.count,
-                  [&](std::int64_t row) { return global(row) / header.trials; });
-  require_numbers(trials.column(1), rows.count,
-                  [&](std::int64_t row) { return global(row) % header.trials; });
+  if (layout::has_sums(header.kept)) {
+    require_kept_rows(header, trials);
+  } else {
+    require_numbers(trials.column(0), rows.count,
+                    [&](std::int64_t row) { return global(row) / header.trials; });
+    require_numbers(trials.column(1), rows.count,
+                    [&](std::int64_t row) { return global(row) % header.trials; });
+  }
   std::int64_t last = rows.first;
   std::vector<std::int64_t> numbers;
   for (std::int64_t first = 0; first < jerks.rows(); first += rows_at_once) {
@@ -140,6 +162,22 @@ void validate_jerks(const layout::TableIo& table, std::int64_t moves, std::int64
       table.column(static_cast<std::size_t>(find_field(fields, "onset") - fields.data()))
           .fail(fmt::format("{}: it is before the jerk above it, of the same trial",
                             row_of(static_cast<std::int64_t>(i))));
+    }
+  }
+}
+
+void validate_jerk_counts(const layout::TableIo& table, std::span<const std::int64_t> rows,
+                          std::span<const trial::MoveOutcome> outcomes,
+                          std::span<const layout::JerkRecord> jerks) {
+  const auto moves = std::ssize(outcomes) / std::ssize(rows);
+  auto jerk = jerks.begin();
+  for (std::int64_t i = 0; i < std::ssize(outcomes); ++i) {
+    const std::int64_t row = rows[static_cast<std::size_t>(i / moves)];
+    const std::int64_t count = outcomes[static_cast<std::size_t>(i)].jerk_count;
+    for (const auto end = jerk + count; jerk != end; ++jerk) {
+      if (jerk->trial == row && jerk->move == i % moves) continue;
+      table.column(0).fail(
+          fmt::format("it should have {} jerks of trial {}, move {}", count, row, i % moves));
     }
   }
 }

@@ -14,20 +14,20 @@
 /// Failure (bad_data) with the path, the dataset, the row and what was expected.
 namespace zerocount::reading {
 
-/// The numbers by which rows belong together: point and index of a trial are those of its place, and
-/// the trials of the jerks rise within the rows of the file. Of more than 131072 trials, eight blocks
-/// of 16384 are looked at, spread evenly: nothing is made of these two columns, and to read them whole would
-/// take a tenth of the time of a summary.
+/// The numbers of rows: point and index of a trial are those of its row, and the trials of the jerks rise
+/// within the rows of the file. In a file that keeps failures, the rows of the trials rise too. If more than
+/// 131072 trials are all kept, only eight blocks of 16384, spread evenly, are checked: nothing is computed
+/// from these two columns, and reading them whole would take a tenth of the time of a summary.
 void validate_numbering(const layout::FileHeader& header, const layout::TableIo& trials,
                         const layout::TableIo& jerks);
 
-/// Measures of the moves: `moves` are those of the global rows from `first_row` on.
+/// Checks the measures of `moves`. @param first_row number of their first trial, for messages
 /// @param fields the columns of `outcomes`; what the file does not have is not looked at.
 void validate_outcomes(const layout::TableIo& outcomes,
                        const std::vector<layout::RecordField<trial::MoveOutcome>>& fields,
                        std::int64_t first_row, std::span<const trial::MoveOutcome> moves);
 
-/// The same for the one measure `name`, the others of `moves` being unknown.
+/// Checks the measure `name` only; the others of `moves` are unknown.
 void validate_measure(const layout::TableIo& outcomes,
                       const std::vector<layout::RecordField<trial::MoveOutcome>>& fields,
                       std::string_view name, std::int64_t first_row,
@@ -37,6 +37,12 @@ void validate_measure(const layout::TableIo& outcomes,
 /// they must be in the order of their onsets, move by move.
 void validate_jerks(const layout::TableIo& table, std::int64_t moves, std::int64_t first,
                     std::span<const layout::JerkRecord> jerks);
+
+/// `jerks` are those that the outcomes count, in order of trials and moves.
+/// @param rows of the trials @param outcomes [trial][move] @param jerks as many as `outcomes` count
+void validate_jerk_counts(const layout::TableIo& table, std::span<const std::int64_t> rows,
+                          std::span<const trial::MoveOutcome> outcomes,
+                          std::span<const layout::JerkRecord> jerks);
 
 /// Counts of the rigs, [point][rig]: all rigs have equally many trials, or none, and not more successes.
 void validate_rigs(const layout::FileHeader& header, const layout::TableIo& counts,

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/failure/failure.hpp"
 #include "results/hdf5/chunk_transfer.hpp"
 #include "results/layout/row_range.hpp"
 #include "results/layout/table_io.hpp"
@@ -124,13 +125,16 @@ void renumber_trials(const layout::Table& table, const Renumbering& renumber, Bl
 }  // namespace
 
 void concatenate(hdf5::File& file, const layout::Table& table, std::span<const ShardInfo> shards,
-                 std::int64_t width, std::optional<std::int64_t> first_number, const Renumbering& renumber) {
+                 std::int64_t width, std::optional<std::int64_t> first_number, const JoinOptions& options) {
+  const Renumbering& renumber = options.renumber;
   Sources sources(table, find_sources(table, shards, width));
   const std::int64_t rows = sources.rows();
   layout::TableIo out = layout::TableIo::create(file, table, rows, width);
   if (first_number) out.number_rows(*first_number);
   Block block(table.columns.size());
   for (layout::RowRange wanted; wanted.first < rows; wanted.first = wanted.end()) {
+    if (options.stop.stop_requested())
+      throw Failure(ExitCode::interrupted, "interrupted while the shards were joined; they are kept");
     wanted.count = std::min(layout::chunk_rows(width), rows - wanted.first);
     if (!renumber && sources.copy_chunks(wanted, out)) continue;
     for (std::size_t index = 0; index < block.size(); ++index) {

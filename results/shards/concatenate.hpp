@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <stop_token>
 
 #include "results/hdf5/hdf5.hpp"
 #include "results/layout/layout.hpp"
@@ -14,16 +15,21 @@ namespace zerocount::shards {
 /// Maps a trial's row in the shards to its row in the file written. Empty: the rows are the same.
 using Renumbering = std::function<std::int64_t(std::int64_t row)>;
 
+struct JoinOptions {
+  Renumbering renumber{};  ///< applied to the column `trial` of a table that has one
+  std::stop_token stop{};
+};
+
 /// Creates `table` in `file` and fills it with the rows of that table in the shards, in their order.
 ///
 /// Copies chunks as they are stored where a shard has the same chunks. Otherwise copies blocks of one chunk
 /// per column, so that memory is bounded and the order of writing does not depend
 /// on how the rows are divided among the shards.
 /// @param width        size of the second dimension, 1 if the table has none
-/// @param first_number first value of the scale of the rows; none: the scale is left to the caller
-/// @param renumber     applied to the column `trial` of a table that has one
+/// @param first_number first value of the scale of the rows; none: the caller writes the scale
+/// @throws Failure (interrupted) if a stop is requested before the last block
 void concatenate(hdf5::File& file, const layout::Table& table, std::span<const ShardInfo> shards,
                  std::int64_t width, std::optional<std::int64_t> first_number,
-                 const Renumbering& renumber = {});
+                 const JoinOptions& options = {});
 
 }  // namespace zerocount::shards

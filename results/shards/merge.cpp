@@ -12,7 +12,6 @@
 #include "results/layout/table_io.hpp"
 #include "results/shards/concatenate.hpp"
 #include "results/shards/rig_tables.hpp"
-#include "results/shards/statistics_shard.hpp"
 #include "results/storage/durable_file.hpp"
 
 namespace zerocount::shards {
@@ -107,23 +106,6 @@ hdf5::File begin_file(const study::Study& study, const fs::path& part, layout::R
   return file;
 }
 
-void write_rig_descriptions(hdf5::File& file, const study::Study& study) {
-  write_profiles(file, study);
-  if (study.rigs > 0) write_rigs(file, study);
-}
-
-/// Writes the trials of the shards, whichever they have.
-void write_trial_tables(hdf5::File& file, std::span<const ShardInfo> shards, const study::Study& study,
-                        std::optional<std::int64_t> first_row, const Renumbering& renumber,
-                        const layout::MeasureTable& measures) {
-  concatenate(file, layout::trial_table(study.input_columns), shards, 1, first_row);
-  concatenate(file,
-              layout::on_axis(layout::outcome_table(layout::format_version, study.features, measures),
-                              study.units.axis),
-              shards, study.moves, first_row);
-  concatenate(file, layout::jerk_table(), shards, 1, 0, renumber);
-}
-
 /// Gives the trials in a file with some trials of its study their rows, found from point and index.
 void number_kept_trials(hdf5::File& file, const study::Study& study) {
   layout::TableIo trials = layout::TableIo::open(file, layout::trial_table({}));
@@ -141,18 +123,29 @@ void number_kept_trials(hdf5::File& file, const study::Study& study) {
   }
 }
 
-/// Writes everything except the statistics and the completion mark.
+/// Writes everything except sums, statistics and the completion mark.
 hdf5::WrittenValues write_trials_of(std::span<const ShardInfo> shards, const study::Study& study,
                                     const fs::path& part, layout::RowRange rows,
-                                    const layout::Provenance& provenance, const Renumbering& renumber,
-                                    const layout::MeasureTable& measures) {
-  hdf5::File file = begin_file(study, part, rows, provenance);
-  write_trial_tables(file, shards, study, rows.first, renumber, measures);
-  write_rig_descriptions(file, study);
-  if (!study.retained_trials.empty()) {
-    concatenate(file, layout::on_axis(layout::trace_table(study.features), study.units.axis), shards, 1, 0,
-                renumber);
+                                    const MergeOptions& options) {
+  hdf5::File file = begin_file(study, part, rows, merged_provenance(shards, options.provenance));
+  const auto join = [&](const layout::Table& table, std::int64_t width,
+                        std::optional<std::int64_t> first_number, const Renumbering& renumber = {}) {
+    concatenate(file, table, shards, width, first_number, {renumber, options.stop});
+  };
+  const bool sparse = layout::has_sums(study.kept);
+  if (layout::has_trials(study.kept)) {
+    const auto first_row = sparse ? std::nullopt : std::optional(rows.first);
+    join(layout::trial_table(study.input_columns), 1, first_row);
+    join(layout::on_axis(layout::outcome_table(layout::format_version, study.features, *options.measures),
+                         study.units.axis),
+         study.moves, first_row);
+    join(layout::jerk_table(), 1, 0, options.renumber);
+    if (sparse) number_kept_trials(file, study);
   }
+  write_profiles(file, study);
+  if (study.rigs > 0) write_rigs(file, study);
+  if (!study.retained_trials.empty())
+    join(layout::on_axis(layout::trace_table(study.features), study.units.axis), 1, 0, options.renumber);
   return file.close();
 }
 
@@ -192,17 +185,7 @@ void write_statistics(hdf5::File& file, const study::Study& study,
     layout::write_statistic_table(file, table, study::point_count(study));
   }
   if (statistics.groups) statistics.groups(file);
-}
-
-/// @param written contents of the file so far; returned with the added values
-hdf5::WrittenValues finish_study(const fs::path& part, const study::Study& study, layout::RowRange rows,
-                                 hdf5::WrittenValues written, const layout::StoredStatistics& statistics) {
-  hdf5::File file = hdf5::File::open_to_change(part, std::move(written));
-  write_statistics(file, study, statistics);
-  if (study.rigs > 0 && rows == layout::all_rows(study))
-    write_rig_counts(file, study, count_rig_successes(file, study));
-  layout::mark_finished(file);
-  return file.close();
+  if (!statistics.rig_successes.empty()) write_rig_counts(file, study, statistics.rig_successes);
 }
 
 /// The shards in order of rows. @throws Failure unless they cover `rows`.
@@ -218,7 +201,7 @@ std::vector<ShardInfo> in_order(std::span<const ShardInfo> shards, layout::RowRa
 
 std::vector<ShardInfo> merge_inputs(std::span<const fs::path> inputs, const study::Study& study) {
   std::vector<ShardInfo> shards;
-  for (const fs::path& path : expand(inputs)) shards.push_back(inspect_shard(path, study));
+  for (const fs::path& path : expand(inputs)) shards.push_back({path, open_shard(path, study).rows()});
   sort_by_rows(shards);
   return shards;
 }
@@ -228,36 +211,20 @@ layout::FileHeader first_header(std::span<const fs::path> inputs) {
 }
 
 void merge_shards(std::span<const ShardInfo> shards, const study::Study& study, const fs::path& output,
-                  layout::RowRange rows, const StatisticsOfPoints& statistics,
-                  const layout::Provenance& provenance, const Renumbering& renumber,
-                  const layout::MeasureTable& measures) {
+                  layout::RowRange rows, const StatisticsOfPoints& statistics, const MergeOptions& options) {
   const std::vector<ShardInfo> ordered = in_order(shards, rows, output);
+  const bool whole = rows == layout::all_rows(study);
   const storage::UnfinishedFile part(output);
-  hdf5::WrittenValues written = write_trials_of(ordered, study, part.path(), rows,
-                                                merged_provenance(ordered, provenance), renumber, measures);
-  layout::StoredStatistics stored;
-  if (statistics && rows == layout::all_rows(study))
-    stored = statistics_of(part.path(), written, statistics, measures);
-  finish_results(output, finish_study(part.path(), study, rows, std::move(written), stored));
-}
-
-void merge_statistics(std::span<const ShardInfo> shards, const study::Study& study, const fs::path& output,
-                      layout::RowRange rows, const SumsOfTrials& sums_of,
-                      const layout::Provenance& provenance) {
-  const std::vector<ShardInfo> ordered = in_order(shards, rows, output);
-  const SummedTrials summed = sums_of(ordered);
-  const storage::UnfinishedFile part(output);
-  hdf5::File file = begin_file(study, part.path(), rows, merged_provenance(ordered, provenance));
-  if (study.kept == study::Kept::failures) {
-    write_trial_tables(file, ordered, study, std::nullopt, {}, layout::measure_table());
-    number_kept_trials(file, study);
+  hdf5::WrittenValues written = write_trials_of(ordered, study, part.path(), rows, options);
+  SummedTrials summed;
+  if (layout::has_sums(study.kept)) {
+    summed = options.sums_of(ordered);
+  } else if (whole && statistics) {
+    summed.statistics = statistics_of(part.path(), written, statistics, *options.measures);
   }
-  write_rig_descriptions(file, study);
-  write_sums(file, rows.first / study.trials, summed.sums);
-  if (rows == layout::all_rows(study)) {
-    write_statistics(file, study, summed.statistics);
-    if (study.rigs > 0) write_rig_counts(file, study, summed.rig_successes);
-  }
+  hdf5::File file = hdf5::File::open_to_change(part.path(), std::move(written));
+  if (layout::has_sums(study.kept)) layout::write_sums(file, rows.first / study.trials, summed.sums);
+  if (whole) write_statistics(file, study, summed.statistics);
   layout::mark_finished(file);
   finish_results(output, file.close());
 }

@@ -55,13 +55,6 @@ void write_rotors(hdf5::File& file, const study::RealisedProfile& realised, cons
   }
 }
 
-using Flags = std::vector<std::int8_t>;
-
-bool succeeded(Flags::const_iterator moves, std::int64_t count) {
-  return std::all_of(moves, moves + count,
-                     [](std::int8_t move) { return trial::is_success(static_cast<trial::Outcome>(move)); });
-}
-
 }  // namespace
 
 void write_profiles(hdf5::File& file, const study::Study& study) {
@@ -87,29 +80,8 @@ void write_rigs(hdf5::File& file, const study::Study& study) {
   }
 }
 
-RigSuccesses count_rig_successes(const hdf5::File& file, const study::Study& study) {
-  const layout::TableIo verdicts = layout::TableIo::open(file, layout::verdict_table());
-  const std::int64_t moves = verdicts.width();
-  const std::int64_t at_once = layout::chunk_rows(moves);
-  RigSuccesses successes(static_cast<std::size_t>(study::point_count(study)),
-                         std::vector<std::int64_t>(static_cast<std::size_t>(study.rigs), 0));
-  Flags flags;
-  for (std::size_t point = 0; point < successes.size(); ++point) {
-    const std::int64_t first_row = static_cast<std::int64_t>(point) * study.trials;
-    for (std::int64_t first = 0; first < study.trials; first += at_once) {
-      const std::int64_t count = std::min(at_once, study.trials - first);
-      flags.resize(static_cast<std::size_t>(count * moves));
-      verdicts.column(0).read(first_row + first, count, flags.data());
-      for (std::int64_t i = 0; i < count; ++i) {
-        const auto rig = static_cast<std::size_t>(study::rig_of(study, first + i));
-        successes[point][rig] += succeeded(flags.begin() + i * moves, moves);
-      }
-    }
-  }
-  return successes;
-}
-
-void write_rig_counts(hdf5::File& file, const study::Study& study, const RigSuccesses& successes) {
+void write_rig_counts(hdf5::File& file, const study::Study& study,
+                      const std::vector<std::vector<std::int64_t>>& successes) {
   layout::TableIo io =
       layout::TableIo::create(file, layout::rig_count_table(), std::ssize(successes), study.rigs);
   io.number_rows(0);

@@ -12,8 +12,6 @@
 #include "results/layout/header.hpp"
 #include "results/layout/table_io.hpp"
 #include "results/reading/input_validation.hpp"
-#include "results/reading/statistics_file.hpp"
-#include "results/reading/study_file.hpp"
 #include "results/storage/checksum_trailer.hpp"
 #include "results/storage/durable_file.hpp"
 
@@ -22,16 +20,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void require_fit(const study::Study& study, std::int64_t first_row, std::span<const TrialResult> results) {
-  if (results.empty() || first_row < 0 || first_row + std::ssize(results) > study::trial_count(study)) {
+void require_fit(const study::Study& study, layout::RowRange rows, std::span<const TrialResult> trials,
+                 std::span<const layout::PointSums> sums) {
+  const bool sparse = layout::has_sums(study.kept);
+  const std::int64_t points = (rows.end() - 1) / study.trials - rows.first / study.trials + 1;
+  if (rows.count < 1 || rows.first < 0 || rows.end() > study::trial_count(study) ||
+      (!sparse && std::ssize(trials) != rows.count) || std::ssize(sums) != (sparse ? points : 0))
     throw std::invalid_argument("a shard needs trials of its study");
-  }
-  std::int64_t row = first_row;
-  for (const TrialResult& result : results) {
-    const bool fits = result.row == row && result.inputs.size() == study.input_columns.size() &&
-                      std::ssize(result.outcome.moves) == study.moves;
-    if (!fits) throw std::invalid_argument(fmt::format("the result for row {} does not fit the study", row));
-    ++row;
+  std::int64_t next = rows.first;
+  for (const TrialResult& trial : trials) {
+    const bool fits = (sparse ? trial.row >= next && trial.row < rows.end() : trial.row == next) &&
+                      trial.inputs.size() == study.input_columns.size() &&
+                      std::ssize(trial.outcome.moves) == study.moves;
+    if (!fits)
+      throw std::invalid_argument(fmt::format("the result for row {} does not fit the study", trial.row));
+    next = trial.row + 1;
   }
 }
 
@@ -108,52 +111,23 @@ std::vector<fs::path> files_in(const fs::path& directory, const char* extension)
   return files;
 }
 
-/// @tparam File StudyFile, or StatisticsFile if the study does not keep its trials
-template <class File>
-File file_of_study(const fs::path& path, const study::Study& study) {
-  try {
-    File file(path, reading::Require::any_part);
-    layout::require_same_study(path, file.header(), study);
-    return file;
-  } catch (const layout::ForeignFile&) {  // it may be of another kind, being of another study
-    layout::require_same_study(path, inspect_header(path), study);
-    throw;
-  }
-}
-
-ShardInfo info_of(const reading::ResultsFile& file) {
-  return {file.path(), file.rows()};
-}
-
-reading::ReportInput refuse_file(const fs::path& path) {
-  return [path](const std::string& problem) {
-    throw Failure(ExitCode::bad_data, fmt::format("{}: {}", path.string(), problem));
-  };
-}
-
-ShardInfo inspect_whole_statistics(const fs::path& path, const study::Study& study) {
-  const reading::StatisticsFile file = file_of_study<reading::StatisticsFile>(path, study);
-  if (!file.failures()) return info_of(file);
-  const reading::KeptTrials& failures = *file.failures();
-  failures.require_valid_values();
-  const std::int64_t at_once = layout::chunk_rows(failures.moves());
-  for (std::int64_t first = 0; first < failures.count(); first += at_once)
-    reading::check_inputs(failures, study, first, std::min(at_once, failures.count() - first),
-                          refuse_file(path));
-  return info_of(file);
-}
-
-/// Reads all values, too: the checksum of a file that was damaged before it was closed agrees with the
-/// damage.
-ShardInfo inspect_whole_shard(const fs::path& path, const study::Study& study) {
-  if (study.kept != study::Kept::trials) return inspect_whole_statistics(path, study);
-  const reading::StudyFile file = file_of_study<reading::StudyFile>(path, study);
-  file.require_valid_values();
-  const std::int64_t at_once = layout::chunk_rows(file.moves());
-  for (std::int64_t first = file.rows().first; first < file.rows().end(); first += at_once)
-    reading::check_inputs(file, study, {first, std::min(at_once, file.rows().end() - first)},
-                          refuse_file(path));
-  return info_of(file);
+/// Writes /trial, /outcome, /jerk and, if trials are retained, /trace.
+void write_trial_tables(hdf5::File& file, const study::Study& study, std::span<const TrialResult> trials,
+                        const ShardOptions& options) {
+  const hdf5::Compression compression = options.compression;
+  const study::StudyFeatures& features = study.features;
+  write_trials(file, study, trials, compression);
+  layout::TableIo outcomes =
+      write_table(file, layout::outcome_table(layout::format_version, features, *options.measures),
+                  layout::outcome_fields(layout::format_version, features, *options.measures),
+                  move_outcomes(trials), study.moves, compression);
+  write_row_numbers(outcomes, trials);
+  write_table(file, layout::jerk_table(), layout::jerk_fields(), jerk_records(trials), 1, compression)
+      .number_rows(0);
+  if (study.retained_trials.empty()) return;
+  write_table(file, layout::trace_table(features), layout::trace_fields(features), trace_records(trials), 1,
+              compression)
+      .number_rows(0);
 }
 
 }  // namespace
@@ -162,33 +136,15 @@ fs::path shard_path(const fs::path& directory, layout::RowRange rows) {
   return directory / fmt::format("trials-{:012}-{:012}.h5", rows.first, rows.end() - 1);
 }
 
-void write_trial_tables(hdf5::File& file, const study::Study& study, std::span<const TrialResult> results,
-                        hdf5::Compression compression, const layout::MeasureTable& measures) {
-  write_trials(file, study, results, compression);
-  const study::StudyFeatures& features = study.features;
-  layout::TableIo outcomes =
-      write_table(file, layout::outcome_table(layout::format_version, features, measures),
-                  layout::outcome_fields(layout::format_version, features, measures), move_outcomes(results),
-                  study.moves, compression);
-  write_row_numbers(outcomes, results);
-  write_table(file, layout::jerk_table(), layout::jerk_fields(), jerk_records(results), 1, compression)
-      .number_rows(0);
-}
-
-void write_shard(const fs::path& path, const study::Study& study, std::int64_t first_row,
-                 std::span<const TrialResult> results, const layout::Provenance& provenance,
-                 hdf5::Compression compression, const layout::MeasureTable& measures) {
-  require_fit(study, first_row, results);
+void write_shard(const fs::path& path, const study::Study& study, layout::RowRange rows,
+                 std::span<const TrialResult> trials, std::span<const layout::PointSums> sums,
+                 const ShardOptions& options) {
+  require_fit(study, rows, trials, sums);
   const storage::UnfinishedFile part(path);
   hdf5::File file = hdf5::File::create(part.path());
-  layout::write_header(file, layout::make_header(study, layout::FileKind::shard,
-                                                 {first_row, std::ssize(results)}, provenance));
-  write_trial_tables(file, study, results, compression, measures);
-  if (!study.retained_trials.empty()) {
-    write_table(file, layout::trace_table(study.features), layout::trace_fields(study.features),
-                trace_records(results), 1, compression)
-        .number_rows(0);
-  }
+  layout::write_header(file, layout::make_header(study, layout::FileKind::shard, rows, options.provenance));
+  if (layout::has_trials(study.kept)) write_trial_tables(file, study, trials, options);
+  if (layout::has_sums(study.kept)) layout::write_sums(file, rows.first / study.trials, sums);
   layout::mark_finished(file);
   finish_results(path, file.close());
 }
@@ -208,8 +164,8 @@ layout::FileHeader inspect_header(const fs::path& path, layout::Checksum checksu
   throw Failure(ExitCode::bad_data, fmt::format("{}: damaged: it was never finished", path.string()));
 }
 
-bool keeps_trials(const fs::path& path) {
-  return inspect_header(path, layout::Checksum::not_yet).kept == study::Kept::trials;
+bool keeps_every_trial(const fs::path& path) {
+  return !layout::has_sums(inspect_header(path, layout::Checksum::not_yet).kept);
 }
 
 std::vector<fs::path> shard_files(const fs::path& directory) {
@@ -222,12 +178,23 @@ void sort_by_rows(std::vector<ShardInfo>& shards) {
   });
 }
 
-ShardInfo inspect_shard(const fs::path& path, const study::Study& study) {
-  if (study.kept != study::Kept::trials) return info_of(file_of_study<reading::StatisticsFile>(path, study));
-  return info_of(file_of_study<reading::StudyFile>(path, study));
+reading::ResultsFile open_shard(const fs::path& path, const study::Study& study) {
+  reading::ResultsFile file(path, reading::Require::any_part);
+  layout::require_same_study(path, file.header(), study);
+  return file;
 }
 
-ShardSurvey list_shards(const fs::path& directory, const study::Study& study, Inspection inspection) {
+void check_values(const reading::ResultsFile& shard, const study::Study& study) {
+  if (!shard.trials()) return;
+  shard.trials()->require_valid_values();
+  shard.trials()->for_each_block([&](layout::RowRange block) {
+    reading::check_inputs(*shard.trials(), study, block, [&](const std::string& problem) {
+      throw Failure(ExitCode::bad_data, fmt::format("{}: {}", shard.path().string(), problem));
+    });
+  });
+}
+
+ShardSurvey list_shards(const fs::path& directory, const study::Study& study, const ShardCheck& check) {
   ShardSurvey survey;
   std::error_code error;
   const bool exists = fs::exists(directory, error);
@@ -236,8 +203,9 @@ ShardSurvey list_shards(const fs::path& directory, const study::Study& study, In
   survey.unfinished = files_in(directory, ".part");
   for (const fs::path& path : shard_files(directory)) {
     try {
-      survey.shards.push_back(inspection == Inspection::values ? inspect_whole_shard(path, study)
-                                                               : inspect_shard(path, study));
+      const reading::ResultsFile shard = open_shard(path, study);
+      if (check) check(shard, study);
+      survey.shards.push_back({path, shard.rows()});
     } catch (const layout::ForeignFile& foreign) {
       survey.problems.push_back({path, foreign.what(), ShardProblem::Kind::foreign});
     } catch (const Failure& failure) {

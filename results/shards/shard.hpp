@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,7 +14,9 @@
 #include "results/hdf5/written_values.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/layout.hpp"
+#include "results/layout/point_sums.hpp"
 #include "results/layout/row_range.hpp"
+#include "results/reading/results_file.hpp"
 
 namespace zerocount::shards {
 
@@ -39,20 +42,20 @@ void finish_results(const std::filesystem::path& path, const hdf5::WrittenValues
 /// file can take over compressed chunks (see concatenate).
 inline constexpr hdf5::Compression shard_compression = hdf5::Compression::none;
 
-/// Writes the results of the rows first_row, first_row + 1, … as one shard. `path` appears when the shard is
-/// complete on the disk.
-/// @throws Failure (machine_failed) with the path and the reason; std::invalid_argument if the results are
-/// not those rows in order, or do not fit the study.
-void write_shard(const std::filesystem::path& path, const study::Study& study, std::int64_t first_row,
-                 std::span<const TrialResult> results,
-                 const layout::Provenance& provenance = layout::current_provenance(),
-                 hdf5::Compression compression = shard_compression,
-                 const layout::MeasureTable& measures = layout::measure_table());
+struct ShardOptions {
+  layout::Provenance provenance{layout::current_provenance()};
+  hdf5::Compression compression{shard_compression};  ///< of the tables of trials
+  const layout::MeasureTable* measures{&layout::measure_table()};
+};
 
-/// Writes /trial, /outcome and /jerk for these trials, in order of rows.
-void write_trial_tables(hdf5::File& file, const study::Study& study, std::span<const TrialResult> results,
-                        hdf5::Compression compression,
-                        const layout::MeasureTable& measures = layout::measure_table());
+/// Writes what the study keeps of the trials `rows` as one shard: `trials`, in order of rows, are every one
+/// or the failures; `sums` [point, from that of the first row] are those of all of them if the study does not
+/// keep every trial, otherwise empty. `path` appears when the shard is complete on the disk.
+/// @throws Failure (machine_failed) with the path and the reason; std::invalid_argument if the trials do not
+/// fit the rows and the study.
+void write_shard(const std::filesystem::path& path, const study::Study& study, layout::RowRange rows,
+                 std::span<const TrialResult> trials, std::span<const layout::PointSums> sums = {},
+                 const ShardOptions& options = {});
 
 /// A complete shard (or part) of the study.
 struct ShardInfo {
@@ -92,24 +95,25 @@ std::vector<std::filesystem::path> shard_files(const std::filesystem::path& dire
 layout::FileHeader inspect_header(const std::filesystem::path& path,
                                   layout::Checksum checksum = layout::Checksum::required);
 
-/// Whether a file is to be opened as one with its trials; otherwise it has sums. @throws as inspect_header
-/// does
-bool keeps_trials(const std::filesystem::path& path);
+/// Whether the file has every trial; otherwise it has sums. @throws as inspect_header does
+bool keeps_every_trial(const std::filesystem::path& path);
 
-/// Reads the whole shard and checks its checksum trailer, format, version, study, build and completion mark.
+/// Opens a shard. Reads the whole file and checks its checksum trailer, format, version, study, build and
+/// completion mark.
 /// @throws ForeignFile or another Failure (bad_data) if it cannot be used; see also open_results.
-ShardInfo inspect_shard(const std::filesystem::path& path, const study::Study& study);
+reading::ResultsFile open_shard(const std::filesystem::path& path, const study::Study& study);
 
-/// What is read of a shard: all its values, which may be wrong under a right checksum; or the bytes of the
-/// file and its header.
-enum class Inspection { values, checksum };
+/// A check of a shard beyond open_shard. @throws Failure (bad_data) if the shard is damaged
+using ShardCheck = std::function<void(const reading::ResultsFile&, const study::Study&)>;
 
-/// Inspects shard_files(directory). A missing directory has no shards; other
-/// files are ignored.
+/// Checks the values of all kept trials: a file that was damaged before it was closed has a right checksum.
+void check_values(const reading::ResultsFile& shard, const study::Study& study);
+
+/// Opens and checks shard_files(directory). A missing directory has no shards; other files are ignored.
 /// @throws Failure (machine_failed) if the directory or a file cannot be read. Such a file does not count as
 /// damaged.
 ShardSurvey list_shards(const std::filesystem::path& directory, const study::Study& study,
-                        Inspection inspection = Inspection::values);
+                        const ShardCheck& check = check_values);
 
 /// The ranges of `wanted` that no shard covers, in order. Shards may overlap.
 std::vector<layout::RowRange> missing_ranges(std::span<const ShardInfo> shards, layout::RowRange wanted);

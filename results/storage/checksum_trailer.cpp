@@ -29,7 +29,7 @@ std::string trailer_of(const fs::path& path, const FileDescriptor& file, std::si
 [[noreturn]] void fail_missing(const fs::path& path) {
   throw Failure(ExitCode::bad_data,
                 fmt::format("{}: the checksum at its end is missing: it was changed since it was written, or "
-                            "damaged, or is no results file of zerocount",
+                            "damaged, or is not a results file of zerocount",
                             path.string()));
 }
 

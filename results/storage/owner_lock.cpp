@@ -67,7 +67,7 @@ std::optional<std::string_view> take_last(std::string_view& text) {
   return last;
 }
 
-/// The owner that the name of a file tells; nothing if it is no such file.
+/// The owner that the name of an owner file names; nothing for the name of any other file.
 std::optional<Owner> owner_of(const fs::path& file, const std::string& prefix) {
   const std::string name = file.filename().string();
   if (!name.starts_with(prefix)) return std::nullopt;

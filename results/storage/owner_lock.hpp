@@ -24,7 +24,7 @@ struct Heartbeat {
 ///
 /// A process first makes its own file and then looks for others: of two that begin at once each sees the
 /// other's file, or one does. A file that is not renewed is of an owner that was killed, on whatever host,
-/// and is removed. MACHINE is that of the boot and the process-id namespace: of an owner with the same, the
+/// and is removed. MACHINE identifies the boot and the process-id namespace: of an owner with the same, the
 /// system tells at once whether it has ended.
 ///
 /// An owner whose file was removed, because it was halted for longer than the others' patience, ends its

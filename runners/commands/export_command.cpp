@@ -3,9 +3,7 @@
 #include "analysis/iso230/repeatability_file.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/reading/export.hpp"
-#include "results/reading/statistics_file.hpp"
-#include "results/reading/study_file.hpp"
-#include "results/shards/shard.hpp"
+#include "results/reading/results_file.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
 #include "runners/status/status.hpp"
@@ -33,12 +31,8 @@ ExitCode export_file(const command_line::Arguments& arguments) {
   const std::string& results = arguments.operands()[0];
   const auto existing =
       arguments.has("force") ? reading::ExistingFiles::replace : reading::ExistingFiles::refuse;
-  if (shards::keeps_trials(results)) {
-    const reading::StudyFile file(results);
-    reading::export_csv(file, directory, iso230::repeatability_exports(file), existing);
-  } else {
-    reading::export_csv(reading::StatisticsFile(results), directory, existing);
-  }
+  const reading::ResultsFile file(results);
+  reading::export_csv(file, directory, iso230::repeatability_exports(file), existing);
   status::tell("wrote the tables to {}\n", directory);
   return ExitCode::success;
 }

@@ -169,7 +169,8 @@ void run_rows(const RunRequest& request, study_run::ExistingUse existing, const 
   std::vector<shards::ShardInfo> shards = std::move(earlier.usable);
   shards.insert(shards.end(), finished.shards.begin(), finished.shards.end());
   shards::sort_by_rows(shards);
-  study_run::assemble(shards, request.study, request.output, wanted, finished.predictions);
+  study_run::assemble(shards, request.study, request.output, wanted,
+                      {.predictions = finished.predictions, .stop = stop});
   for (const shards::ShardInfo& shard : finished.shards) earlier.all.push_back(shard.path);
   study_run::remove_shards(directory, earlier.all);
   if (!request.quiet) status::tell("wrote {}\n", request.output.string());

@@ -81,7 +81,7 @@ std::optional<ConfirmedBest> confirmed_best(const command_line::Arguments& argum
     return std::nullopt;
   }
   if (summary.unfinished) arguments.refuse("option '--confirm' needs a run that has ended");
-  const reading::DescribedFile file(arguments.operands()[0]);
+  const reading::ResultsFile file(arguments.operands()[0]);
   status::tell("running {} new trials of the best point\n", *trials);
   const study_run::Confirmation confirmation =
       study_run::confirm_point(file, summary::best_point(summary.points), *trials, plugin_option(arguments));

@@ -12,8 +12,7 @@
 #include "experiments/yaml/text_file.hpp"
 #include "results/hdf5/array_file.hpp"
 #include "results/layout/header.hpp"
-#include "results/reading/statistics_file.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/results_file.hpp"
 #include "results/shards/shard.hpp"
 #include "results/storage/output_file.hpp"
 #include "runners/command_line/option_values.hpp"
@@ -88,31 +87,6 @@ shards::TrialResult write_trace_to(const std::filesystem::path& place, const Tra
   return result;
 }
 
-/// A results file that keeps its trials, or statistics.
-class RecordedFile {
- public:
-  explicit RecordedFile(const std::filesystem::path& path) {
-    if (shards::keeps_trials(path)) {
-      trials_.emplace(path, reading::Require::any_part);
-    } else {
-      statistics_.emplace(path, reading::Require::any_part);
-    }
-  }
-
-  const reading::ResultsFile& file() const {
-    return trials_ ? static_cast<const reading::ResultsFile&>(*trials_) : *statistics_;
-  }
-  /// Differences to what the file has of the trial.
-  std::vector<std::string> differences(const shards::TrialResult& replayed) const {
-    return trials_ ? verification::differences_from_record(*trials_, replayed)
-                   : verification::differences_from_failures(*statistics_, {&replayed, 1});
-  }
-
- private:
-  std::optional<reading::StudyFile> trials_;
-  std::optional<reading::StatisticsFile> statistics_;
-};
-
 ExitCode trace(const command_line::Arguments& arguments) {
   const std::string input = arguments.operands()[0];
   const std::optional<std::filesystem::path> output = command_line::text_place(arguments, "output");
@@ -123,9 +97,8 @@ ExitCode trace(const command_line::Arguments& arguments) {
   }
   const std::filesystem::path place = output.value_or("-");
   const bool json = arguments.choice("format") == "json";
-  std::optional<RecordedFile> recorded;
-  if (is_results_file(input)) recorded.emplace(input);
-  const reading::ResultsFile* const file = recorded ? &recorded->file() : nullptr;
+  std::optional<reading::ResultsFile> file;
+  if (is_results_file(input)) file.emplace(input, reading::Require::any_part);
   if (file && arguments.has("set"))
     arguments.refuse("option '--set' needs a manifest instead of a results file");
 
@@ -151,9 +124,9 @@ ExitCode trace(const command_line::Arguments& arguments) {
   const auto failed = [](const trial::MoveOutcome& move) { return move.controller_failed; };
   if (std::any_of(replayed.outcome.moves.begin(), replayed.outcome.moves.end(), failed))
     status::tell("the controller returned a non-finite torque at the last sample, which ends the trial\n");
-  if (!recorded) return ExitCode::success;
+  if (!file) return ExitCode::success;
 
-  const std::vector<std::string> different = recorded->differences(replayed);
+  const std::vector<std::string> different = verification::differences_from_record(*file, replayed);
   if (different.empty()) return ExitCode::success;
   std::string message =
       fmt::format("{}: point {}, trial {}: the replay differs from the recorded trial", input, point, index);

@@ -10,6 +10,7 @@
 #include "runners/commands/commands.hpp"
 #include "runners/commands/plugin_option.hpp"
 #include "runners/standard_output/standard_output.hpp"
+#include "runners/study_run/interruption.hpp"
 #include "runners/verification/verification.hpp"
 
 namespace zerocount::commands {
@@ -80,6 +81,8 @@ ExitCode verify(const command_line::Arguments& arguments) {
   settings.seed = static_cast<std::uint64_t>(
       arguments.whole_number("seed", 0, std::int64_t{1} << 53).value_or(default_seed));
   settings.plugin = plugin_option(arguments);
+  const study_run::InterruptionWatch interruption;  // so that no temporary folder is left behind
+  settings.stop = interruption.token();
   const std::vector<std::filesystem::path> operands(arguments.operands().begin(), arguments.operands().end());
   const std::vector<verification::CheckReport> reports = verification::verify(operands, settings);
   const ExitCode code = code_of(reports);

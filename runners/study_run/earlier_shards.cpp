@@ -10,7 +10,7 @@
 #include "analysis/summary/summed_point.hpp"
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
-#include "results/reading/statistics_file.hpp"
+#include "results/reading/results_file.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_run/study_differences.hpp"
 
@@ -43,20 +43,11 @@ void require_same_plugin(const fs::path& shard, const study::Study& study) {
     layout::require_same_plugin(shard, *header, study.plugin.get());
 }
 
-/// Takes the shards whose sums cannot be those of trials from those that are sound.
-void find_wrong_sums(shards::ShardSurvey& survey, const study::Study& study) {
-  std::erase_if(survey.shards, [&](const shards::ShardInfo& shard) {
-    try {
-      const reading::StatisticsFile file(shard.path, reading::Require::any_part);
-      for (std::int64_t i = 0; i < file.points(); ++i)
-        summary::restored_point(file, study, file.first_point() + i);
-      return false;
-    } catch (const Failure& failure) {
-      if (failure.code() != ExitCode::bad_data) throw;
-      survey.problems.push_back({shard.path, failure.what(), shards::ShardProblem::Kind::damaged});
-      return true;
-    }
-  });
+/// Checks the values of the trials and the sums.
+void check_contents(const reading::ResultsFile& shard, const study::Study& study) {
+  shards::check_values(shard, study);
+  for (std::int64_t i = 0; layout::has_sums(study.kept) && i < shard.points(); ++i)
+    summary::restored_point(shard, study, shard.first_point() + i);
 }
 
 }  // namespace
@@ -74,10 +65,9 @@ EarlierShards choose_shards(const std::vector<shards::ShardInfo>& sound, layout:
 }
 
 EarlierShards earlier_shards(const fs::path& directory, const study::Study& study, layout::RowRange wanted,
-                             ForeignShards foreign, shards::Inspection inspection) {
-  shards::ShardSurvey survey = shards::list_shards(directory, study, inspection);
-  if (study.kept != study::Kept::trials && inspection == shards::Inspection::values)
-    find_wrong_sums(survey, study);
+                             ForeignShards foreign, Inspection inspection) {
+  const shards::ShardSurvey survey = shards::list_shards(
+      directory, study, inspection == Inspection::values ? check_contents : shards::ShardCheck{});
   for (const shards::ShardProblem& bad : survey.problems) {
     if (bad.kind == shards::ShardProblem::Kind::foreign && foreign == ForeignShards::remove) {
       std::error_code ignored;

@@ -25,11 +25,15 @@ EarlierShards choose_shards(const std::vector<shards::ShardInfo>& sound, layout:
 /// Treatment of shards of another study.
 enum class ForeignShards { refuse, remove };
 
+/// What is read of a shard: all its values, which may be wrong under a right checksum; or the bytes of the
+/// file and its header.
+enum class Inspection { values, checksum };
+
 /// Finds the shards of earlier runs. Damaged shards are renamed and their trials run again.
 /// @throws Failure (bad_input) if the folder has shards of another study and `refuse` is given.
 EarlierShards earlier_shards(const std::filesystem::path& directory, const study::Study& study,
                              layout::RowRange wanted, ForeignShards foreign = ForeignShards::refuse,
-                             shards::Inspection inspection = shards::Inspection::values);
+                             Inspection inspection = Inspection::values);
 
 /// Removes the shards, and their folder if it is then empty.
 void remove_shards(const std::filesystem::path& directory, const std::vector<std::filesystem::path>& shards);

@@ -9,9 +9,7 @@
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/manifest_keys.hpp"
 #include "results/layout/header.hpp"
-#include "results/reading/statistics_file.hpp"
-#include "results/reading/study_file.hpp"
-#include "results/shards/shard.hpp"
+#include "results/reading/results_file.hpp"
 #include "runners/study_run/study_differences.hpp"
 
 namespace zerocount::study_run {
@@ -26,12 +24,10 @@ namespace fs = std::filesystem;
 
 layout::FileHeader header_of(const fs::path& output) {
   try {
-    if (!shards::keeps_trials(output))
-      return reading::StatisticsFile(output, reading::Require::any_part).header();
-    return reading::StudyFile(output, reading::Require::any_part).header();
+    return reading::ResultsFile(output, reading::Require::any_part).header();
   } catch (const Failure& failure) {
     if (failure.code() == ExitCode::machine_failed) throw;  // it may be a good file
-    refuse(output, fmt::format("exists, and is no usable results file ({})", failure.what()));
+    refuse(output, fmt::format("exists, and is not a usable results file ({})", failure.what()));
   }
 }
 
@@ -42,8 +38,7 @@ void require_extensible(const fs::path& output, const layout::FileHeader& header
            fmt::format("has {} trials at each point and the study {}; {}", header.trials, study.trials, why));
   };
   if (!header.complete) refuse_more("a part of a study cannot be extended");
-  if (study.kept != study::Kept::trials)
-    refuse_more("a study that does not keep its trials cannot be extended");
+  if (layout::has_sums(study.kept)) refuse_more("a study that does not keep its trials cannot be extended");
   if (study.trials < header.trials) refuse_more("a results file can only be extended");
   if (!study::trials_stay_when_extended(study.design)) {
     refuse_more(fmt::format("the trials of design: {} are laid out for their number, and all change with it",

@@ -15,7 +15,7 @@ constexpr std::int64_t max_moves_at_once = 1 << 16;
 std::vector<shards::ShardInfo> copy_trials(const reading::StudyFile& file, const study::Study& study,
                                            const std::filesystem::path& directory,
                                            std::span<const layout::RowRange> missing) {
-  const RecordPlaces records = places_of_records(file);
+  const RecordPlaces records = places_of_records(*file.trials());
   const std::int64_t trials = file.header().trials;
   const std::int64_t at_once = std::max<std::int64_t>(max_moves_at_once / study.moves, 1);
   std::vector<shards::ShardInfo> written;
@@ -29,9 +29,9 @@ std::vector<shards::ShardInfo> copy_trials(const reading::StudyFile& file, const
         continue;
       }
       written.push_back({shards::shard_path(directory, {row, count}), {row, count}});
-      shards::write_shard(written.back().path, study, row,
-                          read_trials(file, {point * trials + index, count}, row, records),
-                          file.header().provenance);
+      shards::write_shard(written.back().path, study, {row, count},
+                          read_trials(*file.trials(), {point * trials + index, count}, row, records), {},
+                          {file.header().provenance});
       row += count;
     }
   }

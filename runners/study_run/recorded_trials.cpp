@@ -10,12 +10,12 @@ constexpr std::int64_t records_at_once = 1 << 16;
 
 }  // namespace
 
-RecordPlaces places_of_records(const reading::StudyFile& file) {
+RecordPlaces places_of_records(const reading::TrialTables& trials) {
   RecordPlaces places;
-  for (std::int64_t first = 0; first < file.trace_count(); first += records_at_once) {
-    const std::int64_t count = std::min(records_at_once, file.trace_count() - first);
+  for (std::int64_t first = 0; first < trials.trace_count(); first += records_at_once) {
+    const std::int64_t count = std::min(records_at_once, trials.trace_count() - first);
     std::int64_t position = first;
-    for (const layout::TraceRecord& record : file.trace_at(first, count)) {
+    for (const layout::TraceRecord& record : trials.trace_at(first, count)) {
       ++places.try_emplace(record.trial, layout::RowRange{position, 0}).first->second.count;
       ++position;
     }
@@ -23,25 +23,29 @@ RecordPlaces places_of_records(const reading::StudyFile& file) {
   return places;
 }
 
-std::vector<shards::TrialResult> read_trials(const reading::StudyFile& file, layout::RowRange rows,
+std::vector<shards::TrialResult> read_trials(const reading::TrialTables& trials, layout::RowRange rows,
                                              std::int64_t first_row, const RecordPlaces& records) {
-  std::vector<shards::TrialResult> results(static_cast<std::size_t>(rows.count));
-  for (std::size_t column = 0; column < file.input_columns().size(); ++column) {
-    const std::vector<double> values = file.input(column, rows);
+  const layout::RowRange positions = trials.positions_of(rows);
+  const std::vector<std::int64_t> stored_rows = trials.rows(positions);
+  std::vector<shards::TrialResult> results(stored_rows.size());
+  for (std::size_t column = 0; column < trials.input_columns().size(); ++column) {
+    const std::vector<double> values = trials.input(column, positions);
     for (std::size_t i = 0; i < results.size(); ++i) results[i].inputs.push_back(values[i]);
   }
-  const std::vector<trial::MoveOutcome> outcomes = file.outcomes(rows);
+  const std::vector<trial::MoveOutcome> outcomes = trials.outcomes(positions);
+  const std::vector<layout::JerkRecord> jerks = trials.jerks_of(rows);
+  auto jerk = jerks.begin();
   for (std::size_t i = 0; i < results.size(); ++i) {
-    results[i].row = first_row + static_cast<std::int64_t>(i);
-    const auto begin = outcomes.begin() + static_cast<std::ptrdiff_t>(i) * file.moves();
-    results[i].outcome.moves.assign(begin, begin + file.moves());
-    const auto place = records.find(rows.first + static_cast<std::int64_t>(i));
+    results[i].row = stored_rows[i] - rows.first + first_row;
+    const auto begin = outcomes.begin() + static_cast<std::ptrdiff_t>(i) * trials.moves();
+    results[i].outcome.moves.assign(begin, begin + trials.moves());
+    for (; jerk != jerks.end() && jerk->trial <= stored_rows[i]; ++jerk)
+      if (jerk->trial == stored_rows[i]) results[i].jerks.push_back(*jerk);
+    const auto place = records.find(stored_rows[i]);
     if (place == records.end()) continue;
-    for (const layout::TraceRecord& record : file.trace_at(place->second.first, place->second.count))
+    for (const layout::TraceRecord& record : trials.trace_at(place->second.first, place->second.count))
       results[i].trace.push_back(record);
   }
-  for (const layout::JerkRecord& jerk : file.jerks(rows))
-    results[static_cast<std::size_t>(jerk.trial - rows.first)].jerks.push_back(jerk);
   return results;
 }
 

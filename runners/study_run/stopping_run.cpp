@@ -109,7 +109,7 @@ study::Study decided_study(const study::Study& study, std::int64_t trials) {
 
 /// Joins the shards (rows of `study`) into the results file of the study `decided`.
 void assemble_decided(const std::vector<shards::ShardInfo>& shards, const study::Study& study,
-                      const study::Study& decided, const fs::path& output) {
+                      const study::Study& decided, const fs::path& output, const std::stop_token& stop) {
   const auto renumber = [&](std::int64_t row) {
     return row / study.trials * decided.trials + row % study.trials;
   };
@@ -118,7 +118,7 @@ void assemble_decided(const std::vector<shards::ShardInfo>& shards, const study:
   for (const shards::ShardInfo& shard : shards) {
     renumbered.push_back({shard.path, {renumber(shard.rows.first), shard.rows.count}});
   }
-  assemble(renumbered, decided, output, layout::all_rows(decided), {}, renumber);
+  assemble(renumbered, decided, output, layout::all_rows(decided), {.renumber = renumber, .stop = stop});
 }
 
 }  // namespace
@@ -161,7 +161,7 @@ ExitCode run_until_sure(const study::Study& study, const fs::path& output,
   progress.project(study::point_count(study) * trials);
   progress.finish(done);
 
-  assemble_decided(shards, study, decided_study(study, trials), output);
+  assemble_decided(shards, study, decided_study(study, trials), output, stop);
   for (const shards::ShardInfo& shard : shards) earlier.all.push_back(shard.path);
   remove_shards(directory, earlier.all);
   if (!settings.quiet) {

@@ -24,9 +24,6 @@ shards::TrialResult run_study_trial(const study::Study& study, std::int64_t row,
 /// Number of samples of a trial: the mean over the first trials of up to 64 points.
 double samples_per_trial(const study::Study& study);
 
-/// Memory of a result, bytes.
-std::size_t bytes_of(const shards::TrialResult& result);
-
 /// Number of threads where `asked` were asked for; 0: all that the machine has.
 int threads_to_use(int asked);
 
@@ -43,7 +40,7 @@ struct RunSettings {
 
 struct FinishedTrials {
   std::vector<shards::ShardInfo> shards;  ///< those written, in order of rows
-  /// [point] for these trials; empty if the shards have them
+  /// [point] for these trials; without trials if the shards have them
   std::vector<theory::PointPrediction> predictions;
 };
 
@@ -56,13 +53,17 @@ FinishedTrials run_trials(const study::Study& study, std::span<const layout::Row
                           const std::filesystem::path& directory, const RunSettings& settings,
                           const std::stop_token& stop);
 
+struct AssembleSettings {
+  std::span<const theory::PointPrediction> predictions{};  ///< see summary::stored_statistics
+  shards::Renumbering renumber{};                          ///< see shards::MergeOptions
+  std::stop_token stop{};
+};
+
 /// Joins shards into the results file `output`. A file with the whole study gets the statistics of all design
 /// points.
-/// @param predictions see summary::stored_statistics
 /// @throws Failure; see merge_shards.
 void assemble(std::span<const shards::ShardInfo> shards, const study::Study& study,
               const std::filesystem::path& output, layout::RowRange rows,
-              std::span<const theory::PointPrediction> predictions = {},
-              const shards::Renumbering& renumber = {});
+              const AssembleSettings& settings = {});
 
 }  // namespace zerocount::study_run

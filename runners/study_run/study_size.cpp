@@ -4,7 +4,6 @@
 #include <array>
 #include <chrono>
 #include <iterator>
-#include <optional>
 #include <span>
 #include <string>
 #include <system_error>
@@ -20,9 +19,8 @@
 #include "results/storage/durable_file.hpp"
 #include "runners/study_run/cost.hpp"
 #include "runners/study_run/deadline.hpp"
+#include "runners/study_run/shard_writer.hpp"
 #include "runners/study_run/study_runner.hpp"
-#include "runners/study_run/sums_writer.hpp"
-#include "runners/study_run/temporary_folder.hpp"
 #include "runners/study_run/trial_runner.hpp"
 
 namespace zerocount::study_run {
@@ -30,10 +28,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t max_sampled_trials = 512;
+constexpr std::int64_t max_sampled_trials = 64;
 constexpr double max_sampled_samples = 4e5;  // takes some hundredths of a second
-/// Ratio of the memory or uncompressed storage of a trial to its values: chunks, and copies of columns.
-constexpr double storage_factor = 2.0;
 constexpr std::int64_t sampled_places = 8;
 
 /// For the sampled trials, and for those with traces. Where none ends in time, a trial without jerks stands
@@ -69,65 +65,63 @@ std::vector<shards::TrialResult> sampled_trials(const study::Study& study) {
   return trials;
 }
 
-/// Mean of bytes_of().
-double mean_bytes(std::span<const shards::TrialResult> trials) {
-  double bytes = 0.0;
-  for (const shards::TrialResult& trial : trials)
-    bytes += static_cast<double>(bytes_of(trial)) / static_cast<double>(trials.size());
+/// Sizes on the disk in proportion to the bytes of the values.
+struct Ratios {
+  double drawn;   ///< inputs
+  double real;    ///< measures, jerks and sample records
+  double whole;   ///< counts of the same
+  double code;    ///< flags and enumerations
+  double number;  ///< of rows, which rise by one
+};
+/// Measured on the files of the shipped manifests, in which each ratio is between half and one and a half of
+/// this. Drawn values are random; sums repeat their digits.
+constexpr Ratios compressed{0.92, 0.55, 0.12, 0.03, 0.003};
+constexpr double compressed_sums = 0.2;
+constexpr Ratios uncompressed{1.0, 1.0, 1.0, 1.0, 1.0};
+/// Bytes of a dataset without values: its header, attributes and index.
+constexpr double bytes_of_dataset = 1100.0;
+
+double bytes_of_row(const layout::Table& table, const Ratios& ratios, double ratio_of_reals) {
+  const auto ratio_of = [&](hdf5::Element element) {
+    if (element == hdf5::Element::float64) return ratio_of_reals;
+    return hdf5::size_of(element) == 1 ? ratios.code : ratios.whole;
+  };
+  double bytes = sizeof(std::int64_t) * ratios.number;
+  for (const layout::Column& column : table.columns)
+    bytes += static_cast<double>(hdf5::size_of(column.element)) * ratio_of(column.element);
   return bytes;
 }
 
-/// Bytes of a shard of these trials.
-double shard_size(const TemporaryFolder& folder, const study::Study& study,
-                  std::span<const shards::TrialResult> trials, hdf5::Compression compression) {
-  const fs::path path = folder.path() / "sample.h5";
-  shards::write_shard(path, study, 0, trials, layout::current_provenance(), compression);
-  return static_cast<double>(fs::file_size(path));
+/// Bytes of a trial with its jerks, without sample records.
+double bytes_of_trial(const study::Study& study, double jerks, const Ratios& ratios) {
+  const double inputs = 8.0 * static_cast<double>(study.input_columns.size()) * ratios.drawn;
+  const double numbers = 3.0 * sizeof(std::int64_t) * ratios.number;  // row, point and index
+  return numbers + inputs +
+         static_cast<double>(study.moves) *
+             bytes_of_row(layout::outcome_table(layout::format_version, study.features), ratios,
+                          ratios.real) +
+         jerks * bytes_of_row(layout::jerk_table(), ratios, ratios.real);
 }
 
-/// Size as a linear function of the number of trials, bytes.
-struct Growth {
-  double fixed{0.0};
-  double per_trial{0.0};
-};
-
-Growth growth_of(const TemporaryFolder& folder, const study::Study& study,
-                 std::span<const shards::TrialResult> trials, hdf5::Compression compression) {
-  const double all = shard_size(folder, study, trials, compression);
-  if (trials.size() < 2) return {0.0, all};
-  const double one = shard_size(folder, study, trials.first(1), compression);
-  const double per_trial = (all - one) / static_cast<double>(trials.size() - 1);
-  return {one - per_trial, per_trial};
+/// Bytes of all sample records.
+double bytes_of_records(const study::Study& study, const Ratios& ratios) {
+  const auto trials = static_cast<double>(std::ssize(study.retained_trials) * study::point_count(study));
+  if (trials == 0.0) return 0.0;
+  return trials * samples_per_trial(study) *
+         bytes_of_row(layout::trace_table(study.features), ratios, ratios.real);
 }
 
-/// Up to eight trials with their traces, numbered from 0.
-std::vector<shards::TrialResult> sampled_records(const study::Study& study) {
-  constexpr std::int64_t max_records = 8;
-  const auto retained = std::ssize(study.retained_trials);
-  const Deadline deadline(sampling_limit);
-  std::vector<shards::TrialResult> trials;
-  for (std::int64_t i = 0; i < std::min(retained, max_records); ++i) {
-    try {
-      trials.push_back(
-          run_study_trial(study, study.retained_trials[static_cast<std::size_t>(i)], deadline.token()));
-    } catch (const trial::Interrupted&) {
-      break;
-    }
-    trials.back().row = i;
-  }
-  return trials;
-}
-
-/// Bytes of the traces of all retained trials, without the fixed size of a table.
-double record_bytes(const TemporaryFolder& folder, const study::Study& study,
-                    std::vector<shards::TrialResult> sampled, hdf5::Compression compression) {
-  if (sampled.empty()) return 0.0;
-  const double with = shard_size(folder, study, sampled, compression);
-  const auto count = static_cast<double>(sampled.size());
-  for (std::size_t i = sampled.size() > 1 ? 1 : 0; i < sampled.size(); ++i) sampled[i].trace.clear();
-  const double without = shard_size(folder, study, sampled, compression);
-  const double per_record = (with - without) / (count > 1.0 ? count - 1.0 : 1.0);
-  return per_record * static_cast<double>(std::ssize(study.retained_trials) * study::point_count(study));
+/// Bytes of the datasets of the trials without their values.
+double bytes_of_descriptions(const study::Study& study) {
+  const std::size_t columns =
+      layout::has_trials(study.kept)
+          ? study.input_columns.size() +
+                layout::outcome_table(layout::format_version, study.features).columns.size() +
+                layout::jerk_table().columns.size() +
+                (study.retained_trials.empty() ? 0 : layout::trace_table(study.features).columns.size())
+          : 0;
+  constexpr double others = 10.0;
+  return bytes_of_dataset * (static_cast<double>(columns) + others);
 }
 
 /// Bytes of the results file without its trials.
@@ -144,32 +138,12 @@ double table_bytes(const study::Study& study) {
   return statistics + statistics_of_point * static_cast<double>(study::point_count(study)) + profiles;
 }
 
-/// An upper bound of the size of a study's files, computed without writing any.
-double file_bytes_at_most(const study::Study& study) {
-  const double records = static_cast<double>(std::ssize(study.retained_trials) * study::point_count(study)) *
-                         samples_per_trial(study) * static_cast<double>(sizeof(trial::SampleRecord));
-  const double once = mean_bytes(sampled_trials(study)) * static_cast<double>(study::trial_count(study)) +
-                      records + table_bytes(study);
-  return 2.0 * storage_factor * once;  // the shards, and the results file
-}
-
-/// Nothing if the folder for temporary files has no room.
-std::optional<StudySize> measured_size(const study::Study& study) {
-  try {
-    return measure_size(study);
-  } catch (const Failure& failure) {
-    if (failure.code() != ExitCode::machine_failed) throw;
-    return std::nullopt;
-  }
-}
-
 /// Numbers in the sums of a point, of trials that are numbered from 0.
 double numbers_of_sums(const study::Study& study, std::vector<shards::TrialResult> trials) {
   const auto points = static_cast<std::size_t>((std::ssize(trials) - 1) / study.trials + 1);
-  const SummedBlock block =
-      sum_block(study, {std::move(trials), std::vector<theory::PointPrediction>(points)});
+  const KeptBlock block = reduce(study, {std::move(trials), std::vector<theory::PointPrediction>(points)});
   double numbers = 0.0;
-  for (const summary::SummedPoint& point : block.points) {
+  for (const summary::SummedPoint& point : block.sums) {
     const layout::PointSums sums = point.sums();
     numbers += static_cast<double>(sums.whole.size() + sums.real.size());
   }
@@ -184,6 +158,7 @@ struct SumBytes {
 
 SumBytes bytes_of_sums(const study::Study& study, const std::vector<shards::TrialResult>& trials) {
   constexpr double growth = 4.0;  // distinct values that more trials add; measured
+  if (!layout::has_sums(study.kept)) return {};
   const double all = numbers_of_sums(study, trials);
   const auto sampled = static_cast<double>(trials.size());
   double of_rigs = 0.0;  // numbers of the rigs that no sampled trial is on
@@ -200,53 +175,47 @@ SumBytes bytes_of_sums(const study::Study& study, const std::vector<shards::Tria
 double shards_of_run(const study::Study& study) {
   constexpr double at_the_beginning = 40.0, interval = 20.0;
   return at_the_beginning + measure_cost(study).seconds() / interval +
-         static_cast<double>(study::point_count(study)) / max_points_of_shard;
+         static_cast<double>(study::point_count(study)) / static_cast<double>(max_points_of_shard);
 }
 
-/// The size of a study that keeps statistics, and perhaps failures.
-StudySize measure_summed_size(const TemporaryFolder& folder, const study::Study& study, int threads) {
-  constexpr double compressed = 0.2;  // of the bytes in memory; measured
-  constexpr double copies = 3.0;      // as sums that can be added to, as numbers, as they are written
-  constexpr double blocks_of_a_thread = 4.0;
-  const std::vector<shards::TrialResult> trials = sampled_trials(study);
+/// The proportion of trials that the study keeps.
+double kept_proportion(const study::Study& study, std::span<const shards::TrialResult> trials) {
+  if (!layout::has_trials(study.kept)) return 0.0;
+  if (!layout::has_sums(study.kept)) return 1.0;
   const auto failed = std::count_if(trials.begin(), trials.end(), [](const shards::TrialResult& trial) {
     return !trial::succeeded(trial.outcome.moves);
   });
-  const double kept = study.kept == study::Kept::failures
-                          ? static_cast<double>(failed) / static_cast<double>(trials.size()) *
-                                static_cast<double>(study::trial_count(study))
-                          : 0.0;
-  const SumBytes bytes = bytes_of_sums(study, trials);
-  const double sums = bytes.of_all;
-  const auto points = static_cast<double>(study::point_count(study));
-  StudySize size;
-  size.file_bytes = table_bytes(study) + compressed * sums * points +
-                    kept * growth_of(folder, study, trials, hdf5::Compression::deflate).per_trial;
-  size.shard_bytes = compressed * sums * (shards_of_run(study) + points) +
-                     kept * growth_of(folder, study, trials, hdf5::Compression::none).per_trial;
-  size.memory_bytes = peak_memory(study, mean_bytes(trials), 0.0, threads) +
-                      blocks_of_a_thread * std::max(threads, 1) * bytes.of_block +
-                      copies * sums * std::min(points, double{max_points_of_shard}) + 2.0 * sums * points;
-  return size;
+  return static_cast<double>(failed) / static_cast<double>(trials.size());
 }
 
 }  // namespace
 
 StudySize measure_size(const study::Study& study, int threads) {
-  const TemporaryFolder folder;
-  if (study.kept != study::Kept::trials) return measure_summed_size(folder, study, threads);
-  std::vector<shards::TrialResult> trials = sampled_trials(study);
-  for (shards::TrialResult& trial : trials) trial.trace.clear();
-  const Growth file = growth_of(folder, study, trials, hdf5::Compression::deflate);
-  const Growth shards = growth_of(folder, study, trials, hdf5::Compression::none);
-  const auto rows = static_cast<double>(study::trial_count(study));
-  const std::vector<shards::TrialResult> records = sampled_records(study);
-  const double raw_records = record_bytes(folder, study, records, hdf5::Compression::none);
+  constexpr double copies = 3.0;  // as sums that can be added to, as numbers, as they are written
+  constexpr double blocks_of_a_thread = 4.0;
+  const std::vector<shards::TrialResult> trials = sampled_trials(study);
+  double jerks = 0.0, memory = 0.0;
+  for (const shards::TrialResult& trial : trials) {
+    jerks += static_cast<double>(trial.jerks.size()) / static_cast<double>(trials.size());
+    memory += static_cast<double>(bytes_of(trial)) / static_cast<double>(trials.size());
+  }
+  const auto points = static_cast<double>(study::point_count(study));
+  const double kept = kept_proportion(study, trials) * static_cast<double>(study::trial_count(study));
+  const SumBytes sums = bytes_of_sums(study, trials);
+  const double raw_records = bytes_of_records(study, uncompressed);
   StudySize size;
-  size.file_bytes = file.fixed + file.per_trial * rows + table_bytes(study) +
-                    record_bytes(folder, study, records, hdf5::Compression::deflate);
-  size.shard_bytes = shards.fixed + shards.per_trial * rows + raw_records;
-  size.memory_bytes = peak_memory(study, mean_bytes(trials), raw_records, threads);
+  size.file_bytes = table_bytes(study) + bytes_of_descriptions(study) +
+                    kept * bytes_of_trial(study, jerks, compressed) + bytes_of_records(study, compressed) +
+                    compressed_sums * sums.of_all * points;
+  size.shard_bytes =
+      bytes_of_descriptions(study) + kept * bytes_of_trial(study, jerks, uncompressed) + raw_records;
+  size.memory_bytes = peak_memory(study, memory, raw_records, threads);
+  if (layout::has_sums(study.kept)) {
+    size.shard_bytes += compressed_sums * sums.of_all * (shards_of_run(study) + points);
+    size.memory_bytes += blocks_of_a_thread * std::max(threads, 1) * sums.of_block +
+                         copies * sums.of_all * std::min(points, static_cast<double>(max_points_of_shard)) +
+                         2.0 * sums.of_all * points;
+  }
   return size;
 }
 
@@ -256,19 +225,17 @@ void require_room(const fs::path& output, const study::Study& study, std::int64_
   const fs::space_info space = fs::space(folder, error);
   if (error) return;  // free space unknown; a failed write will be reported
   const auto available = static_cast<double>(space.available);
-  if (study.kept == study::Kept::trials && file_bytes_at_most(study) < available) return;
-  const std::optional<StudySize> size = measured_size(study);
-  if (!size) return;
+  const StudySize size = measure_size(study);
   const double shards =
-      size->shard_bytes * static_cast<double>(missing) / static_cast<double>(study::trial_count(study));
-  if (shards + size->file_bytes <= available) return;
+      size.shard_bytes * static_cast<double>(missing) / static_cast<double>(study::trial_count(study));
+  if (shards + size.file_bytes <= available) return;
   throw Failure(
       ExitCode::machine_failed,
       fmt::format(
           "{}: the disk has {} free, and the run needs about {} there ({} of shards while it runs, {} "
           "for the results file); --force tries it all the same",
-          folder.string(), bytes_text(available), bytes_text(shards + size->file_bytes), bytes_text(shards),
-          bytes_text(size->file_bytes)));
+          folder.string(), bytes_text(available), bytes_text(shards + size.file_bytes), bytes_text(shards),
+          bytes_text(size.file_bytes)));
 }
 
 std::string bytes_text(double bytes) {

@@ -13,10 +13,10 @@ struct StudySize {
   double memory_bytes{0.0};  ///< peak
 };
 
-/// Runs up to 512 trials spread over the study (about 400 000 samples), writes them to a temporary folder and
-/// scales their size. For a study with `stop`: the maximum number of trials.
+/// Forecasts the sizes from the columns of the tables. Up to 64 trials spread over the study (about 400 000
+/// samples at most) tell how many jerks and failures there are, and how long sums are. For a study with
+/// `stop`: the maximum number of trials.
 /// @param threads of the run; 0: all cores
-/// @throws Failure (machine_failed) if there is no room for temporary files.
 StudySize measure_size(const study::Study& study, int threads = 0);
 
 /// @throws Failure (machine_failed) if the folder of `output` has no room for the results file and the shards

@@ -24,6 +24,10 @@ void ProblemList::add(std::string problem) {
   }
 }
 
+void require_no_stop(const std::stop_token& stop) {
+  if (stop.stop_requested()) throw Failure(ExitCode::interrupted, "interrupted: not everything was checked");
+}
+
 std::string problem_of(const Failure& failure, const std::filesystem::path& path) {
   const std::string_view message = failure.what();
   const std::string start = path.string() + ": ";

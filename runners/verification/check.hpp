@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,7 @@ struct CheckReport {
   std::filesystem::path path;
   std::vector<Check> checks{};
   bool unreadable{false};  ///< the machine failed to read it, or to write what a check needs
+  std::stop_token stop{};  ///< interrupts the checks
 };
 
 bool holds(const CheckReport& report);
@@ -47,16 +49,22 @@ class ProblemList {
 /// The message of a failure without the path of the file that it begins with.
 std::string problem_of(const Failure& failure, const std::filesystem::path& path);
 
+/// @throws Failure (interrupted) if a stop was requested.
+void require_no_stop(const std::stop_token& stop);
+
 /// Makes a check and adds it to the report. A Failure that `work(check, problems)` throws is a problem too.
 /// @return the check holds
+/// @throws Failure (interrupted) if a stop was requested.
 template <class Work>
 bool add_check(CheckReport& report, std::string_view name, const Work& work) {
+  require_no_stop(report.stop);
   Check check{std::string(name)};
   {
     ProblemList problems(check);
     try {
       work(check, problems);
     } catch (const Failure& failure) {
+      if (failure.code() == ExitCode::interrupted) throw;
       report.unreadable = report.unreadable || failure.code() == ExitCode::machine_failed;
       problems.add(problem_of(failure, report.path));
     }

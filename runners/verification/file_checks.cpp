@@ -28,24 +28,32 @@ void compare_header(const layout::FileHeader& header, const study::Study& study,
     require_equal("study_sha256", header.study_sha256, study.study_sha256, problems);
 }
 
-/// The tables of the trials that a file of this study has.
-std::vector<layout::Table> tables_of(const reading::StudyFile& file, const study::Study& study) {
+/// The tables of trials and sums that a file of this study has.
+std::vector<layout::Table> tables_of(const reading::ResultsFile& file, const study::Study& study) {
   const layout::FileHeader& header = file.header();
-  // A file of an earlier version lacks columns that a study of today has.
-  const study::StudyFeatures& features =
-      header.version == layout::format_version ? study.features : file.features();
-  // Shards have the units of a rotary axis, whatever the study's.
-  const parameters::AxisKind axis =
-      header.kind == layout::FileKind::shard ? parameters::AxisKind::rotary : study.units.axis;
-  std::vector<layout::Table> tables{layout::trial_table(study.input_columns),
-                                    layout::on_axis(layout::outcome_table(header.version, features), axis),
-                                    layout::jerk_table()};
-  if (!study.retained_trials.empty()) tables.push_back(layout::on_axis(layout::trace_table(features), axis));
+  std::vector<layout::Table> tables;
+  if (file.trials()) {
+    // A file of an earlier version lacks columns that a study of today has.
+    const study::StudyFeatures& features =
+        header.version == layout::format_version ? study.features : file.trials()->features();
+    // Shards have the units of a rotary axis, whatever the study's.
+    const parameters::AxisKind axis =
+        header.kind == layout::FileKind::shard ? parameters::AxisKind::rotary : study.units.axis;
+    tables = {layout::trial_table(study.input_columns),
+              layout::on_axis(layout::outcome_table(header.version, features), axis), layout::jerk_table()};
+    if (!study.retained_trials.empty())
+      tables.push_back(layout::on_axis(layout::trace_table(features), axis));
+  }
+  if (layout::has_sums(header.kept)) {
+    for (const layout::Table& table :
+         {layout::sums_table(), layout::whole_sums_table(), layout::real_sums_table()})
+      tables.push_back(table);
+  }
   return tables;
 }
 
 /// Opens every column on its own, so that all problems are found.
-void check_columns(const reading::StudyFile& file, const layout::Table& table, ProblemList& problems) {
+void check_columns(const reading::ResultsFile& file, const layout::Table& table, ProblemList& problems) {
   for (const layout::Column& column : table.columns) {
     layout::Table single{table.group, table.rows, table.second, {column}};
     try {
@@ -60,9 +68,9 @@ void check_columns(const reading::StudyFile& file, const layout::Table& table, P
   }
 }
 
-/// A dataset of whole numbers has in every row what `expected` says of the row.
+/// Checks a dataset of whole numbers: `expected` gives the number of each row.
 template <class Expected>
-void check_numbers(const reading::StudyFile& file, const std::string& path, const Expected& expected,
+void check_numbers(const reading::ResultsFile& file, const std::string& path, const Expected& expected,
                    ProblemList& problems) {
   const hdf5::Dataset dataset = file.root().open_dataset(path);
   if (dataset.element() != hdf5::Element::int64 || dataset.extent().size() != 1) {
@@ -83,8 +91,9 @@ void check_numbers(const reading::StudyFile& file, const std::string& path, cons
   }
 }
 
-/// The sample records are those of the retained trials, each from its first sample on.
-void check_trace_numbers(const reading::StudyFile& file, const study::Study& study, ProblemList& problems) {
+/// Checks that the sample records belong to the retained trials, each from its first sample on.
+void check_trace_numbers(const reading::ResultsFile& file, const study::Study& study, ProblemList& problems) {
+  const reading::TrialTables& trials = *file.trials();
   std::vector<std::int64_t> expected;
   for (std::int64_t row = file.rows().first; row < file.rows().end(); ++row) {
     if (std::binary_search(study.retained_trials.begin(), study.retained_trials.end(), row % study.trials))
@@ -92,9 +101,9 @@ void check_trace_numbers(const reading::StudyFile& file, const study::Study& stu
   }
   std::vector<std::int64_t> found;
   std::int64_t k = 0;
-  for (std::int64_t first = 0; first < file.trace_count(); first += layout::chunk_elements) {
-    const std::int64_t count = std::min(layout::chunk_elements, file.trace_count() - first);
-    for (const layout::TraceRecord& record : file.trace_at(first, count)) {
+  for (std::int64_t first = 0; first < trials.trace_count(); first += layout::chunk_elements) {
+    const std::int64_t count = std::min(layout::chunk_elements, trials.trace_count() - first);
+    for (const layout::TraceRecord& record : trials.trace_at(first, count)) {
       if (found.empty() || record.trial != found.back()) {
         found.push_back(record.trial);
         k = 0;
@@ -112,20 +121,24 @@ void check_trace_numbers(const reading::StudyFile& file, const study::Study& stu
                     found.size(), expected.size()));
 }
 
-void check_all_numbers(const reading::StudyFile& file, const study::Study& study, ProblemList& problems) {
+void check_all_numbers(const reading::ResultsFile& file, const study::Study& study, ProblemList& problems) {
   const std::int64_t first = file.rows().first;
   const auto global = [first](std::int64_t row) { return first + row; };
   const auto same = [](std::int64_t row) { return row; };
-  check_numbers(file, "trial/trial", global, problems);
-  check_numbers(file, "outcome/trial", global, problems);
-  check_numbers(
-      file, "trial/point", [&](std::int64_t row) { return global(row) / study.trials; }, problems);
-  check_numbers(
-      file, "trial/index", [&](std::int64_t row) { return global(row) % study.trials; }, problems);
+  if (!layout::has_sums(file.header().kept)) {  // the rows of failures were checked when they were opened
+    check_numbers(file, "trial/trial", global, problems);
+    check_numbers(file, "outcome/trial", global, problems);
+    check_numbers(
+        file, "trial/point", [&](std::int64_t row) { return global(row) / study.trials; }, problems);
+    check_numbers(
+        file, "trial/index", [&](std::int64_t row) { return global(row) % study.trials; }, problems);
+  }
   check_numbers(file, "outcome/move", same, problems);
   check_numbers(file, "jerk/jerk", same, problems);
-  if (file.moves() != study.moves)
-    problems.add(fmt::format("/outcome/move: {} moves; its manifest has {}", file.moves(), study.moves));
+  if (file.trials()->moves() != study.moves) {
+    problems.add(
+        fmt::format("/outcome/move: {} moves; its manifest has {}", file.trials()->moves(), study.moves));
+  }
   if (study.retained_trials.empty()) return;
   check_numbers(file, "trace/record", same, problems);
   check_trace_numbers(file, study, problems);
@@ -156,17 +169,17 @@ std::optional<Described> check_header(CheckReport& report,
   return described;
 }
 
-std::optional<reading::StudyFile> check_tables(CheckReport& report, const study::Study& study) {
-  std::optional<reading::StudyFile> file;
+std::optional<reading::ResultsFile> check_tables(CheckReport& report, const study::Study& study) {
+  std::optional<reading::ResultsFile> file;
   add_check(report, "datasets", [&](Check& check, ProblemList& problems) {
-    file.emplace(report.path, reading::Require::any_part);
+    file.emplace(report.path, reading::Require::unfinished);  // the checksum was checked before
     const std::vector<layout::Table> tables = tables_of(*file, study);
     std::size_t columns = 0;
     for (const layout::Table& table : tables) {
       columns += table.columns.size();
       check_columns(*file, table, problems);
     }
-    check_all_numbers(*file, study, problems);
+    if (file->trials()) check_all_numbers(*file, study, problems);
     check.detail = fmt::format("{} columns", columns);
   });
   return file;

@@ -5,7 +5,7 @@
 
 #include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/results_file.hpp"
 #include "runners/verification/check.hpp"
 
 namespace zerocount::verification {
@@ -26,9 +26,9 @@ struct Described {
 std::optional<Described> check_header(CheckReport& report,
                                       const std::shared_ptr<const plugin::ControllerPlugin>& plugin);
 
-/// Checks that all datasets of the trials are there, with their types, sizes and units, and that all rows
-/// have their numbers.
+/// Checks that all datasets of trials and sums are there, with their types, sizes and units, and that all
+/// rows have their numbers.
 /// @return the opened file, unless it cannot be read
-std::optional<reading::StudyFile> check_tables(CheckReport& report, const study::Study& study);
+std::optional<reading::ResultsFile> check_tables(CheckReport& report, const study::Study& study);
 
 }  // namespace zerocount::verification

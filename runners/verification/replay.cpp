@@ -5,12 +5,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 
 #include <fmt/format.h>
 
 #include "results/layout/fields.hpp"
 #include "results/layout/layout.hpp"
+#include "runners/study_run/recorded_trials.hpp"
 
 namespace zerocount::verification {
 namespace {
@@ -76,30 +76,6 @@ std::vector<layout::TraceRecord> trace_records(const shards::TrialResult& result
   return records;
 }
 
-/// By row.
-std::map<std::int64_t, shards::TrialResult> recorded_failures(const reading::KeptTrials& failures,
-                                                              layout::RowRange rows) {
-  const layout::RowRange positions = failures.positions_of(rows);
-  const std::vector<std::int64_t> numbers = failures.rows(positions.first, positions.count);
-  const std::vector<trial::MoveOutcome> moves = failures.outcomes(positions.first, positions.count);
-  std::map<std::int64_t, shards::TrialResult> recorded;
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    shards::TrialResult& trial = recorded[numbers[i]];
-    trial.row = numbers[i];
-    const auto first = moves.begin() + static_cast<std::ptrdiff_t>(i) * failures.moves();
-    trial.outcome.moves.assign(first, first + failures.moves());
-  }
-  for (std::size_t column = 0; column < failures.input_columns().size(); ++column) {
-    const std::vector<double> values = failures.input(column, positions.first, positions.count);
-    for (std::size_t i = 0; i < numbers.size(); ++i) recorded[numbers[i]].inputs.push_back(values[i]);
-  }
-  for (const layout::JerkRecord& jerk : failures.jerks_of(rows)) {
-    const auto trial = recorded.find(jerk.trial);
-    if (trial != recorded.end()) trial->second.jerks.push_back(jerk);
-  }
-  return recorded;
-}
-
 }  // namespace
 
 std::vector<std::string> differences(const std::vector<study::InputColumn>& inputs,
@@ -118,46 +94,31 @@ std::vector<std::string> differences(const std::vector<study::InputColumn>& inpu
   return lines;
 }
 
-std::vector<std::string> trace_differences(
-    const std::vector<layout::RecordField<layout::TraceRecord>>& fields, const shards::TrialResult& recorded,
-    const shards::TrialResult& replayed, Equality equality) {
-  std::vector<std::string> lines;
-  compare(fields, trace_records(recorded), trace_records(replayed), {"record", equality}, lines);
-  return lines;
-}
-
-std::vector<std::string> differences_from_record(const reading::StudyFile& file,
-                                                 const shards::TrialResult& replayed) {
-  const layout::RowRange row{replayed.row, 1};
-  shards::TrialResult recorded;
-  recorded.row = row.first;
-  recorded.inputs = file.inputs_of(row.first);
-  recorded.outcome.moves = file.outcomes(row);
-  for (const layout::JerkRecord& jerk : file.jerks(row)) recorded.jerks.push_back(jerk);
-  return differences(file.input_columns(), recorded, replayed, file.measures(), file.header().version);
-}
-
-std::vector<std::string> differences_from_failures(const reading::StatisticsFile& file,
-                                                   std::span<const shards::TrialResult> replayed,
-                                                   Equality equality) {
-  if (!file.failures() || replayed.empty()) return {};
-  const reading::KeptTrials& failures = *file.failures();
-  std::map<std::int64_t, shards::TrialResult> recorded =
-      recorded_failures(failures, {replayed.front().row, std::ssize(replayed)});
-  std::vector<std::string> lines;
-  for (const shards::TrialResult& trial : replayed) {
-    const auto record = recorded.find(trial.row);
-    const bool failed = !trial::succeeded(trial.outcome.moves);
-    if (failed != (record != recorded.end())) {
-      lines.push_back(fmt::format("trial {}: recorded as a {}, replayed as a {}", trial.row,
-                                  failed ? "success" : "failure", failed ? "failure" : "success"));
-    } else if (failed) {
-      for (const std::string& line : differences(failures.input_columns(), record->second, trial,
-                                                 failures.measures(), file.header().version, equality))
-        lines.push_back(fmt::format("trial {}: {}", trial.row, line));
-    }
+std::vector<std::string> differences_from_record(const reading::ResultsFile& file,
+                                                 const shards::TrialResult* recorded,
+                                                 const shards::TrialResult& replayed, Equality equality) {
+  const bool kept = !layout::has_sums(file.header().kept) || !trial::succeeded(replayed.outcome.moves);
+  if (kept != (recorded != nullptr)) {
+    return {fmt::format("recorded as a {}, replayed as a {}", kept ? "success" : "failure",
+                        kept ? "failure" : "success")};
+  }
+  if (!recorded) return {};
+  const reading::TrialTables& trials = *file.trials();
+  std::vector<std::string> lines = differences(trials.input_columns(), *recorded, replayed, trials.measures(),
+                                               file.header().version, equality);
+  if (!recorded->trace.empty()) {
+    compare(layout::trace_fields(trials.features()), trace_records(*recorded), trace_records(replayed),
+            {"record", equality}, lines);
   }
   return lines;
+}
+
+std::vector<std::string> differences_from_record(const reading::ResultsFile& file,
+                                                 const shards::TrialResult& replayed) {
+  if (!file.trials()) return {};
+  const std::vector<shards::TrialResult> recorded =
+      study_run::read_trials(*file.trials(), {replayed.row, 1}, replayed.row, {});
+  return differences_from_record(file, recorded.empty() ? nullptr : &recorded.front(), replayed);
 }
 
 }  // namespace zerocount::verification

@@ -1,13 +1,11 @@
 #pragma once
 
-#include <span>
 #include <string>
 #include <vector>
 
 #include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"
-#include "results/reading/statistics_file.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/results_file.hpp"
 #include "results/shards/shard.hpp"
 
 namespace zerocount::verification {
@@ -29,20 +27,18 @@ std::vector<std::string> differences(
     const std::vector<layout::RecordField<trial::MoveOutcome>>& measures = layout::outcome_fields(),
     std::int64_t version = layout::format_version, Equality equality = Equality::rounded);
 
-/// Differences between the sample records of a retained trial and those of its replay.
-/// @param fields the recorded columns
-std::vector<std::string> trace_differences(
-    const std::vector<layout::RecordField<layout::TraceRecord>>& fields, const shards::TrialResult& recorded,
-    const shards::TrialResult& replayed, Equality equality);
+/// Differences between a replayed trial of a results file and its record, including the sample records if the
+/// record has them.
+/// @param recorded null if the file does not keep the trial: then it keeps failures, and the replay must
+/// succeed
+std::vector<std::string> differences_from_record(const reading::ResultsFile& file,
+                                                 const shards::TrialResult* recorded,
+                                                 const shards::TrialResult& replayed,
+                                                 Equality equality = Equality::rounded);
 
-/// The same for a trial of a results file, against its record.
-std::vector<std::string> differences_from_record(const reading::StudyFile& file,
+/// Reads the record from the file; sample records are not compared. No differences if the file keeps no
+/// trials.
+std::vector<std::string> differences_from_record(const reading::ResultsFile& file,
                                                  const shards::TrialResult& replayed);
-
-/// Of trials that follow one another, to those that a file keeps because they failed; a line each, with the
-/// number of the trial. None of a file that keeps no trials.
-std::vector<std::string> differences_from_failures(const reading::StatisticsFile& file,
-                                                   std::span<const shards::TrialResult> replayed,
-                                                   Equality equality = Equality::rounded);
 
 }  // namespace zerocount::verification

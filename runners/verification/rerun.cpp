@@ -25,32 +25,25 @@ using Results = std::vector<shards::TrialResult>;
 
 /// A file whose trials are compared with those that are run again.
 struct RecordedFile {
-  const reading::StudyFile& file;
-  const study::Study& study;
+  const reading::ResultsFile& file;
   study_run::RecordPlaces records;
   Equality equality;
 };
 
-void compare_trial(const RecordedFile& recorded, const shards::TrialResult& before,
-                   const shards::TrialResult& now, ProblemList& problems) {
-  const study::Study& study = recorded.study;
-  std::vector<std::string> lines = differences(study.input_columns, before, now, recorded.file.measures(),
-                                               recorded.file.header().version, recorded.equality);
-  if (recorded.file.has_trace()) {
-    const std::vector<std::string> of_trace =
-        trace_differences(layout::trace_fields(recorded.file.features()), before, now, recorded.equality);
-    lines.insert(lines.end(), of_trace.begin(), of_trace.end());
-  }
-  for (const std::string& line : lines)
-    problems.add(
-        fmt::format("point {}, trial {}: {}", before.row / study.trials, before.row % study.trials, line));
-}
-
 void compare_range(const RecordedFile& recorded, layout::RowRange rows, const Results& now,
                    ProblemList& problems) {
   try {
-    const Results before = study_run::read_trials(recorded.file, rows, rows.first, recorded.records);
-    for (std::size_t i = 0; i < before.size(); ++i) compare_trial(recorded, before[i], now[i], problems);
+    const Results before =
+        study_run::read_trials(*recorded.file.trials(), rows, rows.first, recorded.records);
+    auto next = before.begin();
+    const std::int64_t trials = recorded.file.header().trials;
+    for (const shards::TrialResult& trial : now) {
+      const bool kept = next != before.end() && next->row == trial.row;
+      for (const std::string& line :
+           differences_from_record(recorded.file, kept ? &*next : nullptr, trial, recorded.equality))
+        problems.add(fmt::format("point {}, trial {}: {}", trial.row / trials, trial.row % trials, line));
+      if (kept) ++next;
+    }
   } catch (const Failure& failure) {  // damaged values; the other trials are still compared
     if (failure.code() == ExitCode::machine_failed) throw;
     problems.add(problem_of(failure, recorded.file.path()));
@@ -59,11 +52,13 @@ void compare_range(const RecordedFile& recorded, layout::RowRange rows, const Re
 
 /// Runs trials in parallel, and gives the results range by range in order of rows.
 template <class Take>
-void run_in_tasks(const study::Study& study, std::span<const std::int64_t> rows, const Take& take) {
+void run_in_tasks(const study::Study& study, std::span<const std::int64_t> rows, const std::stop_token& stop,
+                  const Take& take) {
   const std::vector<layout::RowRange> ranges = ranges_of(rows);
   oneapi::tbb::enumerable_thread_specific<study_run::TrialRunner> runners(
       [&study] { return study_run::TrialRunner(study); });
   for (std::size_t first = 0; first < ranges.size(); first += tasks_at_once) {
+    require_no_stop(stop);
     const std::size_t count = std::min(tasks_at_once, ranges.size() - first);
     std::vector<Results> results(count);
     oneapi::tbb::parallel_for(std::size_t{0}, count,
@@ -72,13 +67,12 @@ void run_in_tasks(const study::Study& study, std::span<const std::int64_t> rows,
   }
 }
 
-/// The rows, and as many failures: where few trials fail, hardly any is among the rows.
-std::vector<std::int64_t> with_failures(std::span<const std::int64_t> rows,
-                                        const reading::KeptTrials& failures, std::uint64_t seed) {
-  std::set<std::int64_t> chosen(rows.begin(), rows.end());
-  for (const std::int64_t position : sample_below(failures.count(), std::ssize(rows), seed))
-    chosen.insert(failures.rows(position, 1).front());
-  return {chosen.begin(), chosen.end()};
+/// The chosen rows, and as many failures: where few trials fail, hardly any is among the rows.
+std::vector<std::int64_t> with_failures(const ChosenTrials& chosen, const reading::TrialTables& failures) {
+  std::set<std::int64_t> rows(chosen.rows.begin(), chosen.rows.end());
+  for (const std::int64_t position : sample_below(failures.count(), std::ssize(chosen.rows), chosen.seed))
+    rows.insert(failures.rows({position, 1}).front());
+  return {rows.begin(), rows.end()};
 }
 
 std::string detail_of(std::size_t run, std::int64_t trials, Equality equality) {
@@ -116,31 +110,21 @@ std::vector<layout::RowRange> ranges_of(std::span<const std::int64_t> rows) {
   return ranges;
 }
 
-void check_trials(CheckReport& report, const reading::StudyFile& file, const study::Study& study,
-                  std::span<const std::int64_t> rows, Equality equality) {
+void check_trials(CheckReport& report, const reading::ResultsFile& file, const study::Study& study,
+                  const ChosenTrials& chosen, Equality equality) {
   add_check(report, "trials run again", [&](Check& check, ProblemList& problems) {
-    const RecordedFile recorded{file, study, study_run::places_of_records(file), equality};
-    run_in_tasks(study, rows, [&](layout::RowRange range, const Results& results) {
-      compare_range(recorded, range, results, problems);
-    });
-    check.detail = detail_of(rows.size(), file.rows().count, equality);
-  });
-}
-
-void check_kept_trials(CheckReport& report, const reading::StatisticsFile& file, const study::Study& study,
-                       std::span<const std::int64_t> rows, std::uint64_t seed, Equality equality) {
-  add_check(report, "trials run again", [&](Check& check, ProblemList& problems) {
-    if (!file.failures()) {
+    if (!file.trials()) {
       check.skipped = true;
       check.detail = "the file keeps no trials";
       return;
     }
-    const std::vector<std::int64_t> chosen = with_failures(rows, *file.failures(), seed);
-    run_in_tasks(study, chosen, [&](layout::RowRange, const Results& results) {
-      for (std::string& difference : differences_from_failures(file, results, equality))
-        problems.add(std::move(difference));
+    const std::vector<std::int64_t> rows =
+        layout::has_sums(study.kept) ? with_failures(chosen, *file.trials()) : chosen.rows;
+    const RecordedFile recorded{file, study_run::places_of_records(*file.trials()), equality};
+    run_in_tasks(study, rows, report.stop, [&](layout::RowRange range, const Results& results) {
+      compare_range(recorded, range, results, problems);
     });
-    check.detail = detail_of(chosen.size(), file.rows().count, equality);
+    check.detail = detail_of(rows.size(), file.rows().count, equality);
   });
 }
 

@@ -6,8 +6,7 @@
 
 #include "experiments/study/study.hpp"
 #include "results/layout/row_range.hpp"
-#include "results/reading/statistics_file.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/results_file.hpp"
 #include "runners/verification/check.hpp"
 #include "runners/verification/replay.hpp"
 
@@ -19,15 +18,17 @@ std::vector<std::int64_t> sample_below(std::int64_t size, std::int64_t count, st
 /// The rising `rows` as ranges, each short enough for one task.
 std::vector<layout::RowRange> ranges_of(std::span<const std::int64_t> rows);
 
-/// Runs the trials `rows` of the file again with its engine, and compares all that is stored of each: inputs,
-/// measures, jerks and sample records.
-void check_trials(CheckReport& report, const reading::StudyFile& file, const study::Study& study,
-                  std::span<const std::int64_t> rows, Equality equality);
+/// Trials to run again.
+struct ChosenTrials {
+  std::vector<std::int64_t> rows;
+  std::uint64_t seed{1};  ///< of the choice of failures
+};
 
-/// The same of a file of statistics, with as many of its failures, drawn evenly, besides `rows`: a trial that
-/// fails must be among the failures as it is run, and the others must succeed. Of a file without failures
-/// there is nothing to compare.
-void check_kept_trials(CheckReport& report, const reading::StatisticsFile& file, const study::Study& study,
-                       std::span<const std::int64_t> rows, std::uint64_t seed, Equality equality);
+/// Runs trials of the file again with its engine, and compares everything that is stored of each: inputs,
+/// measures, jerks and sample records. If the file keeps failures only, runs as many of them, drawn evenly,
+/// besides the chosen rows: a trial that fails must be among the failures as it is run, and the others must
+/// succeed. A file without trials gives nothing to compare.
+void check_trials(CheckReport& report, const reading::ResultsFile& file, const study::Study& study,
+                  const ChosenTrials& chosen, Equality equality);
 
 }  // namespace zerocount::verification

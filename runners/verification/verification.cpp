@@ -9,10 +9,8 @@
 #include <fmt/format.h>
 
 #include "results/layout/header.hpp"
-#include "results/reading/statistics_file.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/results_file.hpp"
 #include "results/shards/shard.hpp"
-#include "runners/verification/failure_checks.hpp"
 #include "runners/verification/file_checks.hpp"
 #include "runners/verification/rebuilt_file.hpp"
 #include "runners/verification/rerun.hpp"
@@ -32,7 +30,7 @@ struct OpenedFile {
 
 void require_plugin(const fs::path& path, const study::Study& study, const VerifySettings& settings) {
   if (!study.plugin || study.plugin->functions != nullptr || settings.trials == 0 ||
-      study.kept == study::Kept::statistics)
+      !layout::has_trials(study.kept))
     return;
   throw Failure(
       ExitCode::bad_input,
@@ -50,30 +48,15 @@ Equality equality_of(const layout::FileHeader& header) {
   return same ? Equality::bits : Equality::rounded;
 }
 
-/// The checks of a file of statistics but the trials.
-void check_sums(CheckReport& report, const study::Study& study, Equality equality) {
-  std::optional<reading::StatisticsFile> file;
-  add_check(report, "datasets",
-            [&](Check&, ProblemList&) { file.emplace(report.path, reading::Require::any_part); });
-  if (!file) return;
-  check_failures(report, *file, study);
-  check_rebuilt(report, *file, study, equality);
-}
-
-/// All checks of one file but the trials.
+/// All checks of one file except running its trials again.
 OpenedFile check_stored(const fs::path& path, const VerifySettings& settings) {
-  OpenedFile opened{{path}, {}};
+  OpenedFile opened{{.path = path, .stop = settings.stop}, {}};
   CheckReport& report = opened.report;
   if (!check_bytes(report)) return opened;
   std::optional<Described> described = check_header(report, settings.plugin);
   if (!described) return opened;
   require_plugin(path, described->study, settings);
-  if (described->study.kept != study::Kept::trials) {
-    check_sums(report, described->study, equality_of(described->header));
-    if (holds(report)) opened.described = std::move(described);
-    return opened;
-  }
-  const std::optional<reading::StudyFile> file = check_tables(report, described->study);
+  const std::optional<reading::ResultsFile> file = check_tables(report, described->study);
   if (!file || !report.checks.back().problems.empty()) return opened;
   check_values(report, *file, described->study);
   check_rebuilt(report, *file, described->study, equality_of(described->header));
@@ -88,15 +71,10 @@ void run_again(OpenedFile& opened, std::vector<std::int64_t> chosen, std::uint64
   const auto& [header, study] = *opened.described;
   for (std::int64_t& row : chosen) row += header.rows.first;
   try {
-    const fs::path& path = opened.report.path;
-    if (study.kept == study::Kept::trials) {
-      check_trials(opened.report, reading::StudyFile(path, reading::Require::any_part), study, chosen,
-                   equality_of(header));
-    } else {
-      check_kept_trials(opened.report, reading::StatisticsFile(path, reading::Require::any_part), study,
-                        chosen, seed, equality_of(header));
-    }
+    check_trials(opened.report, reading::ResultsFile(opened.report.path, reading::Require::unfinished), study,
+                 {std::move(chosen), seed}, equality_of(header));
   } catch (const Failure& failure) {  // it has changed since
+    if (failure.code() == ExitCode::interrupted) throw;
     add_check(opened.report, "trials run again", [&](Check&, ProblemList&) { throw failure; });
   }
 }

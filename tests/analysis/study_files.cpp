@@ -112,10 +112,9 @@ void write_study_file(const std::filesystem::path& path, const study::Study& stu
   }
   const layout::RowRange rows{0, static_cast<std::int64_t>(trials.size())};
   const std::filesystem::path shard = path.string() + ".shard.h5";
-  shards::write_shard(shard, study, 0, results, layout::current_provenance(), shards::shard_compression,
-                      measures);
+  shards::write_shard(shard, study, rows, results, {}, {.measures = &measures});
   const std::vector<shards::ShardInfo> shards{{shard, rows}};
-  shards::merge_shards(shards, study, path, rows, statistics, layout::current_provenance(), {}, measures);
+  shards::merge_shards(shards, study, path, rows, statistics, {.measures = &measures});
 }
 
 }  // namespace zerocount::testing

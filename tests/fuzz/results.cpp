@@ -9,9 +9,7 @@
 #include "analysis/iso230/repeatability_file.hpp"
 #include "analysis/summary/summary.hpp"
 #include "results/reading/export.hpp"
-#include "results/reading/statistics_file.hpp"
-#include "results/reading/study_file.hpp"
-#include "results/shards/shard.hpp"
+#include "results/reading/results_file.hpp"
 #include "tests/fuzz/expectation.hpp"
 #include "tests/fuzz/file_edits.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -21,11 +19,7 @@ namespace {
 using namespace zerocount;
 
 void export_tables(const std::filesystem::path& path, const std::filesystem::path& folder) {
-  if (!shards::keeps_trials(path)) {
-    reading::export_csv(reading::StatisticsFile(path), folder, reading::ExistingFiles::replace);
-    return;
-  }
-  const reading::StudyFile file(path);
+  const reading::ResultsFile file(path);
   reading::export_csv(file, folder, iso230::repeatability_exports(file), reading::ExistingFiles::replace);
 }
 

@@ -10,8 +10,7 @@
 #include "analysis/summary/summary.hpp"
 #include "analysis/summary/summed_point.hpp"
 #include "results/layout/header.hpp"
-#include "results/reading/statistics_file.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/results_file.hpp"
 #include "results/shards/merge.hpp"
 #include "runners/study_run/study_runner.hpp"
 #include "tests/fuzz/expectation.hpp"
@@ -22,23 +21,14 @@ namespace {
 
 using namespace zerocount;
 
-void read_sums(const std::filesystem::path& path) {
-  const reading::StatisticsFile file(path, reading::Require::any_part);
-  const study::Study study = layout::recorded_study(file.header(), path);
-  for (std::int64_t i = 0; i < file.points(); ++i)
-    summary::restored_point(file, study, file.first_point() + i);
-  if (file.failures()) file.failures()->require_valid_values();
-}
-
 void read_shard(const std::filesystem::path& path) {
-  if (!shards::keeps_trials(path)) {
-    read_sums(path);
-    return;
+  const reading::ResultsFile file(path, reading::Require::any_part);
+  if (layout::has_sums(file.header().kept)) {
+    const study::Study study = layout::recorded_study(file.header(), path);
+    for (std::int64_t i = 0; i < file.points(); ++i)
+      summary::restored_point(file, study, file.first_point() + i);
   }
-  const reading::StudyFile file(path, reading::Require::any_part);
-  file.require_valid_values();
-  for (std::int64_t first = 0; first < file.trace_count(); first += 1000)
-    file.trace_at(first, std::min<std::int64_t>(1000, file.trace_count() - first));
+  if (file.trials()) file.trials()->require_valid_values();
 }
 
 void merge_shard(const std::filesystem::path& path, const std::filesystem::path& output) {

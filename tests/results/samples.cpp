@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <random>
+#include <span>
 
 #include "core/hash/sha256.hpp"
 #include "experiments/study/plan.hpp"
@@ -169,7 +171,7 @@ layout::Provenance sample_provenance() {
 shards::ShardInfo write_sample_shard(const std::filesystem::path& directory, const study::Study& study,
                                      layout::RowRange rows) {
   const std::filesystem::path path = shards::shard_path(directory, rows);
-  shards::write_shard(path, study, rows.first, sample_results(study, rows), sample_provenance());
+  shards::write_shard(path, study, rows, sample_results(study, rows), {}, {sample_provenance()});
   return {path, rows};
 }
 
@@ -182,6 +184,22 @@ std::vector<shards::ShardInfo> write_sample_shards(const std::filesystem::path& 
     shards.push_back(write_sample_shard(directory, study, {first, std::min(size, rows.end() - first)}));
   }
   return shards;
+}
+
+/// [point][rig] as if trial i were on rig i mod 8; empty without rigs.
+std::vector<std::vector<std::int64_t>> sample_rig_successes(const reading::StudyFile& file) {
+  const std::optional<reading::StoredRigs> rigs = file.rigs();
+  if (!rigs) return {};
+  const std::vector<trial::MoveOutcome> outcomes = file.outcomes(file.rows());
+  std::vector<std::vector<std::int64_t>> successes(
+      static_cast<std::size_t>(file.header().points),
+      std::vector<std::int64_t>(static_cast<std::size_t>(rigs->rigs), 0));
+  for (std::int64_t row = 0; row < file.rows().count; ++row) {
+    const std::span moves(outcomes.begin() + row * file.moves(), static_cast<std::size_t>(file.moves()));
+    successes[static_cast<std::size_t>(row / file.header().trials)]
+             [static_cast<std::size_t>(row % file.header().trials % rigs->rigs)] += trial::succeeded(moves);
+  }
+  return successes;
 }
 
 layout::StoredStatistics sample_statistics(const reading::StudyFile& file) {
@@ -200,7 +218,7 @@ layout::StoredStatistics sample_statistics(const reading::StudyFile& file) {
     count.values.push_back(static_cast<double>(trials));
     settling.values.push_back(sum / arrived);
   }
-  return {{count, settling}, {sample_table(file)}, {}};
+  return {{count, settling}, {sample_table(file)}, {}, sample_rig_successes(file)};
 }
 
 /// The largest holding torque of every move at every design point.
@@ -224,7 +242,8 @@ std::filesystem::path write_sample_file(const std::filesystem::path& directory, 
   const std::filesystem::path path = directory / "sample.h5";
   const std::vector<shards::ShardInfo> shards =
       write_sample_shards(layout::shards_directory(path), study, layout::all_rows(study), size);
-  shards::merge_shards(shards, study, path, layout::all_rows(study), sample_statistics, sample_provenance());
+  shards::merge_shards(shards, study, path, layout::all_rows(study), sample_statistics,
+                       {sample_provenance()});
   return path;
 }
 

@@ -130,7 +130,7 @@ TEST_F(Trace, ReportsAReplayThatIsNotTheRecordedTrial) {
     results.push_back(study_run::run_study_trial(study, row));
   results[3].outcome.moves[0].holding_torque += 2.4e-4;
   const std::filesystem::path shard = folder_.path() / "shard.h5";
-  shards::write_shard(shard, study, 0, results);
+  shards::write_shard(shard, study, {0, std::ssize(results)}, results);
   study_run::assemble(std::vector<shards::ShardInfo>{{shard, layout::all_rows(study)}}, study,
                       folder_.path() / "altered.h5", layout::all_rows(study));
 

@@ -324,7 +324,7 @@ TEST(Draws, RiseInTheSameOrderThroughAnotherDistribution) {
     for (std::int64_t row = 0; row < 2 * trials; ++row) {
       results[static_cast<std::size_t>(row)] = {row, {k1(row)}, trial_of(true, 10).outcome, {}, {}};
     }
-    shards::write_shard(folder / (name + ".shard"), study, 0, results);
+    shards::write_shard(folder / (name + ".shard"), study, {0, std::ssize(results)}, results);
     const std::vector<shards::ShardInfo> shards{{folder / (name + ".shard"), {0, 2 * trials}}};
     shards::merge_shards(shards, study, folder / name, {0, 2 * trials}, {});
     return reading::StudyFile(folder / name);

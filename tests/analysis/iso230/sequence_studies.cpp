@@ -55,7 +55,7 @@ std::vector<shards::TrialResult> sequence_results(const study::Study& study) {
 void write_sequence_file(const std::filesystem::path& path, const study::Study& study,
                          const std::vector<shards::TrialResult>& results) {
   const std::filesystem::path shard = path.string() + ".shard.h5";
-  shards::write_shard(shard, study, 0, results);
+  shards::write_shard(shard, study, {0, std::ssize(results)}, results);
   const layout::RowRange rows{0, static_cast<std::int64_t>(results.size())};
   shards::merge_shards(
       std::vector<shards::ShardInfo>{{shard, rows}}, study, path, rows,

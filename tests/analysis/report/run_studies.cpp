@@ -40,7 +40,7 @@ study::Study run_study_file(const std::filesystem::path& path, const std::string
     result.outcome = trial::run_trial(trial.parameters, observers);
   }
   const std::filesystem::path shard = path.string() + ".shard.h5";
-  shards::write_shard(shard, study, 0, results);
+  shards::write_shard(shard, study, {0, std::ssize(results)}, results);
   const layout::RowRange rows{0, study::trial_count(study)};
   shards::merge_shards(
       std::vector<shards::ShardInfo>{{shard, rows}}, study, path, rows,

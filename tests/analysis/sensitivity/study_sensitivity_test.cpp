@@ -64,7 +64,7 @@ class MadeUpStudy {
       results[row].outcome.moves = outcomes(results[row].inputs);
     }
     const layout::RowRange rows{0, study::trial_count(study)};
-    shards::write_shard(folder_ / "shard.h5", study, 0, results);
+    shards::write_shard(folder_ / "shard.h5", study, {0, std::ssize(results)}, results);
     const std::vector<shards::ShardInfo> shards{{folder_ / "shard.h5", rows}};
     shards::merge_shards(shards, study, folder_ / "study.h5", rows,
                          [](const reading::StudyFile&) { return layout::StoredStatistics{}; });

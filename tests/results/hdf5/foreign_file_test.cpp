@@ -20,7 +20,6 @@
 
 #include "core/failure/failure.hpp"
 #include "results/hdf5/array_file.hpp"
-#include "results/reading/study_file.hpp"
 #include "results/storage/checksum_trailer.hpp"
 #include "tests/results/samples.hpp"
 
@@ -67,7 +66,6 @@ TEST_F(ForeignFile, ThatCrashesTheLibraryIsRefused) {
         EXPECT_NE(std::string(failure.what()).find("changed.h5: damaged: the HDF5 library fails"),
                   std::string::npos);
         ++refused;
-        EXPECT_THROW(reading::StudyFile{path}, Failure);
         EXPECT_THROW(hdf5::ArrayFile{path}, Failure);
       }
     }

@@ -40,7 +40,7 @@ TEST(Python, OpensAFileWhoseTablesAreEmpty) {
     results[static_cast<std::size_t>(row)].inputs = {1.0, 2.0};
     results[static_cast<std::size_t>(row)].outcome.moves.resize(1);
   }
-  shards::write_shard(directory / "shard.h5", study, 0, results);
+  shards::write_shard(directory / "shard.h5", study, {0, std::ssize(results)}, results);
   const std::vector<shards::ShardInfo> shards{{directory / "shard.h5", {0, 4}}};
   shards::merge_shards(shards, study, directory / "empty.h5", {0, 4}, {});
   expect_python_opens(directory / "empty.h5", directory / "output");

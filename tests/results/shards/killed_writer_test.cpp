@@ -71,7 +71,7 @@ void expect_whole_shards(int rounds) {
     std::filesystem::create_directory(shards);
     killed += kill_until_finished(shards, study, random);
     shards::merge_shards(shards::list_shards(shards, study).shards, study, output, layout::all_rows(study),
-                         sample_statistics, sample_provenance());
+                         sample_statistics, {sample_provenance()});
     EXPECT_EQ(stored_datasets(output), stored_datasets(reference));
   }
   EXPECT_GE(killed, rounds / 2);
@@ -96,7 +96,7 @@ TEST(KilledWriter, OfAMergeLeavesNoOutputOrAWholeOne) {
     const std::chrono::microseconds delay(random() % 60000);
     finishes_before(delay, [&] {
       shards::merge_shards(shards, study, output, layout::all_rows(study), sample_statistics,
-                           sample_provenance());
+                           {sample_provenance()});
     });
     if (!std::filesystem::exists(output)) continue;
     EXPECT_EQ(stored_datasets(output), stored_datasets(reference));

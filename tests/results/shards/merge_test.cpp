@@ -37,7 +37,8 @@ std::vector<shards::ShardInfo> random_shards(const fs::path& directory, const st
 }
 
 fs::path merged(const fs::path& path, const study::Study& study, std::span<const shards::ShardInfo> shards) {
-  shards::merge_shards(shards, study, path, layout::all_rows(study), sample_statistics, sample_provenance());
+  shards::merge_shards(shards, study, path, layout::all_rows(study), sample_statistics,
+                       {sample_provenance()});
   return path;
 }
 
@@ -83,8 +84,8 @@ TEST(Merge, StoresTheSameBytesWhetherChunksAreCopiedOrEncoded) {
     for (const std::int64_t end : ends) {
       const layout::RowRange rows{first, end - first};
       shards.push_back({shards::shard_path(directory / name, rows), rows});
-      shards::write_shard(shards.back().path, study, first, sample_results(study, rows), sample_provenance(),
-                          compression);
+      shards::write_shard(shards.back().path, study, rows, sample_results(study, rows), {},
+                          {sample_provenance(), compression});
       first = end;
     }
     return shards;
@@ -263,7 +264,7 @@ TEST(Merge, JoinsPartsAsItJoinsShards) {
     parts.push_back(directory / ("part" + std::to_string(rows.first) + ".h5"));
     const auto pieces =
         write_sample_shards(directory / ("shards" + std::to_string(rows.first)), study, rows, 20);
-    shards::merge_shards(pieces, study, parts.back(), rows, sample_statistics, sample_provenance());
+    shards::merge_shards(pieces, study, parts.back(), rows, sample_statistics, {sample_provenance()});
     const reading::StudyFile part(parts.back(), reading::Require::any_part);
     EXPECT_FALSE(part.header().complete);
     EXPECT_TRUE(part.statistics().empty());
@@ -298,7 +299,7 @@ TEST(Merge, OfAStudyWithoutAxesInputsProfilesJerksOrOverrides) {
     results[static_cast<std::size_t>(row)].row = row;
     results[static_cast<std::size_t>(row)].outcome.moves.resize(1);
   }
-  shards::write_shard(directory / "shard.h5", study, 0, results);
+  shards::write_shard(directory / "shard.h5", study, {0, std::ssize(results)}, results);
   const std::vector<shards::ShardInfo> shards{{directory / "shard.h5", {0, 5}}};
   shards::merge_shards(shards, study, directory / "all.h5", {0, 5}, {});
   const reading::StudyFile file(directory / "all.h5");
@@ -364,7 +365,8 @@ TEST(Merge, RefusesTrialsOfAnotherBuild) {
   layout::Provenance another = sample_provenance();
   another.git_commit = std::string(40, '0');
   const std::vector<fs::path> inputs{directory / "shard.h5"};
-  shards::write_shard(inputs[0], study, 0, sample_results(study, layout::all_rows(study)), another);
+  shards::write_shard(inputs[0], study, layout::all_rows(study),
+                      sample_results(study, layout::all_rows(study)), {}, {another});
   expect_failure(ExitCode::bad_data, "finish with the same build",
                  [&] { shards::merge_inputs(inputs, study); });
 }
@@ -377,9 +379,11 @@ TEST(Merge, RecordsThatAShardWasMadeFromChangedSources) {
   layout::Provenance changed = clean;
   changed.git_commit = "a1b2-dirty";
   const std::vector<shards::ShardInfo> shards{{directory / "a.h5", {0, 50}}, {directory / "b.h5", {50, 70}}};
-  shards::write_shard(shards[0].path, study, 0, sample_results(study, shards[0].rows), clean);
-  shards::write_shard(shards[1].path, study, 50, sample_results(study, shards[1].rows), changed);
-  shards::merge_shards(shards, study, directory / "all.h5", layout::all_rows(study), {}, clean);
+  shards::write_shard(shards[0].path, study, shards[0].rows, sample_results(study, shards[0].rows), {},
+                      {clean});
+  shards::write_shard(shards[1].path, study, shards[1].rows, sample_results(study, shards[1].rows), {},
+                      {changed});
+  shards::merge_shards(shards, study, directory / "all.h5", layout::all_rows(study), {}, {clean});
   EXPECT_EQ(reading::StudyFile(directory / "all.h5").header().provenance.git_commit, "a1b2-dirty");
 }
 

@@ -13,44 +13,6 @@
 namespace zerocount::testing {
 namespace {
 
-// Counted anew from the results that went into the file.
-TEST(RigTables, CountTheSuccessesOfEveryRigAtEveryPoint) {
-  const TemporaryFolder directory;
-  const study::Study study = sample_study_with_rigs(3, 400, 1);
-  const reading::StudyFile file(write_sample_file(directory.path(), study));
-  const reading::StoredRigs stored = file.rigs().value();
-  ASSERT_EQ(stored.rigs, 8);
-  std::vector<std::int64_t> success(3 * 8, 0);
-  for (std::int64_t row = 0; row < study::trial_count(study); ++row) {
-    const shards::TrialResult result = sample_result(study, row);
-    const bool all =
-        std::all_of(result.outcome.moves.begin(), result.outcome.moves.end(),
-                    [](const trial::MoveOutcome& m) { return m.outcome == trial::Outcome::zero_count; });
-    success[static_cast<std::size_t>(row / 400 * 8 + row % 8)] += all;
-  }
-  EXPECT_EQ(stored.success, success);
-  EXPECT_GT(*std::max_element(success.begin(), success.end()), 0);
-  EXPECT_EQ(stored.trials, std::vector<std::int64_t>(3 * 8, 50));
-}
-
-TEST(RigTables, ATrialSucceedsWithAllItsMovesOrNotAtAll) {
-  const TemporaryFolder directory;
-  const study::Study study = sample_study_with_rigs(1, 8, 2);
-  std::vector<shards::TrialResult> results = sample_results(study, layout::all_rows(study));
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    results[i].outcome.moves[0].outcome = i % 2 == 0 ? trial::Outcome::zero_count : trial::Outcome::one_count;
-    results[i].outcome.moves[1].outcome =
-        i % 4 < 2 ? trial::Outcome::zero_count : trial::Outcome::oscillating;
-  }
-  const std::filesystem::path shard = shards::shard_path(directory.path(), layout::all_rows(study));
-  shards::write_shard(shard, study, 0, results, sample_provenance());
-  const std::filesystem::path path = directory.path() / "file.h5";
-  shards::merge_shards(std::vector<shards::ShardInfo>{{shard, layout::all_rows(study)}}, study, path,
-                       layout::all_rows(study), {}, sample_provenance());
-  EXPECT_EQ(reading::StudyFile(path).rigs().value().success,
-            (std::vector<std::int64_t>{1, 0, 0, 0, 1, 0, 0, 0}));
-}
-
 TEST(RigTables, HaveWhatDiffersBetweenTheRigs) {
   const TemporaryFolder directory;
   const study::Study study = sample_study_with_rigs();
@@ -106,7 +68,7 @@ TEST(RigTables, APartHasTheRigsAndNoCounts) {
   const std::vector<shards::ShardInfo> shards =
       write_sample_shards(directory.path() / "shards", study, rows, 20);
   const std::filesystem::path path = directory.path() / "part.h5";
-  shards::merge_shards(shards, study, path, rows, {}, sample_provenance());
+  shards::merge_shards(shards, study, path, rows, {}, {sample_provenance()});
   const reading::StudyFile part(path, reading::Require::any_part);
   EXPECT_EQ(part.rigs().value().rigs, 8);
   EXPECT_TRUE(part.rigs().value().success.empty());

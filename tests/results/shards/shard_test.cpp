@@ -48,10 +48,12 @@ TEST(Shard, RefusesResultsThatAreNotItsRows) {
   const TemporaryFolder directory;
   const study::Study study = sample_study();
   std::vector<shards::TrialResult> results = sample_results(study, {0, 5});
-  EXPECT_THROW(shards::write_shard(directory / "a.h5", study, 1, results), std::invalid_argument);
+  EXPECT_THROW(shards::write_shard(directory / "a.h5", study, {1, std::ssize(results)}, results),
+               std::invalid_argument);
   results[3].inputs.pop_back();
-  EXPECT_THROW(shards::write_shard(directory / "a.h5", study, 0, results), std::invalid_argument);
-  EXPECT_THROW(shards::write_shard(directory / "a.h5", study, 0, {}), std::invalid_argument);
+  EXPECT_THROW(shards::write_shard(directory / "a.h5", study, {0, std::ssize(results)}, results),
+               std::invalid_argument);
+  EXPECT_THROW(shards::write_shard(directory / "a.h5", study, {0, 0}, {}), std::invalid_argument);
 }
 
 TEST(ShardSurvey, OfNoDirectoryIsEmpty) {
@@ -66,17 +68,18 @@ TEST(ShardSurvey, TellsGoodShardsFromAllOthersAndWhy) {
   study::Study other = sample_study(3, 40);
   other.study_sha256 = "0";
   write_bytes(directory / "text.h5", "no HDF5 at all");
-  shards::write_shard(directory / "other.h5", other, 40, sample_results(other, {40, 5}));
-  shards::write_shard(directory / "newer.h5", study, 50, sample_results(study, {50, 5}));
+  shards::write_shard(directory / "other.h5", other, {40, 5}, sample_results(other, {40, 5}));
+  shards::write_shard(directory / "newer.h5", study, {50, 5}, sample_results(study, {50, 5}));
   replace_attribute(directory / "newer.h5", "format_version", 99);
-  shards::write_shard(directory / "unmarked.h5", study, 60, sample_results(study, {60, 5}));
+  shards::write_shard(directory / "unmarked.h5", study, {60, 5}, sample_results(study, {60, 5}));
   remove_attribute(directory / "unmarked.h5", "finished");
   layout::Provenance another = layout::current_provenance();
   another.zerocount_version = "0.0.9";
-  shards::write_shard(directory / "earlier.h5", study, 70, sample_results(study, {70, 5}), another);
+  shards::write_shard(directory / "earlier.h5", study, {70, 5}, sample_results(study, {70, 5}), {},
+                      {another});
   another = layout::current_provenance();
   another.git_commit = std::string(40, '0');
-  shards::write_shard(directory / "commit.h5", study, 75, sample_results(study, {75, 5}), another);
+  shards::write_shard(directory / "commit.h5", study, {75, 5}, sample_results(study, {75, 5}), {}, {another});
   const std::string whole = read_bytes(good[0].path);
   write_bytes(directory / "short.h5", whole.substr(0, whole.size() / 2));
   write_bytes(directory / "trials-000000000077-000000000078.h5.part", whole.substr(0, 1000));

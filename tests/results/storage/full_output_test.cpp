@@ -89,7 +89,7 @@ TEST_F(FullOutput, FailsAShardWithItsPathAndTheReason) {
     const fs::path path = directory / "shard.h5";
     expect_full(with_file_limit(limit,
                                 [&] {
-                                  shards::write_shard(path, study, 0, sample_results(study, {0, 120}));
+                                  shards::write_shard(path, study, {0, 120}, sample_results(study, {0, 120}));
                                 }),
                 path);
     EXPECT_FALSE(fs::exists(path));
@@ -131,10 +131,12 @@ TEST(UnwritableOutput, IsSaidWithTheReason) {
   const study::Study study = sample_study();
   write_bytes(directory / "file", "not a directory");
   const std::vector<shards::TrialResult> results = sample_results(study, {0, 120});
-  expect_failure(ExitCode::machine_failed, "Not a directory",
-                 [&] { shards::write_shard(directory.path() / "file" / "shard.h5", study, 0, results); });
-  expect_failure(ExitCode::machine_failed, "No such file or directory",
-                 [&] { shards::write_shard(directory.path() / "nowhere" / "shard.h5", study, 0, results); });
+  expect_failure(ExitCode::machine_failed, "Not a directory", [&] {
+    shards::write_shard(directory.path() / "file" / "shard.h5", study, {0, std::ssize(results)}, results);
+  });
+  expect_failure(ExitCode::machine_failed, "No such file or directory", [&] {
+    shards::write_shard(directory.path() / "nowhere" / "shard.h5", study, {0, std::ssize(results)}, results);
+  });
   expect_failure(ExitCode::machine_failed, "Not a directory",
                  [&] { storage::make_directory(directory.path() / "file" / "below"); });
   expect_failure(ExitCode::machine_failed, "File exists",

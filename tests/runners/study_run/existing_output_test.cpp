@@ -151,7 +151,7 @@ TEST_F(ExistingOutput, OfAPartCannotBeExtended) {
 TEST_F(ExistingOutput, ThatIsNoResultsFileIsRefused) {
   folder_.write("study.yaml", small_manifest(4));
   folder_.write("out.h5", "my notes");
-  expect_refused({}, {"no usable results file"});
+  expect_refused({}, {"not a usable results file"});
   complete("study.yaml", "out.h5", {"--force"});
 }
 
@@ -160,14 +160,6 @@ TEST_F(ExistingOutput, OfAnEarlierFormatIsRefused) {
   fs::copy(earlier, at("out.h5"), fs::copy_options::overwrite_existing);
   folder_.write("study.yaml", reading::StudyFile(at("out.h5")).header().manifest);
   expect_refused({}, {"out.h5"});
-}
-
-TEST_F(ExistingOutput, IsReplacedWithForceWhateverItHolds) {
-  folder_.write("study.yaml", small_manifest(20));
-  complete("study.yaml", "fresh.h5");
-  complete("study.yaml", "out.h5", {"--set", "seed=43"});
-  complete("study.yaml", "out.h5", {"--force"});
-  expect_same_datasets(at("fresh.h5"), at("out.h5"));
 }
 
 }  // namespace

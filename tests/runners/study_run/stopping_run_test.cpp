@@ -82,21 +82,6 @@ TEST_F(StoppingRun, EndsAfterTheFirstBlockThatLeavesItSure) {
   EXPECT_FALSE(fs::exists(at("out.h5.shards")));
 }
 
-TEST_F(StoppingRun, HoldsTheTrialsOfAPlainStudyOfThatSize) {
-  folder_.write("study.yaml", stopping_manifest());
-  folder_.write("plain.yaml", manifest(""));
-  complete("study.yaml", "out.h5");
-  const std::int64_t trials = reading::StudyFile(at("out.h5")).header().trials;
-  complete("plain.yaml", "plain.h5", {"--set", "trials=" + std::to_string(trials)});
-  const auto stopped = stored_datasets(at("out.h5"));
-  const auto plain = stored_datasets(at("plain.h5"));
-  for (const auto& [path, bytes] : plain) {
-    if (path.find("manifest") == std::string::npos && path.find("overrides") == std::string::npos) {
-      EXPECT_TRUE(stopped.at(path) == bytes) << path;
-    }
-  }
-}
-
 TEST_F(StoppingRun, ComesToTheSameForAnyThreadsAndInterruptions) {
   folder_.write("study.yaml", stopping_manifest());
   complete("study.yaml", "one.h5", {"--threads", "1"});

@@ -17,12 +17,13 @@
 namespace zerocount::statistics {
 namespace {
 
-constexpr std::int64_t max_trials = 1'000'000'000'000;
+constexpr std::int64_t max_planned_trials = 1'000'000'000'000;
 constexpr std::int64_t max_failures = 1'000'000'000;
 constexpr std::int64_t max_rigs = 1'000'000'000;
 
 [[noreturn]] void too_many(const char* what) {
-  throw Failure(ExitCode::bad_input, fmt::format("{} would need more than {} trials", what, max_trials));
+  throw Failure(ExitCode::bad_input,
+                fmt::format("{} would need more than {} trials", what, max_planned_trials));
 }
 
 void require_halfwidth(double halfwidth) {
@@ -83,7 +84,7 @@ std::int64_t trials_for_claim(double success, double confidence, std::int64_t fa
   require_confidence(confidence);
   if (failures < 0)
     throw Failure(ExitCode::bad_input, fmt::format("{} failures; expected 0 or more", failures));
-  return least(failures + 1, max_trials, "the claim", [&](std::int64_t trials) {
+  return least(failures + 1, max_planned_trials, "the claim", [&](std::int64_t trials) {
     return chance_of_claim(trials, failures, success) <= 1.0 - confidence;
   });
 }
@@ -116,7 +117,7 @@ std::int64_t trials_for_halfwidth(double halfwidth, double confidence, double ra
   require_halfwidth(halfwidth);
   require_confidence(confidence);
   require_open_unit("success rate", rate);
-  return least(1, max_trials, "the half-width", [&](std::int64_t trials) {
+  return least(1, max_planned_trials, "the half-width", [&](std::int64_t trials) {
     return halfwidth_of(static_cast<double>(trials), rate, confidence) <= halfwidth;
   });
 }
@@ -158,7 +159,7 @@ SequentialCost sequential_cost(double halfwidth, double confidence, double rate,
   const auto successes = static_cast<std::int64_t>(std::llround(rate * out_of));
   return {rate, trials_for_halfwidth(halfwidth, confidence, rate),
           projected_trials(successes, static_cast<std::int64_t>(out_of), halfwidth, confidence, block,
-                           max_trials)};
+                           max_planned_trials)};
 }
 
 RigPlan plan_tolerance(double content, double success, double confidence, std::int64_t rigs) {

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// Everything that a file can be asked for.
 void read_all(const fs::path& path) {
@@ -73,7 +73,7 @@ class SoundValues : public ::testing::Test {
 
 TEST_F(SoundValues, TheSampleHasThem) {
   EXPECT_NO_THROW(read_all(original));
-  EXPECT_NO_THROW(read_all(forged("outcome/jerk_agreement", 3, nan)));
+  EXPECT_NO_THROW(read_all(forged("outcome/jerk_agreement", 3, not_a_number)));
 }
 
 TEST_F(SoundValues, AreAskedOfEveryMeasure) {
@@ -98,7 +98,7 @@ TEST_F(SoundValues, AreAskedOfEveryMeasure) {
 
 TEST_F(SoundValues, AMoveThatArrivedHasASettlingTime) {
   const std::int64_t arrived = trial_with("arrived", 1.0);
-  const fs::path path = forged("outcome/settling_time", arrived, nan);
+  const fs::path path = forged("outcome/settling_time", arrived, not_a_number);
   expect_failure(ExitCode::bad_data, "/outcome/arrived", [&] { read_all(path); });
 }
 
@@ -121,7 +121,7 @@ TEST_F(SoundValues, AreAskedOfJerks) {
   expect_refused("jerk/trial", 5, std::int64_t{60}, "row 5: it is 60");
   expect_refused("jerk/trial", 0, std::int64_t{59}, "row 1: it is ");
   expect_refused("jerk/move", 3, std::int64_t{2}, "row 3: it is 2; expected 0 to 1");
-  expect_refused("jerk/onset", 3, nan, "row 3: it is nan; expected a finite time");
+  expect_refused("jerk/onset", 3, not_a_number, "row 3: it is nan; expected a finite time");
   expect_refused("jerk/duration", 3, infinity, "row 3: it is inf; expected a finite time");
   expect_refused("jerk/duration", 3, -1e-3, "row 3: it is -0.001");
   expect_refused("jerk/magnitude", 3, std::int64_t{-1}, "row 3: it is -1");

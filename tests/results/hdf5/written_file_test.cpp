@@ -94,7 +94,7 @@ TEST(WrittenFile, IsRefusedWhereAnythingDiffers) {
           [](auto& values) { values["/numbers/row"].chunks[1].digest ^= 1; });
   refused("/numbers/value: its axis /labels is missing",
           [](auto& values) { values["/numbers/value"].scales.emplace_back(0, "/labels"); });
-  refused("/labels: it is no axis", [](auto& values) { values["/labels"].is_scale = true; });
+  refused("/labels: it is not an axis", [](auto& values) { values["/labels"].is_scale = true; });
   refused("/", [](auto& values) { values["/more"]; });
 }
 

@@ -130,8 +130,7 @@ TEST_F(StoppingRun, CannotBeDividedIntoParts) {
   folder_.write("study.yaml", stopping_manifest());
   const ProgramResult result = run("study.yaml", "out.h5", {"--shard", "1/2"});
   EXPECT_EQ(result.code, 2);
-  EXPECT_NE(result.err.find("option '--shard': how many trials a study with `stop` takes"),
-            std::string::npos);
+  EXPECT_NE(result.err.find("option '--shard': a study with `stop` cannot be divided"), std::string::npos);
 }
 
 TEST_F(StoppingRun, SummaryHasTheBoundsThatHold) {

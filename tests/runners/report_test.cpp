@@ -131,7 +131,7 @@ TEST_F(ReportCommand, TheBodePlotHasTheMarginsOfCheck) {
 TEST_F(ReportCommand, PlotSaysWhatIsWrongWithItsWords) {
   const ProgramResult unknown = run({"plot", "a.h5", "--figure", "sucess", "-o", "b.svg"});
   EXPECT_EQ(unknown.code, 2);
-  EXPECT_NE(unknown.err.find("there are: success, "), std::string::npos) << unknown.err;
+  EXPECT_NE(unknown.err.find("has: success, "), std::string::npos) << unknown.err;
   const ProgramResult extension = run({"plot", "a.h5", "--figure", "success", "-o", "b.jpg"});
   EXPECT_EQ(extension.code, 2);
   EXPECT_NE(extension.err.find("does not end in .svg or .png"), std::string::npos) << extension.err;

@@ -140,7 +140,7 @@ TEST_F(PluginStudy, PartsOfDifferentLibrariesAreNotMerged) {
 TEST_F(PluginStudy, RunsInLanesOnlyWithoutPlugin) {
   const ProgramResult result = run_study({"--engine", "batch"});
   EXPECT_EQ(result.code, 2);
-  EXPECT_NE(result.err.find("runs on the reference engine only"), std::string::npos);
+  EXPECT_NE(result.err.find("runs only on the reference engine"), std::string::npos);
 }
 
 }  // namespace

@@ -5,9 +5,9 @@
 set(zerocount_optimisation_numbers -O2)
 set(zerocount_optimisation_text -Og)
 
-# zerocount_target(<target> <optimisation>): sets the options of all targets: C++20, warnings, and no contraction of a·b + c into a fused
-# operation. Every build must give the same bits, because the quantisers of the loop turn a last-bit difference into a different
-# count.
+# zerocount_target(<target> <optimisation>): sets the options of all targets: C++20, warnings, and no contraction of a·b + c into a
+# fused operation. Every build must give the same bits, because the quantisers of the loop turn a last-bit difference into a
+# different count.
 function(zerocount_target target optimisation)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
@@ -30,13 +30,13 @@ function(zerocount_target target optimisation)
   endif()
   if(ZEROCOUNT_SANITIZE)
     set(sanitizers -fsanitize=${ZEROCOUNT_SANITIZE} -fno-sanitize-recover=all)
-    set(optimisation -O1)
+    set(level -O1)
     if(target MATCHES "tests?$")
-      set(optimisation -O0)
+      set(level -O0)
     endif()
     # Beyond this a sanitized build takes several times longer, and finds no more. GCC 12 warns about its own <regex> if it is
     # instrumented (GCC bug 105562).
-    target_compile_options(${target} PRIVATE ${sanitizers} -fno-omit-frame-pointer ${optimisation} -g1
+    target_compile_options(${target} PRIVATE ${sanitizers} -fno-omit-frame-pointer ${level} -g1
                                              $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
     target_compile_definitions(${target} PRIVATE _GLIBCXX_ASSERTIONS ZEROCOUNT_SANITIZED)
     target_link_options(${target} PUBLIC ${sanitizers})

@@ -1,4 +1,4 @@
-// What precompiled.hpp is to the product, for tests.
+// Headers of libraries that most tests need, parsed once for all of them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

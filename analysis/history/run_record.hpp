@@ -73,7 +73,7 @@ std::string series_sha256(const reading::StudyFile& file);
 RunRecord record_of(const reading::StudyFile& file);
 
 /// Adds to a run what the JSON of `zerocount compare` says of it.
-/// @throws Failure (bad_data) where the file is no such JSON, (bad_input) where it is of another run.
+/// @throws Failure (bad_data) where the file is not such JSON, (bad_input) where it is of another run.
 void add_comparison(RunRecord& run, const std::filesystem::path& json);
 
 }  // namespace zerocount::history

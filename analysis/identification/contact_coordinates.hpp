@@ -44,7 +44,7 @@ using FreeCoordinates = std::array<bool, coordinate_count>;
 inline constexpr double max_time_offset = 2.0;
 
 /// Name of the parameter of each coordinate: its manifest key (for log_limit friction.lambda), and that of
-/// the time offset, which is no parameter of a manifest.
+/// the time offset, which is not a parameter of a manifest.
 inline constexpr std::array<std::string_view, coordinate_count> coordinate_keys{
     "friction.k1",   "friction.k2",    "friction.beta",   "plant.presliding_damping",
     "plant.inertia", "friction.alpha", "friction.lambda", "friction.n",

@@ -10,7 +10,7 @@ namespace zerocount::sensitivity {
 /// @param x none of its columns is constant.
 Eigen::MatrixXd standardised(const Eigen::MatrixXd& x);
 
-/// Which columns add something to those before them, [column]: those whose part that is no linear
+/// Which columns add something to those before them, [column]: those whose part that is not a linear
 /// combination of the earlier ones has at least 10⁻⁸ of their variance.
 /// @param x standardised.
 std::vector<bool> independent_columns(const Eigen::MatrixXd& x);

@@ -46,8 +46,8 @@ std::int64_t bootstrap_replicates(double confidence);
 /// ones are drawn. The upper bound of S_j is not above that of T_j, and the lower one of T_j is 0 only where
 /// no row differs. NaN where A and B have no variance or there are fewer than two rows, and for a factor
 /// where A and C_j have none.
-/// An output that is no yes or no has no bounds where its variance comes from fewer than ten trials of A and
-/// B: (Σ (y − m)²)²/Σ (y − m)⁴ < 20.
+/// An output that is not a yes or no has no bounds where its variance comes from fewer than ten trials of A
+/// and B: (Σ (y − m)²)²/Σ (y − m)⁴ < 20.
 /// @param randomness the rows are drawn from: the same gives the same bounds.
 std::vector<SobolIndices> saltelli_indices(const SaltelliSample& sample, double confidence,
                                            const random::RandomStream& randomness);

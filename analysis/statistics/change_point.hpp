@@ -69,7 +69,7 @@ double change_threshold(double probability);
 ///
 /// The dispersion is averaged because that of a single measurement depends on its value: weights by it would
 /// favour the values on one side. Measurements on one side that were made with the same random numbers count
-/// as a single one, their average: what the errors of such measurements have in common is no evidence. As
+/// as a single one, their average: what the errors of such measurements have in common is not evidence. As
 /// they are not correlated negatively, the variance of Z_k is then at most about 1.
 /// @param threshold h
 std::vector<LevelChange> level_changes(MeasurementKind kind, std::span<const Measurement> measurements,

@@ -5,7 +5,7 @@
 
 namespace zerocount::batch {
 
-/// As many neighbouring lanes of the batch state as a vector has, of which some take part.
+/// Neighbouring lanes of the batch state that fill one vector; a mask says which take part.
 template <class P>
 class LaneStretch {
  public:

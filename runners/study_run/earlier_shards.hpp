@@ -25,8 +25,8 @@ EarlierShards choose_shards(const std::vector<shards::ShardInfo>& sound, layout:
 /// Treatment of shards of another study.
 enum class ForeignShards { refuse, remove };
 
-/// What is read of a shard: all its values, which may be wrong under a right checksum; or the bytes of the
-/// file and its header.
+/// How a shard is checked. values: reads every value, which may be wrong under a right checksum. checksum:
+/// reads the bytes of the file and its header.
 enum class Inspection { values, checksum };
 
 /// Finds the shards of earlier runs. Damaged shards are renamed and their trials run again.

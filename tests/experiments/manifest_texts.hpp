@@ -36,7 +36,7 @@ std::size_t column_of(const study::Study& study, const std::string& name);
 /// that does not begin with a digit names its source, such as "--set trials=x: trials | number".
 testing::AssertionResult has_faults(const std::string& message, std::string_view faults);
 
-/// The same for warnings, of which each is a line.
+/// Whether these warnings have these faults, one a warning.
 testing::AssertionResult has_faults(const std::vector<std::string>& warnings, std::string_view faults);
 
 }  // namespace zerocount

@@ -110,7 +110,8 @@ TEST_F(ExistingOutput, AnExtensionThatIsKilledLosesNothing) {
   for (const int signal : {SIGINT, SIGKILL}) {
     RunningProgram program({"run", "study.yaml", "--set", "trials=200000", "-o", "out.h5", "--threads", "1"},
                            folder_.path());
-    while (!fs::exists(at("out.h5.shards"))) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    for (int i = 0; i < 2000 && !fs::exists(at("out.h5.shards")); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     program.send(signal);
     EXPECT_NE(program.wait(), 0);

@@ -27,7 +27,7 @@ bool goes_beyond(const std::vector<double>& levels, std::size_t level) {
 
 TEST(PaperFig6, EachLevelCreepsToItsHardeningAndNoFurther) {
   const study::Study study = shipped_study("paper-fig6");
-  for (std::int64_t index = 0; index < 10; ++index) {
+  for (std::int64_t index = 0; index < 25; ++index) {
     const trial::TrialParameters parameters = trial_of(study, "all", index);
     const std::vector<double>& levels = parameters.command.torque.levels;
     const double left = std::exp(-parameters.friction.uniform.alpha * parameters.command.hold);
@@ -51,7 +51,7 @@ TEST(PaperFig6, EachLevelCreepsToItsHardeningAndNoFurther) {
 TEST(PaperFig6, ALevelThatIsRepeatedOrReversedCreepsNoMore) {
   const study::Study study = shipped_study("paper-fig6");
   int repeated = 0;
-  for (std::int64_t index = 0; index < 10; ++index) {
+  for (std::int64_t index = 0; index < 25; ++index) {
     const trial::TrialParameters parameters = trial_of(study, "all", index);
     const std::vector<double>& levels = parameters.command.torque.levels;
     const double left = std::exp(-parameters.friction.uniform.alpha * parameters.command.hold);
@@ -70,7 +70,7 @@ TEST(PaperFig6, ALevelThatIsRepeatedOrReversedCreepsNoMore) {
       }
     }
   }
-  EXPECT_GE(repeated, 10 * 3);
+  EXPECT_GE(repeated, 25 * 3);
 }
 
 TEST(PaperFig6, HardeningIsNeverUndoneAndIsWhatHasCreptEitherWay) {
@@ -125,7 +125,7 @@ TEST(PaperFig6, CreepUnderTheFirstTorqueFollowsTheClosedForm) {
 
 TEST(PaperFig6, ThePositionAtARepeatedTorqueIsTheSame) {
   const study::Study study = shipped_study("paper-fig6");
-  for (std::int64_t index = 0; index < 10; ++index) {
+  for (std::int64_t index = 0; index < 25; ++index) {
     const trial::TrialParameters parameters = trial_of(study, "all", index);
     ASSERT_EQ(parameters.command.torque.levels[2], parameters.command.torque.levels[0]);
     const std::vector<trial::MoveOutcome> moves = trial::run_trial(parameters).moves;

@@ -126,7 +126,7 @@ TEST(RepeatabilityStudy, WithoutAnIntegralTheAxisStopsShortFromEitherSide) {
 // repeatability.
 TEST(RepeatabilityStudy, TheReversalValueIsTheSumOfTheStallErrors) {
   const study::Study study = shipped_study("repeatability", {"command.sequence.cycles=2"});
-  for (std::int64_t index = 0; index < 3; ++index) {
+  for (std::int64_t index = 0; index < 6; ++index) {
     const MeasuredAxis axis = measured_axis(study, "pd-alone", index);
     double largest = 0.0;
     for (std::size_t target = 0; target < axis.repeatability.from_encoder.targets.size(); ++target) {

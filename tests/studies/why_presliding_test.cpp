@@ -85,7 +85,7 @@ TEST_P(WithCoulomb, TheLoopNeverArrives) {
 TEST_P(WithCoulomb, TheLoopGoesOnHuntingHoweverLongItIsHeld) {
   // An error of one count winds the torque up from one breakaway to the other in 5 s. Then it goes faster.
   const study::Study study = shipped_study("why-presliding", {"command.hold=15"});
-  for (std::int64_t index = 0; index < 10; ++index) {
+  for (std::int64_t index = 0; index < 30; ++index) {
     const WatchedTrial trial = watched(trial_of(study, GetParam(), index));
     std::int64_t crossings = 0;
     for (std::size_t k = trial.samples.size() - 10000; k < trial.samples.size(); ++k) {

@@ -112,6 +112,7 @@ TEST_F(ExistingOutput, AnExtensionThatIsKilledLosesNothing) {
                            folder_.path());
     for (int i = 0; i < 2000 && !fs::exists(at("out.h5.shards")); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    ASSERT_TRUE(fs::exists(at("out.h5.shards"))) << "the run has begun nothing in 10 s";
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     program.send(signal);
     EXPECT_NE(program.wait(), 0);

@@ -163,20 +163,16 @@ function(zerocount_layer)
   endforeach()
 endfunction()
 
-# zerocount_test(<name> [THREADED] [NUMBERS] SOURCES ... [ALONE ...] LINKS ...): one GoogleTest executable; each of its tests is a CTest test.
+# zerocount_test(<name> [THREADED] SOURCES ... [ALONE ...] LINKS ...): one GoogleTest executable; each of its tests is a CTest test.
 # Those named DISABLED_, the long versions of others, are together the long test Long.<name>. THREADED: the thread sanitizer runs
 # them too; the target threaded_tests builds them.
 function(zerocount_test name)
-  cmake_parse_arguments(ARG "THREADED;NUMBERS" "" "SOURCES;ALONE;LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "THREADED" "" "SOURCES;ALONE;LINKS" ${ARGN})
   zerocount_units(${name}_units 10 ${ARG_SOURCES})
   add_executable(${name} ${${name}_units} ${ARG_ALONE})
   target_link_libraries(${name} PRIVATE ${ARG_LINKS} GTest::gtest_main)
-  if(ARG_NUMBERS)
-    zerocount_target(${name} numbers)
-  else()
-    zerocount_target(${name} text)
-    zerocount_use_precompiled(${name} tests)
-  endif()
+  zerocount_target(${name} text)
+  zerocount_use_precompiled(${name} tests)
   target_compile_options(${name} PRIVATE -Wno-shadow)  # for constants of test files in the same unit
   set(properties TIMEOUT 600)
   if(ZEROCOUNT_SANITIZE)

@@ -18,15 +18,12 @@ TEST(FittedRecords, LeaveTheMisfitOfTheSummary) {
   std::mt19937_64 random(31);
   const identification::ContactParameters contact = random_contact(random);
   std::vector<identification::TestRecord> records;
-  TorqueProgramme programme;
-  programme.step(0.08).hold(0.05).step(0.0).hold(0.05).ramp(0.1, 0.8).hold(0.2).ramp(-0.1, 0.8).ramp(0.1,
-                                                                                                     0.8);
-  for (int record = 0; record < 3; ++record)
+  for (const TorqueProgramme& programme : three_tests())
     records.push_back(simulated_test(contact, programme, {}, random));
   records[1].excluded.assign(records[1].reading.size(), false);
   for (std::size_t k = 40; k < 60; ++k) records[1].excluded[k] = true;
   identification::IdentificationOptions options;
-  options.replicates = 20;
+  options.replicates = 100;
   const identification::Identification found = identification::identify(records, options);
   ASSERT_EQ(found.fitted.size(), records.size());
   for (std::size_t r = 0; r < records.size(); ++r) {

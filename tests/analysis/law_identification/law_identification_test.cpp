@@ -107,14 +107,6 @@ identification::TestRecord record_of(const Truth& truth, std::mt19937_64& random
   return simulated_test(truth.plant, truth.friction, test, instrument, random);
 }
 
-/// Shorter, for laws that differ much.
-identification::TestRecord short_record_of(const Truth& truth, std::mt19937_64& random) {
-  TorqueProgramme test;
-  test.step(0.08).hold(0.05).step(0.0).hold(0.05);
-  test.ramp(0.1, 1.6).hold(0.2).ramp(-0.1, 1.6).ramp(0.15, 1.6).hold(0.3);
-  return simulated_test(truth.plant, truth.friction, test, {}, random);
-}
-
 /// The number of intervals that hold the truth, and of all.
 struct Held {
   int held{0};
@@ -208,7 +200,7 @@ TEST_P(EachLaw, IsToldFromTheNearestWithItsParameters) {
   std::mt19937_64 random(11);
   const Truth truth = rotor_of(GetParam(), random);
   const LawComparison found =
-      law_identification::compare_laws({short_record_of(truth, random)}, {nearest_of(GetParam())});
+      law_identification::compare_laws({record_of(truth, random)}, {nearest_of(GetParam())});
   const IdentifiedLaw& law = found.laws.front();
   ASSERT_EQ(law.law, GetParam());
   EXPECT_GT(found.laws.back().information_criterion, 10.0);

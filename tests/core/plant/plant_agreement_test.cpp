@@ -127,7 +127,7 @@ class PlantAgreement : public ::testing::TestWithParam<Family> {};
 
 TEST_P(PlantAgreement, EqualsBoostOdeint) {
   Differences worst;
-  for (std::uint64_t index = 0; index < 25; ++index) compare_motion(GetParam(), index, worst);
+  for (std::uint64_t index = 0; index < 40; ++index) compare_motion(GetParam(), index, worst);
   std::cout << fmt::format(
       "{}: {} intervals, {} sliding, {} breakaways, {} reversals; theta within {:.1e} count before "
       "breakaway, "

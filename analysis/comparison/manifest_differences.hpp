@@ -15,7 +15,7 @@ namespace zerocount::comparison {
 using ManifestValues = std::map<std::string, std::string>;
 
 /// @param source the file that the header is of, for messages
-/// @throws Failure (bad_data) where the manifest is no YAML that this program accepts.
+/// @throws Failure (bad_data) where the manifest is not YAML that this program accepts.
 ManifestValues manifest_values(const layout::FileHeader& header, const std::string& source);
 
 /// Adds the defaults that changed between the format versions of two files to the manifests that do not set

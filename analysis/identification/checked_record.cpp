@@ -52,7 +52,7 @@ void set_readings(const RawSeries& series, TestRecord& record) {
     record.counted = true;
     for (std::size_t k = 0; k < series.angle.size(); ++k) {
       if (series.angle[k] != std::round(series.angle[k])) {
-        throw Failure(ExitCode::bad_data, fmt::format("{}: the count {} is no whole number",
+        throw Failure(ExitCode::bad_data, fmt::format("{}: the count {} is not a whole number",
                                                       place_of(series, k), series.angle[k]));
       }
     }

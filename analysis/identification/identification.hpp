@@ -95,7 +95,7 @@ Identification identify(std::vector<TestRecord> records, const IdentificationOpt
 /// The parameters, the parts of the records, the checks and the manifest fragment as text.
 std::string identification_text(const Identification& identification);
 
-/// The same as one JSON object. Numbers read back to the same double; missing values are null.
+/// The report as one JSON object. Numbers read back to the same double; missing values are null.
 std::string identification_json(const Identification& identification);
 
 /// The identified parameters as a fragment of a manifest, the maps `plant` and `friction`: for each estimated

@@ -72,7 +72,7 @@ LawComparison compare_laws(std::vector<identification::TestRecord> records, cons
 /// The comparison, the parameters of the best law and its fragment of a manifest as text.
 std::string comparison_text(const LawComparison& comparison);
 
-/// The same with the parameters of every law as one JSON object. Missing values are null.
+/// The comparison and the parameters of every law as one JSON object. Missing values are null.
 std::string comparison_json(const LawComparison& comparison);
 
 }  // namespace zerocount::law_identification

@@ -31,7 +31,7 @@ bool can_be_sampled(Records records, const LawModel& model, const LawPoint& poin
 Eigen::VectorXd law_path(const identification::TestRecord& record, const LawModel& model,
                          const LawPoint& point);
 
-/// The same with derivatives, by forward differences.
+/// law_path() and its derivatives with respect to the point, by forward differences.
 LawMotion law_motion(const identification::TestRecord& record, const LawModel& model, const LawPoint& point);
 
 /// Every reading that is not masked as an observation with the variance of a count.

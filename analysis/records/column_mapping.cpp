@@ -97,7 +97,7 @@ ParsedMapping parse_mapping(std::string_view text) {
     parsed.mapping.unit = unit_named(unit);
     if (!parsed.mapping.unit) {
       return refuse(
-          fmt::format("'{}' is no known unit; expected one of {}", text::printable(unit), unit_names()));
+          fmt::format("'{}' is not a known unit; expected one of {}", text::printable(unit), unit_names()));
     }
     if (!factors.empty()) parsed.mapping.factor = product_of(factors);
     if (!factors.empty() && !parsed.mapping.factor) {

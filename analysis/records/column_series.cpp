@@ -39,9 +39,10 @@ Unit unit_in_file(const ColumnSource& source, const std::string& column, const U
   const std::string name = source.unit(column);
   if (name.empty()) return usual;
   if (const std::optional<Unit> unit = unit_named(name)) return *unit;
-  refuse_column(source, fmt::format("column '{}' is in '{}', which is no known unit; expected one of {}, or "
-                                    "--column with the unit",
-                                    text::printable(column), text::printable(name), unit_names()));
+  refuse_column(source,
+                fmt::format("column '{}' is in '{}', which is not a known unit; expected one of {}, or "
+                            "--column with the unit",
+                            text::printable(column), text::printable(name), unit_names()));
 }
 
 /// Finishes the column: a unit of another dimension needs factors. An encoder's counts need none, because

@@ -60,8 +60,8 @@ std::vector<double> DatasetFile::numbers(std::string_view column) const {
   for (std::size_t k = 0; k < vector.count; ++k) {
     values.push_back(all[vector.first + k * vector.stride]);
     if (std::isfinite(values.back())) continue;
-    throw Failure(ExitCode::bad_data,
-                  fmt::format("{}: {}: element {} is no finite number", name_, text::printable(column), k));
+    throw Failure(ExitCode::bad_data, fmt::format("{}: {}: element {} is not a finite number", name_,
+                                                  text::printable(column), k));
   }
   return values;
 }

@@ -174,7 +174,7 @@ TextTable::TextTable(const std::filesystem::path& path, std::optional<Separator>
     throw Failure(ExitCode::bad_input, fmt::format("{}: is empty; expected a table", name_));
   if (content.front().text.find('\0') != std::string_view::npos) {
     throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: is no text; expected a table of numbers, or a results file", name_));
+                  fmt::format("{}: is not text; expected a table of numbers, or a results file", name_));
   }
   separator_ = separator.value_or(
       separator_of(content.front().text, content.size() > 1 ? content[1].text : content.front().text));
@@ -302,7 +302,7 @@ std::vector<double> TextTable::numbers(std::string_view column) const {
     if (std::isfinite(values.back())) continue;
     if (++fault_count > max_faults_listed) continue;
     const std::string shown = text::printable(text.substr(0, 40));
-    faults.push_back(fmt::format("{}:{}: {}: {} is no finite number", name_, line(row), column,
+    faults.push_back(fmt::format("{}:{}: {}: {} is not a finite number", name_, line(row), column,
                                  shown.empty() ? "an empty cell" : "'" + shown + "'"));
   }
   if (faults.empty() && point && comma) {

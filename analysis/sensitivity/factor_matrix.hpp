@@ -10,8 +10,8 @@ namespace zerocount::sensitivity {
 /// @param x none of its columns is constant.
 Eigen::MatrixXd standardised(const Eigen::MatrixXd& x);
 
-/// Which columns add something to those before them, [column]: those whose part that is not a linear
-/// combination of the earlier ones has at least 10⁻⁸ of their variance.
+/// Marks the columns that are not linear combinations of earlier columns, [column]. The residual of a
+/// regression on the earlier columns must have at least 10⁻⁸ of the column's variance.
 /// @param x standardised.
 std::vector<bool> independent_columns(const Eigen::MatrixXd& x);
 

@@ -126,7 +126,7 @@ bool any_estimated(const StudySensitivity& sensitivity);
 
 /// A table per point and output for people, UTF-8.
 std::string sensitivity_table(const StudySensitivity& sensitivity);
-/// The same as one JSON object, indented; numbers read back to the same double, null where there is none.
+/// The report as one JSON object, indented; numbers read back to the same double, null where there is none.
 std::string sensitivity_json(const StudySensitivity& sensitivity);
 /// A line per point, output and factor. RFC 4180 with \n; NaN is `nan`.
 std::string sensitivity_csv(const StudySensitivity& sensitivity);

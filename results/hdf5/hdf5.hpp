@@ -91,7 +91,7 @@ class Object {
   /// Takes the identifier that an operation returned; throws the Failure if it is invalid or a write has
   /// failed.
   Handle own(Id id, Handle::Close close, std::string_view problem) const;
-  /// Likewise for an operation that returns a status.
+  /// Throws the Failure if an operation returned a negative status or a write has failed.
   void require(int status, std::string_view problem) const;
   WrittenObject& written() const;  ///< record of the values written to this object
   void release() noexcept;         ///< closes it; a failure is kept for File::close

@@ -84,7 +84,7 @@ class ResultsFile {
   layout::PointSums sums(std::int64_t index) const;
 
  private:
-  /// Of a file with /sums.
+  /// The sums of a file that has /sums.
   struct StoredSums {
     explicit StoredSums(const hdf5::File& file, std::int64_t points);
 

@@ -47,7 +47,7 @@ ByteFile::ByteFile(std::filesystem::path path, Mode mode)
   struct stat status {};
   if (::fstat(file_.get(), &status) != 0) fail_with(path_, action, errno);
   if (!writable() && !S_ISREG(status.st_mode))
-    throw Failure(ExitCode::bad_input, fmt::format("{}: this is no regular file", path_.string()));
+    throw Failure(ExitCode::bad_input, fmt::format("{}: this is not a regular file", path_.string()));
   size_ = static_cast<std::uint64_t>(status.st_size);
 }
 

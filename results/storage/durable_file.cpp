@@ -40,7 +40,7 @@ void fail_irregular(const fs::path& path) {
   throw Failure(
       ExitCode::machine_failed,
       fmt::format(
-          "{}: cannot be written: it exists and is no regular file; remove it, or name another output",
+          "{}: cannot be written: it exists and is not a regular file; remove it, or name another output",
           path.string()));
 }
 

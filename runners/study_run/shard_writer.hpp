@@ -19,9 +19,9 @@ namespace zerocount::study_run {
 /// Memory of a result, bytes.
 std::size_t bytes_of(const shards::TrialResult& result);
 
-/// What a study keeps of consecutive trials. Sums are computed only if it does not keep every trial: for ten
-/// trials of each point, writing them would take longer than the trials, and statistics follow from the
-/// trials anyway.
+/// Results of consecutive trials that go into a shard. Sums are computed only if it does not keep every
+/// trial: for ten trials of each point, writing them would take longer than the trials, and statistics follow
+/// from the trials anyway.
 struct KeptBlock {
   layout::RowRange rows;
   std::vector<shards::TrialResult> trials;  ///< every one, or the failures, or none

@@ -32,7 +32,7 @@ TEST_F(IdentifyRefusals, BadDataAreRefusedWithTheReason) {
     ramp += std::to_string(k * 5e-4) + "," + std::to_string(k * 5e-4) + "," + std::to_string(k * 4e-6) + "\n";
   }
   EXPECT_NE(
-      refusal("text.csv", ramp + "0.15,much,0\n").find("text.csv:302: torque: 'much' is no finite number"),
+      refusal("text.csv", ramp + "0.15,much,0\n").find("text.csv:302: torque: 'much' is not a finite number"),
       std::string::npos);
   EXPECT_NE(refusal("back.csv", ramp + "0.1,0,0\n").find("does not come after"), std::string::npos);
   folder_.write("ramp.csv", ramp);

@@ -82,7 +82,7 @@ TEST(ColumnMappings, FaultsAreNamed) {
   EXPECT_NE(fault("torque").find("expected QUANTITY=COLUMN"), std::string::npos);
   EXPECT_EQ(fault("torque="), "'torque=': the column is missing after '='");
   EXPECT_EQ(fault("torque=[A]"), "'torque=[A]': the column is missing after '='");
-  EXPECT_NE(fault("time=t[fortnight]").find("'fortnight' is no known unit; expected one of s, ms"),
+  EXPECT_NE(fault("time=t[fortnight]").find("'fortnight' is not a known unit; expected one of s, ms"),
             std::string::npos);
   for (const char* text : {"torque=i[A]0.87", "torque=i[A]*", "torque=i[A]*x", "torque=i[A]/0",
                            "torque=i[A]*nan", "torque=i[A]*2+1"}) {

@@ -158,7 +158,7 @@ TEST_F(ColumnSeries, WhatDoesNotFitIsNamed) {
   EXPECT_EQ(refusal(text, columns({"time=x[m]"})),
             "column 'x' is in m, which is no time without a factor; expected --column 'time=x[m]*FACTOR'");
   EXPECT_NE(
-      refusal(text, columns({"angle=y"})).find("'furlong', which is no known unit; expected one of s, ms"),
+      refusal(text, columns({"angle=y"})).find("'furlong', which is not a known unit; expected one of s, ms"),
       std::string::npos);
   EXPECT_EQ(refusal("a,b\n1,2\n", {}),
             "has no column for the torque; expected drive_torque or torque, or --column torque=COLUMN; its "
@@ -246,7 +246,7 @@ TEST_F(Datasets, WhatDoesNotFitIsNamed) {
     ADD_FAILURE();
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.code(), ExitCode::bad_data);
-    EXPECT_NE(std::string(failure.what()).find("/bad: element 2 is no finite number"), std::string::npos);
+    EXPECT_NE(std::string(failure.what()).find("/bad: element 2 is not a finite number"), std::string::npos);
   }
 }
 

@@ -59,11 +59,11 @@ TEST_F(TextTables, WordsAreCompared) {
 }
 
 TEST_F(TextTables, CellsThatAreNoNumbersAreNamedWithTheirLines) {
-  EXPECT_EQ(refusal("x,y\n1,0\nabc,0\n", ExitCode::bad_data), ":3: x: 'abc' is no finite number");
-  EXPECT_EQ(refusal("y,x\n1,\n", ExitCode::bad_data), ":2: x: an empty cell is no finite number");
+  EXPECT_EQ(refusal("x,y\n1,0\nabc,0\n", ExitCode::bad_data), ":3: x: 'abc' is not a finite number");
+  EXPECT_EQ(refusal("y,x\n1,\n", ExitCode::bad_data), ":2: x: an empty cell is not a finite number");
   for (const std::string cell : {"nan", "inf", "-inf", "1e999", "1.5.2", "0x10", "1 2", "--1"}) {
     EXPECT_EQ(refusal("x,y\n1,0\n\n" + cell + ",0\n", ExitCode::bad_data),
-              ":4: x: '" + cell + "' is no finite number");
+              ":4: x: '" + cell + "' is not a finite number");
   }
 }
 
@@ -105,7 +105,7 @@ TEST_F(TextTables, AGivenSeparatorIsTaken) {
 TEST_F(TextTables, OneKindOfDecimalMark) {
   EXPECT_EQ(refusal("x;y\n1,5;2\n2.5;3\n", ExitCode::bad_data),
             ":3: x: a decimal point; line 2 has a decimal comma: expected one kind");
-  EXPECT_EQ(refusal("x;y\n1.234,5;2\n", ExitCode::bad_data), ":2: x: '1.234,5' is no finite number");
+  EXPECT_EQ(refusal("x;y\n1.234,5;2\n", ExitCode::bad_data), ":2: x: '1.234,5' is not a finite number");
 }
 
 TEST_F(TextTables, ALineOfUnitsBelowTheHeader) {
@@ -118,7 +118,7 @@ TEST_F(TextTables, ALineOfUnitsBelowTheHeader) {
     EXPECT_EQ(read.numbers("z"), (std::vector<double>{3})) << text;
   }
   // A row that is not of units is a row of data.
-  EXPECT_EQ(refusal("x;y\nabc;s\n1;2\n", ExitCode::bad_data), ":2: x: 'abc' is no finite number");
+  EXPECT_EQ(refusal("x;y\nabc;s\n1;2\n", ExitCode::bad_data), ":2: x: 'abc' is not a finite number");
 }
 
 TEST_F(TextTables, UnitsInRoundBracketsIfTheyAreUnits) {
@@ -147,7 +147,7 @@ TEST_F(TextTables, WhatIsNoTableIsRefused) {
   EXPECT_EQ(refusal("x,x\n1,2\n", ExitCode::bad_input), ": two columns are named 'x'");
   EXPECT_EQ(refusal("", ExitCode::bad_input), ": is empty; expected a table");
   EXPECT_EQ(refusal(std::string("a\0b\n", 4), ExitCode::bad_input),
-            ": is no text; expected a table of numbers, or a results file");
+            ": is not text; expected a table of numbers, or a results file");
   EXPECT_THROW(records::TextTable(folder_ / "nothing.csv"), Failure);
   EXPECT_THROW(records::TextTable(folder_.path()), Failure);
 }

@@ -6,7 +6,7 @@
 
 #include "core/trial/trial.hpp"
 
-/// What is commanded at each sample of a trial, worked out anew from core/README.md.
+/// The command at each sample of a trial, computed independently from core/README.md.
 namespace zerocount::testing {
 
 /// Where the samples of a move are in those of its trial.

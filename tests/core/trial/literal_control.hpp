@@ -4,8 +4,8 @@
 
 #include "core/trial/trial.hpp"
 
-/// What a controller decides, worked out anew from core/loop/equations.md and the recorded samples of a whole
-/// trial at once: nothing is carried from sample to sample but where the equation itself does.
+/// The decisions of a controller, computed independently from core/loop/equations.md and the recorded samples
+/// of a whole trial at once: nothing is carried from sample to sample but where the equation itself does.
 namespace zerocount::testing {
 
 /// What the controller decides at a sample.

@@ -5,7 +5,7 @@
 
 #include "core/trial/trial.hpp"
 
-/// What encoders, converter and amplifier do, worked out anew from core/README.md and the recorded samples of
+/// Encoders, converter and amplifier, computed independently from core/README.md and the recorded samples of
 /// a whole trial at once.
 namespace zerocount::testing {
 

@@ -1,6 +1,6 @@
 // All of a trial around its plant, from random runs of it: what was commanded, decided and driven at every
-// sample and what the encoders showed, each worked out anew from the equations in core/README.md and the
-// recorded samples.
+// sample and what the encoders showed, each computed independently from the equations in core/README.md and
+// the recorded samples.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

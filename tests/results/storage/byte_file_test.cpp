@@ -78,7 +78,7 @@ TEST(ByteFile, SaysWhyItCannotBeOpened) {
                  [&] { storage::ByteFile(folder / "nowhere", storage::ByteFile::Mode::read); });
   expect_failure(ExitCode::machine_failed, "cannot open for writing: Is a directory",
                  [&] { storage::ByteFile(folder.path(), storage::ByteFile::Mode::change); });
-  expect_failure(ExitCode::bad_input, "this is no regular file",
+  expect_failure(ExitCode::bad_input, "this is not a regular file",
                  [&] { storage::ByteFile("/dev/full", storage::ByteFile::Mode::read); });
 }
 

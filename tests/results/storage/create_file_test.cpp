@@ -34,7 +34,7 @@ TEST(CreateFile, LeavesEverythingElseAsItIs) {
     const fs::path part = folder / (std::string(name) + ".part");
     const fs::file_type before = fs::symlink_status(part).type();
     const auto refuses = [&](const auto& action) {
-      expect_failure(ExitCode::machine_failed, "it exists and is no regular file", action);
+      expect_failure(ExitCode::machine_failed, "it exists and is not a regular file", action);
     };
     refuses([&] { storage::create_file(part); });
     refuses([&] { storage::UnfinishedFile{folder / name}; });
@@ -51,7 +51,7 @@ TEST(OutputFile, ReplacesNoLinkAndNoPipe) {
   fs::create_symlink(folder / "notes", folder / "link");
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0666), 0);
   for (const char* name : {"link", "pipe"}) {
-    expect_failure(ExitCode::machine_failed, "it exists and is no regular file",
+    expect_failure(ExitCode::machine_failed, "it exists and is not a regular file",
                    [&] { storage::replace_file(folder / name, "text"); });
   }
   EXPECT_EQ(folder.read("notes"), "my notes");

@@ -133,9 +133,15 @@ struct alignas(64) BlockLanes {
   Lanes remembers;  ///< the torque may change while the error stays 0
 };
 
+/// One error band of the lanes.
+struct BandLanes : trial::BandMeasures<Lanes> {
+  Lanes limit;  ///< b, counts; infinite in lanes without this band
+};
+
 /// The measures of the move so far, and other state of it.
 struct alignas(64) MeasureLanes : trial::RunningMeasures<Lanes> {
   trial::MeasureLimits<Lanes> limits;
+  BandLanes bands[trial::max_error_bands];
   Lanes last_half;    ///< first sample of the last half
   Lanes in_jerk;      ///< a jerk lasts
   Lanes change;       ///< of the count with the last sample

@@ -235,6 +235,13 @@ void start_move(BatchState& batch, int lane, LaneTrial& trial) {
   q.limits.window[lane] = static_cast<double>(timing.window);
   q.last_half[lane] = static_cast<double>(trial::first_of_last_half(timing.samples));
   trial::for_each_measure([lane](Lanes& measure) { measure[lane] = 0.0; }, q);
+  for (std::size_t b = 0; b < std::size(q.bands); ++b) {
+    BandLanes& band = q.bands[b];
+    band.limit[lane] = b < timing.bands.count ? static_cast<double>(timing.bands.limits[b]) : infinity;
+    band.last_outside[lane] = trial::no_samples_of_band.last_outside;
+    band.entry[lane] = trial::no_samples_of_band.entry;
+    band.exits[lane] = trial::no_samples_of_band.exits;
+  }
   for (Lanes* of : {&q.in_jerk, &q.change, &q.first_error, &q.theta, &q.extension, &q.slid})
     (*of)[lane] = 0.0;
   q.max_error[lane] = p.verdict.stop ? p.verdict.limit : infinity;
@@ -262,7 +269,7 @@ trial::MoveOutcome end_of_move(const BatchState& batch, int lane, LaneTrial& tri
   end.stopped = stopped;
   trial.last_half.finish(end.last.count);
   trial::MoveOutcome outcome = trial::outcome_of_move(trial::move_timing(p, trial.move), measures_of(q, lane),
-                                                      trial.jerks, trial.last_half, end);
+                                                      bands_of(q, lane), trial.jerks, trial.last_half, end);
   outcome.true_error = trial::true_error(end.last.target, end.last.theta, l.resolution[lane], l.phase[lane]);
   return outcome;
 }

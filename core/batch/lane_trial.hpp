@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -72,6 +73,17 @@ inline trial::RunningMeasures<double> measures_of(const MeasureLanes& lanes, int
   trial::RunningMeasures<double> measures;
   trial::for_each_measure([lane](double& to, const Lanes& from) { to = from[lane]; }, measures, lanes);
   return measures;
+}
+
+/// The measures of its error bands.
+inline std::array<trial::BandMeasures<double>, trial::max_error_bands> bands_of(const MeasureLanes& lanes,
+                                                                                int lane) {
+  std::array<trial::BandMeasures<double>, trial::max_error_bands> bands;
+  for (std::size_t b = 0; b < bands.size(); ++b) {
+    const BandLanes& band = lanes.bands[b];
+    bands[b] = {band.last_outside[lane], band.entry[lane], band.exits[lane]};
+  }
+  return bands;
 }
 
 /// Whether the controller has blocks beyond the PID law.

@@ -19,6 +19,20 @@ ZEROCOUNT_ALWAYS_INLINE P pid_torque(BatchState& batch, const At& at, const Cont
   return torque;
 }
 
+/// Takes sample k of the moves into the measures of their error bands. @param size |e|, counts
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void measure_bands(MeasureLanes& q, const At& at, const P& k, const P& size) {
+  for (BandLanes& lanes : q.bands) {
+    const P limit = at.load(lanes.limit);
+    if (!(size > limit).any()) return;  // nor outside the wider bands
+    trial::BandMeasures<P> band{at.load(lanes.last_outside), at.load(lanes.entry), at.load(lanes.exits)};
+    trial::measure_band(band, limit, at.load(q.limits.dwell), k, size);
+    at.store(lanes.last_outside, band.last_outside);
+    at.store(lanes.entry, band.entry);
+    at.store(lanes.exits, band.exits);
+  }
+}
+
 /// One sampling instant of one vector; see sample_kernel.
 template <bool Blocks, class At>
 __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
@@ -75,6 +89,7 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
   trial::measure_error(measures, limits, error);
   trial::measure_torque(measures, torque, code != wanted);
   trial::for_each_measure(StoreEach<At>{at}, q, measures);
+  measure_bands(q, at, samples, size);
   at.store(q.first_error, first_error);
   at.store(q.theta, theta);
   at.store(q.extension, extension);

@@ -1,5 +1,7 @@
 #include "core/trial/move_measures.hpp"
 
+#include <cstdlib>
+
 namespace zerocount::trial {
 namespace {
 
@@ -33,15 +35,32 @@ void judge_end(const MoveTiming& timing, const RunningMeasures<double>& m, const
   }
 }
 
+/// @param samples of the move, all of which were run
+BandOutcome outcome_of_band(const MoveTiming& timing, double samples, BandMeasures<double> band) {
+  // One more sample, outside, ends the last run inside the band.
+  const double settled = band.last_outside + 1.0;
+  const double exits = band.exits;
+  measure_band(band, 0.0, static_cast<double>(timing.dwell), samples, 1.0);
+  BandOutcome outcome{.exits = exits};
+  if (band.entry >= 0.0) outcome.entry_time = band.entry * timing.sample_time;
+  if (settled < samples) outcome.settling_time = settled * timing.sample_time;
+  return outcome;
+}
+
 }  // namespace
 
 MoveTiming move_timing(const TrialParameters& parameters, std::size_t move) {
   const double rate = parameters.controller.sample_rate;
-  return {1.0 / rate, samples_of_move(parameters, move), samples_in(parameters.verdict.dwell, rate),
-          samples_in(parameters.verdict.window, rate), parameters.command.torque.levels.empty()};
+  return {1.0 / rate,
+          samples_of_move(parameters, move),
+          samples_in(parameters.verdict.dwell, rate),
+          samples_in(parameters.verdict.window, rate),
+          parameters.command.torque.levels.empty(),
+          parameters.verdict.bands};
 }
 
-MoveOutcome outcome_of_move(const MoveTiming& timing, const RunningMeasures<double>& m, const Jerks& jerks,
+MoveOutcome outcome_of_move(const MoveTiming& timing, const RunningMeasures<double>& m,
+                            std::span<const BandMeasures<double>> bands, const Jerks& jerks,
                             const LastHalf& last_half, const MoveEnd& end) {
   MoveOutcome outcome;
   outcome.stopped = end.stopped;
@@ -70,6 +89,8 @@ MoveOutcome outcome_of_move(const MoveTiming& timing, const RunningMeasures<doub
   }
   if (timing.judged) {
     judge_end(timing, m, last_half, end, outcome);
+    for (std::size_t b = 0; b < timing.bands.count && end.finite && !end.stopped; ++b)
+      outcome.bands[b] = outcome_of_band(timing, m.samples, bands[b]);
   } else if (end.finite) {
     outcome.outcome = Outcome::open_loop;
   }
@@ -91,6 +112,11 @@ bool MoveMeasures::judge(const MoveSample& sample) {
   const MeasureLimits<double> limits{static_cast<double>(timing_.samples), static_cast<double>(timing_.dwell),
                                      static_cast<double>(timing_.window)};
   measure_error(running_, limits, static_cast<double>(error));
+  for (std::size_t b = 0; b < timing_.bands.count; ++b) {
+    const auto limit = static_cast<double>(timing_.bands.limits[b]);
+    measure_band(bands_[b], limit, limits.dwell, static_cast<double>(k),
+                 static_cast<double>(std::abs(error)));
+  }
   const std::int64_t half = first_of_last_half(timing_.samples);
   if (k >= half) last_half_.add(k, k == half ? sample.count : last_.count, sample.count);
   return dwelt && jerks_.add(k, error);
@@ -99,7 +125,7 @@ bool MoveMeasures::judge(const MoveSample& sample) {
 bool MoveMeasures::finish(bool broke_away, std::int64_t reversal_depth, bool finite) {
   const bool jerk_cut = jerks_.end(whole(running_.samples));
   if (timing_.judged) last_half_.finish(last_.count);
-  outcome_ = outcome_of_move(timing_, running_, jerks_, last_half_,
+  outcome_ = outcome_of_move(timing_, running_, bands_, jerks_, last_half_,
                              {last_, broke_away, reversal_depth, stopped_, finite});
   return jerk_cut;
 }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 
 #include "core/trial/jerks.hpp"
 #include "core/trial/last_half.hpp"
@@ -17,7 +19,11 @@ struct MoveTiming {
   std::int64_t dwell{100};     ///< D, samples at zero error that make an arrival
   std::int64_t window{100};    ///< W, last samples that decide the outcome
   bool judged{true};           ///< false if the move has a torque level in place of a target
+  ErrorBands bands{};
 };
+
+/// The measures of a band before the first sample.
+inline constexpr BandMeasures<double> no_samples_of_band{-1.0, -1.0, 0.0};
 
 MoveTiming move_timing(const TrialParameters& parameters, std::size_t move);
 
@@ -48,8 +54,10 @@ struct MoveEnd {
 
 /// The measures of a move. The last jerk has been ended, and the last half finished unless the move ended
 /// before it.
+/// @param bands of the timing.
 MoveOutcome outcome_of_move(const MoveTiming& timing, const RunningMeasures<double>& measures,
-                            const Jerks& jerks, const LastHalf& last_half, const MoveEnd& end);
+                            std::span<const BandMeasures<double>> bands, const Jerks& jerks,
+                            const LastHalf& last_half, const MoveEnd& end);
 
 /// Accumulates the measures of one move sample by sample. Its memory is bounded, whatever the length of the
 /// move.
@@ -58,6 +66,7 @@ class MoveMeasures {
   MoveMeasures(const MoveTiming& timing, std::int64_t move)
       : timing_(timing), jerks_(move, timing.sample_time) {
     last_half_.start(timing.samples);
+    bands_.fill(no_samples_of_band);
   }
 
   /// Takes the next sample of the move.
@@ -79,6 +88,7 @@ class MoveMeasures {
 
   MoveTiming timing_;
   RunningMeasures<double> running_{};
+  std::array<BandMeasures<double>, max_error_bands> bands_;
   Jerks jerks_;
   LastHalf last_half_;
   MoveSample last_;

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
+
+#include "core/trial/error_bands.hpp"
 
 namespace zerocount::trial {
 
@@ -48,6 +51,17 @@ constexpr int severity(Outcome outcome) {
   return 6;  // an invalid number, from a damaged file
 }
 
+/// Measures of one error band |e| ≤ b of a move. NaN where the move was stopped, lost its motion or has no
+/// target.
+struct BandOutcome {
+  /// k·T with the smallest k such that |e_k|, …, |e_{k+D−1}| ≤ b, s; NaN if never.
+  double entry_time{std::numeric_limits<double>::quiet_NaN()};
+  /// k·T with the smallest k such that |e_k|, …, |e_{N−1}| ≤ b, s; NaN where |e_{N−1}| > b.
+  double settling_time{std::numeric_limits<double>::quiet_NaN()};
+  /// Maximal runs of samples with |e| > b after the entry dwell; 0 if the band was never entered.
+  double exits{std::numeric_limits<double>::quiet_NaN()};
+};
+
 /// Measures of one move.
 struct MoveOutcome {
   Outcome outcome{Outcome::nonfinite};
@@ -90,6 +104,7 @@ struct MoveOutcome {
   std::int64_t jerk_count{0};            ///< excursions of the error after arrival
   double jerk_agreement{std::numeric_limits<double>::quiet_NaN()};  ///< proportion of jerks towards
                                                                     ///< sgn(holding_torque); NaN if none
+  std::array<BandOutcome, max_error_bands> bands{};                 ///< [band] of VerdictParameters
 };
 
 /// One excursion of the error away from zero after arrival.

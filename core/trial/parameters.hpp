@@ -8,6 +8,7 @@
 #include "core/loop/parameters.hpp"
 #include "core/motion/parameters.hpp"
 #include "core/random/trial_randomness.hpp"
+#include "core/trial/error_bands.hpp"
 
 namespace zerocount::trial {
 
@@ -62,6 +63,7 @@ struct VerdictParameters {
   double window{0.05};   ///< last part of the move, by which its outcome is judged, s
   bool stop{false};      ///< a move that diverges is ended there, and the trial with it (see divergence.hpp)
   double limit{1000.0};  ///< |error| beyond that of the move's first sample that counts as diverged, counts
+  ErrorBands bands{};
 };
 
 /// Everything that determines a trial: two equal sets give the same trial, bit for bit.

@@ -46,6 +46,18 @@ ZEROCOUNT_ALWAYS_INLINE void for_each_measure(Visit visit, Measures&... measures
   visit(measures.saturated...);
 }
 
+/// Maximum number of error bands of a study.
+inline constexpr int max_error_bands = 8;
+
+/// Measures of one error band |e| ≤ b, as of the last sample outside it. A run of samples inside the band
+/// counts when it ends.
+template <class Number>
+struct BandMeasures {
+  Number last_outside;  ///< last sample with |e| > b; −1 if none
+  Number entry;         ///< first sample of the first dwell inside the band; −1 if none has ended
+  Number exits;         ///< maximal runs of samples with |e| > b after the entry dwell
+};
+
 /// Limits that the running measures compare with, in samples.
 template <class Number>
 struct MeasureLimits {
@@ -71,6 +83,24 @@ ZEROCOUNT_ALWAYS_INLINE void measure_error(RunningMeasures<Number>& m, const Mea
   m.largest_in_window = select(m.samples >= limits.samples - limits.window, max(m.largest_in_window, size),
                                m.largest_in_window);
   m.overshoot = max(m.overshoot, -m.direction * error);
+}
+
+/// Takes sample k, at which |e| is `size` counts. Samples inside the band may be left out.
+/// @param limit b of the band, counts. @param dwell D, samples
+/// @returns where the sample lies outside the band
+template <class Number>
+ZEROCOUNT_ALWAYS_INLINE auto measure_band(BandMeasures<Number>& band, const Number& limit,
+                                          const Number& dwell, const Number& k, const Number& size) {
+  const Number zero(0.0);
+  const Number one(1.0);
+  const auto outside = size > limit;
+  const Number inside = k - one - band.last_outside;  // samples in a row before this one
+  const auto enters = outside & (band.entry < zero) & (inside >= dwell);
+  band.entry = select(enters, band.last_outside + one, band.entry);
+  const auto exits = outside & (band.entry >= zero) & (inside > zero);
+  band.exits = select(exits, band.exits + one, band.exits);
+  band.last_outside = select(outside, k, band.last_outside);
+  return outside;
 }
 
 /// Takes the torque (N m) decided at this sample, and ends the sample.

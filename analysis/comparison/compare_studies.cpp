@@ -123,7 +123,7 @@ ForecastPoint forecast_point(const PointComparison& compared, const GateRules& r
       const MeasureComparison& measure = compared.measures[i];
       if (std::isnan(measure.p)) continue;
       point.measures.push_back(samples[i]);
-      point.found.push_back(tested_measure(measure));
+      point.found.push_back(measure);
     }
   }
   for (const Requirement& requirement : requirements_of(rules, compared.label))

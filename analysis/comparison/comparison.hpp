@@ -53,8 +53,22 @@ constexpr bool fails(GateVerdict verdict) {
   return verdict == GateVerdict::regression || verdict == GateVerdict::changed;
 }
 
-/// One measure at one design point in the two files. A positive effect is a change for the worse.
-struct MeasureComparison {
+/// The numbers of one measure that its verdict follows from. A positive effect is a change for the worse.
+struct TestedMeasure {
+  double effect{statistics::unknown};  ///< how much worse the current file is
+  statistics::ConfidenceInterval bounds{statistics::unknown,
+                                        statistics::unknown};  ///< of the effect, each one-sided
+  double margin{statistics::unknown};                          ///< largest accepted effect
+  bool changed_fails{false};                  ///< a change for the better beyond the margin fails too
+  double p{statistics::unknown};              ///< of no difference, against a change for the worse
+  double improvement_p{statistics::unknown};  ///< of no difference, against a change for the better
+  double adjusted_p{statistics::unknown};     ///< p after control of the false discoveries
+  double adjusted_improvement_p{statistics::unknown};  ///< improvement_p after it
+  ChangeVerdict change{ChangeVerdict::not_measured};
+};
+
+/// One measure at one design point in the two files.
+struct MeasureComparison : TestedMeasure {
   std::string measure;         ///< name, of gate_measures()
   std::string unit;            ///< of every value here
   std::string test;            ///< that gave p
@@ -62,19 +76,9 @@ struct MeasureComparison {
   std::int64_t current_n{0};   ///< trials with a value; the number of pairs in both where they are paired
   double baseline{statistics::unknown};  ///< proportion or mean
   double current{statistics::unknown};   ///< proportion or mean
-  double effect{statistics::unknown};    ///< how much worse the current file is
-  statistics::ConfidenceInterval bounds{statistics::unknown,
-                                        statistics::unknown};  ///< of the effect, each one-sided
-  double margin{statistics::unknown};                          ///< largest accepted effect
-  bool changed_fails{false};                  ///< a change for the better beyond the margin fails too
-  double p{statistics::unknown};              ///< of no difference, against a change for the worse
-  double adjusted_p{statistics::unknown};     ///< after control of the false discoveries
-  double improvement_p{statistics::unknown};  ///< of no difference, against a change for the better
-  double adjusted_improvement_p{statistics::unknown};  ///< after control of the false discoveries
   /// Smallest true change for the worse that these trials find with decision_probability; README.md.
   double detectable_change{statistics::unknown};
-  bool paired_proportion{false};  ///< the trials of a proportion were compared one by one
-  ChangeVerdict change{ChangeVerdict::not_measured};
+  bool paired_proportion{false};                   ///< the trials of a proportion were compared one by one
   GateVerdict verdict{GateVerdict::not_measured};  ///< of the gate
   /// Trials per design point that decide an inconclusive measure, with decision_probability.
   std::optional<double> trials_to_decide;

@@ -110,11 +110,6 @@ double detectable_change(const MeasureComparison& measure, const GateRules& rule
   return change;
 }
 
-TestedMeasure tested_measure(const MeasureComparison& measure) {
-  return {measure.effect,        measure.bounds, measure.margin,
-          measure.changed_fails, measure.p,      measure.improvement_p};
-}
-
 void decide(std::span<TestedMeasure> tested, double rate) {
   adjust(tested);
   for (TestedMeasure& measure : tested) measure.change = change_of(measure, rate);
@@ -124,15 +119,11 @@ std::int64_t decide(std::span<PointComparison> points, const GateRules& rules) {
   const std::vector<MeasureComparison*> measures = tested_measures(points);
   std::vector<TestedMeasure> tested;
   tested.reserve(measures.size());
-  for (const MeasureComparison* measure : measures) {
-    tested.push_back(tested_measure(*measure));
-  }
+  for (const MeasureComparison* measure : measures) tested.push_back(*measure);
   decide(tested, rules.false_discovery_rate);
   for (std::size_t i = 0; i < tested.size(); ++i) {
     MeasureComparison& measure = *measures[i];
-    measure.adjusted_p = tested[i].adjusted_p;
-    measure.adjusted_improvement_p = tested[i].adjusted_improvement_p;
-    measure.change = tested[i].change;
+    static_cast<TestedMeasure&>(measure) = tested[i];
     measure.detectable_change = detectable_change(measure, rules, tested.size());
     measure.verdict = gate_verdict(measure.change, measure.changed_fails);
     if (measure.verdict == GateVerdict::inconclusive) measure.note = reason_of(measure);

@@ -36,22 +36,6 @@ struct MeasureSample {
 std::vector<MeasureSample> measure_samples(const GateRules& rules, const PointTrials& baseline,
                                            const PointTrials& current, bool paired);
 
-/// The numbers of one measure that its verdict follows from.
-struct TestedMeasure {
-  double effect{0.0};
-  statistics::ConfidenceInterval bounds{};
-  double margin{0.0};
-  bool changed_fails{false};
-  double p{1.0};
-  double improvement_p{1.0};
-  double adjusted_p{1.0};
-  double adjusted_improvement_p{1.0};
-  ChangeVerdict change{ChangeVerdict::not_measured};
-};
-
-/// The numbers of a measure before the adjustment.
-TestedMeasure tested_measure(const MeasureComparison& measure);
-
 /// Adjusts the p-values of all measures of a comparison, and finds the verdict on the change of each.
 /// @param rate of false discoveries
 void decide(std::span<TestedMeasure> tested, double rate);

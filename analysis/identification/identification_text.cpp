@@ -1,3 +1,4 @@
+#include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -95,7 +96,7 @@ std::vector<std::string> estimate_row(const ParameterEstimate& parameter) {
       value,
       parameter.unit,
       fmt::format("{} to {}", with_digits(parameter.low, parameter), with_digits(parameter.high, parameter)),
-      relative ? fmt::format("{:.2g} %", 100.0 * half_width / parameter.value)
+      relative ? fmt::format("{:.2g} %", 100.0 * half_width / std::abs(parameter.value))
                : fmt::format("{:.2g}", half_width),
       "estimated"};
 }

@@ -69,10 +69,6 @@ bool is_linear(Quantity quantity) {
   return dimension_of(quantity) == Dimension::force || dimension_of(quantity) == Dimension::length;
 }
 
-bool is_rotary(Quantity quantity) {
-  return dimension_of(quantity) == Dimension::torque || dimension_of(quantity) == Dimension::angle;
-}
-
 ParsedMapping parse_mapping(std::string_view text) {
   ParsedMapping parsed;
   const auto refuse = [&](std::string fault) {

@@ -26,7 +26,6 @@ std::string quantity_names();
 /// The dimension of the quantity's values; none for the repetition.
 std::optional<Dimension> dimension_of(Quantity quantity);
 bool is_linear(Quantity quantity);  ///< of a linear axis only
-bool is_rotary(Quantity quantity);  ///< of a rotary axis only
 
 /// The source of the values of a quantity: `torque=current[A]*0.87`.
 ///

@@ -24,19 +24,6 @@ bool is_estimated(const ParameterEstimate& parameter) {
   return parameter.status == EstimateStatus::estimated;
 }
 
-std::vector<std::string> row_of(const ParameterEstimate& parameter) {
-  if (!is_estimated(parameter)) {
-    return {parameter.name, "–", parameter.unit, "–", "–", "not identifiable"};
-  }
-  const auto text = [&](double value) { return identification::with_digits(value, parameter); };
-  return {parameter.name,
-          text(parameter.value),
-          parameter.unit,
-          text(parameter.low) + " to " + text(parameter.high),
-          fmt::format("{:.2g} %", 50.0 * (parameter.high - parameter.low) / std::abs(parameter.value)),
-          "estimated"};
-}
-
 std::string record_line(const SlidingSummary& record, bool linear) {
   const char* length = linear ? "m" : "rad";
   return fmt::format(
@@ -55,13 +42,10 @@ std::string ratio_text(const ParameterEstimate& ratio) {
 }
 
 std::string fragment_line(const ParameterEstimate& parameter, const std::string& name) {
-  if (!is_estimated(parameter)) {
-    return fmt::format("  # {}: not identifiable, because {}\n", name, parameter.reason);
-  }
-  return fmt::format("  {}: {}   # {}, 95 %: {} to {}\n", name,
-                     parameter.name == "coulomb_ratio" ? ratio_text(parameter)
-                                                       : identification::distribution_text(parameter),
-                     parameter.unit, identification::with_digits(parameter.low, parameter),
+  if (!is_estimated(parameter) || parameter.name != "coulomb_ratio")
+    return identification::manifest_line(parameter, name);
+  return fmt::format("  {}: {}   # {}, 95 %: {} to {}\n", name, ratio_text(parameter), parameter.unit,
+                     identification::with_digits(parameter.low, parameter),
                      identification::with_digits(parameter.high, parameter));
 }
 
@@ -105,8 +89,9 @@ std::string sliding_fragment(const SlidingIdentification& identification) {
 
 std::string sliding_text(const SlidingIdentification& identification) {
   const char* torque_unit = identification.linear ? "N" : "N m";
-  std::vector<std::vector<std::string>> cells{{"parameter", "value", "unit", "95 % interval", "±", "status"}};
-  for (const ParameterEstimate& parameter : identification.parameters) cells.push_back(row_of(parameter));
+  std::vector<std::vector<std::string>> cells{identification::estimate_heads()};
+  for (const ParameterEstimate& parameter : identification.parameters)
+    cells.push_back(identification::estimate_row(parameter));
   std::string text = "Sliding axis: inertia and friction from its motion\n\n" +
                      text::aligned_table(cells, {false, true, false, true, true, false}) + "\n";
   for (const ParameterEstimate& parameter : identification.parameters) {

@@ -140,7 +140,7 @@ comparison::ForecastPoint planned_point(EquivalencePlan& plan, const std::string
     const comparison::MeasureComparison& one = found[k];
     if (std::isnan(one.p)) continue;
     point.measures.push_back(samples[k]);
-    point.found.push_back(comparison::tested_measure(one));
+    point.found.push_back(one);
     plan.measures.push_back({label, one});
   }
   return point;

@@ -79,8 +79,9 @@ void MeasureAccumulator::add(std::int64_t trial, std::span<const trial::MoveOutc
   if (layout::is_quality(*measure_)) {
     add_quality(trial, moves);
   } else if (measure_->of_trial == layout::OfTrial::sum) {
-    values_.push_back(value_of_trial(*measure_, moves));
-    add_clusters(trial, 1);
+    const double sum = value_of_trial(*measure_, moves);
+    if (!std::isnan(sum)) values_.push_back(sum);
+    add_clusters(trial, std::ssize(values_));
   } else if (!(counted.needs_target && kind_.open_loop)) {
     const bool known = is_known(*measure_, kind_.version);
     for (const trial::MoveOutcome& move : moves) {

@@ -34,7 +34,9 @@ bool is_possible(const UndecidedSums& sums, std::int64_t moves) {
 }  // namespace
 
 SummedPoint::SummedPoint(const study::Study& study, std::int64_t point, std::int64_t first_trial)
-    : study_(&study), point_(point), trials_(kind_of(study), layout::measure_table(), first_trial) {}
+    : study_(&study),
+      point_(point),
+      trials_(kind_of(study), layout::measure_table(study.features.bands), first_trial) {}
 
 void SummedPoint::add(std::int64_t row, const trial::TrialOutcome& outcome,
                       std::span<const trial::Jerk> jerks) {

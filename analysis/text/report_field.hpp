@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,12 +18,15 @@ struct ReportField {
   std::string long_name;  ///< what it is, with the denominator of a proportion or mean
   bool whole{false};      ///< a whole number
   std::function<double(const Subject&)> value;  ///< in `unit`; NaN if undefined
+  std::optional<std::int64_t> band{};  ///< error band that it is of, counts; its group is in that of the band
 };
 
-/// "group_name", or "name" without a group: the field's name in flat formats.
+/// "group_name", or "name" without a group: the field's name in flat formats. That of an error band is
+/// "band_group_name[1]".
 template <class Subject>
 std::string flat_name(const ReportField<Subject>& field) {
-  return field.group.empty() ? field.name : field.group + "_" + field.name;
+  const std::string name = field.group.empty() ? field.name : field.group + "_" + field.name;
+  return field.band ? "band_" + name + "[" + std::to_string(*field.band) + "]" : name;
 }
 
 /// A count as the value of a field.

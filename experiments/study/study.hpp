@@ -108,6 +108,7 @@ struct StudyFeatures {
   /// The design is saltelli: the trials of a row share most of their numbers, and bounds for independent
   /// trials are too narrow.
   bool dependent_trials{false};
+  trial::ErrorBands bands{};  ///< bands of the error whose entry and settling are measured
   bool rigs{false};  ///< trials share rigs: the bounds account for the correlation of the trials of a rig
   /// The design spreads the trials more evenly than chance (latin_hypercube, sobol): bounds are wider than
   /// needed.

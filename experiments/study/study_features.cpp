@@ -89,6 +89,7 @@ StudyFeatures find_features(const StudyPlan& plan, const Study& study) {
                          holds_somewhere(plan, "friction.model", causes_hunting);
   features.stopping = closed_loop && holds_somewhere(plan, "verdict.stop", can_be_positive);
   features.dependent_trials = study.design == Design::saltelli;
+  features.bands = plan.common.verdict.bands;
   features.rigs = study.rigs > 0 && closed_loop;
   features.spread_trials = is_spread(study.design);
   return features;

@@ -51,6 +51,32 @@ std::vector<RecordField<trial::MoveOutcome>> outcome_fields(std::int64_t version
   return fields;
 }
 
+std::vector<RecordField<trial::MoveOutcome>> move_fields(std::int64_t version,
+                                                         const study::StudyFeatures& features,
+                                                         const MeasureTable& measures) {
+  std::vector<RecordField<trial::MoveOutcome>> fields;
+  for (const Measure& measure : measures) {
+    if (!measure.band && is_in_file(measure, version, features)) fields.push_back(measure.field);
+  }
+  return fields;
+}
+
+const std::vector<RecordField<trial::BandOutcome>>& band_fields() {
+  using B = trial::BandOutcome;
+  constexpr ValidValues a_time_or_nan{.expected = "a finite time, not negative, or NaN", .nan = true};
+  static const std::vector<RecordField<B>> fields{
+      field<B>("band_entry_time", "s",
+               "time of the first dwell within the error band from the start of the move, NaN if never",
+               &B::entry_time, a_time_or_nan),
+      field<B>("band_settling_time", "s",
+               "time from which the error is within the band to the end, from the start of the move, NaN if "
+               "it ends outside",
+               &B::settling_time, a_time_or_nan),
+      field<B>("band_exits", "1", "times that the error left the band after the first dwell within it",
+               &B::exits, {.expected = "a count, or NaN", .nan = true})};
+  return fields;
+}
+
 const std::vector<RecordField<JerkRecord>>& jerk_fields() {
   using J = JerkRecord;
   static const std::vector<RecordField<J>> fields{

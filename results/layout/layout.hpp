@@ -22,7 +22,7 @@ namespace zerocount::layout {
 
 /// Version of the layout that is written. A file with a higher number was written by a later program, and is
 /// refused; Measure::file tells what files with a lower number lack.
-inline constexpr std::int64_t format_version = 3;
+inline constexpr std::int64_t format_version = 4;
 
 /// One value of an enumeration, and its word in `flag_meanings` and in CSV.
 struct FlagMeaning {
@@ -50,12 +50,19 @@ struct Column {
 /// The word of `value` in an enumeration; the number itself where it has none.
 std::string word_of(const Column& column, std::int64_t value);
 
+/// The third dimension of a table, whose scale stands in the root.
+struct ThirdDimension {
+  Column scale;
+  std::vector<std::int64_t> values;
+};
+
 /// A group of columns that share their first dimension, and the dimension scales that stand in it.
 struct Table {
   std::string group;             ///< path from the root
   Column rows;                   ///< dimension scale of the first dimension
   std::optional<Column> second;  ///< dimension scale of the second dimension, of all columns
   std::vector<Column> columns;
+  std::optional<ThirdDimension> third{};  ///< of all columns; the second one if there is no other
 };
 
 /// The values that a column can have. A file with any other is damaged.
@@ -82,8 +89,8 @@ struct RecordField {
 struct Measure;
 /// The measures of a move, in the order of the file (see measure_table.hpp).
 using MeasureTable = std::vector<Measure>;
-/// The measures of this program.
-const MeasureTable& measure_table();
+/// The measures of this program, with those of these error bands.
+const MeasureTable& measure_table(const trial::ErrorBands& bands = {});
 
 /// A jerk, and the trial it belongs to.
 struct JerkRecord : trial::Jerk {
@@ -95,15 +102,25 @@ struct TraceRecord : trial::SampleRecord {
   std::int64_t trial{0};  ///< global row
 };
 
-/// The columns of the measures of a move that a file of `version` with these features has.
+/// The measures of a move that a file of `version` with these features has.
 std::vector<RecordField<trial::MoveOutcome>> outcome_fields(std::int64_t version = format_version,
                                                             const study::StudyFeatures& features = {},
                                                             const MeasureTable& measures = measure_table());
+/// Those of them that are columns of outcome_table(): all but the measures of error bands.
+std::vector<RecordField<trial::MoveOutcome>> move_fields(std::int64_t version,
+                                                         const study::StudyFeatures& features,
+                                                         const MeasureTable& measures);
+/// The columns of band_table().
+const std::vector<RecordField<trial::BandOutcome>>& band_fields();
 const std::vector<RecordField<JerkRecord>>& jerk_fields();
 /// The columns of a sample record; those of `features` come last.
 std::vector<RecordField<TraceRecord>> trace_fields(const study::StudyFeatures& features);
 
-/// One number per design point, made when a study is complete.
+/// "band_settling_time_p95[1]": the name of a number of an error band.
+std::string name_of_band(std::string_view name, std::int64_t band);
+
+/// One number per design point, made when a study is complete. In files, columns whose names differ only in
+/// the error band at their end, as in "band_settling_time_p95[1]", are one dataset [point, band].
 struct PointColumn {
   std::string name;
   std::string unit;
@@ -150,9 +167,16 @@ inline constexpr std::int64_t profile_angles = 4096;
 std::int64_t profile_angles_of_rig(std::size_t harmonics, std::int64_t rigs);
 
 Table point_table(const std::vector<study::SweepAxis>& axes, const std::vector<PointColumn>& statistics);
+Column statistic_column(const PointColumn& statistic);
+/// Statistics of the design points for each error band: [point, band]. It has no columns yet.
+Table band_statistic_table(const trial::ErrorBands& bands);
 Table trial_table(const std::vector<study::InputColumn>& inputs);
 Table outcome_table(std::int64_t version = format_version, const study::StudyFeatures& features = {},
                     const MeasureTable& measures = measure_table());
+/// The measures of error bands: [trial, move, band].
+Table band_table(const trial::ErrorBands& bands);
+/// The dimension of error bands, with its scale.
+ThirdDimension band_dimension(const trial::ErrorBands& bands);
 /// The table of outcomes with the verdicts alone.
 Table verdict_table();
 Table jerk_table();

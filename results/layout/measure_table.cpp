@@ -1,8 +1,14 @@
 #include "results/layout/measure_table.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <map>
+#include <mutex>
+#include <utility>
 #include <variant>
+
+#include <fmt/format.h>
 
 #include "results/layout/fields.hpp"
 
@@ -284,6 +290,91 @@ MeasureTable all_measures() {
   };
 }
 
+template <double trial::BandOutcome::*Member, std::size_t Band>
+double value_of_band(const M& move) {
+  return move.bands[Band].*Member;
+}
+
+/// [band] the functions of a move that give this measure of its error bands.
+template <double trial::BandOutcome::*Member>
+constexpr auto values_of_bands() {
+  return []<std::size_t... Band>(std::index_sequence<Band...>) {
+    return std::array<double (*)(const M&), sizeof...(Band)>{&value_of_band<Member, Band>...};
+  }
+  (std::make_index_sequence<trial::max_error_bands>());
+}
+
+/// A measure of an error band as a measure of the move.
+RecordField<M> field_of_band(const RecordField<trial::BandOutcome>& field, std::int64_t band,
+                             double (*value)(const M&)) {
+  Column column = field.column;
+  column.name = name_of_band(column.name, band);
+  column.long_name += fmt::format(" (band of {} count{})", band, band == 1 ? "" : "s");
+  return {std::move(column), value, field.valid};
+}
+
+/// The measures of the error band number `slot`, in the order of band_fields().
+std::vector<Measure> measures_of_band(const trial::ErrorBands& bands, std::size_t slot) {
+  using B = trial::BandOutcome;
+  const std::int64_t band = bands.values()[slot];
+  const FileHistory history{.since = 4, .before = unknown};
+  const CountedValues times{.needs_target = true, .nan_is_late = true};
+  std::vector<Measure> measures;
+  measures.push_back(
+      {.field = field_of_band(band_fields()[0], band, values_of_bands<&B::entry_time>()[slot]),
+       .band = band,
+       .file = history,
+       .values = times,
+       .of_trial = OfTrial::largest,
+       .point = {"entry_time",
+                 {{{n}, "moves that entered the error band, of which mean, min and max are"},
+                  {{all}, "moves with a target, of which the quantiles are"},
+                  {{mean, min, max}, "{0} time of entry into the error band of the moves that entered it"},
+                  {{p05, p25, median, p75, p95, median_low, median_high, p95_low, p95_high},
+                   "{0} of the time of entry into the error band of all moves with a target, NaN if not "
+                   "within the hold"}}}});
+  measures.push_back(
+      {.field = field_of_band(band_fields()[1], band, values_of_bands<&B::settling_time>()[slot]),
+       .band = band,
+       .file = history,
+       .values = times,
+       .of_trial = OfTrial::largest,
+       .point = {"settling_time",
+                 {{{n}, "moves that ended within the error band, of which mean, min and max are"},
+                  {{all}, "moves with a target, of which the quantiles are"},
+                  {{mean, min, max},
+                   "{0} time until the error is within the band for good, of the moves that ended within it"},
+                  {{p05, p25, median, p75, p95, median_low, median_high, p95_low, p95_high},
+                   "{0} of the time until the error is within the band for good, of all moves with a target, "
+                   "NaN if not within the hold"},
+                  {{bootstrap_low, bootstrap_high},
+                   "{1} of the mean settling time: Student and studentised bootstrap"}}},
+       .output = {{name_of_band("band_settling_time", band),
+                   "time until the error is within the band for good, the longest of the trial's moves; a "
+                   "move that ends outside counts with its duration"}}});
+  measures.push_back({.field = field_of_band(band_fields()[2], band, values_of_bands<&B::exits>()[slot]),
+                      .band = band,
+                      .file = history,
+                      .values = {.needs_target = true},
+                      .of_trial = OfTrial::sum,
+                      .point = {"exits",
+                                {{{n}, "trials, of which the numbers of exits are"},
+                                 {{mean, sd, p95, max}, "{0} of the exits from the error band per trial"},
+                                 {{total}, "exits from the error band of all trials"},
+                                 {{bootstrap_low, bootstrap_high},
+                                  "{1} of the mean number of exits: Student and studentised bootstrap, "
+                                  "Garwood for few"}}}});
+  return measures;
+}
+
+MeasureTable measures_with(const trial::ErrorBands& bands) {
+  MeasureTable measures = all_measures();
+  for (std::size_t slot = 0; slot < bands.count; ++slot) {
+    for (Measure& measure : measures_of_band(bands, slot)) measures.push_back(std::move(measure));
+  }
+  return measures;
+}
+
 /// The measures that come first; none of them twice.
 std::vector<std::string_view> first_of(ReportOrder order) {
   switch (order) {
@@ -306,9 +397,18 @@ std::vector<std::string_view> first_of(ReportOrder order) {
 
 }  // namespace
 
-const MeasureTable& measure_table() {
-  static const MeasureTable measures = all_measures();
-  return measures;
+const MeasureTable& measure_table(const trial::ErrorBands& bands) {
+  // References into a map stay valid. Programs use few different bands.
+  static std::mutex mutex;
+  static std::map<std::vector<std::int64_t>, MeasureTable> tables;
+  const std::lock_guard lock(mutex);
+  const std::vector<std::int64_t> limits(bands.values().begin(), bands.values().end());
+  const auto found = tables.find(limits);
+  return found != tables.end() ? found->second : tables.emplace(limits, measures_with(bands)).first->second;
+}
+
+std::string name_of_band(std::string_view name, std::int64_t band) {
+  return fmt::format("{}[{}]", name, band);
 }
 
 bool is_in_file(const Measure& measure, std::int64_t version, const study::StudyFeatures& features) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -106,7 +107,7 @@ struct SummaryColumns {
 
 /// A measure as an output of a trial that `sensitivity` explains.
 struct ExplainedOutput {
-  std::string_view name;
+  std::string name;
   std::string_view meaning;
 };
 
@@ -115,7 +116,7 @@ enum class Worse { less, more };
 /// A measure as the gate judges it: qualities by the proportion of trials that have them, sums by their mean
 /// over trials, others by the mean over trials of the mean over the moves that have a value.
 struct GatedMeasure {
-  std::string_view name;
+  std::string name;
   Worse worse{Worse::more};
   double absolute{0.0};  ///< default margin, in the measure's unit
   double relative{0.0};  ///< default margin, as a proportion of the baseline's value
@@ -124,6 +125,7 @@ struct GatedMeasure {
 /// One measure of a move.
 struct Measure {
   RecordField<trial::MoveOutcome> field;
+  std::optional<std::int64_t> band{};  ///< of a measure of an error band: its limit, counts
   FileHistory file{};
   CountedValues values{};
   OfTrial of_trial{OfTrial::last};

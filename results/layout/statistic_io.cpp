@@ -1,5 +1,7 @@
 
+#include <map>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -20,7 +22,48 @@ std::vector<PointColumn> described_columns(const hdf5::Group& group, const Stati
   return columns;
 }
 
+/// The name of a number of an error band without the band; empty for other names.
+std::string_view name_before_band(std::string_view name) {
+  return name.ends_with(']') ? name.substr(0, name.find('[')) : std::string_view();
+}
+
+/// Makes one column [point, band] of those of successive error bands.
+PointColumn joined_bands(std::span<const PointColumn> columns) {
+  PointColumn joined{std::string(name_before_band(columns.front().name)),
+                     columns.front().unit,
+                     columns.front().long_name,
+                     {}};
+  for (std::size_t point = 0; point < columns.front().values.size(); ++point) {
+    for (const PointColumn& column : columns) joined.values.push_back(column.values.at(point));
+  }
+  return joined;
+}
+
 }  // namespace
+
+void write_point_columns(hdf5::File& file, const Table& points, std::span<const PointColumn> columns,
+                         const trial::ErrorBands& bands) {
+  TableIo io = TableIo::open(file, points);
+  std::map<std::string_view, std::vector<PointColumn>> of_bands;
+  for (const PointColumn& column : columns) {
+    if (std::ssize(column.values) != io.rows()) {
+      throw std::invalid_argument(
+          fmt::format("the statistic '{}' needs one value per design point", column.name));
+    }
+    const std::string_view of_band = name_before_band(column.name);
+    if (of_band.empty()) {
+      io.add(statistic_column(column)).write(0, io.rows(), column.values.data());
+    } else {
+      of_bands[of_band].push_back(column);
+    }
+  }
+  if (of_bands.empty()) return;
+  TableIo with_bands = TableIo::create(file, band_statistic_table(bands), io.rows(), 1);
+  for (const auto& [name, all] : of_bands) {
+    const PointColumn joined = joined_bands(all);
+    with_bands.add(statistic_column(joined)).write(0, io.rows(), joined.values.data());
+  }
+}
 
 void write_statistic_table(hdf5::File& file, const StatisticTable& table, std::int64_t points) {
   for (const PointColumn& column : table.columns) {

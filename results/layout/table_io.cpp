@@ -66,17 +66,23 @@ std::int64_t chunk_rows(std::int64_t width) {
   return std::max<std::int64_t>(1, chunk_elements / width);
 }
 
-TableIo TableIo::create(hdf5::Group& root, const Table& table, std::int64_t rows, std::int64_t width,
+TableIo TableIo::create(hdf5::Group& root, const Table& table, std::int64_t rows, std::int64_t second,
                         hdf5::Compression compression) {
   hdf5::Group group = make_group(root, table.group);
   hdf5::Dataset scale = make_scale(group, table.rows, rows);
   TableIo io(std::move(group), std::move(scale));
   io.rows_ = rows;
-  io.width_ = width;
   io.compression_ = compression;
   if (table.second) {
-    io.second_scale_ = make_scale(io.group_, *table.second, width);
-    if (table.second->element == hdf5::Element::int64) write_numbers(*io.second_scale_, width, 0);
+    io.second_scale_ = make_scale(io.group_, *table.second, second);
+    if (table.second->element == hdf5::Element::int64) write_numbers(*io.second_scale_, second, 0);
+    io.add_dimension(second);
+  }
+  if (table.third) {
+    const std::int64_t third = std::ssize(table.third->values);
+    io.third_scale_ = make_scale(root, table.third->scale, third);
+    io.third_scale_->write(0, third, table.third->values.data());
+    io.add_dimension(third);
   }
   for (const Column& column : table.columns) io.add(column);
   return io;
@@ -89,14 +95,20 @@ TableIo TableIo::open(const hdf5::Group& root, const Table& table) {
   std::vector<hdf5::Size> expected = io.row_scale_.extent();
   if (expected.size() != 1) io.row_scale_.fail("it should have one dimension");
   io.rows_ = static_cast<std::int64_t>(expected[0]);
+  const auto size_of_scale = [](const hdf5::Dataset& inner) {
+    const std::vector<hdf5::Size> extent = inner.extent();
+    if (extent.size() != 1 || extent[0] == 0) inner.fail("it should have one dimension, not empty");
+    return static_cast<std::int64_t>(extent[0]);
+  };
   if (table.second) {
     io.second_scale_ = io.group_.open_dataset(table.second->name);
-    const std::vector<hdf5::Size> second = io.second_scale_->extent();
-    if (second.size() != 1 || second[0] == 0)
-      io.second_scale_->fail("it should have one dimension, not empty");
-    expected.push_back(second[0]);
-    io.width_ = static_cast<std::int64_t>(second[0]);
+    io.add_dimension(size_of_scale(*io.second_scale_));
   }
+  if (table.third) {
+    io.third_scale_ = root.open_dataset(table.third->scale.name);
+    io.add_dimension(size_of_scale(*io.third_scale_));
+  }
+  expected.insert(expected.end(), io.inner_extent_.begin(), io.inner_extent_.end());
   for (const Column& column : table.columns) {
     hdf5::Dataset dataset = io.group_.open_dataset(column.name);
     if (dataset.element() != column.element) dataset.fail("its elements have an unexpected type");
@@ -104,6 +116,11 @@ TableIo TableIo::open(const hdf5::Group& root, const Table& table) {
     io.datasets_.push_back(std::move(dataset));
   }
   return io;
+}
+
+void TableIo::add_dimension(std::int64_t size) {
+  inner_extent_.push_back(static_cast<hdf5::Size>(size));
+  width_ *= size;
 }
 
 void require_flags(const TableIo& io, std::size_t index, std::int64_t first,
@@ -124,9 +141,9 @@ hdf5::Storage TableIo::storage_of(const Column& column) const {
       {static_cast<hdf5::Size>(empty ? chunk_rows(width_) : std::min(rows_, chunk_rows(width_)))},
       empty,
       compression_};
-  if (second_scale_) {
-    storage.extent.push_back(static_cast<hdf5::Size>(width_));
-    storage.chunk.push_back(static_cast<hdf5::Size>(std::min(width_, chunk_elements)));
+  for (const hdf5::Size size : inner_extent_) {
+    storage.extent.push_back(size);
+    storage.chunk.push_back(std::min(size, static_cast<hdf5::Size>(chunk_elements)));
   }
   return storage;
 }
@@ -136,6 +153,7 @@ hdf5::Dataset& TableIo::add(const Column& column) {
   describe(dataset, column);
   dataset.attach_scale(row_scale_, 0);
   if (second_scale_) dataset.attach_scale(*second_scale_, 1);
+  if (third_scale_) dataset.attach_scale(*third_scale_, static_cast<unsigned>(inner_extent_.size()));
   return datasets_.emplace_back(std::move(dataset));
 }
 

@@ -24,17 +24,17 @@ std::int64_t chunk_rows(std::int64_t width);
 /// The datasets of a table in an open file.
 class TableIo {
  public:
-  /// Creates the groups, the dimension scales and the columns, attached to their scales. `width` is the size
+  /// Creates the groups, the dimension scales and the columns, attached to their scales. `second` is the size
   /// of the second dimension, 1 where the table has none. A scale that another table of the group has made is
   /// used as it is. A table without rows is made extendible, because
   /// the netCDF library knows a length of zero only of an unlimited dimension.
-  static TableIo create(hdf5::Group& root, const Table& table, std::int64_t rows, std::int64_t width,
+  static TableIo create(hdf5::Group& root, const Table& table, std::int64_t rows, std::int64_t second,
                         hdf5::Compression compression = hdf5::Compression::deflate);
   /// Opens the columns of `table`, and checks that they have its element types and equal sizes.
   static TableIo open(const hdf5::Group& root, const Table& table);
 
   std::int64_t rows() const { return rows_; }
-  std::int64_t width() const { return width_; }
+  std::int64_t width() const { return width_; }  ///< elements of a row
   hdf5::Dataset& row_scale() { return row_scale_; }
   const hdf5::Dataset& row_scale() const { return row_scale_; }
   /// The scale of the second dimension, if there is one. Creation fills it if it counts from 0.
@@ -50,6 +50,7 @@ class TableIo {
  private:
   TableIo(hdf5::Group group, hdf5::Dataset row_scale)
       : group_(std::move(group)), row_scale_(std::move(row_scale)) {}
+  void add_dimension(std::int64_t size);
   hdf5::Storage storage_of(const Column& column) const;
 
   std::int64_t rows_{0};
@@ -58,6 +59,8 @@ class TableIo {
   hdf5::Group group_;
   hdf5::Dataset row_scale_;
   std::optional<hdf5::Dataset> second_scale_;
+  std::optional<hdf5::Dataset> third_scale_;
+  std::vector<hdf5::Size> inner_extent_;  ///< sizes of the second and third dimensions that there are
   std::vector<hdf5::Dataset> datasets_;
 };
 
@@ -110,6 +113,12 @@ std::vector<Record> read_records(const TableIo& io, const std::vector<RecordFiel
   }
   return records;
 }
+
+/// Writes statistics of the design points to the table that the file has. Those of error bands become one
+/// dataset [point, band] (see PointColumn).
+/// @throws std::invalid_argument where a column has not one value per design point.
+void write_point_columns(hdf5::File& file, const Table& points, std::span<const PointColumn> columns,
+                         const trial::ErrorBands& bands);
 
 /// Writes a table of statistics to its group, for `points` design points.
 /// @throws std::invalid_argument where a column has not one value per design point and index.

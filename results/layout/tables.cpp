@@ -32,10 +32,6 @@ std::vector<Column> input_columns(const std::vector<study::InputColumn>& inputs)
   return columns;
 }
 
-Column statistic_column(const PointColumn& statistic) {
-  return {statistic.name, statistic.unit, statistic.long_name, hdf5::Element::float64, {}, "statistic"};
-}
-
 template <class Record>
 std::vector<Column> columns_of(const std::vector<RecordField<Record>>& fields) {
   std::vector<Column> columns;
@@ -45,6 +41,14 @@ std::vector<Column> columns_of(const std::vector<RecordField<Record>>& fields) {
 }
 
 }  // namespace
+
+Column statistic_column(const PointColumn& statistic) {
+  return {statistic.name, statistic.unit, statistic.long_name, hdf5::Element::float64, {}, "statistic"};
+}
+
+Table band_statistic_table(const trial::ErrorBands& bands) {
+  return {"point", whole_numbers("point", "index of the design point"), {}, {}, band_dimension(bands)};
+}
 
 Table point_table(const std::vector<study::SweepAxis>& axes, const std::vector<PointColumn>& statistics) {
   Table table{"point", whole_numbers("point", "index of the design point"), {}, {}};
@@ -79,8 +83,17 @@ Table trial_table(const std::vector<study::InputColumn>& inputs) {
 Table outcome_table(std::int64_t version, const study::StudyFeatures& features,
                     const MeasureTable& measures) {
   return {"outcome", whole_numbers("trial", "global row of the trial"),
-          whole_numbers("move", "index of the move"),
-          columns_of(outcome_fields(version, features, measures))};
+          whole_numbers("move", "index of the move"), columns_of(move_fields(version, features, measures))};
+}
+
+ThirdDimension band_dimension(const trial::ErrorBands& bands) {
+  return {{"band", "count", "error band: the largest |error| within it", hdf5::Element::int64},
+          {bands.values().begin(), bands.values().end()}};
+}
+
+Table band_table(const trial::ErrorBands& bands) {
+  return {"outcome", whole_numbers("trial", "global row of the trial"),
+          whole_numbers("move", "index of the move"), columns_of(band_fields()), band_dimension(bands)};
 }
 
 Table verdict_table() {
@@ -129,6 +142,7 @@ Table on_axis(Table table, parameters::AxisKind axis) {
   };
   reword(table.rows);
   if (table.second) reword(*table.second);
+  if (table.third) reword(table.third->scale);
   for (Column& column : table.columns) reword(column);
   return table;
 }

@@ -27,9 +27,14 @@ layout::FileHeader read_required(const hdf5::File& file, const std::filesystem::
   return header;
 }
 
+void require_numbers(const hdf5::Dataset& dataset, std::size_t dimensions) {
+  if (dataset.element() == hdf5::Element::float64 && dataset.extent().size() == dimensions) return;
+  dataset.fail(
+      fmt::format("it should be numbers in {}", dimensions == 1 ? "one dimension" : "two dimensions"));
+}
+
 std::vector<double> read_doubles(const hdf5::Dataset& dataset) {
-  if (dataset.element() != hdf5::Element::float64 || dataset.extent().size() != 1)
-    dataset.fail("it should be numbers in one dimension");
+  require_numbers(dataset, 1);
   std::vector<double> values(dataset.extent()[0]);
   dataset.read(0, std::ssize(values), values.data());
   return values;
@@ -37,7 +42,8 @@ std::vector<double> read_doubles(const hdf5::Dataset& dataset) {
 
 /// Requires one value per design point.
 void require_points(const hdf5::Dataset& dataset, std::int64_t points) {
-  if (dataset.extent() == std::vector<hdf5::Size>{static_cast<hdf5::Size>(points)}) return;
+  const std::vector<hdf5::Size> extent = dataset.extent();
+  if (!extent.empty() && extent.size() <= 2 && extent[0] == static_cast<hdf5::Size>(points)) return;
   dataset.fail(fmt::format("it should have one value for each of the {} design points", points));
 }
 
@@ -54,6 +60,23 @@ std::vector<std::pair<std::string, hdf5::Dataset>> point_columns(const hdf5::Fil
     columns.emplace_back(name, std::move(dataset));
   }
   return columns;
+}
+
+/// Appends a column for each error band of the dataset [point, band].
+void append_bands(const hdf5::File& file, const layout::PointColumn& column, const hdf5::Dataset& dataset,
+                  std::vector<layout::PointColumn>& columns) {
+  require_numbers(dataset, 2);
+  const trial::ErrorBands bands = read_bands(file);
+  const std::size_t points = dataset.extent()[0];
+  if (dataset.extent()[1] != bands.count) dataset.fail("its size differs from that of its axes");
+  std::vector<double> values(points * bands.count);
+  dataset.read(0, static_cast<std::int64_t>(points), values.data());
+  for (std::size_t slot = 0; slot < bands.count; ++slot) {
+    layout::PointColumn& one = columns.emplace_back(column);
+    one.name = layout::name_of_band(column.name, bands.values()[slot]);
+    for (std::size_t point = 0; point < points; ++point)
+      one.values.push_back(values[point * bands.count + slot]);
+  }
 }
 
 /// Where the numbers of each point begin, and where the last of them end.
@@ -81,7 +104,7 @@ std::vector<Number> numbers_of(const layout::TableIo& io, const std::vector<std:
 }  // namespace
 
 ResultsFile::ResultsFile(const std::filesystem::path& path, Require require,
-                         const layout::MeasureTable& table)
+                         const layout::MeasureTable* table)
     : path_(path),
       file_(layout::open_results(
           path, require == Require::unfinished ? layout::Checksum::not_yet : layout::Checksum::required)),
@@ -116,8 +139,15 @@ std::vector<study::SweepAxis> ResultsFile::axes() const {
 
 std::vector<layout::PointColumn> ResultsFile::statistics() const {
   std::vector<layout::PointColumn> statistics;
-  for (const auto& [name, dataset] : point_columns(file_, header_.points, "statistic"))
-    statistics.push_back({name, dataset.text("units"), dataset.text("long_name"), read_doubles(dataset)});
+  for (const auto& [name, dataset] : point_columns(file_, header_.points, "statistic")) {
+    const layout::PointColumn column{name, dataset.text("units"), dataset.text("long_name"), {}};
+    if (dataset.extent().size() == 2) {
+      append_bands(file_, column, dataset, statistics);
+    } else {
+      statistics.push_back(column);
+      statistics.back().values = read_doubles(dataset);
+    }
+  }
   return statistics;
 }
 

@@ -49,11 +49,12 @@ class ResultsFile {
  public:
   /// Checks checksum trailer, format, version, completion mark, completeness as required, and the numbers of
   /// the rows (see validation.hpp). Reads the file once from beginning to end.
-  /// @param table the measures that its moves may have; stays as long as this.
+  /// @param table the measures that its moves may have; stays as long as this. Null: those of this program
+  /// with the error bands of the file.
   /// @throws ForeignFile for another format or a newer version; Failure: bad_input where there is no such
   /// file, machine_failed where it cannot be read, otherwise bad_data.
   explicit ResultsFile(const std::filesystem::path& path, Require require = Require::complete,
-                       const layout::MeasureTable& table = layout::measure_table());
+                       const layout::MeasureTable* table = nullptr);
 
   const std::filesystem::path& path() const { return path_; }
   const layout::FileHeader& header() const { return header_; }

@@ -6,7 +6,7 @@
 
 namespace zerocount::reading {
 
-StudyFile::StudyFile(const std::filesystem::path& path, Require require, const layout::MeasureTable& table)
+StudyFile::StudyFile(const std::filesystem::path& path, Require require, const layout::MeasureTable* table)
     : ResultsFile(path, require, table) {
   layout::require_every_trial(path, header());
 }

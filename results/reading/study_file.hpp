@@ -20,7 +20,7 @@ class StudyFile : public ResultsFile {
  public:
   /// @throws as ResultsFile does, and ForeignFile for a file that does not keep every trial
   explicit StudyFile(const std::filesystem::path& path, Require require = Require::complete,
-                     const layout::MeasureTable& table = layout::measure_table());
+                     const layout::MeasureTable* table = nullptr);
 
   parameters::AxisKind axis() const { return features().axis; }
   std::int64_t moves() const { return trials()->moves(); }

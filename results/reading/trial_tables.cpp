@@ -1,9 +1,11 @@
 #include "results/reading/trial_tables.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -20,6 +22,7 @@ constexpr std::size_t columns_before_inputs = 2;
 study::StudyFeatures read_features(const hdf5::File& file, const layout::MeasureTable& table) {
   const hdf5::Group outcome = file.open_group("outcome");
   study::StudyFeatures features;
+  features.bands = read_bands(file);
   if (outcome.open_dataset("final_position").text("units") ==
       parameters::unit_on(parameters::AxisKind::linear, "rad"))
     features.axis = parameters::AxisKind::linear;
@@ -55,6 +58,22 @@ std::int64_t first_not_below(const hdf5::Dataset& numbers, std::int64_t size, st
 
 }  // namespace
 
+trial::ErrorBands read_bands(const hdf5::File& file) {
+  const std::string scale = layout::band_dimension({}).scale.name;
+  if (!file.contains(scale)) return {.count = 0};
+  const hdf5::Dataset dataset = file.open_dataset(scale);
+  const std::vector<hdf5::Size> extent = dataset.extent();
+  trial::ErrorBands bands;
+  if (dataset.element() != hdf5::Element::int64 || extent.size() != 1 || extent[0] > bands.limits.size())
+    dataset.fail(fmt::format("it should be at most {} whole numbers", bands.limits.size()));
+  bands.count = static_cast<std::size_t>(extent[0]);
+  dataset.read(0, std::ssize(bands.values()), bands.limits.data());
+  if (bands.count == 0 || bands.limits[0] < 0 ||
+      !std::is_sorted(bands.values().begin(), bands.values().end(), std::less_equal()))
+    dataset.fail("its numbers should rise from 0 or more");
+  return bands;
+}
+
 std::vector<study::InputColumn> read_input_columns(const hdf5::Group& table) {
   std::vector<study::InputColumn> inputs;
   if (!table.contains("input")) return inputs;
@@ -67,19 +86,21 @@ std::vector<study::InputColumn> read_input_columns(const hdf5::Group& table) {
 }
 
 TrialTables::TrialTables(const hdf5::File& file, const layout::FileHeader& header,
-                         const layout::MeasureTable& table)
-    : features_(read_features(file, table)),
+                         const layout::MeasureTable* table)
+    : features_(read_features(file, table != nullptr ? *table : layout::measure_table())),
       inputs_(read_input_columns(file.open_group("trial"))),
       trials_(layout::TableIo::open(file, layout::trial_table(inputs_))),
-      table_(&table),
-      measures_(layout::outcome_fields(header.version, features_, table)),
-      outcomes_(layout::TableIo::open(file, layout::outcome_table(header.version, features_, table))),
+      table_(table != nullptr ? table : &layout::measure_table(features_.bands)),
+      measures_(layout::outcome_fields(header.version, features_, *table_)),
+      move_fields_(layout::move_fields(header.version, features_, *table_)),
+      outcomes_(layout::TableIo::open(file, layout::outcome_table(header.version, features_, *table_))),
       jerks_(layout::TableIo::open(file, layout::jerk_table())) {
   if (file.contains("trace")) trace_ = layout::TableIo::open(file, layout::trace_table(features_));
   if (!layout::has_sums(header.kept)) first_row_ = header.rows.first;
   if (first_row_ && trials_.rows() != header.rows.count)
     trials_.row_scale().fail("its size differs from the attribute 'trial_count'");
-  if (outcomes_.rows() != trials_.rows())
+  if (features_.bands.count > 0) bands_ = layout::TableIo::open(file, layout::band_table(features_.bands));
+  if (outcomes_.rows() != trials_.rows() || (bands_ && bands_->rows() != trials_.rows()))
     outcomes_.row_scale().fail("its size differs from that of the trials");
   validate_numbering(header, trials_, jerks_);
 }
@@ -108,9 +129,21 @@ std::vector<double> TrialTables::input(std::size_t column, layout::RowRange posi
 
 std::vector<trial::MoveOutcome> TrialTables::outcomes(layout::RowRange positions) const {
   std::vector<trial::MoveOutcome> moves =
-      layout::read_records(outcomes_, measures_, positions.first, positions.count);
-  validate_outcomes(outcomes_, measures_, number_of(positions.first), moves);
+      layout::read_records(outcomes_, move_fields_, positions.first, positions.count);
+  validate_outcomes(outcomes_, move_fields_, number_of(positions.first), moves);
+  if (bands_) read_bands_of(positions, moves);
   return moves;
+}
+
+void TrialTables::read_bands_of(layout::RowRange positions, std::span<trial::MoveOutcome> moves) const {
+  const std::vector<trial::BandOutcome> bands =
+      layout::read_records(*bands_, layout::band_fields(), positions.first, positions.count);
+  validate_bands(*bands_, number_of(positions.first), bands);
+  auto next = bands.begin();
+  for (trial::MoveOutcome& move : moves) {
+    const auto first = std::exchange(next, next + static_cast<std::ptrdiff_t>(features_.bands.count));
+    std::copy(first, next, move.bands.begin());
+  }
 }
 
 std::vector<double> TrialTables::measure(std::string_view name, layout::RowRange positions) const {
@@ -122,18 +155,19 @@ std::vector<double> TrialTables::measure(std::string_view name, layout::RowRange
 
   const layout::RecordField<trial::MoveOutcome>& field = known->field;
   const auto size = static_cast<std::size_t>(positions.count * outcomes_.width());
-  const auto column = std::find_if(measures_.begin(), measures_.end(),
-                                   [name](const auto& one) { return one.column.name == name; });
-  if (column == measures_.end()) return std::vector<double>(size, known->file.before);
+  const auto named = [name](const auto& one) { return one.column.name == name; };
+  if (std::none_of(measures_.begin(), measures_.end(), named))
+    return std::vector<double>(size, known->file.before);
   std::vector<trial::MoveOutcome> moves(size);
   if (layout::is_computed(field)) {
     moves = outcomes(positions);
   } else {
     std::vector<std::byte> bytes(size * hdf5::size_of(field.column.element));
-    outcomes_.column(static_cast<std::size_t>(column - measures_.begin()))
+    const auto column = std::find_if(move_fields_.begin(), move_fields_.end(), named);
+    outcomes_.column(static_cast<std::size_t>(column - move_fields_.begin()))
         .read(positions.first, positions.count, bytes.data());
     layout::scatter(field, bytes, std::span(moves));
-    validate_measure(outcomes_, measures_, name, number_of(positions.first), moves);
+    validate_measure(outcomes_, move_fields_, name, number_of(positions.first), moves);
   }
   std::vector<double> values(size);
   std::transform(moves.begin(), moves.end(), values.begin(),

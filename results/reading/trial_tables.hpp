@@ -25,8 +25,9 @@ namespace zerocount::reading {
 class TrialTables {
  public:
   /// Checks sizes and row numbers (see validation.hpp).
-  /// @param file, table stay as long as this
-  TrialTables(const hdf5::File& file, const layout::FileHeader& header, const layout::MeasureTable& table);
+  /// @param file stays as long as this @param table those that its moves may have, which stay too; null: the
+  /// measures of this program with the error bands of the file
+  TrialTables(const hdf5::File& file, const layout::FileHeader& header, const layout::MeasureTable* table);
 
   std::int64_t count() const { return trials_.rows(); }
   std::vector<std::int64_t> rows(layout::RowRange positions) const;
@@ -71,6 +72,8 @@ class TrialTables {
   void require_valid_values() const;
 
  private:
+  /// Reads the measures of the error bands of the trials at these positions into their moves.
+  void read_bands_of(layout::RowRange positions, std::span<trial::MoveOutcome> moves) const;
   /// In messages about values: a global row, or a position where failures are kept.
   std::int64_t number_of(std::int64_t position) const { return first_row_.value_or(0) + position; }
 
@@ -80,10 +83,15 @@ class TrialTables {
   layout::TableIo trials_;  ///< point, index, then one column per input
   const layout::MeasureTable* table_;
   std::vector<layout::RecordField<trial::MoveOutcome>> measures_;
+  std::vector<layout::RecordField<trial::MoveOutcome>> move_fields_;  ///< the columns of outcomes_
   layout::TableIo outcomes_;
+  std::optional<layout::TableIo> bands_;  ///< if the file has error bands
   layout::TableIo jerks_;
   std::optional<layout::TableIo> trace_;
 };
+
+/// The error bands of the file; none in a file of an earlier version.
+trial::ErrorBands read_bands(const hdf5::File& file);
 
 /// The columns of the group `input` of /trial or /rig; none without such a group.
 std::vector<study::InputColumn> read_input_columns(const hdf5::Group& table);

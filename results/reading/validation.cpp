@@ -140,6 +140,15 @@ void validate_outcomes(const layout::TableIo& outcomes,
               [](const trial::MoveOutcome& move) { return move.arrived != std::isnan(move.settling_time); });
 }
 
+void validate_bands(const layout::TableIo& table, std::int64_t first_row,
+                    std::span<const trial::BandOutcome> bands) {
+  const auto row_of = [first_row, width = table.width()](std::int64_t at) {
+    return fmt::format("trial {}, band {} of its moves", first_row + at / width, at % width);
+  };
+  for (const layout::RecordField<trial::BandOutcome>& field : layout::band_fields())
+    require_valid(table, layout::band_fields(), field, bands, row_of);
+}
+
 void validate_measure(const layout::TableIo& outcomes,
                       const std::vector<layout::RecordField<trial::MoveOutcome>>& fields,
                       std::string_view name, std::int64_t first_row,

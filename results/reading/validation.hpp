@@ -27,6 +27,10 @@ void validate_outcomes(const layout::TableIo& outcomes,
                        const std::vector<layout::RecordField<trial::MoveOutcome>>& fields,
                        std::int64_t first_row, std::span<const trial::MoveOutcome> moves);
 
+/// The measures of the error bands are possible. @param first_row row of the first one
+void validate_bands(const layout::TableIo& table, std::int64_t first_row,
+                    std::span<const trial::BandOutcome> bands);
+
 /// Checks the measure `name` only; the others of `moves` are unknown.
 void validate_measure(const layout::TableIo& outcomes,
                       const std::vector<layout::RecordField<trial::MoveOutcome>>& fields,

@@ -23,6 +23,11 @@ struct Source {
   layout::RowRange rows;  ///< in the table written
 };
 
+/// @param width size of the second dimension
+std::int64_t elements_of_row(const layout::Table& table, std::int64_t width) {
+  return table.third ? width * std::ssize(table.third->values) : width;
+}
+
 std::vector<Source> find_sources(const layout::Table& table, std::span<const ShardInfo> shards,
                                  std::int64_t width) {
   std::vector<Source> sources;
@@ -30,7 +35,8 @@ std::vector<Source> find_sources(const layout::Table& table, std::span<const Sha
   for (const ShardInfo& shard : shards) {
     const hdf5::File file = hdf5::File::open_to_read(shard.path);
     const layout::TableIo io = layout::TableIo::open(file, table);
-    if (io.width() != width) io.row_scale().fail("its trials have another number of moves than the study");
+    if (io.width() != elements_of_row(table, width))
+      io.row_scale().fail("its trials have another number of moves than the study");
     sources.push_back({shard.path, {next, io.rows()}});
     next += io.rows();
   }
@@ -130,18 +136,19 @@ void concatenate(hdf5::File& file, const layout::Table& table, std::span<const S
   Sources sources(table, find_sources(table, shards, width));
   const std::int64_t rows = sources.rows();
   layout::TableIo out = layout::TableIo::create(file, table, rows, width);
+  const std::int64_t elements = out.width();
   if (first_number) out.number_rows(*first_number);
   Block block(table.columns.size());
   for (layout::RowRange wanted; wanted.first < rows; wanted.first = wanted.end()) {
     if (options.stop.stop_requested())
       throw Failure(ExitCode::interrupted, "interrupted while the shards were joined; they are kept");
-    wanted.count = std::min(layout::chunk_rows(width), rows - wanted.first);
+    wanted.count = std::min(layout::chunk_rows(elements), rows - wanted.first);
     if (!renumber && sources.copy_chunks(wanted, out)) continue;
     for (std::size_t index = 0; index < block.size(); ++index) {
-      block[index].resize(static_cast<std::size_t>(wanted.count * width) *
+      block[index].resize(static_cast<std::size_t>(wanted.count * elements) *
                           hdf5::size_of(table.columns[index].element));
     }
-    sources.read(wanted, width, block);
+    sources.read(wanted, elements, block);
     if (renumber) renumber_trials(table, renumber, block);
     std::vector<hdf5::RowsToWrite> columns;
     for (std::size_t index = 0; index < block.size(); ++index)

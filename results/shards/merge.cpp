@@ -134,11 +134,15 @@ hdf5::WrittenValues write_trials_of(std::span<const ShardInfo> shards, const stu
   };
   const bool sparse = layout::has_sums(study.kept);
   if (layout::has_trials(study.kept)) {
+    const layout::MeasureTable& measures =
+        options.measures != nullptr ? *options.measures : layout::measure_table(study.features.bands);
     const auto first_row = sparse ? std::nullopt : std::optional(rows.first);
     join(layout::trial_table(study.input_columns), 1, first_row);
-    join(layout::on_axis(layout::outcome_table(layout::format_version, study.features, *options.measures),
+    join(layout::on_axis(layout::outcome_table(layout::format_version, study.features, measures),
                          study.units.axis),
          study.moves, first_row);
+    join(layout::on_axis(layout::band_table(study.features.bands), study.units.axis), study.moves,
+         std::nullopt);
     join(layout::jerk_table(), 1, 0, options.renumber);
     if (sparse) number_kept_trials(file, study);
   }
@@ -151,7 +155,7 @@ hdf5::WrittenValues write_trials_of(std::span<const ShardInfo> shards, const stu
 
 layout::StoredStatistics statistics_of(const fs::path& part, const hdf5::WrittenValues& written,
                                        const StatisticsOfPoints& statistics,
-                                       const layout::MeasureTable& measures) {
+                                       const layout::MeasureTable* measures) {
   try {
     return statistics(reading::StudyFile(part, reading::Require::unfinished, measures));
   } catch (const Failure&) {
@@ -162,17 +166,10 @@ layout::StoredStatistics statistics_of(const fs::path& part, const hdf5::Written
 
 void write_point_statistics(hdf5::File& file, const study::Study& study,
                             const layout::StoredStatistics& statistics) {
-  layout::TableIo io = layout::TableIo::open(file, layout::point_table(study.axes, {}));
-  const parameters::AxisKind axis = study.units.axis;
-  const layout::Table described = layout::on_axis(layout::point_table({}, statistics.points), axis);
-  for (std::size_t index = 0; index < statistics.points.size(); ++index) {
-    const layout::PointColumn& statistic = statistics.points[index];
-    if (std::ssize(statistic.values) != io.rows()) {
-      throw std::invalid_argument(
-          fmt::format("the statistic '{}' needs one value per design point", statistic.name));
-    }
-    io.add(described.columns[1 + index]).write(0, io.rows(), statistic.values.data());
-  }
+  std::vector<layout::PointColumn> columns;
+  for (const layout::PointColumn& column : statistics.points)
+    columns.push_back(layout::on_axis(column, study.units.axis));
+  layout::write_point_columns(file, layout::point_table(study.axes, {}), columns, study.features.bands);
 }
 
 /// Writes what is known when all trials have been run, and the completion mark.
@@ -220,7 +217,7 @@ void merge_shards(std::span<const ShardInfo> shards, const study::Study& study, 
   if (layout::has_sums(study.kept)) {
     summed = options.sums_of(ordered);
   } else if (whole && statistics) {
-    summed.statistics = statistics_of(part.path(), written, statistics, *options.measures);
+    summed.statistics = statistics_of(part.path(), written, statistics, options.measures);
   }
   hdf5::File file = hdf5::File::open_to_change(part.path(), std::move(written));
   if (layout::has_sums(study.kept)) layout::write_sums(file, rows.first / study.trials, summed.sums);

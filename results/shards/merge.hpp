@@ -35,9 +35,9 @@ struct MergeOptions {
   /// For shards whose rows differ from those of the file: ShardInfo has the rows of the file, and this maps
   /// the rows stored in the shards to them.
   Renumbering renumber{};
-  const layout::MeasureTable* measures{&layout::measure_table()};
-  SumsOfTrials sums_of{};  ///< needed if the study does not keep every trial
-  std::stop_token stop{};  ///< interrupts the merge
+  const layout::MeasureTable* measures{nullptr};  ///< null: those of this program, with the study's bands
+  SumsOfTrials sums_of{};                         ///< needed if the study does not keep every trial
+  std::stop_token stop{};                         ///< interrupts the merge
 };
 
 /// The files of `inputs`, sorted by rows; a directory stands for its shard_files(). Each file must be a

@@ -62,13 +62,16 @@ void write_trials(hdf5::File& file, const study::Study& study, std::span<const T
     write(2 + input, [input](const TrialResult& result) { return result.inputs[input]; });
 }
 
-/// Writes the records of a table; a row takes as many of them as the table is wide.
+/// Writes the records of a table; a row takes as many of them as it has elements.
+/// @param width size of the second dimension
 template <class Record>
 layout::TableIo write_table(hdf5::File& file, const layout::Table& table,
                             const std::vector<layout::RecordField<Record>>& fields,
                             const std::vector<Record>& records, std::int64_t width,
                             hdf5::Compression compression) {
-  layout::TableIo io = layout::TableIo::create(file, table, std::ssize(records) / width, width, compression);
+  const std::int64_t of_third = table.third ? std::ssize(table.third->values) : 1;
+  const std::int64_t rows = std::ssize(records) / (width * of_third);
+  layout::TableIo io = layout::TableIo::create(file, table, rows, width, compression);
   layout::write_records(io, fields, 0, std::span<const Record>(records));
   return io;
 }
@@ -78,6 +81,17 @@ std::vector<trial::MoveOutcome> move_outcomes(std::span<const TrialResult> resul
   for (const TrialResult& result : results)
     moves.insert(moves.end(), result.outcome.moves.begin(), result.outcome.moves.end());
   return moves;
+}
+
+/// [move][band], flattened.
+std::vector<trial::BandOutcome> band_outcomes(std::span<const trial::MoveOutcome> moves,
+                                              const trial::ErrorBands& bands) {
+  std::vector<trial::BandOutcome> outcomes;
+  for (const trial::MoveOutcome& move : moves) {
+    outcomes.insert(outcomes.end(), move.bands.begin(),
+                    move.bands.begin() + static_cast<std::ptrdiff_t>(bands.count));
+  }
+  return outcomes;
 }
 
 std::vector<layout::JerkRecord> jerk_records(std::span<const TrialResult> results) {
@@ -116,12 +130,16 @@ void write_trial_tables(hdf5::File& file, const study::Study& study, std::span<c
                         const ShardOptions& options) {
   const hdf5::Compression compression = options.compression;
   const study::StudyFeatures& features = study.features;
+  const layout::MeasureTable& measures =
+      options.measures != nullptr ? *options.measures : layout::measure_table(features.bands);
   write_trials(file, study, trials, compression);
-  layout::TableIo outcomes =
-      write_table(file, layout::outcome_table(layout::format_version, features, *options.measures),
-                  layout::outcome_fields(layout::format_version, features, *options.measures),
-                  move_outcomes(trials), study.moves, compression);
+  const std::vector<trial::MoveOutcome> moves = move_outcomes(trials);
+  layout::TableIo outcomes = write_table(
+      file, layout::outcome_table(layout::format_version, features, measures),
+      layout::move_fields(layout::format_version, features, measures), moves, study.moves, compression);
   write_row_numbers(outcomes, trials);
+  write_table(file, layout::band_table(features.bands), layout::band_fields(),
+              band_outcomes(moves, features.bands), study.moves, compression);
   write_table(file, layout::jerk_table(), layout::jerk_fields(), jerk_records(trials), 1, compression)
       .number_rows(0);
   if (study.retained_trials.empty()) return;

@@ -45,7 +45,7 @@ inline constexpr hdf5::Compression shard_compression = hdf5::Compression::none;
 struct ShardOptions {
   layout::Provenance provenance{layout::current_provenance()};
   hdf5::Compression compression{shard_compression};  ///< of the tables of trials
-  const layout::MeasureTable* measures{&layout::measure_table()};
+  const layout::MeasureTable* measures{nullptr};     ///< null: those of this program, with the study's bands
 };
 
 /// Writes what the study keeps of the trials `rows` as one shard: `trials`, in order of rows, are every one

@@ -134,8 +134,8 @@ shards::SummedTrials sum_shards(std::span<const shards::ShardInfo> shards, const
   summary::SummedStudy summed = sums.sum();
   shards::SummedTrials trials{std::move(summed.sums), {}};
   if (whole) {
-    trials.statistics =
-        summary::stored_statistics(summed.points, study, summed.predictions, layout::measure_table());
+    trials.statistics = summary::stored_statistics(summed.points, study, summed.predictions,
+                                                   layout::measure_table(study.features.bands));
   }
   return trials;
 }

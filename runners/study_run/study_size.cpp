@@ -101,8 +101,10 @@ double bytes_of_trial(const study::Study& study, double jerks, const Ratios& rat
   const double numbers = 3.0 * sizeof(std::int64_t) * ratios.number;  // row, point and index
   return numbers + inputs +
          static_cast<double>(study.moves) *
-             bytes_of_row(layout::outcome_table(layout::format_version, study.features), ratios,
-                          ratios.real) +
+             (bytes_of_row(layout::outcome_table(layout::format_version, study.features), ratios,
+                           ratios.real) +
+              static_cast<double>(study.features.bands.count) *
+                  bytes_of_row(layout::band_table(study.features.bands), ratios, ratios.real)) +
          jerks * bytes_of_row(layout::jerk_table(), ratios, ratios.real);
 }
 

@@ -40,7 +40,9 @@ std::vector<layout::Table> tables_of(const reading::ResultsFile& file, const stu
     const parameters::AxisKind axis =
         header.kind == layout::FileKind::shard ? parameters::AxisKind::rotary : study.units.axis;
     tables = {layout::trial_table(study.input_columns),
-              layout::on_axis(layout::outcome_table(header.version, features), axis), layout::jerk_table()};
+              layout::on_axis(layout::outcome_table(header.version, features, file.trials()->table()), axis),
+              layout::jerk_table()};
+    if (features.bands.count > 0) tables.push_back(layout::on_axis(layout::band_table(features.bands), axis));
     if (!study.retained_trials.empty())
       tables.push_back(layout::on_axis(layout::trace_table(features), axis));
   }
@@ -55,7 +57,7 @@ std::vector<layout::Table> tables_of(const reading::ResultsFile& file, const stu
 /// Opens every column on its own, so that all problems are found.
 void check_columns(const reading::ResultsFile& file, const layout::Table& table, ProblemList& problems) {
   for (const layout::Column& column : table.columns) {
-    layout::Table single{table.group, table.rows, table.second, {column}};
+    layout::Table single{table.group, table.rows, table.second, {column}, table.third};
     try {
       const layout::TableIo io = layout::TableIo::open(file.root(), single);
       const std::string unit = io.column(0).text("units");

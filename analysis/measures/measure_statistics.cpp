@@ -1,10 +1,20 @@
 #include "analysis/measures/measure_statistics.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
 namespace zerocount::measures {
+
+const MeasureStatistics& of_band(const StatisticsOfMeasures& statistics, std::string_view name,
+                                 std::int64_t band) {
+  const std::string wanted = layout::name_of_band(name, band);
+  for (const layout::Measure& measure : *statistics.table) {
+    if (measure.field.column.name == wanted) return statistics.of(measure);
+  }
+  throw std::invalid_argument(fmt::format("there are no statistics of {}", wanted));
+}
 
 std::span<const StatisticKind> statistic_kinds() {
   using enum layout::Statistic;

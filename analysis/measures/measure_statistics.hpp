@@ -73,6 +73,11 @@ struct StatisticsOfMeasures {
   }
 };
 
+/// The statistics of a measure of an error band.
+/// @throws std::invalid_argument where the table has no such measure of the band.
+const MeasureStatistics& of_band(const StatisticsOfMeasures& statistics, std::string_view name,
+                                 std::int64_t band);
+
 /// Name and value of a statistic.
 struct StatisticKind {
   layout::Statistic statistic;

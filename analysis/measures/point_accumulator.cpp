@@ -168,6 +168,7 @@ void PointAccumulator::add_moves(std::span<const trial::MoveOutcome> moves) {
   ++(counted_.outcomes.*counter_of(trial::worst_outcome(moves)));
   if (kind_.open_loop) return;
   if (kind_.rigs > 0) add_to_rig(moves);
+  if (kind_.goal) goal_.add(*kind_.goal, first_trial_ + counted_.trials, kind_.rigs, moves);
   add_trial_settling_time(moves);
 }
 
@@ -252,6 +253,7 @@ PointAccumulator& PointAccumulator::operator+=(const PointAccumulator& next) {
   }
   if (rigs_.size() < next.rigs_.size()) rigs_.resize(next.rigs_.size());
   add_each(rigs_, next.rigs_);
+  goal_ += next.goal_;
   trial_settling_times_ += next.trial_settling_times_;
   jerks_ += next.jerks_;
   jerk_intervals_ += next.jerk_intervals_;
@@ -265,8 +267,8 @@ PointAccumulator& PointAccumulator::operator+=(const PointAccumulator& next) {
 
 template <class Self, class Archive>
 void PointAccumulator::transfer(Self& self, Archive& archive) {
-  archive(self.counted_, self.rigs_, self.trial_settling_times_, self.jerks_, self.jerk_intervals_,
-          self.jerk_slowing_, self.interval_trend_, self.one_count_jerks_);
+  archive(self.counted_, self.rigs_, self.goal_, self.trial_settling_times_, self.jerks_,
+          self.jerk_intervals_, self.jerk_slowing_, self.interval_trend_, self.one_count_jerks_);
   if constexpr (!std::is_const_v<Self>) {
     while (self.kind_.open_loop && self.levels_.size() < self.counted_.by_move.size())
       self.add_level_accumulators();
@@ -285,6 +287,7 @@ bool PointAccumulator::is_valid(std::int64_t moves) const {
                        [&](const auto& one) { return one.is_valid(trials, moves_of_trial); });
   };
   if (!has_valid_counts(moves) || !has_valid_jerks() || !has_valid_rigs()) return false;
+  if (kind_.goal && !goal_.is_valid(counted_.trials, moves, kind_.rigs)) return false;
   for (std::size_t level = 0; level < levels_.size(); ++level) {
     const std::int64_t lost = lost_in_levels_[level];
     if (lost < 0 || lost > counted_.trials || !are_valid(levels_[level], counted_.trials - lost, 1))
@@ -384,6 +387,7 @@ PointSummary PointAccumulator::statistics(const StatisticsOptions& options) cons
   if (kind_.rigs > 0 && result.judged > 0)
     result.rigs = statistics::rig_statistics(rigs_, options.confidence);
   result.claim = claim(result, options);
+  if (kind_.goal) result.goal = goal_;
   if (options.stopped_by_outcomes)
     result.rigs.tolerance = {};  // it takes a number of trials that was fixed beforehand
   result.settles_within = tolerance_limits(trial_settling_times_.sample(), options);

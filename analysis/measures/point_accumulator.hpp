@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "analysis/measures/goal_counts.hpp"
 #include "analysis/measures/measure_statistics.hpp"
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/statistics/clustered_mean.hpp"
@@ -21,6 +22,7 @@ struct MoveKind {
   bool open_loop{false};                         ///< torque levels in place of targets
   std::int64_t version{layout::format_version};  ///< of the layout of the results file
   std::int64_t rigs{0};  ///< number of rigs, trial i on rig i mod rigs; 0: no trials share a rig
+  std::optional<CountedGoal> goal{};
 };
 
 /// Where the resampling of a design point draws its random numbers.
@@ -153,6 +155,7 @@ class PointAccumulator {
   std::vector<std::vector<MeasureAccumulator>> levels_;  ///< [move][row of the table]
   std::vector<std::int64_t> lost_in_levels_;             ///< [move] trials whose motion was lost
   std::vector<statistics::RigTrials> rigs_;              ///< [rig], of those that have trials
+  GoalCounts goal_;                                      ///< empty without a goal
   statistics::TrialClusters trial_settling_times_;       ///< of each trial: of its slowest move
   std::int64_t jerks_{0};
   statistics::Histogram<double> jerk_intervals_;

@@ -2,8 +2,10 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "analysis/measures/goal_counts.hpp"
 #include "analysis/measures/measure_statistics.hpp"
 #include "analysis/measures/undecided_moves.hpp"
 #include "analysis/statistics/proportion.hpp"
@@ -101,6 +103,7 @@ struct PointSummary : StatisticsOfMeasures, PointCounts {
   double jerk_agreement{statistics::unknown};        ///< jerks_agreeing / jerks
   double jerk_one_count_share{statistics::unknown};  ///< jerks of magnitude 1 / jerks
   UndecidedMoves undecided;                          ///< only off_target is known without the study
+  std::optional<GoalCounts> goal;                    ///< of a study with a goal
   std::vector<LevelStatistics> levels;               ///< [move] in an open-loop study, otherwise empty
 
   /// The proportion of trials all of whose moves ended at zero error.

@@ -1,7 +1,12 @@
 #include "analysis/summary/best_point.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
 
+#include "analysis/goal/goal_verdict.hpp"
 #include "analysis/statistics/clustered_proportion.hpp"
 #include "analysis/statistics/confidence_sequence.hpp"
 #include "analysis/statistics/rig_statistics.hpp"
@@ -9,20 +14,38 @@
 namespace zerocount::summary {
 namespace {
 
-bool better(const measures::PointSummary& one, const measures::PointSummary& other) {
-  if (one.outcomes.zero_count != other.outcomes.zero_count)
-    return static_cast<double>(one.outcomes.zero_count) * static_cast<double>(other.trials) >
-           static_cast<double>(other.outcomes.zero_count) * static_cast<double>(one.trials);
-  return one.of(&trial::MoveOutcome::settling_time).median.value <
-         other.of(&trial::MoveOutcome::settling_time).median.value;
+/// What a point is judged by. The first numbers that differ decide; larger ones are better.
+using Merits = std::vector<double>;
+
+/// A time not reached within the hold is later than any other.
+double earliness(double time) {
+  return std::isnan(time) ? -std::numeric_limits<double>::infinity() : -time;
+}
+
+Merits merits_without_goal(const measures::PointSummary& point) {
+  return {statistics::rate(point.outcomes.zero_count, point.trials),
+          earliness(point.of(&trial::MoveOutcome::settling_time).median.value)};
+}
+
+Merits merits_by_goal(const measures::PointSummary& point, const study::Goal& goal) {
+  const goal::Verdict verdict = goal::judge_goal(goal, *point.goal, 1);
+  return {goal.machines ? verdict.machines.value : 0.0, verdict.moves.value,
+          earliness(measures::of_band(point, "band_settling_time", goal.band).p95.value)};
 }
 
 }  // namespace
 
-std::int64_t best_point(std::span<const measures::PointSummary> points) {
+std::int64_t best_point(std::span<const measures::PointSummary> points,
+                        const std::optional<study::Goal>& goal) {
   std::size_t best = 0;
-  for (std::size_t point = 1; point < points.size(); ++point) {
-    if (better(points[point], points[best])) best = point;
+  Merits of_best;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].trials == 0) continue;  // of an unfinished run
+    Merits merits =
+        goal && points[i].goal ? merits_by_goal(points[i], *goal) : merits_without_goal(points[i]);
+    if (!of_best.empty() && !(merits > of_best)) continue;
+    best = i;
+    of_best = std::move(merits);
   }
   return static_cast<std::int64_t>(best);
 }

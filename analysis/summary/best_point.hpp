@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "analysis/measures/point_statistics.hpp"
@@ -15,9 +16,13 @@
 /// whatever rule (Bonferroni; Miller, Simultaneous Statistical Inference, 2nd ed. 1981, section 2.3.5).
 namespace zerocount::summary {
 
-/// The point with the highest success rate; among equals the one with the lowest median settling time, then
-/// the first. For an open-loop study the first point.
-std::int64_t best_point(std::span<const measures::PointSummary> points);
+/// The best point of a study. With a goal it is the one with the largest proportion of machines that meet the
+/// goal, or of moves where the goal does not ask for machines, or machines are equal; among equals the one
+/// whose error is within the goal's band for good earliest (95 % quantile). Without a goal it is the point
+/// with the highest success rate; among equals the one with the lowest median of the arrival. Then the first.
+/// For an open-loop study the first point.
+std::int64_t best_point(std::span<const measures::PointSummary> points,
+                        const std::optional<study::Goal>& goal);
 
 /// 1 − (1 − γ)/m
 double confidence_of_each(double confidence, std::size_t points);

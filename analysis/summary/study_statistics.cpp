@@ -119,7 +119,8 @@ StudyAccumulator::StudyAccumulator(const study::Study& study, double confidence,
 }
 
 void StudyAccumulator::add(const reading::StudyFile& file, layout::RowRange rows) {
-  const measures::MoveKind kind{study_.open_loop, file.header().version, study_.rigs};
+  const measures::MoveKind kind{study_.open_loop, file.header().version, study_.rigs,
+                                measures::counted_goal(study_)};
   JerkStream jerks(file, rows);
   using Outcomes = std::span<const trial::MoveOutcome>;
   measures::visit_blocks(file, rows, [&](layout::RowRange block, Outcomes rest) {

@@ -51,6 +51,7 @@ StudySummary summary_of(const study::Study& study, double confidence) {
   summary.observed = study.observed;
   summary.confidence = confidence;
   summary.features = study.features;
+  summary.goal = study.goal;
   summary.design = manifest::design_labels[static_cast<std::size_t>(study.design)];
   return summary;
 }
@@ -70,8 +71,9 @@ void complete_points(StudySummary& summary, const study::Study& study,
   }
 }
 
-/// The statement counts independent trials.
-void add_tolerance_statement(StudySummary& summary) {
+/// The claims about all axes. They count independent trials.
+void add_claims(StudySummary& summary) {
+  if (summary.goal) summary.sections.push_back(goal_section(summary));
   if (summary.features.open_loop || summary.features.dependent_trials) return;
   summary.sections.push_back(tolerance_section(summary.points, summary.labels));
 }
@@ -125,7 +127,7 @@ class TrialsSoFar {
     complete_points(summary, study_, undecided_.moves());
     predictions_.resize(summary.points.size());
     summary.predictions = predictions_;
-    add_tolerance_statement(summary);
+    add_claims(summary);
     summary.unfinished = UnfinishedStudy{count_, study::trial_count(study_), study::point_count(study_)};
     return summary;
   }
@@ -182,7 +184,7 @@ class SumsSoFar {
     shorten(summary, summary.points.size());
     complete_points(summary, study_, summed.undecided);
     summary.predictions = std::move(summed.predictions);
-    add_tolerance_statement(summary);
+    add_claims(summary);
     summary.unfinished = UnfinishedStudy{count_, study::trial_count(study_), study::point_count(study_)};
     return summary;
   }
@@ -256,7 +258,7 @@ StudySummary summarise(const reading::StudyFile& file, double confidence, bool b
   if (study.stop) {
     summary.sections.push_back(stopping_section(summary.points, summary.labels, *study.stop, confidence));
   }
-  add_tolerance_statement(summary);
+  add_claims(summary);
   return summary;
 }
 
@@ -268,7 +270,7 @@ StudySummary summarise(const reading::ResultsFile& file, double confidence, bool
   SummedStudy summed = sums.sum();
   summary.points = std::move(summed.points);
   complete_points(summary, study, summed.undecided);
-  add_tolerance_statement(summary);
+  add_claims(summary);
   return summary;
 }
 

@@ -36,6 +36,7 @@ struct StudySummary {
   std::vector<measures::PointSummary> points;          ///< [point]
   std::vector<theory::PointPrediction> predictions{};  ///< [point], or empty where not computed
   study::StudyFeatures features{};                     ///< what the table has columns for
+  std::optional<study::Goal> goal{};                   ///< of the study
   std::optional<UnfinishedStudy> unfinished{};         ///< where the run has not ended
   std::vector<measures::SummarySection> sections{};
 

@@ -82,6 +82,15 @@ measures::SummarySection observed_section(std::span<const measures::PointSummary
 std::vector<layout::PointColumn> observed_columns(std::span<const measures::PointSummary> points,
                                                   const study::Study& study);
 
+/// The section "goal" of a summary: whether each point meets the goal of the study, with bounds of that point
+/// alone, and the judgement of the best.
+///
+/// Its JSON is {"status", "rate", "rate_low", "rate_high"}, the proportion of moves that meet the goal, and
+/// with rigs "rigs_without_miss"; if the goal asks for machines, "machines", "machines_low", "machines_high".
+/// Its columns are goal_rate, goal_rate_low, goal_rate_high, and goal_machines… likewise; its text is a table
+/// and the paragraph of judge_point().
+measures::SummarySection goal_section(const StudySummary& summary);
+
 /// The section "assurance" of a summary: what the trials of each point show of all axes that the manifest
 /// describes, as tolerance statements.
 ///

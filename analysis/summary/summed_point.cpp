@@ -15,7 +15,7 @@ namespace zerocount::summary {
 namespace {
 
 measures::MoveKind kind_of(const study::Study& study) {
-  return {.open_loop = study.open_loop, .rigs = study.rigs};
+  return {.open_loop = study.open_loop, .rigs = study.rigs, .goal = measures::counted_goal(study)};
 }
 
 bool is_possible(const theory::PointPrediction& prediction) {

@@ -227,6 +227,16 @@ Json sweep_schema() {
        {"cases", {{"type", "object"}, {"additionalProperties", by_pattern(std::move(assignments))}}}});
 }
 
+// A number of counts, not negative.
+Json count_schema() {
+  return {{"type", "integer"}, {"minimum", 0}, {"maximum", static_cast<std::int64_t>(parameters::max_count)}};
+}
+
+// A number between 0 and 1.
+Json open_unit_schema() {
+  return {{"type", "number"}, {"exclusiveMinimum", 0}, {"exclusiveMaximum", 1}};
+}
+
 // The schema of each general key, without its description.
 Json general_schemas() {
   const Json text{{"type", "string"}};
@@ -254,6 +264,12 @@ Json general_schemas() {
                           {"min_trials", {{"type", "integer"}, {"minimum", 1}}},
                           {"max_trials", {{"type", "integer"}, {"minimum", 1}}}},
                          {"success_rate_halfwidth", "max_trials"})},
+      {"goal", object_of({{"band", count_schema()},
+                          {"within", number_in(numerics::above(0))},
+                          {"moves", open_unit_schema()},
+                          {"machines", open_unit_schema()},
+                          {"confidence", open_unit_schema()}},
+                         {"within", "moves"})},
       {"correlation",
        {{"type", "array"},
         {"items",
@@ -292,7 +308,14 @@ Json general_schemas() {
         {"minimum", 1},
         {"maximum", study::max_sequence_moves},
         {"default", study::SequenceCycle{}.cycles}}},
-      {"command.sequence.approach", {{"enum", approach_labels}, {"default", approach_labels.front()}}}};
+      {"command.sequence.approach", {{"enum", approach_labels}, {"default", approach_labels.front()}}},
+      {"verdict.bands",
+       {{"type", "array"},
+        {"items", count_schema()},
+        {"minItems", 1},
+        {"maxItems", trial::max_error_bands},
+        {"uniqueItems", true},
+        {"default", trial::ErrorBands{}.values()}}}};
 }
 
 Json general_schema(const GeneralKey& key) {

@@ -9,6 +9,7 @@
 #include "experiments/designs/saltelli.hpp"
 #include "experiments/manifest/checks.hpp"
 #include "experiments/manifest/correlations.hpp"
+#include "experiments/manifest/goal.hpp"
 #include "experiments/manifest/manifest_keys.hpp"
 #include "experiments/manifest/observations.hpp"
 #include "experiments/manifest/sections.hpp"
@@ -270,6 +271,7 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, con
   read_kept(m);
   if (const auto field = yaml::find_field(m.root, "stop"))
     read_stop(*field, max_study_trials, m.study, problems);
+  if (const auto field = yaml::find_field(m.root, "goal")) read_goal(*field, m.plan(), m.study, problems);
   check_trial_count(m);
   check_rigs(m);
   read_observed(m);

@@ -34,7 +34,7 @@ std::vector<std::string_view> value_paths() {
 }  // namespace
 
 std::span<const GeneralKey> general_keys() {
-  static constexpr std::array<GeneralKey, 24> keys{{
+  static constexpr std::array<GeneralKey, 26> keys{{
       {"zerocount", "version of the manifest's format: 1", true},
       {"name", "name of the study", true},
       {"description", "what the study is for", false},
@@ -58,6 +58,12 @@ std::span<const GeneralKey> general_keys() {
       {"keep",
        "what the results file keeps besides the statistics: trials (default), failures (the trials that did "
        "not succeed) or statistics (no trials)",
+       false},
+      {"goal",
+       "what the axis must achieve: {band: 1, within: 0.05, moves: 0.99, machines: 0.99, confidence: 0.95}: "
+       "the error is within 1 count for good after 0.05 s in at least 99 % of the moves of at least 99 % of "
+       "the machines, claimed with 95 % confidence; without `machines` (which needs rigs) in at least 99 % "
+       "of all moves; default band 0, confidence 0.95",
        false},
       {"stop",
        "sequential stopping: blocks of `trials` trials are added until the bounds of every success rate are "
@@ -94,6 +100,10 @@ std::span<const GeneralKey> general_keys() {
       {"command.sequence.approach",
        "direction from which a sequence approaches its targets: bidirectional (default: from both sides), "
        "positive (from below) or negative (from above)",
+       false},
+      {"verdict.bands",
+       "bands of the error, counts, whose first entry and settling are measured: 1 to 8 increasing numbers "
+       "(default [0, 1])",
        false},
   }};
   return keys;

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "experiments/distributions/distribution_forms.hpp"
+#include "experiments/manifest/goal.hpp"
 #include "experiments/manifest/manifest_keys.hpp"
 #include "experiments/parameters/earlier_defaults.hpp"
 #include "experiments/parameters/unknown_key.hpp"
@@ -162,6 +163,7 @@ void read_plugin_parameters(SectionReading& s, const yaml::Field& map) {
 
 // Reads the keys of sections that are not parameters. controller.units is read earlier, before all values.
 void read_general_key(SectionReading& s, const yaml::Field& field) {
+  if (field.path == "verdict.bands") read_bands(field, s.plan().common.verdict.bands, s.problems());
   if (!s.plan().sequence) return;
   study::SequenceCycle& cycle = s.plan().sequence.value();
   if (field.path == "command.sequence.approach") {

@@ -12,12 +12,6 @@ namespace {
 
 const std::vector<std::string> keys{"success_rate_halfwidth", "confidence", "min_trials", "max_trials"};
 
-void require_key(const yaml::Field& map, const std::string& key, const std::string& expected,
-                 yaml::Problems& problems) {
-  if (yaml::find_field(map, key)) return;
-  problems.add(map.node->place, fmt::format("{}.{}", map.path, key), "the key is missing", expected);
-}
-
 void check_order(const yaml::Field& map, const study::StoppingRule& rule, yaml::Problems& problems) {
   const auto max_trials = yaml::find_field(map, "max_trials");
   const auto min_trials = yaml::find_field(map, "min_trials");
@@ -51,9 +45,10 @@ void read_stop(const yaml::Field& field, std::int64_t max_trials, study::Study& 
     rule.min_trials = yaml::read_whole(*min, 1, max_trials, problems).value_or(1);
   if (const auto max = yaml::find_field(field, "max_trials"))
     rule.max_trials = yaml::read_whole(*max, 1, max_trials, problems).value_or(max_trials);
-  require_key(field, keys[0],
-              "the half-width of the bounds of the success rate at which the study ends, 0 to 0.5", problems);
-  require_key(field, keys[3], "the maximum number of trials at a point", problems);
+  yaml::require_key(field, keys[0],
+                    "the half-width of the bounds of the success rate at which the study ends, 0 to 0.5",
+                    problems);
+  yaml::require_key(field, keys[3], "the maximum number of trials at a point", problems);
   check_order(field, rule, problems);
   if (study.design != study::Design::monte_carlo) {
     problems.add(field, "sequential stopping needs independently drawn trials", "design: monte_carlo");

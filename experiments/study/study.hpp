@@ -126,6 +126,19 @@ struct StoppingRule {
   std::int64_t max_trials{1};  ///< trials per point at which the study ends in any case
 };
 
+/// What the axis must achieve (`goal`). A move meets it if its error is within the band for good after
+/// `within` at the latest (BandOutcome::settling_time). The goal is a claim about all axes that the manifest
+/// describes, one-sided, with this confidence:
+///   without `machines`: at least the proportion `moves` of all their moves meets it;
+///   with `machines`: at least the proportion `machines` of them meets it in at least `moves` of its moves.
+struct Goal {
+  std::int64_t band{0};  ///< counts; one of StudyFeatures::bands
+  double within{1.0};    ///< s from the start of the move
+  double moves{0.99};
+  std::optional<double> machines{};
+  double confidence{0.95};
+};
+
 /// The trials that a results file keeps beside the statistics.
 enum class Kept {
   trials,     ///< all
@@ -152,6 +165,7 @@ struct Study {
   std::int64_t trials{0};            ///< per design point; the maximum with `stop`
   std::int64_t rigs{0};              ///< number of rigs; 0: no trials share a rig
   std::optional<StoppingRule> stop;  ///< set for sequential stopping
+  std::optional<Goal> goal{};
   Design design{Design::monte_carlo};
   std::vector<Correlation> correlations;  ///< of drawn parameters; all others are independent
   std::optional<JointSamples> samples;    ///< joint draws of several parameters

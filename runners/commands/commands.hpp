@@ -32,6 +32,7 @@ Command compare_command();
 Command baseline_command();
 Command history_command();
 Command jerks_command();
+Command judge_command();
 Command plan_command();
 Command identify_command();
 Command sensitivity_command();

@@ -83,8 +83,8 @@ std::optional<ConfirmedBest> confirmed_best(const command_line::Arguments& argum
   if (summary.unfinished) arguments.refuse("option '--confirm' needs a run that has ended");
   const reading::ResultsFile file(arguments.operands()[0]);
   status::tell("running {} new trials of the best point\n", *trials);
-  const study_run::Confirmation confirmation =
-      study_run::confirm_point(file, summary::best_point(summary.points), *trials, plugin_option(arguments));
+  const study_run::Confirmation confirmation = study_run::confirm_point(
+      file, summary::best_point(summary.points, summary.goal), *trials, plugin_option(arguments));
   return ConfirmedBest{confirmation, statistics::clopper_pearson(confirmation.successes, confirmation.trials,
                                                                  summary.confidence)};
 }

@@ -22,7 +22,7 @@ measures::PointSummary point_with(std::int64_t successes, std::int64_t trials) {
 
 TEST(BestPoint, HasTheHighestRate) {
   const std::vector<measures::PointSummary> points{point_with(3, 10), point_with(9, 10), point_with(9, 10)};
-  EXPECT_EQ(best_point(points), 1);
+  EXPECT_EQ(best_point(points, {}), 1);
 }
 
 TEST(BestPoint, OfOnePointIsJudgedAsThatPoint) {
@@ -43,7 +43,7 @@ TEST(BestPoint, TheBoundsAllowForTheChoice) {
   for (int round = 0; round < rounds; ++round) {
     std::vector<measures::PointSummary> points;
     for (int i = 0; i < 20; ++i) points.push_back(point_with(successes(random), trials));
-    const measures::PointSummary& best = points[static_cast<std::size_t>(best_point(points))];
+    const measures::PointSummary& best = points[static_cast<std::size_t>(best_point(points, {}))];
     too_high += claim_of_chosen(best, points.size(), false).success_at_least > truth;
     too_high_alone += best.claim.success_at_least > truth;
     EXPECT_LE(bounds_of_chosen(best, points.size(), false, 0.95).low,

@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/goal/goal_verdict.hpp"
+
+namespace zerocount::goal {
+namespace {
+
+constexpr std::int64_t max_trials = 1'000'000'000;
+
+std::int64_t scaled(std::int64_t number, double factor) {
+  return std::llround(static_cast<double>(number) * factor);
+}
+
+/// The counts of a study without rigs that is `factor` times as large, with the same proportions.
+measures::GoalCounts larger_study(const measures::GoalCounts& counts, double factor) {
+  measures::GoalCounts larger;
+  larger.moves = scaled(counts.moves, factor);
+  larger.met = scaled(counts.met, factor);
+  const statistics::ClusterSums& sums = counts.of_trials;
+  larger.of_trials = {.clusters = scaled(sums.clusters, factor),
+                      .hits = larger.met,
+                      .events = larger.moves,
+                      .hits_squared = sums.hits_squared * factor,
+                      .hits_by_events = sums.hits_by_events * factor,
+                      .events_squared = sums.events_squared * factor};
+  return larger;
+}
+
+/// The counts of a study on so many rigs with the proportions of the observed ones: rig i stands for the
+/// quantile (i + ½)/rigs of the rigs in order of their moves that meet the goal.
+measures::GoalCounts on_rigs(std::vector<statistics::RigMoves> sorted, std::int64_t rigs) {
+  measures::GoalCounts counts;
+  for (std::int64_t i = 0; i < rigs; ++i) {
+    const double place = (static_cast<double>(i) + 0.5) / static_cast<double>(rigs);
+    const auto index = static_cast<std::size_t>(place * static_cast<double>(sorted.size()));
+    const statistics::RigMoves& rig = sorted[std::min(index, sorted.size() - 1)];
+    counts.rigs.push_back(rig);
+    counts.moves += rig.moves;
+    counts.met += rig.met;
+  }
+  return counts;
+}
+
+/// The smallest number from `low` on, up to `high`, for which `decides`, which is taken to stay true from
+/// there on; 0 if there is none.
+template <class Decides>
+std::int64_t smallest(std::int64_t low, std::int64_t high, const Decides& decides) {
+  std::int64_t decided = low;
+  while (!decides(decided)) {
+    low = decided + 1;
+    if (decided > high / 2) return 0;
+    decided *= 2;
+  }
+  while (low < decided) {
+    const std::int64_t middle = low + (decided - low) / 2;
+    if (decides(middle)) {
+      decided = middle;
+    } else {
+      low = middle + 1;
+    }
+  }
+  return decided;
+}
+
+}  // namespace
+
+Needs needs_of(const study::Goal& goal, const measures::GoalCounts& counts, std::size_t points) {
+  const auto decided = [&](const measures::GoalCounts& larger) {
+    return judge_goal(goal, larger, points).status != Status::undecided;
+  };
+  if (counts.rigs.empty()) {
+    const std::int64_t trials = counts.of_trials.clusters;
+    if (trials == 0) return {};
+    const auto factor = [&](std::int64_t n) { return static_cast<double>(n) / static_cast<double>(trials); };
+    return {
+        0, smallest(2, max_trials, [&](std::int64_t n) { return decided(larger_study(counts, factor(n))); })};
+  }
+  std::vector<statistics::RigMoves> sorted = counts.rigs;
+  std::sort(sorted.begin(), sorted.end(), [](const statistics::RigMoves& a, const statistics::RigMoves& b) {
+    return a.met * b.moves < b.met * a.moves;
+  });
+  constexpr std::int64_t max_rigs = 1'000'000;
+  // More trials on each rig are needed where these cannot tell rigs below and above Goal::moves apart.
+  for (std::int64_t more = 1; more <= 1024; more *= 2) {
+    std::vector<statistics::RigMoves> rigs = sorted;
+    for (statistics::RigMoves& rig : rigs) {
+      rig.trials *= more;
+      rig.moves *= more;
+      rig.met *= more;
+    }
+    const std::int64_t needed =
+        smallest(2, max_rigs, [&](std::int64_t n) { return decided(on_rigs(rigs, n)); });
+    if (needed > 0 && needed <= max_trials / std::max<std::int64_t>(rigs.front().trials, 1))
+      return {needed, needed * rigs.front().trials};
+  }
+  return {};
+}
+
+}  // namespace zerocount::goal

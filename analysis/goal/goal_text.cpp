@@ -1,0 +1,59 @@
+#include "analysis/goal/goal_text.hpp"
+
+#include <fmt/format.h>
+
+#include "analysis/statistics/proportion.hpp"
+#include "analysis/text/percent.hpp"
+#include "analysis/text/text.hpp"
+
+namespace zerocount::goal {
+namespace {
+
+/// "97.6 % (at least 97.1 %, at most 98.0 %)".
+std::string with_bounds(const BoundedProportion& proportion) {
+  return fmt::format("at least {}, at most {}", text::percent_at_least(proportion.low),
+                     text::percent_at_most(proportion.high));
+}
+
+}  // namespace
+
+std::string goal_sentence(const study::Goal& goal) {
+  const std::string error =
+      goal.band == 0 ? "error 0" : fmt::format("|error| ≤ {} count{}", goal.band, goal.band == 1 ? "" : "s");
+  const std::string machines =
+      goal.machines ? fmt::format("the moves of at least {} of machines", text::percent(*goal.machines))
+                    : std::string("all moves of all machines");
+  return fmt::format("{} for good after {:.4g} s in at least {} of {}, with {} confidence", error,
+                     goal.within, text::percent(goal.moves), machines, text::percent(goal.confidence));
+}
+
+std::string readings_text(const study::Goal& goal, const measures::GoalCounts& counts,
+                          const Verdict& verdict) {
+  std::string text = fmt::format("  of all moves of all machines, {} meet it: {} of {}, {}\n",
+                                 text::percentage(counts.met, counts.moves), counts.met, counts.moves,
+                                 with_bounds(verdict.moves));
+  if (counts.rigs.empty()) return text;
+  const std::int64_t rigs = std::ssize(counts.rigs);
+  if (goal.machines) {
+    const auto meeting = static_cast<std::int64_t>(verdict.machines.value * static_cast<double>(rigs) + 0.5);
+    text += fmt::format(
+        "  machines that meet it in at least {} of their moves: {} of {} by their {} moves; {} "
+        "of all machines\n",
+        text::percent(goal.moves), meeting, rigs, counts.rigs.front().moves, with_bounds(verdict.machines));
+  }
+  return text + fmt::format("  machines without a miss in their {} moves: {} of {}\n",
+                            counts.rigs.front().moves, verdict.rigs_without_miss, rigs);
+}
+
+std::string needs_sentence(const study::Goal& goal, const Needs& needs) {
+  if (needs.trials == 0) {
+    return fmt::format(
+        "The proportion is so close to the goal that no study of up to 10⁹ trials is expected "
+        "to decide it");
+  }
+  if (needs.rigs == 0) return fmt::format("About {} trials are expected to decide it", needs.trials);
+  return fmt::format("About {} rigs with {} trials each are expected to decide it{}", needs.rigs,
+                     needs.trials / needs.rigs, goal.machines ? "" : ", if machines differ as these do");
+}
+
+}  // namespace zerocount::goal

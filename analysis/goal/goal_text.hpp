@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "analysis/goal/goal_verdict.hpp"
+
+namespace zerocount::goal {
+
+/// "|error| ≤ 1 count for good after 0.05 s in at least 99 % of the moves of at least 99 % of machines, with
+/// 95 % confidence".
+std::string goal_sentence(const study::Goal& goal);
+
+/// The readings of the proportions, a line each: of all moves of all machines; with rigs, of machines that
+/// meet the goal in Goal::moves of their moves, and of rigs without a miss.
+std::string readings_text(const study::Goal& goal, const measures::GoalCounts& counts,
+                          const Verdict& verdict);
+
+/// "300 rigs with 100 trials each are expected to decide it", or why no study does.
+std::string needs_sentence(const study::Goal& goal, const Needs& needs);
+
+}  // namespace zerocount::goal

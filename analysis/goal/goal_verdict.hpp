@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "analysis/measures/goal_counts.hpp"
+#include "analysis/statistics/unknown.hpp"
+#include "experiments/study/study.hpp"
+
+/// The goal of a study at a design point. Everything that judges asks judge_goal().
+namespace zerocount::goal {
+
+enum class Status {
+  met,       ///< the lower bound reaches the goal
+  missed,    ///< the upper bound is below it
+  undecided  ///< neither
+};
+
+/// "met", "missed", "undecided".
+std::string_view text_of(Status status);
+
+/// A proportion with one-sided bounds, each with the confidence of the verdict.
+struct BoundedProportion {
+  double value{statistics::unknown};
+  double low{0.0};
+  double high{1.0};
+};
+
+/// What the trials of a point show of all axes that the manifest describes.
+struct Verdict {
+  Status status{Status::undecided};
+  BoundedProportion moves;     ///< of all moves of all axes that meet the goal (clustered_proportion.hpp)
+  BoundedProportion machines;  ///< of axes that meet it in Goal::moves of their moves (rig_proportion.hpp);
+                               ///< NaN, 0 and 1 where the goal does not ask for machines
+  std::int64_t rigs_without_miss{0};  ///< rigs all of whose moves meet the goal
+};
+
+/// The verdict by Goal::machines, or by Goal::moves where the goal does not ask for machines.
+/// @param points number of design points from which the point was chosen by its trials; 1 if it was chosen
+/// before. The bounds have the confidence 1 − (1 − γ)/points (Bonferroni).
+Verdict judge_goal(const study::Goal& goal, const measures::GoalCounts& counts, std::size_t points);
+
+/// Study size that is expected to decide the goal.
+struct Needs {
+  std::int64_t rigs{0};    ///< 0 without rigs
+  std::int64_t trials{0};  ///< per design point; 0 if no size up to 10⁹ trials decides, such as a rate on
+                           ///< the goal itself
+};
+
+/// The smallest study of which the verdict is expected to be decided, if the proportions, and the differences
+/// between rigs, are those observed. Rigs get as many trials each as they have.
+Needs needs_of(const study::Goal& goal, const measures::GoalCounts& counts, std::size_t points);
+
+}  // namespace zerocount::goal

@@ -1,0 +1,106 @@
+#include "analysis/statistics/rig_proportion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <boost/math/distributions/binomial.hpp>
+
+namespace zerocount::statistics {
+namespace {
+
+/// The n moves of a rig, of which the proportion q is asked for.
+struct MovesOfRig {
+  double trials;
+  std::int64_t moves;
+  double q;
+
+  bool one_move_each() const { return trials == static_cast<double>(moves); }
+  double mean(std::int64_t met) const { return static_cast<double>(met) / static_cast<double>(moves); }
+};
+
+/// exp(−m·KL(y‖q)), KL(y‖q) = y·ln(y/q) + (1 − y)·ln((1 − y)/(1 − q)).
+double chernoff_bound(const MovesOfRig& rig, double y) {
+  const auto term = [](double a, double b) { return a > 0.0 ? a * std::log(a / b) : 0.0; };
+  return std::exp(-rig.trials * (term(y, rig.q) + term(1.0 - y, 1.0 - rig.q)));
+}
+
+/// ε(c): how probably a rig below q shows `met` or more.
+double false_pass(const MovesOfRig& rig, std::int64_t met) {
+  if (met <= 0) return 1.0;
+  if (!rig.one_move_each()) return rig.mean(met) > rig.q ? chernoff_bound(rig, rig.mean(met)) : 1.0;
+  const boost::math::binomial moves(static_cast<double>(rig.moves), rig.q);
+  return boost::math::cdf(boost::math::complement(moves, static_cast<double>(met - 1)));
+}
+
+/// δ(c): how probably a rig at q or above shows fewer than `met`.
+double false_fail(const MovesOfRig& rig, std::int64_t met) {
+  if (met <= 0) return 0.0;
+  if (!rig.one_move_each()) return rig.mean(met - 1) < rig.q ? chernoff_bound(rig, rig.mean(met - 1)) : 1.0;
+  const boost::math::binomial moves(static_cast<double>(rig.moves), rig.q);
+  return boost::math::cdf(moves, static_cast<double>(met - 1));
+}
+
+/// The first of 0 … n for which `holds`, which stays true from there on; n if there is none.
+template <class Holds>
+std::int64_t first_where(std::int64_t n, const Holds& holds) {
+  std::int64_t low = 0, high = n;
+  while (low < high) {
+    const std::int64_t middle = low + (high - low) / 2;
+    if (holds(middle)) {
+      high = middle;
+    } else {
+      low = middle + 1;
+    }
+  }
+  return low;
+}
+
+std::int64_t passing(std::span<const RigMoves> rigs, std::int64_t met) {
+  return std::count_if(rigs.begin(), rigs.end(), [met](const RigMoves& rig) { return rig.met >= met; });
+}
+
+/// As if all moves of a rig beyond the first `moves` met the requirement, and were left out.
+std::vector<RigMoves> without_further_moves(std::span<const RigMoves> rigs, std::int64_t moves) {
+  std::vector<RigMoves> shortened(rigs.begin(), rigs.end());
+  for (RigMoves& rig : shortened) rig.met -= rig.moves - moves;
+  return shortened;
+}
+
+double low_of(std::span<const RigMoves> rigs, const MovesOfRig& rig, double wanted, double confidence) {
+  const double at_best = proportion_at_least(std::ssize(rigs), std::ssize(rigs), confidence);
+  const double allowed = (at_best - wanted) / (2.0 * (1.0 - wanted));
+  const std::int64_t threshold =
+      first_where(rig.moves, [&](std::int64_t met) { return false_pass(rig, met) <= allowed; });
+  const double of_passing = proportion_at_least(passing(rigs, threshold), std::ssize(rigs), confidence);
+  const double wrong = false_pass(rig, threshold);
+  return wrong < 1.0 ? std::max(0.0, (of_passing - wrong) / (1.0 - wrong)) : 0.0;
+}
+
+double high_of(std::span<const RigMoves> rigs, const MovesOfRig& rig, double wanted, double confidence) {
+  const double allowed = 0.5 * (1.0 - wanted);
+  const std::int64_t beyond =
+      first_where(rig.moves + 1, [&](std::int64_t met) { return false_fail(rig, met) > allowed; });
+  const std::int64_t threshold = std::max<std::int64_t>(beyond - 1, 0);
+  const double of_passing = proportion_at_most(passing(rigs, threshold), std::ssize(rigs), confidence);
+  return std::min(1.0, of_passing / (1.0 - false_fail(rig, threshold)));
+}
+
+}  // namespace
+
+RigProportion rig_proportion(std::span<const RigMoves> rigs, double proportion, double wanted,
+                             double confidence) {
+  if (rigs.empty()) return {};
+  // In a run that has not ended, rigs may differ by a trial. Both bounds then allow for the further moves.
+  const RigMoves fewest = *std::min_element(
+      rigs.begin(), rigs.end(), [](const RigMoves& a, const RigMoves& b) { return a.moves < b.moves; });
+  if (fewest.moves == 0) return {};
+  const MovesOfRig rig{static_cast<double>(fewest.trials), fewest.moves, proportion};
+  const auto meeting = std::count_if(
+      rigs.begin(), rigs.end(), [&](const RigMoves& one) { return rate(one.met, one.moves) >= proportion; });
+  return {rate(meeting, std::ssize(rigs)),
+          low_of(without_further_moves(rigs, rig.moves), rig, wanted, confidence),
+          high_of(rigs, rig, wanted, confidence)};
+}
+
+}  // namespace zerocount::statistics

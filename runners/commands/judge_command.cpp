@@ -1,0 +1,88 @@
+#include <algorithm>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "analysis/summary/judged_point.hpp"
+#include "analysis/text/report_json.hpp"
+#include "runners/command_line/option_values.hpp"
+#include "runners/commands/commands.hpp"
+#include "runners/standard_output/standard_output.hpp"
+
+namespace zerocount::commands {
+namespace {
+
+constexpr const char* judge_help =
+    "Judges the best design point of a finished study by the goal in its manifest, such as\n"
+    "goal: {band: 1, within: 0.05, moves: 0.99, machines: 0.99, confidence: 0.95}: is the error\n"
+    "within 1 count for good after 0.05 s, in at least 99 % of the moves of at least 99 % of the\n"
+    "machines? One paragraph tells the point, the verdict, its bounds, and what would decide it.\n"
+    "The bounds of the best of several points allow for its choice; --point judges a point that\n"
+    "was chosen beforehand.\n"
+    "The exit code is 0 if the goal is met, 1 if it is missed, 3 if the trials do not decide it.\n"
+    "\n"
+    "Example: zerocount judge gains.h5\n"
+    "         zerocount judge gains.h5 --point 3 --format json\n";
+
+nlohmann::ordered_json judgement_json(const summary::StudySummary& summary,
+                                      const summary::JudgedPoint& judged) {
+  const goal::Verdict& verdict = judged.verdict;
+  nlohmann::ordered_json json{{"point", judged.point},
+                              {"label", summary.labels[static_cast<std::size_t>(judged.point)]},
+                              {"status", goal::text_of(verdict.status)},
+                              {"rate", verdict.moves.value},
+                              {"rate_low", verdict.moves.low},
+                              {"rate_high", verdict.moves.high}};
+  const bool machines = summary.goal->machines.has_value();
+  json["machines_low"] = machines ? nlohmann::ordered_json(verdict.machines.low) : nullptr;
+  json["machines_high"] = machines ? nlohmann::ordered_json(verdict.machines.high) : nullptr;
+  json["chosen_from"] = judged.chosen_from;
+  json["needed"] = nullptr;
+  if (judged.needs && judged.needs->trials > 0)
+    json["needed"] = {{"rigs", judged.needs->rigs}, {"trials", judged.needs->trials}};
+  return json;
+}
+
+ExitCode exit_code_of(goal::Status status) {
+  switch (status) {
+    case goal::Status::met:
+      return ExitCode::success;
+    case goal::Status::missed:
+      return ExitCode::regression;
+    case goal::Status::undecided:
+      break;
+  }
+  return ExitCode::inconclusive;
+}
+
+ExitCode judge(const command_line::Arguments& arguments) {
+  const summary::StudySummary summary = summary::summarise_file(arguments.operands()[0]);
+  if (!summary.goal) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: its manifest has no goal; expected one such as goal: {{band: 1, within: "
+                              "0.05, moves: 0.99}}",
+                              arguments.operands()[0]));
+  }
+  const auto point = arguments.whole_number("point", 0, std::ssize(summary.points) - 1);
+  const summary::JudgedPoint judged = summary::judge_point(summary, point);
+  if (arguments.choice("format") == "json") {
+    standard_output::write(text::json_text(judgement_json(summary, judged)));
+  } else {
+    standard_output::write(summary::judgement_text(summary, judged));
+  }
+  return exit_code_of(judged.verdict.status);
+}
+
+}  // namespace
+
+Command judge_command() {
+  return {{"judge",
+           "FILE",
+           {command_line::format_option({"text", "json"}),
+            {"point", "P", "the design point to judge (default: the best by the goal)"}}},
+          "judge a study by the goal in its manifest",
+          judge_help,
+          judge};
+}
+
+}  // namespace zerocount::commands

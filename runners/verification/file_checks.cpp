@@ -101,26 +101,37 @@ void check_trace_numbers(const reading::ResultsFile& file, const study::Study& s
     if (std::binary_search(study.retained_trials.begin(), study.retained_trials.end(), row % study.trials))
       expected.push_back(row);
   }
-  std::vector<std::int64_t> found;
+  std::size_t begun = 0;  // trials
   std::int64_t k = 0;
   for (std::int64_t first = 0; first < trials.trace_count(); first += layout::chunk_elements) {
     const std::int64_t count = std::min(layout::chunk_elements, trials.trace_count() - first);
+    std::int64_t number = first;
     for (const layout::TraceRecord& record : trials.trace_at(first, count)) {
-      if (found.empty() || record.trial != found.back()) {
-        found.push_back(record.trial);
+      const bool continues = begun > 0 && record.k == k;
+      const bool begins = begun < expected.size() && record.trial == expected[begun] && !continues;
+      if (begins) {
+        ++begun;
         k = 0;
       }
-      if (record.k != k++) {
-        problems.add(fmt::format("/trace/k: trial {}: it is {}; expected {}", record.trial, record.k, k - 1));
+      if (begun == 0 || record.trial != expected[begun - 1]) {
+        problems.add(
+            fmt::format("/trace/trial: row {}: it is {}; expected the retained trials, in their order",
+                        number, record.trial));
         return;
       }
+      if (record.k != k) {
+        problems.add(fmt::format("/trace/k: trial {}: it is {}; expected {}", record.trial, record.k, k));
+        return;
+      }
+      ++k;
+      ++number;
     }
   }
-  if (found != expected)
+  if (begun != expected.size()) {
     problems.add(
-        fmt::format("/trace/trial: it has records of {} trials; expected those of the {} retained "
-                    "ones, in their order",
-                    found.size(), expected.size()));
+        fmt::format("/trace/trial: it has records of {} trials; expected those of the {} retained ones",
+                    begun, expected.size()));
+  }
 }
 
 void check_all_numbers(const reading::ResultsFile& file, const study::Study& study, ProblemList& problems) {

@@ -123,6 +123,22 @@ void judge_end(const Errors& errors, std::int64_t largest_in_window, double samp
   if (outcome.outcome == trial::Outcome::oscillating) measure_oscillation(last_half, sample_time, outcome);
 }
 
+/// The measures of the band |e| ≤ limit. With 1 for samples outside it, they are those of jerks.
+trial::BandOutcome band_of(const Errors& errors, std::int64_t limit, std::size_t dwell, double rate) {
+  Errors outside;
+  for (const std::int64_t e : errors) outside.push_back(std::abs(e) > limit ? 1 : 0);
+  trial::BandOutcome band{.exits = 0.0};
+  const std::size_t entry = first_of_dwell(outside, dwell);
+  if (entry < outside.size()) {
+    band.entry_time = static_cast<double>(entry) / rate;
+    band.exits = static_cast<double>(jerks_of(outside, entry + dwell, 1 / rate, 0).size());
+  }
+  std::size_t settled = outside.size();
+  while (settled > 0 && outside[settled - 1] == 0) --settled;
+  if (settled < outside.size()) band.settling_time = static_cast<double>(settled) / rate;
+  return band;
+}
+
 void judge(const Errors& errors, const trial::TrialParameters& p, std::size_t move,
            LiteralMeasures& measures) {
   const double rate = p.controller.sample_rate;
@@ -131,6 +147,8 @@ void judge(const Errors& errors, const trial::TrialParameters& p, std::size_t mo
   trial::MoveOutcome& outcome = measures.outcome;
   const std::int64_t in_window = largest(errors.end() - window, errors.end());
   judge_end(errors, in_window, 1 / rate, outcome);
+  for (std::size_t b = 0; b < p.verdict.bands.count; ++b)
+    outcome.bands[b] = band_of(errors, p.verdict.bands.limits[b], dwell, rate);
   for (const std::int64_t e : errors) {
     outcome.overshoot = std::max(outcome.overshoot, -sign(static_cast<double>(errors.front())) * e);
   }
@@ -220,6 +238,12 @@ void expect_same_measures(const trial::MoveOutcome& measured, const trial::MoveO
   expect_same(measured.oscillation_period, expected.oscillation_period, 1e-12, "period");
   expect_same(measured.true_error, expected.true_error, 1e-8, "true_error");
   expect_same(measured.jerk_agreement, expected.jerk_agreement, 1e-15, "jerk_agreement");
+  for (std::size_t b = 0; b < expected.bands.size(); ++b) {
+    const trial::BandOutcome &band = measured.bands[b], &literal = expected.bands[b];
+    expect_same(band.entry_time, literal.entry_time, 1e-12, "band_entry_time");
+    expect_same(band.settling_time, literal.settling_time, 1e-12, "band_settling_time");
+    expect_same(band.exits, literal.exits, 0.0, "band_exits");
+  }
 }
 
 void expect_same_jerks(const std::vector<trial::Jerk>& measured, const std::vector<trial::Jerk>& expected) {

@@ -43,6 +43,7 @@ TEST(MoveMeasures, OfAnyErrorsAreThoseOfTheirDefinitions) {
     p.command.hold = static_cast<double>(errors.size()) * sample_time;
     p.verdict.dwell = 3.0 * sample_time;
     p.verdict.window = 4.0 * sample_time;  // within the last half
+    p.verdict.bands = {.limits = {0, 1, 3}, .count = 3};
     const double torque = 0.1 * (static_cast<double>(random() % 3) - 1.0);
     MoveMeasures measures(move_timing(p, 0), 0);
     std::vector<SampleRecord> samples;
@@ -73,6 +74,20 @@ TEST(OutcomeOfMove, IsNonfiniteWhereTheMotionWasLost) {
   measures.finish(false, 0, false);
   EXPECT_EQ(measures.outcome().outcome, Outcome::nonfinite);
   EXPECT_FALSE(measures.outcome().stable);
+}
+
+TEST(ErrorBands, OfAMoveThatWasStoppedOrLostAreUnknown) {
+  for (const bool stopped : {true, false}) {
+    MoveMeasures measures({sample_time, 4, 1, 4}, 0);
+    measures.add({1, 1, 0.0, false, 0.0, 0.0});
+    if (stopped) measures.stop();
+    measures.finish(false, 0, stopped);
+    for (const BandOutcome& band : measures.outcome().bands) {
+      EXPECT_TRUE(std::isnan(band.entry_time));
+      EXPECT_TRUE(std::isnan(band.settling_time));
+      EXPECT_TRUE(std::isnan(band.exits));
+    }
+  }
 }
 
 TEST(Torques, ArePeakAndLast) {

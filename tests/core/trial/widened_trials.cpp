@@ -143,6 +143,7 @@ trial::TrialParameters widened_trial(WidenedKind kind, std::uint64_t index) {
   }
   p.initial = start(draws);
   p.verdict = {draws.log_uniform(0.001, 0.05), draws.log_uniform(0.001, 0.05)};
+  p.verdict.bands = {.limits = {0, 2, 7}, .count = 3};
   p.randomness = {draws.word(), draws.word() % 100, draws.key(), draws.key(),
                   draws.key(),  draws.key(),        draws.key(), draws.key()};
   return p;

@@ -1,0 +1,129 @@
+// Error bands and the goal, from the manifest to the answer of `judge`.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "results/reading/study_file.hpp"
+#include "tests/runners/program.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+class Judge : public ::testing::Test {
+ protected:
+  ProgramResult program(const std::vector<std::string>& words) {
+    return zerocount_program(words, folder_.path());
+  }
+  void run_study(const std::string& more, int trials = 40, const std::string& output = "out.h5") {
+    folder_.write("study.yaml", small_manifest(trials, more));
+    const ProgramResult result = program({"run", "study.yaml", "-o", output, "--force"});
+    ASSERT_EQ(result.code, 0) << result.err;
+  }
+  Json json_of(std::vector<std::string> words) {
+    words.insert(words.end(), {"--format", "json"});
+    return Json::parse(program(words).out, nullptr, false);
+  }
+
+  TemporaryFolder folder_;
+};
+
+/// Time of the first of the samples from which on |e| ≤ band for `dwell` samples; without, to the end.
+double literal_time(const Json& samples, std::int64_t band, std::size_t dwell) {
+  for (std::size_t first = 0; first < samples.size(); ++first) {
+    const std::size_t end = dwell > 0 ? first + dwell : samples.size();
+    bool within = end <= samples.size();
+    for (std::size_t k = first; within && k < end; ++k)
+      within = std::abs(samples[k]["error"].get<int>()) <= band;
+    if (within) return samples[first]["t"];
+  }
+  return std::nan("");
+}
+
+TEST_F(Judge, BandsOfTheFileAreThoseOfTheTraces) {
+  run_study("goal: {band: 4, within: 0.1, moves: 0.5}\n", 12);
+  const reading::StudyFile file(folder_.path() / "out.h5");
+  const std::vector<trial::MoveOutcome> moves = file.outcomes(file.rows());
+  int entered = 0;
+  for (int point = 0; point < 2; ++point) {
+    for (int index = 0; index < 12; ++index) {
+      const Json samples = json_of({"trace", "study.yaml", "--point", std::to_string(point), "--trial",
+                                    std::to_string(index)})["samples"];
+      const trial::MoveOutcome& move = moves[static_cast<std::size_t>(12 * point + index)];
+      const std::vector<std::int64_t> bands{0, 1, 4};
+      for (std::size_t b = 0; b < bands.size(); ++b) {
+        const double entry = literal_time(samples, bands[b], 40);
+        const double settled = literal_time(samples, bands[b], 0);
+        EXPECT_EQ(std::isnan(entry), std::isnan(move.bands[b].entry_time));
+        EXPECT_EQ(std::isnan(settled), std::isnan(move.bands[b].settling_time));
+        if (std::isnan(entry) || std::isnan(settled)) continue;
+        EXPECT_NEAR(entry, move.bands[b].entry_time, 1e-12);
+        EXPECT_NEAR(settled, move.bands[b].settling_time, 1e-12);
+        ++entered;
+      }
+      EXPECT_EQ(std::isnan(move.settling_time), std::isnan(move.bands[0].entry_time));
+      EXPECT_EQ(static_cast<double>(move.jerk_count), move.bands[0].exits);
+    }
+  }
+  EXPECT_GT(entered, 20);
+}
+
+TEST_F(Judge, StatisticsDoNotDependOnWhatTheFileKeeps) {
+  const std::string more = "rigs: 8\ngoal: {band: 3, within: 0.1, moves: 0.6, machines: 0.5}\n";
+  run_study(more);
+  run_study(more + "keep: statistics\n", 40, "sums.h5");
+  for (const char* verb : {"summary", "judge"}) {
+    Json kept = json_of({verb, "out.h5"}), sums = json_of({verb, "sums.h5"});
+    EXPECT_EQ(kept, sums) << verb;
+    EXPECT_FALSE(kept.is_discarded());
+  }
+  const Json point = json_of({"summary", "sums.h5"})["points"][0];
+  ASSERT_EQ(point["bands"].size(), 3U);
+  EXPECT_EQ(point["bands"][2]["band"], 3);
+  EXPECT_EQ(point["bands"][0]["settling_time"]["median"], point["final_settling_time"]["median"]);
+  EXPECT_EQ(point["bands"][0]["entry_time"]["p95"], point["settling_time"]["p95"]);
+  EXPECT_EQ(point["bands"][0]["exits"]["total"], point["jerk_count"]["total"]);
+}
+
+TEST_F(Judge, EndsWithTheCodeOfTheVerdict) {
+  struct Case {
+    const char* goal;
+    const char* status;
+    int code;
+  };
+  for (const Case& one : {Case{"{band: 1000, within: 0.14, moves: 0.8}", "met", 0},
+                          Case{"{band: 0, within: 0.0005, moves: 0.99}", "missed", 1},
+                          Case{"{band: 1000, within: 0.14, moves: 0.999}", "undecided", 3}}) {
+    run_study(std::string("goal: ") + one.goal + "\n");
+    const Json judged = json_of({"judge", "out.h5"});
+    EXPECT_EQ(judged["status"], one.status) << judged;
+    EXPECT_EQ(program({"judge", "out.h5"}).code, one.code);
+    EXPECT_EQ(judged["needed"].is_null(), one.code != 3) << judged;
+    const Json of_point =
+        json_of({"summary", "out.h5"})["points"][judged["point"].get<std::size_t>()]["goal"];
+    EXPECT_EQ(of_point["rate"], judged["rate"]);
+    EXPECT_GE(of_point["rate_low"], judged["rate_low"]);  // it was not chosen
+    const Json alone = json_of({"judge", "out.h5", "--point", judged["point"].dump()});
+    EXPECT_EQ(of_point["rate_low"], alone["rate_low"]);
+    EXPECT_EQ(of_point["status"], alone["status"]);
+  }
+}
+
+TEST_F(Judge, NeedsAGoalAndAFinishedFile) {
+  run_study("");
+  const ProgramResult without = program({"judge", "out.h5"});
+  EXPECT_EQ(without.code, 2);
+  EXPECT_NE(without.err.find("no goal; expected"), std::string::npos) << without.err;
+  EXPECT_EQ(program({"judge", "out.h5", "--point", "2"}).code, 2);
+  run_study("goal: {within: 0.1, moves: 0.9}\n");
+  EXPECT_EQ(program({"judge", "out.h5", "--point", "2"}).code, 2);
+  ASSERT_EQ(program({"run", "study.yaml", "-o", "part.h5", "--shard", "1/2"}).code, 0);
+  EXPECT_EQ(program({"judge", "part.h5"}).code, 4);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

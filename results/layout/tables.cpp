@@ -87,7 +87,7 @@ Table outcome_table(std::int64_t version, const study::StudyFeatures& features,
 }
 
 ThirdDimension band_dimension(const trial::ErrorBands& bands) {
-  return {{"band", "count", "error band: the largest |error| within it", hdf5::Element::int64},
+  return {{"band", "count", "error band: largest absolute error within it", hdf5::Element::int64},
           {bands.values().begin(), bands.values().end()}};
 }
 

@@ -22,9 +22,11 @@ void read_whole(const hdf5::Dataset& dataset) {
     return;
   }
   const std::vector<hdf5::Size> extent = dataset.extent();
-  if (extent.empty() || extent.size() > 2) dataset.fail("it should have one or two dimensions");
+  if (extent.empty() || extent.size() > 3) dataset.fail("it should have one to three dimensions");
   const auto rows = static_cast<std::int64_t>(extent[0]);
-  const std::int64_t width = extent.size() > 1 ? static_cast<std::int64_t>(extent[1]) : 1;
+  std::int64_t width = 1;
+  for (std::size_t inner = 1; inner < extent.size(); ++inner)
+    width *= static_cast<std::int64_t>(extent[inner]);
   std::vector<std::byte> bytes(static_cast<std::size_t>(rows * width) * hdf5::size_of(dataset.element()));
   dataset.read(0, rows, bytes.data());
 }

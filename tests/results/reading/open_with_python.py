@@ -15,11 +15,11 @@ path = sys.argv[1]
 trials, moves, jerks, records = map(int, sys.argv[2:6])
 
 sizes = {
-    "/point": {"point": None},
+    "/point": {"point": None, "band": 2},
     "/level": {"point": None, "move": moves},
     "/trial": {"trial": trials},
     "/trial/input": {"trial": trials},
-    "/outcome": {"trial": trials, "move": moves},
+    "/outcome": {"trial": trials, "move": moves, "band": 2},
     "/jerk": {"jerk": jerks},
     "/trace": {"record": records},
     "/profile/friction.k1": {"theta": 4096},

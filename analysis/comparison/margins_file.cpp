@@ -3,7 +3,6 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
-#include <regex>
 #include <vector>
 
 #include <fmt/format.h>
@@ -101,26 +100,47 @@ void read_margins(const yaml::Field& field, std::map<std::string, GateMargin>& m
 
 const char* const requirement_form = "a text such as 'success_rate ≥ 0.995' (or >=, ≤, <=)";
 
+/// The parts of a text such as "success_rate ≥ 0.995".
+struct RequirementParts {
+  std::string name, relation, number;
+};
+
+std::optional<RequirementParts> parts_of(std::string_view text) {
+  constexpr std::string_view blanks = " \t\n\v\f\r";
+  const auto take = [&](std::size_t end) {
+    const std::string_view taken = text.substr(0, end);
+    text.remove_prefix(taken.size());
+    text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+    return std::string(taken);
+  };
+  take(0);
+  RequirementParts parts;
+  parts.name = take(text.find_first_not_of("abcdefghijklmnopqrstuvwxyz_.0123456789"));
+  for (const std::string_view relation : {"≥", ">=", "≤", "<="}) {
+    if (parts.relation.empty() && text.starts_with(relation)) parts.relation = take(relation.size());
+  }
+  parts.number = take(text.find_first_of(blanks));
+  const bool complete = !parts.name.empty() && !parts.relation.empty() && !parts.number.empty();
+  return complete && text.empty() ? std::optional(parts) : std::nullopt;
+}
+
 std::optional<Requirement> read_requirement(const yaml::Field& field, yaml::Problems& problems) {
   const std::optional<std::string> text = yaml::read_text(field, problems);
   if (!text) return std::nullopt;
-  constexpr std::size_t max_length = 200;  // std::regex_match takes a stack frame per character
-  static const std::regex form(R"(\s*([a-z_.0-9]+)\s*(≥|>=|≤|<=)\s*(\S+)\s*)");
-  std::smatch match;
+  constexpr std::size_t max_length = 200;  // bytes; no requirement is so long
+  const std::optional<RequirementParts> parts = text->size() <= max_length ? parts_of(*text) : std::nullopt;
   Requirement requirement{*text, nullptr, true, 0.0};
   const auto refuse = [&](const std::string& what, const std::string& expected) {
     problems.add(field.node->place, field.path, what, expected);
     return std::nullopt;
   };
-  if (text->size() > max_length || !std::regex_match(*text, match, form)) {
-    return refuse(fmt::format("{} cannot be understood", yaml::in_quotes(*text)), requirement_form);
-  }
-  requirement.quantity = find_requirable(match[1].str());
-  requirement.at_least = match[2] == "≥" || match[2] == ">=";
-  const std::string number = match[3];
+  if (!parts) return refuse(fmt::format("{} cannot be understood", yaml::in_quotes(*text)), requirement_form);
+  requirement.quantity = find_requirable(parts->name);
+  requirement.at_least = parts->relation == "≥" || parts->relation == ">=";
+  const std::string& number = parts->number;
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), requirement.limit);
   if (requirement.quantity == nullptr) {
-    return refuse(fmt::format("{} cannot be required", yaml::in_quotes(match[1].str())),
+    return refuse(fmt::format("{} cannot be required", yaml::in_quotes(parts->name)),
                   fmt::format("one of {}", fmt::join(names_of(requirable_quantities()), ", ")));
   }
   if (error != std::errc{} || end != number.data() + number.size() || !std::isfinite(requirement.limit)) {

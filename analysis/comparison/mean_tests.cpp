@@ -4,7 +4,7 @@
 #include <numeric>
 #include <vector>
 
-#include <boost/math/distributions/students_t.hpp>
+#include "analysis/statistics/distributions.hpp"
 
 namespace zerocount::comparison {
 namespace {
@@ -26,8 +26,8 @@ SampleMoments moments_of(std::span<const double> values) {
 
 double half_width(const MeanDifference& difference, double confidence) {
   if (difference.standard_error == 0.0) return 0.0;
-  const boost::math::students_t_distribution<double> law(difference.degrees_of_freedom);
-  return boost::math::quantile(law, confidence) * difference.standard_error;
+  return statistics::student_t_quantile(difference.degrees_of_freedom, confidence) *
+         difference.standard_error;
 }
 
 /// `values` and one more, `distance` beyond their mean.
@@ -58,8 +58,8 @@ double p_of(const MeanDifference& difference) {
     if (difference.value == 0.0) return 0.5;
     return difference.value > 0.0 ? 0.0 : 1.0;
   }
-  const boost::math::students_t_distribution<double> law(difference.degrees_of_freedom);
-  return boost::math::cdf(boost::math::complement(law, difference.value / difference.standard_error));
+  return statistics::student_t_upper_tail(difference.degrees_of_freedom,
+                                          difference.value / difference.standard_error);
 }
 
 statistics::ConfidenceInterval cautious_bounds(std::span<const double> differences, double unit,

@@ -3,11 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include <boost/math/distributions/binomial.hpp>
-#include <boost/math/distributions/complement.hpp>
-#include <boost/math/distributions/hypergeometric.hpp>
-#include <boost/math/tools/roots.hpp>
-
+#include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/normal.hpp"
 
 namespace zerocount::comparison {
@@ -34,18 +30,21 @@ double crossing(const PairedFailures& failures, double level, double low, double
   const auto above = [&](double difference) { return score(failures, difference) - level; };
   if (above(low) <= 0.0) return low;
   if (above(high) >= 0.0) return high;
-  const auto near = [](double a, double b) { return std::abs(b - a) <= 1e-14; };
-  const auto [left, right] = boost::math::tools::bisect(above, low, high, near);
-  return 0.5 * (left + right);
+  while (high - low > 1e-14) {
+    const double middle = 0.5 * (low + high);
+    const double excess = above(middle);
+    if (excess == 0.0) return middle;
+    (excess > 0.0 ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
 }
 
 }  // namespace
 
 double mcnemar(const PairedFailures& failures) {
   if (failures.only_current == 0) return 1.0;
-  const auto differing = static_cast<double>(failures.only_current + failures.only_baseline);
-  return boost::math::cdf(boost::math::complement(boost::math::binomial_distribution<double>(differing, 0.5),
-                                                  static_cast<double>(failures.only_current - 1)));
+  const std::int64_t differing = failures.only_current + failures.only_baseline;
+  return statistics::binomial_upper_tail(differing, 0.5, failures.only_current - 1);
 }
 
 statistics::ConfidenceInterval tango(const PairedFailures& failures, double confidence) {
@@ -58,13 +57,9 @@ statistics::ConfidenceInterval tango(const PairedFailures& failures, double conf
 
 double fisher(const FailureCounts& failures) {
   if (failures.current_failures == 0) return 1.0;
-  const auto unsigned_of = [](std::int64_t count) { return static_cast<unsigned>(count); };
-  const boost::math::hypergeometric_distribution<double> law(
-      unsigned_of(failures.baseline_failures + failures.current_failures),
-      unsigned_of(failures.current_trials), unsigned_of(failures.baseline_trials + failures.current_trials));
-  // All failures that there can be in the current sample, and the law knows no fewer.
-  if (failures.current_failures <= boost::math::range(law).first) return 1.0;
-  return boost::math::cdf(boost::math::complement(law, unsigned_of(failures.current_failures - 1)));
+  return statistics::hypergeometric_at_least(
+      failures.baseline_failures + failures.current_failures, failures.current_trials,
+      failures.baseline_trials + failures.current_trials, failures.current_failures);
 }
 
 statistics::ConfidenceInterval newcombe(const FailureCounts& failures, double confidence) {

@@ -7,9 +7,8 @@
 #include <set>
 #include <vector>
 
-#include <boost/math/distributions/chi_squared.hpp>
-
 #include "analysis/sensitivity/rank_correlation.hpp"
+#include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/normal.hpp"
 
 namespace zerocount::sensitivity {
@@ -53,8 +52,7 @@ std::vector<ClassMean> means_of(const std::vector<std::size_t>& classes, std::sp
 
 // How far below S the chi-squared distribution of the classes' part puts its lower bound.
 double null_reach(double index, double classes, double n, double confidence) {
-  const boost::math::chi_squared distribution(classes - 1.0);
-  const double extreme = boost::math::quantile(distribution, 0.5 + 0.5 * confidence);
+  const double extreme = statistics::chi_squared_quantile(classes - 1.0, 0.5 + 0.5 * confidence);
   return (1.0 - index) * (extreme - (classes - 1.0)) / n;
 }
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <optional>
 
-#include <boost/math/distributions/students_t.hpp>
 #include <fmt/format.h>
 
 #include "analysis/sliding_identification/sliding_fit.hpp"
+#include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "core/failure/failure.hpp"
 
@@ -106,7 +106,7 @@ class Estimates {
   Estimates(const SlidingFit& fit, bool linear) : fit_(fit), linear_(linear) {
     const double freedom =
         std::max(1.0, static_cast<double>(fit.windows) - static_cast<double>(sliding_dimension));
-    quantile_ = boost::math::quantile(boost::math::students_t(freedom), 0.975);
+    quantile_ = statistics::student_t_quantile(freedom, 0.975);
   }
 
   ParameterEstimate inertia() const {

@@ -6,8 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include <boost/math/distributions/students_t.hpp>
-
+#include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/mean_bounds.hpp"
 #include "analysis/statistics/normal.hpp"
 #include "analysis/statistics/unknown.hpp"
@@ -102,8 +101,7 @@ std::int64_t number_of_positive(const std::vector<double>& values) {
 }
 
 double student_limit(double degrees_of_freedom, double confidence) {
-  return boost::math::quantile(boost::math::students_t_distribution<double>(degrees_of_freedom),
-                               0.5 * (1.0 + confidence));
+  return student_t_quantile(degrees_of_freedom, 0.5 * (1.0 + confidence));
 }
 
 double finite_or_unknown(double bound) {

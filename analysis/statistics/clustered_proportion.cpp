@@ -2,9 +2,7 @@
 
 #include <algorithm>
 
-#include <boost/math/distributions/students_t.hpp>
-#include <boost/math/special_functions/beta.hpp>
-
+#include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/normal.hpp"
 
 namespace zerocount::statistics {
@@ -17,12 +15,6 @@ bool variance_is_known(const ClusterSums& sums) {
 
 bool are_single_events(const ClusterSums& sums) {
   return sums.clusters == sums.events;
-}
-
-/// Quantile of 1 − tail.
-double student_quantile(double degrees_of_freedom, double tail) {
-  return boost::math::quantile(
-      boost::math::complement(boost::math::students_t_distribution<double>(degrees_of_freedom), tail));
 }
 
 /// Clopper–Pearson bounds for any number of events, not only whole ones.
@@ -77,8 +69,9 @@ double effective_events(const ClusterSums& sums) {
 double adjusted_events(const ClusterSums& sums, double tail) {
   const double events = effective_events(sums);
   if (!variance_is_known(sums) || are_single_events(sums)) return events;
-  const double of_events = student_quantile(static_cast<double>(sums.events - 1), tail);
-  const double of_clusters = student_quantile(static_cast<double>(sums.clusters - 1), tail);
+  // The quantiles of 1 − tail have the same ratio.
+  const double of_events = student_t_quantile(static_cast<double>(sums.events - 1), tail);
+  const double of_clusters = student_t_quantile(static_cast<double>(sums.clusters - 1), tail);
   return events * (of_events / of_clusters) * (of_events / of_clusters);
 }
 

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 #include <fmt/format.h>
 
+#include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "core/failure/failure.hpp"
 
@@ -17,8 +17,7 @@ ConfidenceInterval student_t(const Moments& sample, double confidence) {
     return {unknown, unknown};
   }
   const auto n = static_cast<double>(sample.n);
-  const boost::math::students_t_distribution<double> distribution(n - 1.0);
-  const double t = boost::math::quantile(distribution, 0.5 * (1.0 + confidence));
+  const double t = student_t_quantile(n - 1.0, 0.5 * (1.0 + confidence));
   const double half_width = t * sample.sd() / std::sqrt(n);
   return {sample.mean - half_width, sample.mean + half_width};
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include <boost/math/distributions/binomial.hpp>
+#include "analysis/statistics/distributions.hpp"
 
 namespace zerocount::statistics {
 
@@ -22,15 +22,12 @@ RankBounds quantile_rank_bounds(std::int64_t observations, double probability, d
   require_confidence(confidence);
   const std::int64_t n = observations;
   const double tail = 0.5 * (1.0 - confidence);
-  const boost::math::binomial_distribution<double> below(static_cast<double>(n), probability);
-  const auto at_most = [&](std::int64_t k) { return boost::math::cdf(below, static_cast<double>(k)); };
-  const auto more_than = [&](std::int64_t k) {
-    return boost::math::cdf(boost::math::complement(below, static_cast<double>(k)));
-  };
   // low − 1 is the last k with P(B ≤ k) ≤ tail, so low is the first k with P(B ≤ k) > tail.
-  const std::int64_t low = first_where(0, n, [&](std::int64_t k) { return at_most(k) > tail; });
+  const std::int64_t low =
+      first_where(0, n, [&](std::int64_t k) { return binomial_cdf(n, probability, k) > tail; });
   // high − 1 is the first k with P(B > k) ≤ tail.
-  const std::int64_t high = 1 + first_where(0, n, [&](std::int64_t k) { return more_than(k) <= tail; });
+  const std::int64_t high =
+      1 + first_where(0, n, [&](std::int64_t k) { return binomial_upper_tail(n, probability, k) <= tail; });
   return {low, high};
 }
 

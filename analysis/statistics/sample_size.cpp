@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <boost/math/distributions/binomial.hpp>
 #include <boost/math/special_functions/beta.hpp>
 #include <fmt/format.h>
 
@@ -48,10 +47,7 @@ std::int64_t least(std::int64_t low, std::int64_t limit, const char* what, const
 double halfwidth_of(double n, double rate, double confidence) {
   const double tail = 0.5 * (1.0 - confidence);
   const double successes = n * rate;
-  const double failures = n - successes;
-  const double low = boost::math::ibeta_inv(successes, failures + 1.0, tail);
-  const double high = boost::math::ibetac_inv(successes + 1.0, failures, tail);
-  return 0.5 * (high - low);
+  return 0.5 * (upper_bound_on_p(successes, n, tail) - lower_bound_on_p(successes, n, tail));
 }
 
 /// Expected sums over rigs whose success probabilities have the standard deviation `rig_sd`.

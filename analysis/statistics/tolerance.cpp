@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <boost/math/distributions/binomial.hpp>
 #include <fmt/format.h>
 
 #include "analysis/statistics/confidence_sequence.hpp"
+#include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "analysis/text/percent.hpp"
@@ -16,9 +16,8 @@ namespace zerocount::statistics {
 std::int64_t tolerance_rank(std::int64_t observations, double content, double confidence) {
   require_confidence(confidence);
   require_open_unit("content", content);
-  const boost::math::binomial_distribution<double> within(static_cast<double>(observations), content);
   return first_where(1, observations + 1, [&](std::int64_t rank) {
-    return boost::math::cdf(within, static_cast<double>(rank - 1)) >= confidence;
+    return binomial_cdf(observations, content, rank - 1) >= confidence;
   });
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <regex>
 
 #include <boost/algorithm/string/case_conv.hpp>
 #include <fmt/format.h>
@@ -26,19 +25,43 @@ bool is_nonfinite(const std::string& text) {
   return is_one_of(word, {".inf", ".nan", "inf", "nan", "infinity"});
 }
 
-bool matches(const std::string& text, const char* pattern) {
-  return std::regex_match(text, std::regex(pattern));
+constexpr std::string_view decimal_digits = "0123456789";
+
+std::string_view without_sign(std::string_view text) {
+  return text.substr(text.starts_with('-') || text.starts_with('+') ? 1 : 0);
 }
 
-bool has_leading_zero(const std::string& text) {
-  const std::size_t first = text.rfind('-', 0) == 0 ? 1 : 0;
-  return text.size() > first + 1 && text[first] == '0' && text[first + 1] >= '0' && text[first + 1] <= '9';
+bool consists_of(std::string_view text, std::string_view characters) {
+  return !text.empty() && text.find_first_not_of(characters) == std::string_view::npos;
+}
+
+// The following describe texts without their sign.
+
+bool has_leading_zero(std::string_view text) {
+  return text.starts_with('0') && text.find_first_of(decimal_digits, 1) == 1;
+}
+
+bool has_other_base(std::string_view text) {
+  return is_one_of(text.substr(0, 2), {"0x", "0o", "0b"}) &&
+         consists_of(text.substr(2), "0123456789ABCDEFabcdef_");
+}
+
+bool has_underscores(std::string_view text) {
+  return consists_of(text, "0123456789_.eE+-") && text.find_first_of(decimal_digits) == 0 &&
+         text.find('_') != std::string_view::npos;
+}
+
+bool has_base_60(std::string_view text) {
+  const std::size_t colon = text.find(':');
+  return colon != std::string_view::npos && consists_of(text.substr(0, colon), decimal_digits) &&
+         consists_of(text.substr(colon), "0123456789.:") && text.find("::") == std::string_view::npos &&
+         !text.ends_with(':');
 }
 
 // The number in `text`, if the whole text is a number in YAML 1.2 (which from_chars alone does not check).
 template <class Number>
 std::errc parse_number(const std::string& text, Number& number) {
-  if (has_leading_zero(text) || is_nonfinite(text)) return std::errc::invalid_argument;
+  if (has_leading_zero(without_sign(text)) || is_nonfinite(text)) return std::errc::invalid_argument;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (end != text.data() + text.size()) return std::errc::invalid_argument;
   return error;
@@ -57,12 +80,12 @@ std::string describe_scalar(const YamlNode& node) {
   if (text.empty()) return "the value is empty";
   if (is_yaml11_truth(text)) return fmt::format("{} is a truth value", shown);
   if (is_nonfinite(text)) return fmt::format("{} is not finite", shown);
-  if (matches(text, "[-+]?0[xob][0-9A-Fa-f_]+")) return fmt::format("{} is not decimal", shown);
-  if (matches(text, "[-+]?0[0-9]+.*"))
+  const std::string_view digits = without_sign(text);
+  if (has_other_base(digits)) return fmt::format("{} is not decimal", shown);
+  if (has_leading_zero(digits) && text.find_first_of("\n\r") == std::string::npos)
     return fmt::format("{} starts with a zero, which some programs read as octal", shown);
-  if (matches(text, "[-+]?[0-9][0-9.eE+-]*_[0-9_.eE+-]*"))
-    return fmt::format("{} contains underscores", shown);
-  if (matches(text, "[-+]?[0-9]+(:[0-9.]+)+"))
+  if (has_underscores(digits)) return fmt::format("{} contains underscores", shown);
+  if (has_base_60(digits))
     return fmt::format("{} contains a colon, which some programs read as base 60", shown);
   if (text.front() == '+') return fmt::format("{} starts with a plus sign", shown);
   return fmt::format("{} is not a number", shown);
@@ -96,7 +119,8 @@ std::optional<Whole> read_whole_of(const Field& field, Whole low, Whole high, Pr
   if (error == std::errc{} && number >= low && number <= high) return number;
   if (error == std::errc::invalid_argument && !(is_plain_scalar(node) && reads_as_number(node.text))) {
     add_wrong_type(field, expected, problems);
-  } else if (error == std::errc::invalid_argument && !matches(node.text.substr(0, 100), "-?[0-9]+")) {
+  } else if (error == std::errc::invalid_argument &&
+             !consists_of(without_sign(node.text.substr(0, 100)), decimal_digits)) {
     problems.add(field, fmt::format("{} is not written as a whole number", in_quotes(node.text)), expected);
   } else {
     problems.add(field, fmt::format("{} is out of range", in_quotes(node.text)), expected);

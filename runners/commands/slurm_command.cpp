@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <regex>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -89,10 +88,19 @@ std::vector<std::string> sbatch_options(const command_line::Arguments& arguments
   return options;
 }
 
+bool is_slurm_time(std::string_view text) {
+  std::string form;  // of the text: 0 for each number
+  for (const char c : text) {
+    const bool digit = c >= '0' && c <= '9';
+    if (!digit || !form.ends_with('0')) form += digit ? '0' : c;
+  }
+  constexpr std::array forms{"0", "0:0", "0:0:0", "0-0", "0-0:0", "0-0:0:0"};
+  return std::find(forms.begin(), forms.end(), form) != forms.end();
+}
+
 std::optional<std::string> time_limit(const command_line::Arguments& arguments) {
-  const std::regex form(R"(\d+(:\d+){0,2}|\d+-\d+(:\d+){0,2})");
   std::optional<std::string> time = arguments.value("time");
-  if (time && !std::regex_match(*time, form)) {
+  if (time && !is_slurm_time(*time)) {
     arguments.refuse(fmt::format(
         "option '--time': '{}' is not a Slurm time: minutes, H:MM:SS, or D-HH, such as 2:00:00", *time));
   }

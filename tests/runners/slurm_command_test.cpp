@@ -195,6 +195,12 @@ TEST_F(SlurmCommand, RefusesWhatTheScriptsCannotHold) {
       {{"--time", ":::"}, "is not a Slurm time"},
       {{"--time", ""}, "is not a Slurm time"},
       {{"--time", "1 day"}, "is not a Slurm time"},
+      {{"--time", "1:2:3:4"}, "is not a Slurm time"},
+      {{"--time", "1-2-3"}, "is not a Slurm time"},
+      {{"--time", "1:2-3"}, "is not a Slurm time"},
+      {{"--time", "-1"}, "is not a Slurm time"},
+      {{"--time", "1-"}, "is not a Slurm time"},
+      {{"--time", "1:"}, "is not a Slurm time"},
       {{"--cpus", "0"}, "--cpus"},
       {{"--at-once", "0"}, "--at-once"}};
   for (const auto& [words, what] : cases) {
@@ -203,7 +209,9 @@ TEST_F(SlurmCommand, RefusesWhatTheScriptsCannotHold) {
     expect_refusal(slurm(all), 2, what);
   }
   EXPECT_FALSE(fs::exists(folder_ / "out.h5.parts"));
-  EXPECT_EQ(slurm({"--tasks", "2", "--dry-run", "--sbatch=--export=NONE", "--time", "1-12:30"}).code, 0);
+  for (const char* const time : {"1-12:30", "90", "10:00:00", "1-0:00:00"}) {
+    EXPECT_EQ(slurm({"--tasks", "2", "--dry-run", "--sbatch=--export=NONE", "--time", time}).code, 0) << time;
+  }
   expect_refusal(slurm({"--tasks", "1", "--at-once", "2"}), 2, "--at-once");
   expect_refusal(slurm({"--tasks", "121"}), 2, "cannot be divided into 121 parts");
   expect_refusal(zerocount_program({"slurm", "study.yaml", "-o", "a\\b.h5", "--tasks", "2", "--dry-run"},

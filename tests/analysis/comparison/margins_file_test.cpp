@@ -113,7 +113,29 @@ TEST(MarginsFile, TellsEveryMistakeWithItsPlace) {
             std::string::npos);
 }
 
-TEST(MarginsFile, RefusesARequirementTooLongForARegularExpression) {
+TEST(MarginsFile, TakesARequirementWithAnyBlanks) {
+  for (const std::string text :
+       {"success_rate≥0.5", "'  success_rate  >=\t0.5 '", "\"\\tsuccess_rate >=0.5\\n\""}) {
+    const comparison::GateRules rules = read("require: " + text + "\n");
+    ASSERT_EQ(rules.requirements.size(), 1u) << text;
+    EXPECT_EQ(rules.requirements[0].quantity->name, "success_rate");
+    EXPECT_TRUE(rules.requirements[0].at_least);
+    EXPECT_EQ(rules.requirements[0].limit, 0.5);
+  }
+  EXPECT_FALSE(read("require: settling_time.p95<=0.1\n").requirements[0].at_least);
+}
+
+TEST(MarginsFile, RefusesARequirementWithoutAllItsParts) {
+  for (const std::string text :
+       {"success_rate", "success_rate ≥", "≥ 0.5", "success_rate 0.5", "success rate ≥ 0.5",
+        "success_rate ≥ 0.5 s", "Success_rate ≥ 0.5", "success_rate > 0.5"}) {
+    EXPECT_NE(fault("require: '" + text + "'\n").find("cannot be understood"), std::string::npos) << text;
+  }
+  EXPECT_NE(fault("require: success_rate ≥<=0.5\n").find("'<=0.5' is not a number"), std::string::npos);
+  EXPECT_NE(fault("require: success_rate ≥ 0.5≤\n").find("'0.5≤' is not a number"), std::string::npos);
+}
+
+TEST(MarginsFile, RefusesAVeryLongRequirement) {
   const std::string long_name = fault("require: " + std::string(200'000, 'a') + " ≥ 1\n");
   EXPECT_NE(long_name.find("gate.yaml:1:10: require: 'aaa"), std::string::npos) << long_name;
   EXPECT_NE(long_name.find("' cannot be understood; expected a text such as"), std::string::npos);

@@ -1,5 +1,7 @@
 #include "analysis/goal/goal_text.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "analysis/statistics/proportion.hpp"
@@ -35,7 +37,7 @@ std::string readings_text(const study::Goal& goal, const measures::GoalCounts& c
   if (counts.rigs.empty()) return text;
   const std::int64_t rigs = std::ssize(counts.rigs);
   if (goal.machines) {
-    const auto meeting = static_cast<std::int64_t>(verdict.machines.value * static_cast<double>(rigs) + 0.5);
+    const std::int64_t meeting = std::llround(verdict.machines.value * static_cast<double>(rigs));
     text += fmt::format(
         "  machines that meet it in at least {} of their moves: {} of {} by their {} moves; {} "
         "of all machines\n",

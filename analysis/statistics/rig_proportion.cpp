@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include <boost/math/distributions/binomial.hpp>
+#include "analysis/statistics/distributions.hpp"
 
 namespace zerocount::statistics {
 namespace {
@@ -29,16 +29,14 @@ double chernoff_bound(const MovesOfRig& rig, double y) {
 double false_pass(const MovesOfRig& rig, std::int64_t met) {
   if (met <= 0) return 1.0;
   if (!rig.one_move_each()) return rig.mean(met) > rig.q ? chernoff_bound(rig, rig.mean(met)) : 1.0;
-  const boost::math::binomial moves(static_cast<double>(rig.moves), rig.q);
-  return boost::math::cdf(boost::math::complement(moves, static_cast<double>(met - 1)));
+  return binomial_upper_tail(rig.moves, rig.q, met - 1);
 }
 
 /// δ(c): how probably a rig at q or above shows fewer than `met`.
 double false_fail(const MovesOfRig& rig, std::int64_t met) {
   if (met <= 0) return 0.0;
   if (!rig.one_move_each()) return rig.mean(met - 1) < rig.q ? chernoff_bound(rig, rig.mean(met - 1)) : 1.0;
-  const boost::math::binomial moves(static_cast<double>(rig.moves), rig.q);
-  return boost::math::cdf(moves, static_cast<double>(met - 1));
+  return binomial_cdf(rig.moves, rig.q, met - 1);
 }
 
 /// The first of 0 … n for which `holds`, which stays true from there on; n if there is none.

@@ -41,7 +41,7 @@ class Unit:
         for word in words:
             if word in ("-o", "-c", "-include"):
                 next(words)
-            elif word.startswith("-O") or word in ("-Winvalid-pch", "-fpch-preprocess"):
+            elif word.startswith(("-O", "--param=")) or word in ("-Winvalid-pch", "-fpch-preprocess"):
                 continue  # the optimisation and the precompiled headers of a unit do not matter here
             elif word.startswith(("-I", "-D")):
                 self.folders.append(word)

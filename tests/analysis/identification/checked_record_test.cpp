@@ -163,7 +163,7 @@ TEST(CheckedRecord, AReadingThatStandsOutAloneIsNamed) {
 
 TEST(CheckedRecord, CountsMustBeWhole) {
   EXPECT_TRUE(refused(record_refusal([](identification::RawSeries& s) { s.angle[5] = 0.5; }), "good.csv:7",
-                      "no whole number"));
+                      "not a whole number"));
 }
 
 // What a thousandfold error makes of each quantity is refused, in either direction, and kept where it is

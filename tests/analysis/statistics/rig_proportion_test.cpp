@@ -11,12 +11,13 @@ namespace zerocount::statistics {
 namespace {
 
 TEST(RigProportion, OfRigsThatAllPassIsThatOfWilksLessWhatFewMovesHide) {
-  // 300 rigs, each with 100 moves without a miss: L = 0.05^(1/300), ε = 0.95^100.
+  // 300 rigs, each with 100 moves without a miss: L = 0.05^(1/300) allows ε ≤ (L − 0.95)/0.1 = 0.4, which is
+  // that of 52 moves, P(B ≥ 52) = 0.38218 for B binomial (100, ½).
   const std::vector<RigMoves> rigs(300, {100, 100, 100});
   const RigProportion found = rig_proportion(rigs, 0.5, 0.95, 0.95);
+  const double all_pass = std::pow(0.05, 1.0 / 300.0);
   EXPECT_EQ(found.observed, 1.0);
-  EXPECT_NEAR(found.low, std::pow(0.05, 1.0 / 300.0), 1e-3);  // a rig below 50 % would have been seen
-  EXPECT_LT(found.low, std::pow(0.05, 1.0 / 300.0));
+  EXPECT_NEAR(found.low, (all_pass - 0.38218) / (1.0 - 0.38218), 1e-6);
   EXPECT_EQ(found.high, 1.0);
   // Five moves hardly tell a rig at 99 % from one at 98 %.
   EXPECT_LT(rig_proportion(std::vector<RigMoves>(300, {5, 5, 5}), 0.99, 0.95, 0.95).low, 0.9);
@@ -42,7 +43,7 @@ struct Population {
   double above, below;  ///< proportions of moves of those, and of the others
 };
 
-class RigProportionCoverage : public testing::TestWithParam<Population> {};
+class RigProportionCoverage : public ::testing::TestWithParam<Population> {};
 
 TEST_P(RigProportionCoverage, BoundsHold) {
   constexpr double proportion = 0.95, wanted = 0.9, confidence = 0.95;
@@ -73,9 +74,9 @@ TEST_P(RigProportionCoverage, BoundsHold) {
 
 // Rigs just below and just on the requirement are the hardest to tell apart.
 INSTANTIATE_TEST_SUITE_P(, RigProportionCoverage,
-                         testing::Values(Population{0.9, 0.95, 0.949}, Population{0.0, 1.0, 0.9499},
-                                         Population{1.0, 0.95, 0.0}, Population{0.8, 0.99, 0.9},
-                                         Population{0.95, 1.0, 0.5}));
+                         ::testing::Values(Population{0.9, 0.95, 0.949}, Population{0.0, 1.0, 0.9499},
+                                           Population{1.0, 0.95, 0.0}, Population{0.8, 0.99, 0.9},
+                                           Population{0.95, 1.0, 0.5}));
 
 }  // namespace
 }  // namespace zerocount::statistics

@@ -114,8 +114,9 @@ TEST(SummaryJson, NumbersReadBackToTheSameDouble) {
   const auto json = nlohmann::json::parse(summary_json_text(summary));
   for (std::size_t i = 0; i < summary.points.size(); ++i) {
     for (const measures::StatisticField& field : measures::statistic_fields()) {
-      const auto& place =
-          field.group.empty() ? json["points"][i] : json["points"][i][std::string(field.group)];
+      const auto& point = json["points"][i];
+      const auto& object = field.band ? point["bands"][static_cast<std::size_t>(*field.band)] : point;
+      const auto& place = field.group.empty() ? object : object[std::string(field.group)];
       const auto& written = place[std::string(field.name)];
       const double value = field.value(summary.points[i]);
       if (std::isnan(value)) {

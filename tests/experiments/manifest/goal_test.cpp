@@ -46,12 +46,12 @@ TEST(Goal, AddsItsBandInOrder) {
             (std::vector<std::int64_t>{2}));
 }
 
-struct Refusal {
+struct GoalRefusal {
   const char* lines;
   const char* faults;
 };
 
-class RefusedGoal : public testing::TestWithParam<Refusal> {};
+class RefusedGoal : public testing::TestWithParam<GoalRefusal> {};
 
 TEST_P(RefusedGoal, SaysWhy) {
   EXPECT_TRUE(has_faults(refusal_of(minimal_manifest(GetParam().lines)), GetParam().faults));
@@ -60,20 +60,21 @@ TEST_P(RefusedGoal, SaysWhy) {
 INSTANTIATE_TEST_SUITE_P(
     , RefusedGoal,
     testing::Values(
-        Refusal{"goal: 3", "6:7: goal | '3'"}, Refusal{"goal: {within: 0.1}", "6:7: goal.moves | missing"},
-        Refusal{"goal: {moves: 0.9}", "6:7: goal.within | missing"},
-        Refusal{"goal: {within: 0.1, moves: 1}", "6:28: goal.moves | '1'"},
-        Refusal{"goal: {within: 9, moves: 0.9}", "6:16: goal.within | longer than the hold"},
-        Refusal{"goal: {within: 0.1, moves: 0.9, machines: 0.9}", "6:43: goal.machines | without rigs"},
-        Refusal{"goal: {within: 0.1, moves: 0.9, band: -1}", "6:39: goal.band | '-1'"},
-        Refusal{"goal: {within: 0.1, moves: 0.9, bond: 1}", "6:33: goal.bond | unknown key"},
-        Refusal{"verdict: {bands: [1, 1]}", "6:22: verdict.bands.1 | not above 1"},
-        Refusal{"verdict: {bands: [0.5]}", "6:19: verdict.bands.0 | '0.5'"},
-        Refusal{"verdict: {bands: []}", "6:18: verdict.bands | a list of 0"},
-        Refusal{"verdict: {bands: [0, 1, 2, 3, 4, 5, 6, 7, 8]}", "6:18: verdict.bands | a list of 9"},
-        Refusal{"verdict: {bands: [0, 1, 2, 3, 4, 5, 6, 7]}\ngoal: {band: 9, within: 0.1, moves: 0.9}",
-                "7:7: goal | one too many"},
-        Refusal{"sweep: {grid: {verdict.bands: [[0], [1]]}}", "6:16: sweep.grid.verdict.bands | swept"}));
+        GoalRefusal{"goal: 3", "6:7: goal | '3'"},
+        GoalRefusal{"goal: {within: 0.1}", "6:7: goal.moves | missing"},
+        GoalRefusal{"goal: {moves: 0.9}", "6:7: goal.within | missing"},
+        GoalRefusal{"goal: {within: 0.1, moves: 1}", "6:28: goal.moves | '1'"},
+        GoalRefusal{"goal: {within: 9, moves: 0.9}", "6:16: goal.within | longer than the hold"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, machines: 0.9}", "6:43: goal.machines | without rigs"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, band: -1}", "6:39: goal.band | '-1'"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, bond: 1}", "6:33: goal.bond | unknown key"},
+        GoalRefusal{"verdict: {bands: [1, 1]}", "6:22: verdict.bands.1 | not above 1"},
+        GoalRefusal{"verdict: {bands: [0.5]}", "6:19: verdict.bands.0 | '0.5'"},
+        GoalRefusal{"verdict: {bands: []}", "6:18: verdict.bands | a list of 0"},
+        GoalRefusal{"verdict: {bands: [0, 1, 2, 3, 4, 5, 6, 7, 8]}", "6:18: verdict.bands | a list of 9"},
+        GoalRefusal{"verdict: {bands: [0, 1, 2, 3, 4, 5, 6, 7]}\ngoal: {band: 9, within: 0.1, moves: 0.9}",
+                    "7:7: goal | one too many"},
+        GoalRefusal{"sweep: {grid: {verdict.bands: [[0], [1]]}}", "6:16: sweep.grid.verdict.bands | swept"}));
 
 }  // namespace
 }  // namespace zerocount::manifest

@@ -54,9 +54,9 @@ TEST_F(DamagedFile, OfAnotherFormatIsSaidToBe) {
 
 TEST_F(DamagedFile, OfANewerVersionIsSaidToBe) {
   replace_attribute(copy("newer.h5"), "format_version", layout::format_version + 1);
-  expect_bad(directory / "newer.h5", "newer.h5: its format version is 4, newer than the 3");
+  expect_bad(directory / "newer.h5", "newer.h5: its format version is 5, newer than the 4");
   replace_attribute(copy("older.h5"), "format_version", 0);
-  expect_bad(directory / "older.h5", "its format version is 0; expected 1 to 3");
+  expect_bad(directory / "older.h5", "its format version is 0; expected 1 to 4");
 }
 
 TEST_F(DamagedFile, ThatWasNeverFinishedIsSaidToBe) {

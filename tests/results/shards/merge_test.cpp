@@ -341,7 +341,7 @@ TEST(Merge, RefusesShardsOfAnotherStudyOrFormat) {
   const std::vector<fs::path> inputs{write_sample_shard(directory.path(), study, {0, 120}).path};
   expect_failure(ExitCode::bad_data, "of another study", [&] { shards::merge_inputs(inputs, other); });
   replace_attribute(inputs[0], "format_version", layout::format_version + 1);
-  expect_failure(ExitCode::bad_data, "newer than the 3", [&] { shards::merge_inputs(inputs, study); });
+  expect_failure(ExitCode::bad_data, "newer than the 4", [&] { shards::merge_inputs(inputs, study); });
   const std::vector<fs::path> nothing{directory / "nothing.h5"};
   expect_failure(ExitCode::bad_input, "nothing.h5: no such file",
                  [&] { shards::merge_inputs(nothing, study); });

@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& tested) { return tested.param.name; });
 
 TEST_F(KeptStatistics, OfARunThatWasInterruptedAreTheSame) {
-  folder_.write("study.yaml", small_manifest(25000, "keep: statistics\n"));
+  folder_.write("study.yaml", small_manifest(40000, "keep: statistics\n"));
   RunningProgram running({"run", "study.yaml", "-q", "-o", "out.h5"}, folder_.path());
   while (!fs::exists(at("out.h5.shards")) || fs::is_empty(at("out.h5.shards")))
     std::this_thread::sleep_for(std::chrono::milliseconds(5));

@@ -106,7 +106,8 @@ TEST(GoalText, NamesTheGoalAndItsThreeReadings) {
       "error 0 for good after 0.02 s in at least 90 % of all moves of all machines, with 80 % confidence");
   const measures::GoalCounts counts = counts_of(990, 1000, 100);
   const std::string text = readings_text(goal, counts, judge_goal(goal, counts, 1));
-  EXPECT_NE(text.find("of all moves of all machines, 99.0 % meet it: 990 of 1000"), std::string::npos) << text;
+  EXPECT_NE(text.find("of all moves of all machines, 99.0 % meet it: 990 of 1000"), std::string::npos)
+      << text;
   EXPECT_NE(text.find("machines that meet it in at least 99 % of their moves: 90 of 100"), std::string::npos)
       << text;
   EXPECT_NE(text.find("machines without a miss in their 10 moves: 90 of 100"), std::string::npos) << text;

@@ -185,10 +185,11 @@ void add_criteria(const study::Study& study, const trial::TrialParameters& p,
   rules.coarse_feedback = p.controller.encoder == loop::EncoderChoice::coarse;
   rules.dac_resolution.add(p.dac.resolution);
   rules.dac_bound.add(dac_bound);
-  rules.fine_enough = rules.fine_enough && p.dac.resolution < dac_bound;
+  ++rules.trials;
+  if (p.dac.resolution < dac_bound) ++rules.fine_enough;
   rules.frequency.add(natural_frequency(contact.k1 + contact.k2, p.plant));
   rules.sample_rate.add(p.controller.sample_rate);
-  rules.fast_enough = rules.fast_enough && p.controller.sample_rate >= advised_sample_rate(p.plant, contact);
+  if (p.controller.sample_rate >= advised_sample_rate(p.plant, contact)) ++rules.fast_enough;
 }
 
 /// Applies `add` to the parameters of the first `count` trials of the point.

@@ -53,9 +53,10 @@ struct DesignRules {
   Range dac_resolution, dac_bound;  ///< torque_unit
   std::string torque_unit;
   bool coarse_feedback{false};   ///< the bound uses the resolution Δx of the coarse encoder
-  bool fine_enough{true};        ///< the DAC satisfies the bound in every trial
   Range frequency, sample_rate;  ///< Hz
-  bool fast_enough{true};        ///< the sample rate satisfies the rule in every trial
+  std::int64_t trials{0};
+  std::int64_t fine_enough{0};  ///< trials in which the DAC satisfies the bound
+  std::int64_t fast_enough{0};  ///< trials in which the sample rate satisfies the rule
 };
 
 /// Criterion (6) and the sampled loop at the lowest k1 of the study.

@@ -96,7 +96,8 @@ void tell(Checking& c, const yaml::Place& place, std::size_t slot, const std::st
   const std::string path(c.plan().table.rows[slot].name);
   const std::string text = parameters::text_on(c.plan().units.axis, what);
   if (warn_only) {
-    c.reading.warnings.push_back(yaml::at_place(place, path, text));
+    c.reading.warnings.push_back(yaml::at_place(
+        place, path, expected.empty() ? text : fmt::format("{}; expected {}", text, expected)));
   } else {
     c.reading.problems.add(place, path, text, expected);
   }
@@ -114,16 +115,21 @@ std::optional<yaml::Place> swept_place(const Checking& c, std::size_t slot, std:
   return std::nullopt;
 }
 
+struct FaultPlace {
+  yaml::Place place;
+  std::size_t slot;  // whose value is there
+};
+
 // Place in the manifest of one of the involved values: a swept one, otherwise one written in the manifest,
 // otherwise the first.
-yaml::Place place_of_fault(const Checking& c, const std::vector<std::size_t>& slots, std::size_t point) {
+FaultPlace place_of_fault(const Checking& c, const std::vector<std::size_t>& slots, std::size_t point) {
   for (const std::size_t slot : slots) {
-    if (const auto place = swept_place(c, slot, point)) return *place;
+    if (const auto place = swept_place(c, slot, point)) return {*place, slot};
   }
   for (const std::size_t slot : slots) {
-    if (c.places.written[slot]) return c.places.base[slot];
+    if (c.places.written[slot]) return {c.places.base[slot], slot};
   }
-  return c.places.base[slots.front()];
+  return {c.places.base[slots.front()], slots.front()};
 }
 
 // The values that a fault involves: its values of the list, the parameters of the rule, and other values of
@@ -156,7 +162,9 @@ void check_values(Checking& c) {
            rule.find_faults(all.first(named.size()), all.subspan(named.size()))) {
         const std::vector<std::size_t> slots = slots_of(fault, listed, involved);
         if (reported.size() < max_reported && reported.insert({slots.front(), fault.what}).second) {
-          tell(c, place_of_fault(c, slots, point), slots.front(), fault.what, fault.expected, rule.warn_only);
+          const FaultPlace at = place_of_fault(c, slots, point);
+          tell(c, at.place, rule.once ? at.slot : slots.front(), fault.what, fault.expected, rule.warn_only);
+          if (rule.once) return false;
         }
       }
       return reported.size() < max_reported;

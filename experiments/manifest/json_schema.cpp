@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include <boost/algorithm/string/replace.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -122,6 +123,12 @@ Json value_schema(const parameters::Parameter& parameter) {
   return {{"anyOf", std::move(forms)}};
 }
 
+// The row of the parameter in the units that allow most. The schema of a section does not know the keys of
+// others.
+parameters::Parameter in_widest_units(const parameters::Parameter& parameter) {
+  return parameter.is_position ? parameters::in_si_positions(parameter) : parameter;
+}
+
 // The name of a plugin's parameter.
 constexpr std::string_view plugin_name = "[a-z][a-z0-9_]*";
 
@@ -136,6 +143,7 @@ parameters::Parameter plugin_value() {
 std::string description_of(const parameters::Parameter& parameter) {
   std::string description = parameters::meaning_of(parameter, {});
   if (parameter.unit == "1") return description;
+  if (parameter.is_position) return description + ", count (rad with units: si; m on a linear axis)";
   description += fmt::format(", {}", parameter.unit);
   if (!parameter.si_unit.empty()) description += fmt::format(" ({} with units: si)", parameter.si_unit);
   const std::string linear = parameters::unit_on(parameters::AxisKind::linear, parameter.unit);
@@ -144,7 +152,7 @@ std::string description_of(const parameters::Parameter& parameter) {
 }
 
 Json key_schema(const parameters::Parameter& parameter) {
-  Json schema = value_schema(parameter);
+  Json schema = value_schema(in_widest_units(parameter));
   if (parameter.list) {
     schema = list_of(std::move(schema), parameter.list->min_values);
     schema["maxItems"] = parameter.list->max_values;
@@ -200,7 +208,7 @@ Json sweep_schema() {
   Json grid = Json::object();
   Json assignments = Json::object();
   for (const parameters::Parameter& parameter : parameters::parameter_table()) {
-    const Json value = value_schema(parameter);
+    const Json value = value_schema(in_widest_units(parameter));
     const Json spaced = {{"anyOf", {list_of(value, 1), spacing_schema()}}};
     const bool numeric = !parameters::has_labels(parameter);
     const Json whole_value = parameters::is_list(parameter) ? list_of(value, 1) : value;
@@ -303,6 +311,8 @@ Json general_schemas() {
       {"controller.filters", elements_schema(*parameters::find_element_list("controller.filters"))},
       {"controller.coarse.filters",
        elements_schema(*parameters::find_element_list("controller.coarse.filters"))},
+      {"command.units",
+       {{"enum", parameters::target_unit_labels}, {"default", parameters::target_unit_labels.front()}}},
       {"command.sequence.cycles",
        {{"type", "integer"},
         {"minimum", 1},
@@ -330,6 +340,20 @@ Json one_of_keys(std::span<const std::string_view> keys) {
   Json forms = Json::array();
   for (const std::string_view key : keys) forms.push_back({{"required", {key}}});
   return forms;
+}
+
+// Requires counts of the command unless its units are SI.
+void require_counts(Json& command) {
+  Json counts = Json::object();
+  for (const parameters::Parameter& row : parameters::parameter_table()) {
+    if (!row.is_position) continue;
+    const Json value = value_schema(row);
+    const std::string pointer = boost::algorithm::replace_all_copy(
+        std::string(row.name).substr(required_section.size()), ".", "/properties/");
+    counts[Json::json_pointer(pointer)] = row.list ? Json{{"items", value}} : value;
+  }
+  command["if"] = {{"properties", {{"units", {{"const", "si"}}}}}, {"required", {"units"}}};
+  command["else"] = std::move(counts);
 }
 
 Json section_schema(const std::string& path);
@@ -360,7 +384,10 @@ Json section_schema(const std::string& path) {
     }
   }
   Json schema = object_of(std::move(properties), std::move(required));
-  if (path == required_section) schema["oneOf"] = one_of_keys(command_forms);
+  if (path == required_section) {
+    schema["oneOf"] = one_of_keys(command_forms);
+    require_counts(schema);
+  }
   return schema;
 }
 

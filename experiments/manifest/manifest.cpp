@@ -94,8 +94,14 @@ void read_numbers(Manifest& m) {
   }
 }
 
-// Reads `axis`, `travel` and `controller.units`. Must come first, because all other values depend on the
-// units.
+// The key `units` of a section, if it has one.
+std::optional<yaml::Field> units_of_section(const yaml::Field& root, std::string_view section) {
+  const auto map = yaml::find_field(root, section);
+  return map ? yaml::find_field(*map, "units") : std::nullopt;
+}
+
+// Reads `axis`, `travel`, `controller.units` and `command.units`. Must come first, because all other values
+// depend on the units.
 void read_study_units(const yaml::Field& root, Reading& reading) {
   study::StudyPlan& plan = reading.plan;
   if (const auto axis = yaml::find_field(root, "axis")) {
@@ -113,11 +119,13 @@ void read_study_units(const yaml::Field& root, Reading& reading) {
                            "axis: linear, or the key left out");
     }
   }
-  const auto controller = yaml::find_field(root, "controller");
-  const auto gains = controller ? yaml::find_field(*controller, "units") : std::nullopt;
-  if (gains)
+  if (const auto gains = units_of_section(root, "controller"))
     plan.units.gains = static_cast<parameters::GainUnits>(
         yaml::read_label(*gains, parameters::gain_unit_labels, reading.problems).value_or(0));
+  if (const auto targets = units_of_section(root, "command"))
+    plan.units.targets = static_cast<parameters::TargetUnits>(
+        yaml::read_label(*targets, parameters::target_unit_labels, reading.problems).value_or(0));
+  if (plan.units.targets == parameters::TargetUnits::si) study::use_si_positions(plan.table);
 }
 
 // Warns if `travel` is given and nothing varies along it.

@@ -34,7 +34,7 @@ std::vector<std::string_view> value_paths() {
 }  // namespace
 
 std::span<const GeneralKey> general_keys() {
-  static constexpr std::array<GeneralKey, 26> keys{{
+  static constexpr std::array<GeneralKey, 27> keys{{
       {"zerocount", "version of the manifest's format: 1", true},
       {"name", "name of the study", true},
       {"description", "what the study is for", false},
@@ -96,6 +96,11 @@ std::span<const GeneralKey> general_keys() {
        "b2], a: [a1, a2]}}; their values are the parameters controller.filters.0.frequency ...",
        false},
       {"controller.coarse.filters", "list of filters of the coarse phase, as controller.filters", false},
+      {"command.units",
+       "unit of targets and overrun: counts (default) of the fine encoder; or si: rad (m on a linear axis), "
+       "of "
+       "which each trial takes the nearest count of its encoder",
+       false},
       {"command.sequence.cycles", "number of cycles of a sequence (default 5)", false},
       {"command.sequence.approach",
        "direction from which a sequence approaches its targets: bidirectional (default: from both sides), "

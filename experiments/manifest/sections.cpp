@@ -161,7 +161,8 @@ void read_plugin_parameters(SectionReading& s, const yaml::Field& map) {
   }
 }
 
-// Reads the keys of sections that are not parameters. controller.units is read earlier, before all values.
+// Reads the keys of sections that are not parameters. controller.units and command.units are read earlier,
+// before all values.
 void read_general_key(SectionReading& s, const yaml::Field& field) {
   if (field.path == "verdict.bands") read_bands(field, s.plan().common.verdict.bands, s.problems());
   if (!s.plan().sequence) return;
@@ -266,6 +267,14 @@ void check_plugin_closes_the_loop(SectionReading& s) {
                    "command.targets or command.sequence, or the key left out");
 }
 
+// Torque levels have the unit of torque.
+void check_units_of_targets(SectionReading& s, const yaml::Field& command) {
+  const auto units = s.plan().open_loop ? yaml::find_field(command, "units") : std::nullopt;
+  if (units)
+    s.problems().add(*units, "it has no effect: the loop is open with command.torque",
+                     "command.targets or command.sequence, or the key left out");
+}
+
 // Reports the keys of the form chosen that are missing.
 void check_form_complete(SectionReading& s, const yaml::Field& command) {
   if (!s.plan().open_loop && !s.plan().sequence) return;
@@ -314,6 +323,7 @@ void read_sections(const yaml::Field& root, Reading& reading, PlanPlaces& places
   complete_moves(s);
   check_plugin_closes_the_loop(s);
   if (!command) return;
+  check_units_of_targets(s, *command);
   check_form_complete(s, *command);
   check_sequence_length(s, *command);
 }

@@ -10,19 +10,12 @@
 #include "experiments/distributions/distribution_forms.hpp"
 #include "experiments/distributions/random_field.hpp"
 #include "experiments/manifest/drawn_per.hpp"
+#include "experiments/manifest/expected_value.hpp"
 
 namespace zerocount::manifest {
 namespace {
 
 constexpr std::string_view profile_name = "profile";
-
-std::string expected_of(const parameters::Parameter& parameter, const parameters::StudyUnits& units) {
-  if (parameters::has_labels(parameter)) return fmt::format("one of {}", fmt::join(parameter.labels, ", "));
-  const std::string words = numerics::range_text(parameters::range_of(parameter, units));
-  const std::string noun =
-      parameter.kind == parameters::ParameterKind::whole_number ? "whole numbers" : "numbers";
-  return words.rfind("any", 0) == 0 ? "finite " + noun + " only" : noun + " " + words + " only";
-}
 
 study::Value number_value(double number) {
   return {.kind = study::Value::Kind::number, .number = number};
@@ -53,31 +46,34 @@ bool is_none(const yaml::YamlNode& node) {
 study::Value read_number(const yaml::Field& field, const parameters::Parameter& parameter, Reading& reading) {
   if (parameter.none && is_none(*field.node)) return number_value(*parameter.none);
   yaml::Problems& problems = reading.problems;
+  const std::string or_else = number_alternatives(parameter, reading.plan.units);
   if (parameter.kind == parameters::ParameterKind::whole_number) {
     const auto whole = yaml::read_whole(field, static_cast<std::int64_t>(parameter.range.low),
-                                        static_cast<std::int64_t>(parameter.range.high), problems);
+                                        static_cast<std::int64_t>(parameter.range.high), problems, or_else);
     return whole ? number_value(static_cast<double>(*whole)) : unreadable_value();
   }
-  const auto real = yaml::read_real(field, parameters::range_of(parameter, reading.plan.units), problems,
-                                    parameter.none ? ", or none" : "");
+  const auto real =
+      yaml::read_real(field, parameters::range_of(parameter, reading.plan.units), problems, or_else);
   return real ? number_value(*real) : unreadable_value();
 }
 
 bool check_support(const yaml::Field& field, const parameters::Parameter& parameter,
-                   const numerics::Interval& values, Reading& reading) {
+                   const distributions::Distribution& distribution, Reading& reading) {
+  const numerics::Interval values = distributions::support(distribution);
   const numerics::Interval range = parameters::range_of(parameter, reading.plan.units);
   if (numerics::contains(range, values)) return true;
   reading.problems.add(field,
                        fmt::format("its values {} exceed the allowed range {}", numerics::notation(values),
                                    numerics::notation(range)),
-                       expected_of(parameter, reading.plan.units));
+                       allowed_values(parameter, reading.plan.units) +
+                           cure_of_normal(distribution, parameter, reading.plan.units));
   return false;
 }
 
 study::Value read_drawn(const distributions::DistributionForm& form, const yaml::Field& field,
                         const parameters::Parameter& parameter, Reading& reading) {
   const auto distribution = distributions::read_distribution(form, field, reading.problems);
-  if (!distribution || !check_support(field, parameter, distributions::support(*distribution), reading)) {
+  if (!distribution || !check_support(field, parameter, *distribution, reading)) {
     return unreadable_value();
   }
   if (parameter.kind == parameters::ParameterKind::whole_number &&
@@ -88,7 +84,7 @@ study::Value read_drawn(const distributions::DistributionForm& form, const yaml:
   if (!distributions::extremes_are_inside(*distribution,
                                           parameters::range_of(parameter, reading.plan.units))) {
     return refuse(reading, field, "its extreme values are too large or too small for a double",
-                  expected_of(parameter, reading.plan.units));
+                  allowed_values(parameter, reading.plan.units));
   }
   reading.plan.distributions.push_back(*distribution);
   return {.kind = study::Value::Kind::distribution,
@@ -167,7 +163,7 @@ bool check_rotor(const ProfileRequest& request, const study::Rotors& rotors, std
       fmt::format("its values {}{}, {:.6g} to {:.6g} with this seed, exceed the allowed range {}",
                   parameters::text_on(units.axis, "along the $track"), of_rig, values.low, values.high,
                   numerics::notation(parameter.range)),
-      expected_of(parameter, units));
+      allowed_values(parameter, units));
   return false;
 }
 
@@ -218,7 +214,7 @@ study::Value checked_number(const yaml::Field& field, std::size_t slot, double n
   if (fits && numerics::contains(parameters::range_of(parameter, reading.plan.units), number))
     return number_value(number);
   return refuse(reading, field, fmt::format("the value {} is not allowed", number),
-                expected_of(parameter, reading.plan.units));
+                allowed_values(parameter, reading.plan.units));
 }
 
 }  // namespace zerocount::manifest

@@ -2,15 +2,25 @@
 
 namespace zerocount::parameters {
 
+Parameter in_si_positions(const Parameter& position) {
+  Parameter row = position;
+  row.kind = ParameterKind::real;
+  row.unit = "rad";
+  row.range = is_list(row) ? numerics::all_numbers() : numerics::above(0);
+  if (row.list) row.list->set = {};  // a trial has the counts that they become (study_trial.cpp)
+  return row;
+}
+
 std::vector<Parameter> command_rows() {
   constexpr std::string_view required = "required";
   constexpr numerics::Interval targets{
       .low = -max_count, .high = max_count, .low_included = true, .high_included = true};
   return {
-      list_of(max_moves_values, "target", "targets",
-              whole_row("command.targets", first_sobol_dimension_of_moves, "count",
-                        "target of each move, relative to the start of the trial", required, targets),
-              [](auto& p, std::size_t i) { return &p.command.targets[i]; }),
+      position(
+          list_of(max_moves_values, "target", "targets",
+                  whole_row("command.targets", first_sobol_dimension_of_moves, "count",
+                            "target of each move, relative to the start of the trial", required, targets),
+                  [](auto& p, std::size_t i) { return &p.command.targets[i]; })),
 
       list_of(max_moves_values, "level", "levels",
               real_row("command.torque.levels", first_sobol_dimension_of_moves, "N m",
@@ -23,14 +33,15 @@ std::vector<Parameter> command_rows() {
                "how the $torque is applied: through the converter, with its rounding and errors, or exactly",
                assumed, {"dac", "exact"}, [](auto& p) { return &p.command.torque.through; }),
 
-      list_of(max_moves_values, "target", "targets",
-              whole_row("command.sequence.targets", first_sobol_dimension_of_moves, "count",
-                        "targets of a sequence in ascending order, relative to the start of the trial",
-                        required, targets),
-              NoField{}),
-      whole_row("command.sequence.overrun", 57, "count",
-                "distance beyond the first and the last target at which a sequence reverses", required,
-                numerics::closed(1, max_count)),
+      position(
+          list_of(max_moves_values, "target", "targets",
+                  whole_row("command.sequence.targets", first_sobol_dimension_of_moves, "count",
+                            "targets of a sequence in ascending order, relative to the start of the trial",
+                            required, targets),
+                  NoField{})),
+      position(whole_row("command.sequence.overrun", 57, "count",
+                         "distance beyond the first and the last target at which a sequence reverses",
+                         required, numerics::closed(1, max_count))),
 
       real_row("command.hold", 26, "s",
                "time for which each target is held, or each $torque level after it is reached", assumed,

@@ -76,6 +76,10 @@ std::vector<Parameter> drive_rows() {
                 numerics::closed(1, 32), [](auto& p) { return &p.dac.bits; }),
       real_row("dac.resolution", 19, "N m", "$torque of one code of the digital-to-analogue converter",
                "paper, section 4", numerics::above(0), [](auto& p) { return &p.dac.resolution; }),
+      none_by_default(0, real_row("dac.range", beyond_moves(16), "N m",
+                                  "largest $torque of the converter, in both directions, in place of its "
+                                  "resolution, which is range / 2^(bits - 1); none: dac.resolution counts",
+                                  assumed, numerics::above(0))),
       real_row("dac.offset", 41, "N m", "offset added to the $torque of every code", assumed,
                numerics::all_numbers(), [](auto& p) { return &p.dac.offset; }),
       real_row("dac.gain_error", 42, "1", "relative error of the resolution", assumed, numerics::above(-1),

@@ -12,7 +12,7 @@
 namespace zerocount::parameters {
 
 // The rows of the table of parameters, by section. Each has a Sobol dimension of its own, so that a new row
-// does not change the draws of the others. The next free one is beyond_moves(16); those from beyond_moves(32)
+// does not change the draws of the others. The next free one is beyond_moves(17); those from beyond_moves(32)
 // to beyond_moves(79) are for the blocks of the controller. Lists have dimensions from beyond_moves(80) on,
 // as many as they may have values; the next free one of these is beyond_moves(192). A plugin has the
 // dimensions from beyond_moves(317) to beyond_moves(444).
@@ -114,10 +114,22 @@ Parameter truth_row(std::string_view name, std::size_t sobol_dimension, std::str
                    field);
 }
 
+/// Marks a position in counts, which command.units: si gives in rad (see in_si_positions).
+inline Parameter position(Parameter row) {
+  row.is_position = true;
+  return row;
+}
+
 /// Adds the value that is written as "none". It lies outside the range of the others.
 inline Parameter none_is(double none, Parameter row) {
   row.none = none;
   return row;
+}
+
+/// Makes that value the default of a row without a field.
+inline Parameter none_by_default(double none, Parameter row) {
+  row.get = [none](const trial::TrialParameters&) { return none; };
+  return none_is(none, std::move(row));
 }
 
 /// Lets the key of the section alone stand for this row.

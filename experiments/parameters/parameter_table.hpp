@@ -54,6 +54,7 @@ struct Parameter {
   std::string_view instead{};         ///< the corresponding key on the other kind of axis, for messages
   std::optional<double> none{};   ///< the value written as the word "none": what the parameter limits is off
   std::string_view short_name{};  ///< of the section, where its key alone stands for this parameter
+  bool is_position{false};        ///< a target of the command, in counts or, with command.units: si, in rad
   bool of_machine{false};         ///< a property of the machine, not of the trial
   std::optional<ListOfValues> list{};   ///< set if its value is a list
   std::optional<ElementKey> element{};  ///< set if it stands for a key of each element of a list
@@ -107,6 +108,10 @@ Parameter element_row(const Parameter& key, std::size_t index, std::string_view 
 
 /// The row of parameter `index` of the user's controller, which must outlive the row, like `name`.
 Parameter plugin_row(std::string_view name, std::size_t index, const plugin::PluginParameter& parameter);
+
+/// The row of a position of the command with command.units: si: real numbers in rad, which the trial's
+/// encoder turns into counts.
+Parameter in_si_positions(const Parameter& position);
 
 /// Whether the row itself has a value: it stands for no others.
 inline bool has_value(const Parameter& parameter) {

@@ -17,15 +17,24 @@ enum class GainUnits {
       ///< s/rad
 };
 
+/// Unit of the targets in a manifest.
+enum class TargetUnits {
+  counts,  ///< of the fine encoder
+  si       ///< rad, or m; a target becomes the nearest count of the trial's fine encoder
+};
+
 /// The choices that determine the units of a study's parameters and results.
 struct StudyUnits {
   AxisKind axis{AxisKind::rotary};
   GainUnits gains{GainUnits::count};
+  TargetUnits targets{TargetUnits::counts};
 };
 
-/// The values of the manifest's keys `axis` and `controller.units`, in the order of the enumerations.
+/// The values of the manifest's keys `axis`, `controller.units` and `command.units`, in the order of the
+/// enumerations.
 inline constexpr std::array<std::string_view, 2> axis_labels{"rotary", "linear"};
 inline constexpr std::array<std::string_view, 2> gain_unit_labels{"count", "si"};
+inline constexpr std::array<std::string_view, 2> target_unit_labels{"counts", "si"};
 
 /// Converts the unit `rotary` of a rotary axis to an axis of this kind: m for rad, N for N m, kg for kg m^2,
 /// and products of these. Units of a linear axis stay unchanged.

@@ -1,6 +1,8 @@
 #include "experiments/parameters/unknown_key.hpp"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -28,8 +30,19 @@ std::string_view same_name_elsewhere(std::string_view key) {
   return {};
 }
 
+// Other usual names of parameters.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 3> synonyms{
+    {{"mass", "plant.inertia"}, {"moment_of_inertia", "plant.inertia"}, {"full_scale", "dac.range"}}};
+
+std::string_view named_otherwise(std::string_view key) {
+  const auto found =
+      std::find_if(synonyms.begin(), synonyms.end(), [key](const auto& pair) { return pair.first == key; });
+  return found == synonyms.end() ? std::string_view{} : found->second;
+}
+
 // A typing error in this map is more likely than a key of another map.
 std::string_view nearest_key(std::string_view key, std::span<const std::string> known) {
+  if (const std::string_view name = named_otherwise(key); !name.empty()) return name;
   const std::string_view here = yaml::nearest_name(key, known);
   const std::string_view elsewhere = same_name_elsewhere(key);
   return elsewhere.empty() || yaml::is_near(key, here) ? here : elsewhere;

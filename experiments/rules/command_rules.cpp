@@ -46,6 +46,15 @@ double farthest_apart(const study::ValueLimits& a, const study::ValueLimits& b) 
   return std::max(a.high - b.low, b.high - a.low);
 }
 
+// Noun for the unit of targets.
+std::string unit_of_targets(const parameters::StudyUnits& units) {
+  return units.targets == parameters::TargetUnits::si ? parameters::unit_on(units.axis, "rad") : "counts";
+}
+
+double largest(const study::ValueLimits& limits) {
+  return std::max(std::abs(limits.low), std::abs(limits.high));
+}
+
 // The longest travel to each value of the list, from the start or from the value before it.
 std::vector<double> longest_travels(Limits list) {
   std::vector<double> travels;
@@ -62,14 +71,13 @@ double total_travel(Limits list) {
   return std::accumulate(travels.begin(), travels.end(), 0.0);
 }
 
-ValueRule limits_of_torque_levels() {
-  return {{}, true, [](Limits, Limits levels) -> Faults {
+// @param what why a value of the list needs limits @param expected the distribution that it needs
+ValueRule limits_of_the_list(const std::string& what, const std::string& expected) {
+  return {{}, true, [what, expected](Limits, Limits list) -> Faults {
             Faults faults;
-            for (std::size_t i = 0; i < levels.size(); ++i) {
-              if (std::isfinite(levels[i].low) && std::isfinite(levels[i].high)) continue;
-              faults.push_back({"its values are unbounded, so the ramp to the level could take for ever",
-                                "a distribution of the level with a lowest and a highest value",
-                                {i}});
+            for (std::size_t i = 0; i < list.size(); ++i) {
+              if (std::isfinite(list[i].low) && std::isfinite(list[i].high)) continue;
+              faults.push_back({what, expected, {i}});
             }
             return faults;
           }};
@@ -79,6 +87,17 @@ ValueRule limits_of_torque_levels() {
 double time_of_ramps(Limits levels, const study::ValueLimits& rate) {
   const double travel = total_travel(levels);
   return travel == 0.0 ? 0.0 : travel / rate.low;
+}
+
+ValueRule limits_of_torque_levels() {
+  return limits_of_the_list("its values are unbounded, so the ramp to the level could take for ever",
+                            "a distribution of the level with a lowest and a highest value");
+}
+
+// Those in counts are bounded, because they are whole numbers.
+ValueRule limits_of_positions() {
+  return limits_of_the_list("its values are unbounded, so the target could have any number of counts",
+                            "a distribution of the target with a lowest and a highest value");
 }
 
 ValueRule lowest_rate_of_torque() {
@@ -108,13 +127,14 @@ ValueRule samples_of_torque_levels() {
 
 // Warns about torques beyond the converter's range, which are clipped.
 ValueRule range_of_the_converter(const std::string& unit) {
-  return {{"command.torque.through", "dac.bits", "dac.resolution"},
+  return {{"command.torque.through", "dac.bits", "dac.resolution", "dac.range"},
           true,
           [unit](Limits l, Limits levels) -> Faults {
             if (l[0].low != static_cast<double>(trial::TorquePath::dac)) return {};
-            const loop::DacParameters dac{.bits = static_cast<int>(l[1].low), .resolution = l[2].low};
-            const double lowest = static_cast<double>(loop::lowest_code(dac)) * dac.resolution;
-            const double highest = static_cast<double>(loop::highest_code(dac)) * dac.resolution;
+            loop::DacParameters dac{.bits = static_cast<int>(l[1].low), .resolution = l[2].low};
+            if (l[3].low > 0.0) dac.resolution = std::ldexp(l[3].low, 1 - dac.bits);
+            const double lowest = loop::lowest_torque(dac);
+            const double highest = loop::highest_torque(dac);
             Faults faults;
             for (std::size_t i = 0; i < levels.size(); ++i) {
               if (levels[i].low >= lowest && levels[i].high <= highest) continue;
@@ -130,19 +150,18 @@ ValueRule range_of_the_converter(const std::string& unit) {
           true};
 }
 
-ValueRule order_of_targets() {
-  return {
-      {}, true, [](Limits, Limits targets) -> Faults {
-        Faults faults;
-        for (std::size_t i = 1; i < targets.size(); ++i) {
-          if (targets[i].low > targets[i - 1].high) continue;
-          faults.push_back({fmt::format("the target can be {} counts, not above the one before it, {} counts",
-                                        targets[i].low, targets[i - 1].high),
-                            "targets in ascending order in every trial",
-                            {i, i - 1}});
-        }
-        return faults;
-      }};
+ValueRule order_of_targets(const std::string& unit) {
+  return {{}, true, [unit](Limits, Limits targets) -> Faults {
+            Faults faults;
+            for (std::size_t i = 1; i < targets.size(); ++i) {
+              if (targets[i].low > targets[i - 1].high) continue;
+              faults.push_back({fmt::format("the target can be {} {}, not above the one before it, {} {}",
+                                            targets[i].low, unit, targets[i - 1].high, unit),
+                                "targets in ascending order in every trial",
+                                {i, i - 1}});
+            }
+            return faults;
+          }};
 }
 
 ValueRule reach_of_the_overrun() {
@@ -185,35 +204,65 @@ double longest_count(parameters::AxisKind axis, const study::ValueLimits& encode
   return 2.0 * std::numbers::pi / encoder.low;
 }
 
-ValueRule time_of_travel(parameters::AxisKind axis, const std::optional<study::SequenceCycle>& sequence) {
-  enum : std::size_t { hold, window, shape, velocity, acceleration, jerk, fine, overrun };
-  ValueRule rule{{"command.hold", "verdict.window", "command.profile.shape", "command.profile.velocity_limit",
-                  "command.profile.acceleration_limit", "command.profile.jerk_limit",
-                  axis == parameters::AxisKind::linear ? "encoder.resolution" : "encoder.fine"},
-                 true,
-                 {}};
+// The minimum length of a count of the fine encoder, rad or m.
+double shortest_count(parameters::AxisKind axis, const study::ValueLimits& encoder) {
+  return longest_count(axis, {encoder.high, encoder.low});
+}
+
+std::string_view resolution_of(parameters::AxisKind axis) {
+  return axis == parameters::AxisKind::linear ? "encoder.resolution" : "encoder.fine";
+}
+
+// Targets in rad are counts of an encoder that may be too fine for them.
+ValueRule reach_of_positions(parameters::AxisKind axis, bool sequence) {
+  ValueRule rule{{resolution_of(axis)}, true, {}};
   if (sequence) rule.between.emplace_back("command.sequence.overrun");
-  rule.find_faults = [axis, sequence](Limits l, Limits targets) -> Faults {
+  rule.find_faults = [axis](Limits l, Limits targets) -> Faults {
+    double farthest = 0.0;
+    for (const study::ValueLimits& target : targets) farthest = std::max(farthest, largest(target));
+    if (l.size() > 1) farthest += l[1].high;
+    const double counts = farthest / shortest_count(axis, l[0]);
+    if (!std::isfinite(counts) || counts <= parameters::max_count) return {};
+    return {{fmt::format("the command can reach {:.6g} counts of this encoder", counts),
+             fmt::format("at most {} counts from the start", parameters::max_count)}};
+  };
+  return rule;
+}
+
+ValueRule time_of_travel(const parameters::StudyUnits& units,
+                         const std::optional<study::SequenceCycle>& sequence) {
+  enum : std::size_t { hold, window, shape, velocity, acceleration, jerk, fine, overrun };
+  ValueRule rule{
+      {"command.hold", "verdict.window", "command.profile.shape", "command.profile.velocity_limit",
+       "command.profile.acceleration_limit", "command.profile.jerk_limit", resolution_of(units.axis)},
+      true,
+      {}};
+  if (sequence) rule.between.emplace_back("command.sequence.overrun");
+  rule.find_faults = [units, sequence](Limits l, Limits targets) -> Faults {
     loop::ReferenceProfile slowest;
     slowest.shape = static_cast<loop::ReferenceShape>(static_cast<int>(l[shape].low));
     if (slowest.shape == loop::ReferenceShape::step) return {};
     slowest.velocity_limit = l[velocity].low;
     slowest.acceleration_limit = l[acceleration].low;
     slowest.jerk_limit = l[jerk].low;
-    const double counts =
+    const double count = longest_count(units.axis, l[fine]);
+    const double step =
         sequence ? longest_step_of_sequence(targets, l[overrun], *sequence) : longest_step(targets);
-    const loop::Reference travel(slowest, 0, static_cast<std::int64_t>(counts), longest_count(axis, l[fine]));
+    // Each end of a travel in rad is rounded to a count.
+    const bool si = units.targets == parameters::TargetUnits::si;
+    const double counts = si ? std::floor(step / count) + 1.0 : step;
+    if (si && !(counts <= 2.0 * parameters::max_count)) return {};  // see reach_of_positions()
+    const loop::Reference travel(slowest, 0, static_cast<std::int64_t>(counts), count);
     const double needed = travel.duration() + l[window].high;
     if (needed <= l[hold].low) return {};
     if (!std::isfinite(needed)) {
       return {{"a limit of the profile can be so small that the travel takes for ever",
                "limits of the profile with a lowest value above 0"}};
     }
-    return {
-        {fmt::format(
-             "a travel of {} counts can take {:.6g} s, which leaves no window of {} s in the hold of {} s",
-             counts, travel.duration(), l[window].high, l[hold].low),
-         fmt::format("command.hold at least {:.6g} s, or higher limits of the profile", needed)}};
+    return {{fmt::format(
+                 "a travel of {} {} can take {:.6g} s, which leaves no window of {} s in the hold of {} s",
+                 step, unit_of_targets(units), travel.duration(), l[window].high, l[hold].low),
+             fmt::format("command.hold at least {:.6g} s, or higher limits of the profile", needed)}};
   };
   return rule;
 }
@@ -228,14 +277,20 @@ std::vector<ValueRule> command_rules(const study::StudyPlan& plan) {
     rules.insert(rules.end(), more.begin(), more.end());
   };
   const auto listed = static_cast<std::int64_t>(plan.list.count);
+  const bool si = plan.units.targets == parameters::TargetUnits::si;
   if (plan.open_loop) {
     add({limits_of_torque_levels(), lowest_rate_of_torque(), samples_of_torque_levels(),
          range_of_the_converter(parameters::unit_on(plan.units.axis, "N m"))});
   } else if (!plan.sequence) {
-    add({samples_of_targets(static_cast<double>(listed)), time_of_travel(plan.units.axis, {})});
+    add({samples_of_targets(static_cast<double>(listed)), time_of_travel(plan.units, {})});
   } else {
     add({samples_of_targets(static_cast<double>(study::sequence_move_count(*plan.sequence, listed))),
-         order_of_targets(), reach_of_the_overrun(), time_of_travel(plan.units.axis, plan.sequence)});
+         order_of_targets(unit_of_targets(plan.units)), time_of_travel(plan.units, plan.sequence)});
+  }
+  if (si) {
+    add({limits_of_positions(), reach_of_positions(plan.units.axis, plan.sequence.has_value())});
+  } else if (plan.sequence) {
+    add({reach_of_the_overrun()});
   }
   return rules;
 }

@@ -207,6 +207,14 @@ std::vector<EffectRule> rules_of_the_blocks(const PhaseNames& of) {
   };
 }
 
+EffectRule rule_of_the_resolution() {
+  return {.keys = {"dac.resolution"},
+          .depends_on = {"dac.range"},
+          .has_effect = [](Limits l) { return !can_be_positive(l[0]); },
+          .what = "it has no effect: dac.range gives the resolution at every point",
+          .expected = "either dac.resolution or dac.range"};
+}
+
 EffectRule rule_of_the_load() {
   return {.keys = {"plant.load.stiffness", "plant.load.damping", "plant.load.encoder"},
           .depends_on = {"plant.load.inertia"},
@@ -339,6 +347,7 @@ std::vector<EffectRule> effect_rules(const study::StudyPlan& plan) {
   rules.push_back(rule_of_the_position(plan));
   rules.push_back(rule_of_the_limit());
   rules.push_back(rule_of_the_load());
+  rules.push_back(rule_of_the_resolution());
   rules.push_back(rule_of_the_plugin(plan));
   for (const auto& more :
        {rules_of_the_loop(), rules_of_the_blocks(one_phase), rules_of_the_blocks(coarse_phase),

@@ -7,6 +7,7 @@
 
 #include "core/friction/law.hpp"
 #include "experiments/parameters/parameter_table.hpp"
+#include "experiments/rules/plausibility.hpp"
 
 namespace zerocount::rules {
 namespace {
@@ -167,6 +168,7 @@ std::vector<ValueRule> value_rules(const study::StudyPlan& plan) {
     add(rules_of_blocks("controller.coarse.deadband.enter", "controller.coarse.deadband.leave",
                         "controller.coarse.integrator_zone", "controller.coarse.observer.bandwidth"));
   }
+  add(plausibility_rules(plan));
   if (plan.sequence) add({no_stop_in_a_sequence()});
   return rules;
 }

@@ -26,6 +26,7 @@ struct ValueRule {
                                         std::span<const study::ValueLimits> list)>
       find_faults;  ///< from the limits of the parameters in their order, and of the list if whole_list
   bool warn_only{false};
+  bool once{false};  ///< only the first fault is reported, at the parameter of the rule that is given
 };
 
 /// The rules between the values of the list and the parameters of the command: the number of samples of a

@@ -26,14 +26,16 @@ bool assigns_any(const PlanAxis& axis, const std::vector<bool>& wanted) {
 }  // namespace
 
 ValueLimits limits_of(const StudyPlan& plan, const Value& value) {
-  if (value.kind == Value::Kind::number) return {value.number, value.number, value.number == 0.0};
+  if (value.kind == Value::Kind::number)
+    return {value.number, value.number, value.number == 0.0, value.number};
   if (value.kind == Value::Kind::distribution) {
     const distributions::Distribution& distribution = plan.distributions[value.index];
     const numerics::Interval values = distributions::support(distribution);
-    return {values.low, values.high, can_be_zero(distribution)};
+    return {values.low, values.high, can_be_zero(distribution), distributions::quantile(distribution, 0.5)};
   }
-  const numerics::Interval values = plan.profiles[value.index]->all_limits();
-  return {values.low, values.high, numerics::contains(values, 0.0)};
+  const Rotors& rotors = *plan.profiles[value.index];
+  const numerics::Interval values = rotors.all_limits();
+  return {values.low, values.high, numerics::contains(values, 0.0), rotors.mean(0)};
 }
 
 bool can_have_coarse_phase(const ValueLimits& coarse_beyond) {

@@ -15,6 +15,7 @@ struct ValueLimits {
   double low{0.0};
   double high{0.0};
   bool can_be_zero{false};
+  double typical{0.0};  ///< the number, the median of the distribution, or the mean of the profile
 };
 
 ValueLimits limits_of(const StudyPlan& plan, const Value& value);

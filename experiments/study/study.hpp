@@ -204,6 +204,7 @@ struct Study {
 /// The parameters of one trial, and its inputs as stored in the results file.
 struct StudyTrial {
   trial::TrialParameters parameters;
+  std::vector<double> target_positions{};  ///< [move] with command.units: si, rad or m; otherwise empty
   std::vector<double> inputs;  ///< [input column], in that column's unit; for profiles and values drawn per
                                ///< contact the value at the start
 };
@@ -239,8 +240,8 @@ bool trials_stay_when_extended(Design design);
 /// of the study, safe to call from any thread.
 StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t index);
 
-/// As study_trial, with all numbers in the manifest's units. The caller may change parameters and must then
-/// call complete_trial().
+/// As study_trial, with all numbers in the manifest's units, and without targets if these are in SI units.
+/// The caller may change parameters and must then call complete_trial().
 StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int64_t index);
 
 /// Completes the parameters of a trial after all numbers are set in the manifest's units: converts gains from

@@ -33,6 +33,12 @@ void append_slots(const StudyTable& table, std::size_t row, std::vector<std::siz
 
 }  // namespace
 
+void use_si_positions(StudyTable& table) {
+  for (parameters::Parameter& row : table.rows) {
+    if (row.is_position) row = parameters::in_si_positions(row);
+  }
+}
+
 RowGroup add_list(StudyTable& table, std::size_t row, std::size_t count) {
   const RowGroup group{row, table.rows.size(), count};
   const parameters::Parameter list = table.rows[row];

@@ -34,6 +34,9 @@ struct StudyTable {
   StudyTable& operator=(const StudyTable&) = delete;
 };
 
+/// Lets the positions of the command be in rad (command.units: si). To be called before rows are added.
+void use_si_positions(StudyTable& table);
+
 /// Adds the rows of a list's values. @param row of the list
 RowGroup add_list(StudyTable& table, std::size_t row, std::size_t count);
 

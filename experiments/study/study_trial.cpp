@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <span>
 
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
+#include "core/loop/encoder.hpp"
 #include "experiments/designs/saltelli.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/plan.hpp"
@@ -95,13 +97,40 @@ std::uint64_t numbers_within_trial(const Study& study, std::uint64_t index) {
   return designs::saltelli_source(index, factors.slots.size(), factor_count(factors));
 }
 
-void set_sequence_targets(const Study& study, const std::vector<double>& numbers, StudyTrial& trial) {
+// Target of a move in the manifest's unit.
+double listed_target(const Study& study, const std::vector<double>& numbers, std::size_t move) {
   static const std::size_t overrun = parameters::find_parameter("command.sequence.overrun").value();
   const std::span<const double> targets = std::span(numbers).subspan(study.plan->list.first);
-  for (std::size_t move = 0; move < study.sequence.size(); ++move) {
-    trial.parameters.command.targets[move] =
-        static_cast<std::int64_t>(sequence_position(study.sequence[move], targets, numbers[overrun]));
+  if (!study.plan->sequence) return targets[move];
+  return sequence_position(study.sequence[move], targets, numbers[overrun]);
+}
+
+// Sets the targets of a sequence, and the positions of targets in SI units.
+void set_targets(const Study& study, const std::vector<double>& numbers, StudyTrial& trial) {
+  std::vector<std::int64_t>& targets = trial.parameters.command.targets;
+  const bool si = study.units.targets == parameters::TargetUnits::si;
+  if (!si && !study.plan->sequence) return;
+  for (std::size_t move = 0; move < targets.size(); ++move) {
+    const double target = listed_target(study, numbers, move);
+    if (si) {
+      trial.target_positions.push_back(target);
+    } else {
+      targets[move] = static_cast<std::int64_t>(target);
+    }
   }
+}
+
+// The range of the converter, where it is given, takes precedence over the resolution.
+void set_resolution(const std::vector<double>& numbers, loop::DacParameters& dac) {
+  static const std::size_t range = parameters::find_parameter("dac.range").value();
+  if (numbers[range] > 0.0) dac.resolution = std::ldexp(numbers[range], 1 - dac.bits);
+}
+
+// Targets in SI units become the nearest counts of the fine encoder.
+void round_targets(StudyTrial& trial) {
+  const double count = loop::fine_resolution(trial.parameters.encoder);
+  for (std::size_t move = 0; move < trial.target_positions.size(); ++move)
+    trial.parameters.command.targets[move] = std::llrint(trial.target_positions[move] / count);
 }
 
 void check_exists(const Study& study, std::int64_t point, std::int64_t index) {
@@ -152,7 +181,8 @@ StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int
     set(slot, friction::value_at(*profile, trial.parameters.initial.position));
     trial.parameters.friction.profiled.push_back({plan.table.rows[slot].profiled, profile});
   }
-  if (plan.sequence) set_sequence_targets(study, numbers, trial);
+  set_targets(study, numbers, trial);
+  set_resolution(numbers, trial.parameters.dac);
   trial.inputs.reserve(plan.inputs.size());
   for (const InputSource& source : plan.inputs) {
     trial.inputs.push_back(source.profile_mean ? profile_mean(draws, *values[source.slot])
@@ -164,6 +194,7 @@ StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int
 StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t index) {
   StudyTrial trial = study_trial_as_given(study, point, index);
   complete_trial(study.units, trial.parameters);
+  round_targets(trial);
   return trial;
 }
 

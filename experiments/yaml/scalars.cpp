@@ -110,8 +110,9 @@ bool is_plain_scalar(const YamlNode& node) {
 }
 
 template <class Whole>
-std::optional<Whole> read_whole_of(const Field& field, Whole low, Whole high, Problems& problems) {
-  const std::string expected = fmt::format("a whole number from {} to {}", low, high);
+std::optional<Whole> read_whole_of(const Field& field, Whole low, Whole high, Problems& problems,
+                                   std::string_view or_else = {}) {
+  const std::string expected = fmt::format("a whole number from {} to {}{}", low, high, or_else);
   const YamlNode& node = *field.node;
   Whole number{};
   const std::errc error =
@@ -185,8 +186,8 @@ std::optional<double> read_real(const Field& field, const numerics::Interval& ra
 }
 
 std::optional<std::int64_t> read_whole(const Field& field, std::int64_t low, std::int64_t high,
-                                       Problems& problems) {
-  return read_whole_of<std::int64_t>(field, low, high, problems);
+                                       Problems& problems, std::string_view or_else) {
+  return read_whole_of<std::int64_t>(field, low, high, problems, or_else);
 }
 
 std::optional<std::uint64_t> read_seed(const Field& field, Problems& problems) {

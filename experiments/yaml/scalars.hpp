@@ -30,9 +30,9 @@ std::optional<Field> find_field(const Field& map, std::string_view key);
 std::optional<double> read_real(const Field& field, const numerics::Interval& range, Problems& problems,
                                 std::string_view or_else = {});
 
-/// A whole number, written without point or exponent, from `low` to `high`.
+/// A whole number, written without point or exponent, from `low` to `high`. @param or_else likewise
 std::optional<std::int64_t> read_whole(const Field& field, std::int64_t low, std::int64_t high,
-                                       Problems& problems);
+                                       Problems& problems, std::string_view or_else = {});
 
 /// A whole number from 0 to 2⁶⁴ − 1.
 std::optional<std::uint64_t> read_seed(const Field& field, Problems& problems);

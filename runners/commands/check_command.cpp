@@ -6,6 +6,7 @@
 
 #include "analysis/statistics/sample_size.hpp"
 #include "analysis/text/percent.hpp"
+#include "core/loop/encoder.hpp"
 #include "experiments/study/study.hpp"
 #include "runners/commands/commands.hpp"
 #include "runners/commands/point_theory_text.hpp"
@@ -125,6 +126,23 @@ void print_theory_heading(const study::Study& study) {
   }
 }
 
+/// The targets of trial 0 in SI units, and the counts that they become; nothing for targets in counts.
+void print_targets(const study::Study& study, std::int64_t point) {
+  constexpr std::size_t shown = 5;
+  const study::StudyTrial trial = study::study_trial(study, point, 0);
+  const std::size_t moves = trial.target_positions.size();
+  if (moves == 0) return;
+  const std::string unit = parameters::unit_on(study.units.axis, "rad");
+  std::string text;
+  for (std::size_t i = 0; i < std::min(moves, shown); ++i) {
+    text += fmt::format("{}{:.6g} {} = {}", i == 0 ? "" : ", ", trial.target_positions[i], unit,
+                        counted(trial.parameters.command.targets[i], "count"));
+  }
+  standard_output::print("    targets of trial 0, to the nearest of {:.4g} {}: {}{}\n",
+                         loop::fine_resolution(trial.parameters.encoder), unit, text,
+                         moves > shown ? ", …" : "");
+}
+
 ExitCode check(const command_line::Arguments& arguments) {
   const std::string& manifest = arguments.operands()[0];
   const study::Study study = load_study(manifest, arguments);
@@ -138,6 +156,7 @@ ExitCode check(const command_line::Arguments& arguments) {
     const theory::PointTheory theory = theory::examine(study, point);
     const std::string& label = study.point_labels[static_cast<std::size_t>(point)];
     standard_output::print("  point {}: {}\n{}", point, label, describe(theory));
+    print_targets(study, point);
     if (!theory.approach.exceeds_hold()) continue;
     status::tell(
         "warning: point {} ({}): the loop's slowest time constant{}: moves may end before they arrive\n",

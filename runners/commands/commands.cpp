@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "analysis/theory/loop_plausibility.hpp"
+#include "experiments/yaml/nearest_name.hpp"
 #include "results/layout/header.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/standard_output/standard_output.hpp"
@@ -56,8 +58,13 @@ Command find_command(const std::string& name) {
   const auto found =
       std::find_if(all.begin(), all.end(), [&](const Command& c) { return c.spec.name == name; });
   if (found != all.end()) return *found;
+  std::vector<std::string> names{"help"};
+  for (const Command& command : all) names.push_back(command.spec.name);
+  const std::string_view nearest = yaml::nearest_name(name, names);
+  const std::string meant =
+      yaml::is_near(name, nearest) ? fmt::format("did you mean {}? See", nearest) : std::string("see");
   throw Failure(ExitCode::bad_input,
-                fmt::format("zerocount: unknown command '{}'; see 'zerocount --help'", name));
+                fmt::format("zerocount: unknown command '{}'; {} 'zerocount --help'", name, meant));
 }
 
 }  // namespace
@@ -70,6 +77,7 @@ void print_fallback_lock(const storage::OutputLock& lock, const std::filesystem:
 
 void print_warnings(const study::Study& study) {
   for (const std::string& warning : study.warnings) status::tell("warning: {}\n", warning);
+  for (const std::string& warning : theory::doubtful_loops(study)) status::tell("warning: {}\n", warning);
 }
 
 std::vector<Command> commands() {

@@ -48,7 +48,7 @@ Command manual_command();
 /// Prints to stderr that the lock is a file with an owner, if it is.
 void print_fallback_lock(const storage::OutputLock& lock, const std::filesystem::path& output);
 
-/// Prints the warnings about the manifest to stderr.
+/// Prints the warnings about the manifest and its loops to stderr.
 void print_warnings(const study::Study& study);
 
 /// All verbs, in the order of the help.

@@ -154,15 +154,23 @@ std::string gain_lines(const theory::GainTheory& gain) {
   return out;
 }
 
+/// "holds", "holds in 3 of 200 trials", "holds in no trial".
+std::string holds_text(std::int64_t holding, std::int64_t trials) {
+  if (holding == trials) return "holds";
+  return holding == 0 ? "holds in no trial" : fmt::format("holds in {} of {} trials", holding, trials);
+}
+
 std::string rule_lines(const theory::DesignRules& rules) {
   return fmt::format("    DAC: resolution {} {}, must be below k1·Δx = {} {}{}: {}\n",
                      text(rules.dac_resolution), rules.torque_unit, text(rules.dac_bound), rules.torque_unit,
                      rules.coarse_feedback ? " with the Δx of the coarse encoder" : "",
-                     rules.fine_enough ? "holds" : "does not hold in every trial") +
+                     holds_text(rules.fine_enough, rules.trials)) +
          fmt::format("    natural frequency {} Hz, sample rate {} Hz: {}\n", text(rules.frequency),
                      text(rules.sample_rate),
-                     rules.fast_enough ? "ten times that, as advised"
-                                       : "in some trials below ten times that, which is advised");
+                     rules.fast_enough == rules.trials
+                         ? "ten times that, as advised"
+                         : fmt::format("ten times that, which is advised, {}",
+                                       holds_text(rules.fast_enough, rules.trials)));
 }
 
 }  // namespace

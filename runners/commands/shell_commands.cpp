@@ -1,16 +1,33 @@
 #include <string>
 
 #include "results/layout/header.hpp"
+#include "results/reading/results_file.hpp"
 #include "runners/commands/commands.hpp"
 #include "runners/commands/manual_page.hpp"
 #include "runners/commands/shell_completion.hpp"
+#include "runners/commands/study_argument.hpp"
 #include "runners/standard_output/standard_output.hpp"
 
 namespace zerocount::commands {
 namespace {
 
+/// The labels of the design points of a manifest or a results file.
+std::vector<std::string> point_labels(const command_line::Arguments& arguments, const std::string& file) {
+  if (!is_results_file(file)) return load_study(file, arguments).point_labels;
+  const reading::ResultsFile results(file, reading::Require::any_part);
+  return layout::recorded_study(results.header(), file, nullptr).point_labels;
+}
+
 ExitCode print_completion(const command_line::Arguments& arguments) {
   const std::string& shell = arguments.operands()[0];
+  const bool points = shell == "points";
+  if (points != (arguments.operands().size() == 2))
+    arguments.refuse(points ? "points need a manifest or a results file" : "unexpected second operand");
+  if (points) {
+    for (const std::string& label : point_labels(arguments, arguments.operands()[1]))
+      standard_output::print("{}\n", label);
+    return ExitCode::success;
+  }
   standard_output::write(shell == "bash" ? bash_completion(commands()) : zsh_completion(commands()));
   return ExitCode::success;
 }
@@ -23,9 +40,16 @@ ExitCode print_manual(const command_line::Arguments&) {
 }  // namespace
 
 Command completion_command() {
-  return {{"completion", "bash|zsh", {}, 1, 1, {"bash", "zsh"}},
+  return {{"completion",
+           "bash|zsh|points [FILE]",
+           {{"set", "KEY=VALUE", "override a key of that manifest; may be repeated", true}},
+           1,
+           2,
+           {"bash", "zsh", "points"}},
           "print the completion of commands and options for a shell",
-          "Prints a script that completes commands, options and files.\n"
+          "Prints a script that completes commands, options, keys of --set, design points, figures\n"
+          "and files. 'points FILE' prints the labels of the design points of a manifest or results\n"
+          "file, which the script asks for.\n"
           "\n"
           "Examples:\n"
           "  source <(zerocount completion bash)\n"

@@ -5,6 +5,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "experiments/manifest/manifest_keys.hpp"
+#include "experiments/parameters/parameter_table.hpp"
+
 namespace zerocount::commands {
 namespace {
 
@@ -29,6 +32,60 @@ std::string option_words(const Command& command) {
   return words;
 }
 
+/// Keys that --set can give a value: those of the table of parameters, and of the study.
+std::string keys_to_set() {
+  std::string keys;
+  const auto add = [&keys](std::string_view key) {
+    keys += fmt::format("{}{}=", keys.empty() ? "" : " ", key);
+  };
+  for (const parameters::Parameter& parameter : parameters::parameter_table()) {
+    if (!parameter.element) add(parameter.name);
+  }
+  for (const manifest::GeneralKey& key : manifest::general_keys()) {
+    if (key.name != "zerocount") add(key.name);
+  }
+  return keys;
+}
+
+/// What the shell offers as the value of an option, besides its words and files.
+enum class Offered { other, key, point, figure };
+
+Offered offered_for(const OptionSpec& option) {
+  if (option.name == "set") return Offered::key;
+  if (option.name == "point") return Offered::point;
+  return option.name == "figure" ? Offered::figure : Offered::other;
+}
+
+/// The action of bash after this option; empty: files.
+std::string bash_action(const OptionSpec& option) {
+  switch (offered_for(option)) {
+    case Offered::key:
+      return "words=$keys; compopt -o nospace 2>/dev/null";
+    case Offered::point:
+      return "_zerocount_lines completion points; return";
+    case Offered::figure:
+      return "_zerocount_lines plot; return";
+    case Offered::other:
+      break;
+  }
+  return option.words.empty() ? "" : fmt::format("words='{}'", fmt::join(option.words, " "));
+}
+
+/// The action of zsh for the value of this option.
+std::string zsh_action(const OptionSpec& option) {
+  switch (offered_for(option)) {
+    case Offered::key:
+      return "_zerocount_keys";
+    case Offered::point:
+      return "_zerocount_lines completion points";
+    case Offered::figure:
+      return "_zerocount_lines plot";
+    case Offered::other:
+      break;
+  }
+  return option.words.empty() ? "_files" : fmt::format("({})", fmt::join(option.words, " "));
+}
+
 /// The lines of bash that find what a command takes: its options, the words that the value of an option is
 /// one of, and those of its operand.
 std::string bash_case(const Command& command) {
@@ -38,8 +95,8 @@ std::string bash_case(const Command& command) {
                          fmt::join(command.spec.operand_words, " "));
   std::string cases;
   for (const OptionSpec& option : command.spec.options) {
-    if (!option.words.empty())
-      cases += fmt::format("        {}) words='{}' ;;\n", long_form(option), fmt::join(option.words, " "));
+    const std::string action = bash_action(option);
+    if (!action.empty()) cases += fmt::format("        {}) {} ;;\n", long_form(option), action);
   }
   if (!cases.empty()) lines += fmt::format("      case $previous in\n{}      esac\n", cases);
   return lines + "      ;;\n";
@@ -62,10 +119,8 @@ std::string zsh_text(std::string_view text, std::string_view special) {
 std::string zsh_option(const OptionSpec& option) {
   constexpr std::string_view special = "[]:\\";
   const std::string help = zsh_text(option.help, special);
-  const std::string values =
-      option.words.empty() ? "_files" : fmt::format("({})", fmt::join(option.words, " "));
   const std::string value =
-      option.value.empty() ? "" : fmt::format(":{}:{}", zsh_text(option.value, special), values);
+      option.value.empty() ? "" : fmt::format(":{}:{}", zsh_text(option.value, special), zsh_action(option));
   const std::string many = option.repeatable ? "*" : "";
   std::string lines = fmt::format(" \\\n        '{}{}{}[{}]{}'", many, long_form(option),
                                   value.empty() ? "" : "=", help, value);
@@ -85,7 +140,20 @@ std::string bash_completion(std::span<const Command> commands) {
   }
   return fmt::format(
       "# Completion of zerocount for bash: put it where bash-completion finds it, or source it.\n"
+      "# The lines that a command prints for the first file of the command line.\n"
+      "_zerocount_lines() {{\n"
+      "  local file= line\n"
+      "  for line in \"${{COMP_WORDS[@]:2}}\"; do\n"
+      "    if [ -f \"$line\" ]; then file=$line; break; fi\n"
+      "  done\n"
+      "  if [ -z \"$file\" ]; then return; fi\n"
+      "  while IFS= read -r line; do\n"
+      "    case $line in \"$word\"*) COMPREPLY+=(\"$(printf %q \"$line\")\") ;; esac\n"
+      "  done < <(\"${{COMP_WORDS[0]}}\" \"$@\" \"$file\" 2>/dev/null)\n"
+      "}}\n"
       "_zerocount() {{\n"
+      "  COMPREPLY=()\n"
+      "  local keys='{}'\n"
       "  local word=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD-1]}} options= words=\n"
       "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
       "    COMPREPLY=($(compgen -W '{} help --help --version' -- \"$word\"))\n"
@@ -109,7 +177,7 @@ std::string bash_completion(std::span<const Command> commands) {
       "  fi\n"
       "}}\n"
       "complete -F _zerocount zerocount\n",
-      names, cases, names);
+      keys_to_set(), names, cases, names);
 }
 
 std::string zsh_completion(std::span<const Command> commands) {
@@ -128,6 +196,15 @@ std::string zsh_completion(std::span<const Command> commands) {
   return fmt::format(
       "#compdef zerocount\n"
       "# Completion of zerocount for zsh: put it into a folder of $fpath as _zerocount.\n"
+      "_zerocount_keys() {{ compadd -S '' -- {} }}\n"
+      "# The lines that a command prints for the first file of the command line.\n"
+      "_zerocount_lines() {{\n"
+      "  local file word\n"
+      "  for word in ${{words[2,-1]}}; do\n"
+      "    if [[ -f $word ]]; then file=$word; break; fi\n"
+      "  done\n"
+      "  [[ -n $file ]] && compadd -- \"${{(@f)$(zerocount $@ $file 2>/dev/null)}}\"\n"
+      "}}\n"
       "_zerocount() {{\n"
       "  local -a commands\n"
       "  commands=(\n"
@@ -146,7 +223,7 @@ std::string zsh_completion(std::span<const Command> commands) {
       "  esac\n"
       "}}\n"
       "_zerocount \"$@\"\n",
-      names, cases, words);
+      keys_to_set(), names, cases, words);
 }
 
 }  // namespace zerocount::commands

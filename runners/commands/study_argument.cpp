@@ -5,12 +5,18 @@
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/manifest/samples.hpp"
 #include "experiments/yaml/text_file.hpp"
+#include "results/hdf5/array_file.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/plugins/plugin_library.hpp"
 
 namespace zerocount::commands {
 
 namespace fs = std::filesystem;
+
+bool is_results_file(const fs::path& path) {
+  if (path.extension() == ".h5") return true;
+  return !yaml::is_stream(path) && hdf5::is_hdf5_with_user_block(path);
+}
 
 study::Study load_study(const fs::path& manifest, const command_line::Arguments& arguments,
                         std::span<const fs::path> outputs) {

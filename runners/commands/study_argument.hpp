@@ -8,6 +8,9 @@
 
 namespace zerocount::commands {
 
+/// Whether `path` is a results file, by its signature or by its name (the signature may be damaged).
+bool is_results_file(const std::filesystem::path& path);
+
 /// The study of a manifest with the overrides of `--set`. The files that it names are found from its folder,
 /// or from the current one if the manifest is a stream.
 /// @param outputs none of them may be the manifest or a file that it names, even with --force

@@ -10,7 +10,6 @@
 #include "core/trial/trial.hpp"
 #include "experiments/study/study.hpp"
 #include "experiments/yaml/text_file.hpp"
-#include "results/hdf5/array_file.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/results_file.hpp"
 #include "results/shards/shard.hpp"
@@ -42,12 +41,6 @@ constexpr const char* trace_help =
     "rad.\n"
     "\n"
     "Example: zerocount trace gains.h5 --point 2 --trial 17 -o trial.csv\n";
-
-/// True if `path` is a results file, by its signature or by its name (the signature may be damaged).
-bool is_results_file(const std::string& path) {
-  if (std::filesystem::path(path).extension() == ".h5") return true;
-  return !yaml::is_stream(path) && hdf5::is_hdf5_with_user_block(path);
-}
 
 std::int64_t trial_option(const command_line::Arguments& arguments, const study::Study& study) {
   const std::int64_t value = arguments.whole_number("trial", 0, std::int64_t{1} << 53).value_or(0);

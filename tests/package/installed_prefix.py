@@ -53,6 +53,11 @@ def check_shell_files(prefix):
     require(completions(script, "zerocount", "run", "--th") == ["--threads"], "bash completes an option")
     require(completions(script, "zerocount", "help", "comp") == ["compare", "completion"], "bash completes the operand of help")
     require(completions(script, "zerocount", "completion", "z") == ["zsh"], "bash completes an operand of a few words")
+    require(completions(script, "zerocount", "run", "--set", "plant.inert") == ["plant.inertia="], "bash completes a key to set")
+    program = prefix / "bin/zerocount"
+    manifest = prefix / "share/zerocount/manifests/paper-gains.yaml"
+    require(completions(script, str(program), "trace", str(manifest), "--point", "b") == ["b", "b-with-kp"],
+            "bash completes the label of a design point")
     require(completions(script, "zerocount", "new", "paper-g") == ["paper-gains"], "bash completes a manifest that comes with it")
     for value in (["--format", "js"], ["--format", "=", "js"]):
         require(completions(script, "zerocount", "summary", "a.h5", *value) == ["json"], f"bash completes {' '.join(value)}")

@@ -238,6 +238,7 @@ TEST(Sobol, TheDimensionsAreFixed) {
       {"plant.load.stiffness", 3077},
       {"plant.load.damping", 3078},
       {"plant.load.encoder", 3079},
+      {"dac.range", 3080},
       {"controller.structure", 3096},
       {"controller.cascade.kv", 3097},
       {"controller.cascade.kp", 3098},

@@ -20,7 +20,7 @@ TEST(ParameterTable, DefaultsAreThoseOfThisVersionOfResultsFiles) {
     if (!exists_on(parameter, AxisKind::rotary)) continue;
     defaults += std::string(parameter.name) + "=" + default_text(parameter) + "\n";
   }
-  EXPECT_EQ(hash::sha256_hex(defaults), "5f7554c260d30a3c1a4af647cd3b4dec930f285cd550335286d4c4fe21825f0d")
+  EXPECT_EQ(hash::sha256_hex(defaults), "4464cb5f36eef4e552ba72e6ab1684500541271cb41d8b46109ced7cb8d2b2ef")
       << defaults;
 }
 
@@ -70,6 +70,10 @@ TEST(ParameterTable, EachRowWritesItsOwnFieldAndNoOther) {
   const auto table = parameter_table();
   for (std::size_t row = 0; row < table.size(); ++row) {
     if (!has_default(table[row])) continue;
+    if (table[row].name == "dac.range") {  // a trial has the resolution that follows
+      EXPECT_EQ(table[row].set, nullptr);
+      continue;
+    }
     trial::TrialParameters changed;
     const double value = table[row].kind == ParameterKind::real ? 0.75 : 1.0;
     table[row].set(changed, value);
@@ -124,7 +128,8 @@ TEST(ParameterTable, ASectionHasInItWhatItsNameLeadsTo) {
 
 TEST(ParameterTable, SectionsHaveTheKeysOfTheirRowsAndSections) {
   using Keys = std::vector<std::string>;
-  EXPECT_EQ(manifest::keys_below("command"), (Keys{"targets", "torque", "sequence", "hold", "profile"}));
+  EXPECT_EQ(manifest::keys_below("command"),
+            (Keys{"targets", "torque", "sequence", "hold", "profile", "units"}));
   EXPECT_EQ(manifest::keys_below("command.sequence"), (Keys{"targets", "overrun", "cycles", "approach"}));
   EXPECT_EQ(manifest::keys_below("encoder"),
             (Keys{"fine", "coarse", "resolution", "coarse_resolution", "fine_errors", "coarse_errors"}));

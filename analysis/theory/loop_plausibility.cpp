@@ -1,0 +1,174 @@
+#include "analysis/theory/loop_plausibility.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "analysis/statistics/spread_over.hpp"
+#include "analysis/theory/trial_loops.hpp"
+#include "core/loop/controller.hpp"
+#include "core/loop/encoder.hpp"
+#include "core/theory/margins.hpp"
+#include "core/theory/stability.hpp"
+
+namespace zerocount::theory {
+namespace {
+
+constexpr std::int64_t max_trials_of_point = 5;
+constexpr double least_phase_margin = 20.0;  // degrees
+constexpr double least_delay_margin = 1.0;   // samples
+
+/// The longest step of a trial against its pre-sliding range, counts.
+struct Travel {
+  double step{0.0};
+  double range{std::numeric_limits<double>::infinity()};  ///< breakaway/k1; infinite without a spring
+
+  bool slides() const { return step > range; }
+};
+
+Travel travel_of(const trial::TrialParameters& p) {
+  Travel travel;
+  if (p.command.profile.shape != loop::ReferenceShape::step || !why_outside_theory(p).empty()) return travel;
+  std::int64_t before = 0;
+  for (const std::int64_t target : p.command.targets) {
+    travel.step = std::max(travel.step, static_cast<double>(std::abs(target - before)));
+    before = target;
+  }
+  const friction::FrictionParameters contact = friction::friction_at(p.friction, p.initial.position);
+  travel.range = contact.breakaway / contact.k1 / loop::fine_resolution(p.encoder);
+  return travel;
+}
+
+/// One loop of one trial.
+struct ExaminedLoop {
+  const trial::TrialParameters& trial;
+  const TrialLoop& of_trial;
+  Travel travel;
+  LoopStability stability{LoopStability::stable};
+  Margin phase{std::numeric_limits<double>::quiet_NaN(), 0.0};  ///< degrees, Hz; NaN if it does not matter
+};
+
+/// Whether the control is what criteria (6) and (7) are about, with integral action alone.
+bool is_integral_alone(const trial::TrialParameters& p) {
+  return p.controller.kp == 0.0 && p.controller.kd == 0.0 &&
+         left_out_of_criteria(p.plant, p.controller).empty();
+}
+
+/// Whether the margins of the loop matter: moves of the trial are made in it, at rest, and while sliding if
+/// they go so far. Without a spring before it slides, only where the loop is stable or there is no friction:
+/// others hunt by design. Integral control alone works beyond criterion (6) too, that is with a loop at k1
+/// which is not stable; it does not beyond (7).
+bool is_used(const ExaminedLoop& loop) {
+  if (loop.trial.friction.model == friction::FrictionModel::none) return true;
+  if (loop.of_trial.slides) return loop.stability == LoopStability::stable && loop.travel.slides();
+  return loop.of_trial.name != "at k1" || !is_integral_alone(loop.trial);
+}
+
+/// How far a loop is on the good side of a test; NaN if the test does not concern it.
+using Measure = double (*)(const ExaminedLoop&);
+constexpr double not_concerned = std::numeric_limits<double>::quiet_NaN();
+
+double phase_margin(const ExaminedLoop& loop) {
+  return loop.stability == LoopStability::stable ? std::abs(loop.phase.value) : loop.phase.value;
+}
+
+// Of loops with a sufficient phase margin.
+double delay_margin(const ExaminedLoop& loop) {
+  if (loop.stability != LoopStability::stable || !(loop.phase.value >= least_phase_margin))
+    return not_concerned;
+  return loop.phase.value / 360.0 / loop.phase.frequency * loop.trial.controller.sample_rate;
+}
+
+// In the coarse phase, if there is one: it makes the long moves.
+double presliding_range_over_step(const ExaminedLoop& loop) {
+  const bool coarse = loop::has_coarse_phase(loop.trial.controller);
+  const bool makes_moves = loop.of_trial.slides && (!coarse || loop.of_trial.name.ends_with("coarse phase"));
+  if (!makes_moves || loop.stability != LoopStability::unstable) return not_concerned;
+  return loop.travel.range / loop.travel.step;
+}
+
+/// One row of the table of tests.
+struct LoopTest {
+  Measure measure;
+  double least;  ///< value below which the loop is doubtful
+  std::string (*text)(const ExaminedLoop&, double value);
+};
+
+std::string phase_text(const ExaminedLoop& loop, double) {
+  const bool unstable = loop.stability == LoopStability::unstable;
+  return fmt::format("{} the phase margin is {:.3g}° at {:.3g} Hz{}; expected at least {}°",
+                     loop.of_trial.name, loop.phase.value, loop.phase.frequency,
+                     unstable ? ", and the loop is unstable" : "", least_phase_margin);
+}
+
+std::string delay_text(const ExaminedLoop& loop, double value) {
+  return fmt::format(
+      "{} a delay of {:.2g} samples more makes the loop unstable (phase margin {:.3g}° at {:.3g} Hz); "
+      "expected "
+      "at least {} sample",
+      loop.of_trial.name, value, loop.phase.value, loop.phase.frequency, least_delay_margin);
+}
+
+std::string step_text(const ExaminedLoop& loop, double) {
+  return fmt::format(
+      "a step of {:.6g} counts is longer than the pre-sliding range, breakaway/k1 = {:.4g} counts, and {} "
+      "the "
+      "loop is unstable; expected shorter steps, command.profile, or gains that are stable then",
+      loop.travel.step, loop.travel.range, loop.of_trial.name);
+}
+
+constexpr std::array<LoopTest, 3> tests{{{phase_margin, least_phase_margin, phase_text},
+                                         {delay_margin, least_delay_margin, delay_text},
+                                         {presliding_range_over_step, 1.0, step_text}}};
+
+/// The worst value of a test so far.
+struct Worst {
+  double value{std::numeric_limits<double>::infinity()};
+  std::int64_t point{0};
+  std::string text;
+};
+
+using WorstValues = std::array<Worst, tests.size()>;
+
+void examine_loop(const ExaminedLoop& loop, std::int64_t point, WorstValues& worst) {
+  for (std::size_t i = 0; i < tests.size(); ++i) {
+    const double value = tests[i].measure(loop);
+    if (!(value < tests[i].least) || !(value < worst[i].value)) continue;
+    worst[i] = {value, point, tests[i].text(loop, value)};
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> doubtful_loops(const study::Study& study) {
+  WorstValues worst;
+  const std::vector<std::int64_t> points =
+      statistics::spread_over(study::point_count(study), max_trials_doubted);
+  const std::int64_t trials = std::clamp<std::int64_t>(max_trials_doubted / std::ssize(points), 1,
+                                                       std::min(study.trials, max_trials_of_point));
+  for (const std::int64_t point : points) {
+    for (std::int64_t index = 0; index < trials; ++index) {
+      const trial::TrialParameters p = study::study_trial(study, point, index).parameters;
+      const Travel travel = travel_of(p);
+      for (const TrialLoop& loop : trial_loops(p)) {
+        ExaminedLoop examined{p, loop, travel, stability_of(loop.loop)};
+        if (is_used(examined)) examined.phase = stability_margins(loop.loop).phase;
+        examine_loop(examined, point, worst);
+      }
+    }
+  }
+  std::vector<std::string> lines;
+  for (const Worst& one : worst) {
+    if (one.text.empty()) continue;
+    lines.push_back(fmt::format("point {} ({}): {}", one.point,
+                                study.point_labels[static_cast<std::size_t>(one.point)], one.text));
+  }
+  return lines;
+}
+
+}  // namespace zerocount::theory

@@ -1,0 +1,44 @@
+#include "experiments/rules/plausibility.hpp"
+
+#include <numbers>
+#include <utility>
+
+namespace zerocount::rules {
+
+ValueRule plausibility_rule(
+    std::vector<std::string_view> between,
+    std::function<std::vector<ValueFault>(std::span<const study::ValueLimits>)> find_faults) {
+  ValueRule rule{std::move(between), false, {}};
+  rule.find_faults = [find = std::move(find_faults)](std::span<const study::ValueLimits> parameters,
+                                                     std::span<const study::ValueLimits>) {
+    return find(parameters);
+  };
+  rule.warn_only = true;
+  rule.once = true;
+  return rule;
+}
+
+std::string_view fine_encoder_name(const study::StudyPlan& plan) {
+  return plan.units.axis == parameters::AxisKind::linear ? "encoder.resolution" : "encoder.fine";
+}
+
+double typical_count(const study::StudyPlan& plan, double encoder) {
+  switch (plan.units.axis) {
+    case parameters::AxisKind::rotary:
+      break;
+    case parameters::AxisKind::linear:
+      return encoder;
+  }
+  return 2.0 * std::numbers::pi / encoder;
+}
+
+std::vector<ValueRule> plausibility_rules(const study::StudyPlan& plan) {
+  std::vector<ValueRule> rules;
+  for (const auto& tests : {plausible_dynamics, plausible_contact, plausible_gains}) {
+    const std::vector<ValueRule> more = tests(plan);
+    rules.insert(rules.end(), more.begin(), more.end());
+  }
+  return rules;
+}
+
+}  // namespace zerocount::rules

@@ -1,0 +1,67 @@
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "core/friction/law.hpp"
+#include "experiments/rules/plausibility.hpp"
+
+namespace zerocount::rules {
+namespace {
+
+using Limits = std::span<const study::ValueLimits>;
+using Faults = std::vector<ValueFault>;
+
+constexpr double lowest_natural_frequency = 2.0;  // Hz; that of a positioning axis is tens to hundreds
+
+/// Stiffness at rest and its name; 0 for a law that is not characterised by these parameters.
+struct Stiffness {
+  double value{0.0};  ///< N m/rad
+  std::string_view name{};
+};
+
+Stiffness stiffness_at_rest(friction::FrictionModel model, double k1, double k2, double sigma0) {
+  switch (model) {
+    case friction::FrictionModel::presliding:
+    case friction::FrictionModel::spring:
+      return {k1 + k2, "k1 + k2"};
+    case friction::FrictionModel::dahl:
+    case friction::FrictionModel::lugre:
+      return {sigma0, "sigma0"};
+    case friction::FrictionModel::coulomb:
+    case friction::FrictionModel::none:
+    case friction::FrictionModel::gms:
+      break;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<ValueRule> plausible_dynamics(const study::StudyPlan& plan) {
+  const std::string kg = parameters::unit_on(plan.units.axis, "kg m^2");
+  const std::string stiff = parameters::unit_on(plan.units.axis, "N m/rad");
+  return {plausibility_rule(
+      {"plant.inertia", "friction.k1", "friction.k2", "friction.sigma0", "controller.sample_rate",
+       "friction.model"},
+      [kg, stiff](Limits l) -> Faults {
+        const auto model = static_cast<friction::FrictionModel>(static_cast<int>(l[5].low));
+        const Stiffness k = stiffness_at_rest(model, l[1].typical, l[2].typical, l[3].typical);
+        if (k.value == 0.0) return {};
+        const double frequency = std::sqrt(k.value / l[0].typical) / (2.0 * std::numbers::pi);
+        const std::string what = fmt::format(
+            "the natural frequency is {:.3g} Hz, that of an inertia of {:.4g} {} on {} = {:.4g} {}",
+            frequency, l[0].typical, kg, k.name, k.value, stiff);
+        if (frequency < lowest_natural_frequency)
+          return {{what, fmt::format("at least {} Hz; is a power of ten wrong, or a unit?",
+                                     lowest_natural_frequency)}};
+        if (frequency > 0.5 * l[4].typical)
+          return {
+              {what, fmt::format("less than half the sample rate of {:.4g} Hz; is a power of ten wrong, or a "
+                                 "unit?",
+                                 l[4].typical)}};
+        return {};
+      })};
+}
+
+}  // namespace zerocount::rules

@@ -1,0 +1,149 @@
+// What is allowed and absurd is told with its number and its place, and nothing else is.
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/experiments/manifest_texts.hpp"
+
+namespace zerocount::rules {
+namespace {
+
+std::vector<std::string> warnings_of(const std::string& more) {
+  return study_of(minimal_manifest(more)).warnings;
+}
+
+/// Random axes, around that of the paper.
+class Plausibility : public testing::Test {
+ protected:
+  double log_uniform(double low, double high) {
+    return std::exp(std::uniform_real_distribution(std::log(low), std::log(high))(random_));
+  }
+  static constexpr int rounds = 200;
+
+ private:
+  std::mt19937_64 random_{5};
+};
+
+TEST_F(Plausibility, ANaturalFrequencyLiesBetweenTwoHertzAndHalfTheSampleRate) {
+  int low = 0;
+  int high = 0;
+  for (int i = 0; i < rounds; ++i) {
+    const double inertia = log_uniform(1e-6, 100);
+    const double k1 = log_uniform(50, 500);
+    const double k2 = log_uniform(200, 2000);
+    const double frequency = std::sqrt((k1 + k2) / inertia) / (2.0 * std::numbers::pi);
+    const std::vector<std::string> warnings = warnings_of(fmt::format(
+        "plant: {{inertia: {:.17g}}}\nfriction: {{k1: {:.17g}, k2: {:.17g}}}\n", inertia, k1, k2));
+    if (frequency >= 2.0 && frequency <= 1000.0) {
+      EXPECT_TRUE(warnings.empty()) << frequency << warnings.front();
+      continue;
+    }
+    ++(frequency < 2.0 ? low : high);
+    EXPECT_TRUE(has_faults(warnings, fmt::format("6:18: plant.inertia | {:.3g} Hz | expected {}", frequency,
+                                                 frequency < 2.0 ? "at least 2 Hz" : "less than half")));
+  }
+  EXPECT_GT(low, rounds / 20);
+  EXPECT_GT(high, rounds / 20);
+}
+
+TEST_F(Plausibility, TheSpringSoftensBeforeItSlides) {
+  for (int i = 0; i < rounds; ++i) {
+    const double beta = log_uniform(1e-2, 1e6);
+    const double breakaway = log_uniform(0.05, 3);
+    const double k1 = log_uniform(50, 500);
+    const double softening = beta * breakaway / k1;
+    const std::string friction =
+        fmt::format("beta: {:.17g}, breakaway: {:.17g}, k1: {:.17g}", beta, breakaway, k1);
+    const std::vector<std::string> warnings = warnings_of("friction: {" + friction + "}\n");
+    if (softening >= 0.1) {
+      EXPECT_TRUE(warnings.empty()) << softening;
+    } else {
+      EXPECT_TRUE(has_faults(warnings, fmt::format("6:18: friction.beta | {:.3g} | /µrad", softening)));
+    }
+    // Without k2 there is nothing that softens (and beta has no effect, which is a warning of its own).
+    EXPECT_TRUE(has_faults(warnings_of("friction: {k2: 0, " + friction + "}\n"),
+                           fmt::format("6:25: friction.beta | no effect")));
+  }
+}
+
+TEST_F(Plausibility, TheSpringYieldsByMoreThanAFewCounts) {
+  for (int i = 0; i < rounds; ++i) {
+    const double breakaway = log_uniform(1e-3, 10);
+    const double k1 = log_uniform(50, 500);
+    const int fine = static_cast<int>(log_uniform(1000, 5e6));
+    const double counts = breakaway / (k1 * 2.0 * std::numbers::pi / fine);
+    const std::vector<std::string> warnings = warnings_of(
+        fmt::format("friction: {{breakaway: {:.17g}, k1: {:.17g}, beta: 1.0e+7}}\nencoder: {{fine: {}}}\n",
+                    breakaway, k1, fine));
+    if (counts >= 5.0) {
+      EXPECT_TRUE(warnings.empty()) << counts;
+    } else {
+      EXPECT_TRUE(
+          has_faults(warnings, fmt::format("6:23: friction.breakaway | {:.3g} counts | at least 5", counts)));
+    }
+  }
+}
+
+TEST_F(Plausibility, OneCountIsWithinTheRangeOfTheConverter) {
+  for (int i = 0; i < rounds; ++i) {
+    const double gain = log_uniform(1e-3, 1e3);
+    const double range = log_uniform(1e-2, 1e2);
+    const std::string dac = fmt::format("dac: {{range: {:.17g}}}\n", range);
+    for (const char* const key : {"kp", "ki", "kd"}) {
+      const std::vector<std::string> warnings =
+          warnings_of(fmt::format("controller: {{{}: {:.17g}}}\n{}", key, gain, dac));
+      if (gain <= range) {
+        EXPECT_TRUE(warnings.empty());
+      } else {
+        EXPECT_TRUE(has_faults(
+            warnings, fmt::format("6:18: controller.{} | {:.3g} N m | say controller.units: si", key, gain)));
+      }
+    }
+  }
+}
+
+// kp·Δx, ki·Δx·T/2 and kd·Δx/T.
+TEST_F(Plausibility, OneCountIsWithinTheRangeInSiUnitsToo) {
+  const double count = 2.0 * std::numbers::pi / 1620000.0;
+  const double T = 1.0 / 2000.0;
+  const double range = 0.5;
+  const std::string rest = "dac: {range: 0.5}\n";
+  const auto with = [&](const char* key, double gain) {
+    const std::string ki = std::string(key) == "ki" ? "" : "ki: 1, ";
+    return warnings_of(fmt::format("controller: {{units: si, {}{}: {:.17g}}}\n{}", ki, key, gain, rest));
+  };
+  for (const auto& [key, per_count] : {std::pair("kp", count), {"ki", count * T / 2.0}, {"kd", count / T}}) {
+    EXPECT_TRUE(with(key, 0.99 * range / per_count).empty()) << key;
+    const std::vector<std::string> warnings = with(key, 1.01 * range / per_count);
+    ASSERT_EQ(warnings.size(), 1u) << key;
+    EXPECT_NE(warnings[0].find("controller.units: count"), std::string::npos);
+  }
+}
+
+// Tails are not typical, and neither is one point of many, unless it is absurd itself.
+TEST_F(Plausibility, TheMedianOfADistributionIsJudgedAndEveryPoint) {
+  EXPECT_TRUE(warnings_of("plant: {inertia: {lognormal: {median: 5.0e-4, cv: 2}}}\n").empty());
+  EXPECT_TRUE(has_faults(warnings_of("plant: {inertia: {lognormal: {median: 8, cv: 0.1}}}\n"),
+                         "6:18: plant.inertia | 1.65 Hz"));
+  EXPECT_TRUE(has_faults(
+      warnings_of("friction: {k1: {profile: {mean: 1.0e+7, cv: 0.1, correlation_length: 0.2}}}\n"),
+      "6:16: friction.k1 | Hz\n6:16: friction.k1 | beta·breakaway/k1\n6:16: friction.k1 | 0.00773 counts"));
+  // Told once, at the first point that is absurd.
+  EXPECT_TRUE(has_faults(warnings_of("sweep: {grid: {plant.inertia: [5.0e-4, 8, 9]}}\n"),
+                         "6:40: plant.inertia | 8 kg m^2"));
+}
+
+TEST_F(Plausibility, ALawIsJudgedByItsOwnNumbers) {
+  EXPECT_TRUE(warnings_of("plant: {inertia: 8}\nfriction: {model: coulomb}\n").empty());
+  EXPECT_TRUE(has_faults(warnings_of("plant: {inertia: 8}\nfriction: {model: lugre}\n"),
+                         "6:18: plant.inertia | sigma0"));
+  EXPECT_TRUE(warnings_of("controller: {structure: cascade, cascade: {kv: 10, kp: 1, ki: 1}}\n").empty());
+  EXPECT_TRUE(has_faults(warnings_of("controller: {coarse: {coarse_beyond: 1000, kp: 3}}\n"),
+                         "6:48: controller.coarse.kp | 3 N m"));
+}
+
+}  // namespace
+}  // namespace zerocount::rules

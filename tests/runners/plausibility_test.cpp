@@ -1,0 +1,87 @@
+// check and run warn of the same absurd values, and go on; the command line helps with what is misspelt.
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "tests/runners/program.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+class Hints : public ::testing::Test {
+ protected:
+  Hints() { std::ofstream(folder_.path() / "study.yaml") << small_manifest(2); }
+  ProgramResult run(const std::vector<std::string>& words) {
+    return zerocount_program(words, folder_.path());
+  }
+  std::string warnings_of(const std::vector<std::string>& words) {
+    const ProgramResult result = run(words);
+    EXPECT_EQ(result.code, 0) << result.err;
+    return result.err;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Hints, CheckAndRunWarnAlikeAndGoOn) {
+  const std::vector<std::string> absurd{"--set", "friction.beta=0.1", "--set", "controller.kp=20"};
+  const auto with = [&](std::vector<std::string> words) {
+    words.insert(words.end(), absurd.begin(), absurd.end());
+    return words;
+  };
+  const std::string checked = warnings_of(with({"check", "study.yaml"}));
+  EXPECT_NE(checked.find("warning: --set friction.beta=0.1: friction.beta: the spring slides before"),
+            std::string::npos)
+      << checked;
+  EXPECT_NE(checked.find("say controller.units: si"), std::string::npos) << checked;
+  const std::string ran = warnings_of(with({"run", "study.yaml", "-q", "-o", "out.h5"}));
+  EXPECT_NE(checked.find(ran), std::string::npos) << ran;
+}
+
+TEST_F(Hints, CheckSaysInHowManyTrialsARuleHolds) {
+  const auto line = [&](const std::string& resolution) {
+    const std::string out =
+        run({"check", "study.yaml", "--set", "trials=40", "--set", "friction.k1={uniform: [100, 200]}",
+             "--set", "dac.resolution=" + resolution})
+            .out;
+    const std::size_t start = out.find("    DAC: ");
+    return out.substr(start, out.find('\n', start) - start);
+  };
+  // k1·Δx lies between 3.9e-4 and 7.8e-4 N m.
+  EXPECT_TRUE(line("1.0e-4").ends_with(": holds")) << line("1.0e-4");
+  EXPECT_TRUE(line("1.0e-3").ends_with(": holds in no trial")) << line("1.0e-3");
+  const std::string some = line("5.8e-4");
+  EXPECT_NE(some.find(": holds in "), std::string::npos) << some;
+  EXPECT_TRUE(some.ends_with(" of 40 trials")) << some;
+}
+
+TEST_F(Hints, CheckTellsTheCountsOfTargetsInSiUnits) {
+  const std::string out =
+      run({"check", "study.yaml", "--set", "command={units: si, targets: [1.0e-4, -2.0e-4]}"}).out;
+  EXPECT_NE(
+      out.find("targets of trial 0, to the nearest of 3.879e-06 rad: 0.0001 rad = 26 counts, -0.0002 rad = "
+               "-52 counts"),
+      std::string::npos)
+      << out;
+}
+
+TEST_F(Hints, AMisspeltCommandIsToldTheNearest) {
+  const ProgramResult near = run({"chek", "study.yaml"});
+  EXPECT_EQ(near.code, 2);
+  EXPECT_NE(near.err.find("unknown command 'chek'; did you mean check? See"), std::string::npos) << near.err;
+  EXPECT_EQ(run({"frobnicate"}).err, "zerocount: unknown command 'frobnicate'; see 'zerocount --help'\n");
+}
+
+TEST_F(Hints, CompletionTellsTheLabelsOfPoints) {
+  warnings_of({"run", "study.yaml", "-q", "-o", "out.h5"});
+  const std::string labels = run({"completion", "points", "study.yaml"}).out;
+  EXPECT_EQ(std::count(labels.begin(), labels.end(), '\n'), 2) << labels;
+  EXPECT_EQ(run({"completion", "points", "out.h5"}).out, labels);
+  EXPECT_EQ(run({"completion", "points"}).code, 2);
+  EXPECT_EQ(run({"completion", "bash", "study.yaml"}).code, 2);
+  EXPECT_NE(run({"completion", "bash"}).out.find(" friction.k1= "), std::string::npos);
+  EXPECT_NE(run({"completion", "zsh"}).out.find(" friction.k1= "), std::string::npos);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

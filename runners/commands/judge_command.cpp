@@ -1,10 +1,12 @@
-#include <algorithm>
+#include <filesystem>
 #include <string>
+#include <system_error>
 
 #include <fmt/format.h>
 
 #include "analysis/summary/judged_point.hpp"
 #include "analysis/text/report_json.hpp"
+#include "results/shards/pieces.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/commands.hpp"
 #include "runners/standard_output/standard_output.hpp"
@@ -55,8 +57,20 @@ ExitCode exit_code_of(goal::Status status) {
   return ExitCode::inconclusive;
 }
 
+/// The summary of a finished study.
+summary::StudySummary summary_of(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error) && shards::has_begun(path)) {
+    throw Failure(ExitCode::bad_data,
+                  fmt::format("{}: unfinished: its run has not ended; 'zerocount run' goes on with it, and "
+                              "'zerocount summary' is of the finished trials",
+                              path.string()));
+  }
+  return summary::summarise_file(path);
+}
+
 ExitCode judge(const command_line::Arguments& arguments) {
-  const summary::StudySummary summary = summary::summarise_file(arguments.operands()[0]);
+  const summary::StudySummary summary = summary_of(arguments.operands()[0]);
   if (!summary.goal) {
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: its manifest has no goal; expected one such as goal: {{band: 1, within: "

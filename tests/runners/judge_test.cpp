@@ -123,6 +123,11 @@ TEST_F(Judge, NeedsAGoalAndAFinishedFile) {
   EXPECT_EQ(program({"judge", "out.h5", "--point", "2"}).code, 2);
   ASSERT_EQ(program({"run", "study.yaml", "-o", "part.h5", "--shard", "1/2"}).code, 0);
   EXPECT_EQ(program({"judge", "part.h5"}).code, 4);
+  std::filesystem::create_directory(folder_.path() / "begun.h5.shards");
+  ASSERT_EQ(program({"run", "study.yaml", "-o", "begun.h5.shards/first.h5", "--shard", "1/2"}).code, 0);
+  const ProgramResult unfinished = program({"judge", "begun.h5"});
+  EXPECT_EQ(unfinished.code, 4);
+  EXPECT_NE(unfinished.err.find("begun.h5: unfinished"), std::string::npos) << unfinished.err;
 }
 
 }  // namespace

@@ -21,9 +21,11 @@ struct CountedGoal {
 /// The goal of the study as it is counted; nothing without one.
 std::optional<CountedGoal> counted_goal(const study::Study& study);
 
-/// Whether the error of the move is within the goal's band for good in time.
+/// Whether the error of the move is within the goal's band for good in time. A sample at the very end of that
+/// time is in time, although k·T may be rounded up.
 inline bool meets(const CountedGoal& goal, const trial::MoveOutcome& move) {
-  return move.bands[goal.slot].settling_time <= goal.within;  // false for NaN
+  constexpr double rounding = 1.0 + 1e-12;
+  return move.bands[goal.slot].settling_time <= goal.within * rounding;  // false for NaN
 }
 
 /// The moves of a design point that meet the goal.

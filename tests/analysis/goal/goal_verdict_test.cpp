@@ -32,6 +32,9 @@ measures::GoalCounts counts_of(std::int64_t met, std::int64_t trials, std::int64
 TEST(Goal, IsMetByAMoveWithinItsBandForGoodInTime) {
   EXPECT_TRUE(measures::meets(within_50_ms, move_settled_at(0.05)));
   EXPECT_FALSE(measures::meets(within_50_ms, move_settled_at(0.0505)));
+  // Sample 71 at 2 kHz is at 0.0355 s; the product is rounded up.
+  ASSERT_GT(71 * 5e-4, 0.0355);
+  EXPECT_TRUE(measures::meets({.slot = 1, .within = 0.0355}, move_settled_at(71 * 5e-4)));
   EXPECT_FALSE(measures::meets(within_50_ms, {}));  // NaN: it ended outside, or was lost
 }
 

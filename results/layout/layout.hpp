@@ -50,8 +50,8 @@ struct Column {
 /// The word of `value` in an enumeration; the number itself where it has none.
 std::string word_of(const Column& column, std::int64_t value);
 
-/// The third dimension of a table, whose scale stands in the root.
-struct ThirdDimension {
+/// The last dimension of the columns of a table, if its scale stands in the root.
+struct RootDimension {
   Column scale;
   std::vector<std::int64_t> values;
 };
@@ -62,7 +62,7 @@ struct Table {
   Column rows;                   ///< dimension scale of the first dimension
   std::optional<Column> second;  ///< dimension scale of the second dimension, of all columns
   std::vector<Column> columns;
-  std::optional<ThirdDimension> third{};  ///< of all columns; the second one if there is no other
+  std::optional<RootDimension> last{};  ///< dimension after `rows` and `second`, of all columns
 };
 
 /// The values that a column can have. A file with any other is damaged.
@@ -176,7 +176,7 @@ Table outcome_table(std::int64_t version = format_version, const study::StudyFea
 /// The measures of error bands: [trial, move, band].
 Table band_table(const trial::ErrorBands& bands);
 /// The dimension of error bands, with its scale.
-ThirdDimension band_dimension(const trial::ErrorBands& bands);
+RootDimension band_dimension(const trial::ErrorBands& bands);
 /// The table of outcomes with the verdicts alone.
 Table verdict_table();
 Table jerk_table();

@@ -78,11 +78,11 @@ TableIo TableIo::create(hdf5::Group& root, const Table& table, std::int64_t rows
     if (table.second->element == hdf5::Element::int64) write_numbers(*io.second_scale_, second, 0);
     io.add_dimension(second);
   }
-  if (table.third) {
-    const std::int64_t third = std::ssize(table.third->values);
-    io.third_scale_ = make_scale(root, table.third->scale, third);
-    io.third_scale_->write(0, third, table.third->values.data());
-    io.add_dimension(third);
+  if (table.last) {
+    const std::int64_t last = std::ssize(table.last->values);
+    io.last_scale_ = make_scale(root, table.last->scale, last);
+    io.last_scale_->write(0, last, table.last->values.data());
+    io.add_dimension(last);
   }
   for (const Column& column : table.columns) io.add(column);
   return io;
@@ -104,9 +104,9 @@ TableIo TableIo::open(const hdf5::Group& root, const Table& table) {
     io.second_scale_ = io.group_.open_dataset(table.second->name);
     io.add_dimension(size_of_scale(*io.second_scale_));
   }
-  if (table.third) {
-    io.third_scale_ = root.open_dataset(table.third->scale.name);
-    io.add_dimension(size_of_scale(*io.third_scale_));
+  if (table.last) {
+    io.last_scale_ = root.open_dataset(table.last->scale.name);
+    io.add_dimension(size_of_scale(*io.last_scale_));
   }
   expected.insert(expected.end(), io.inner_extent_.begin(), io.inner_extent_.end());
   for (const Column& column : table.columns) {
@@ -153,7 +153,7 @@ hdf5::Dataset& TableIo::add(const Column& column) {
   describe(dataset, column);
   dataset.attach_scale(row_scale_, 0);
   if (second_scale_) dataset.attach_scale(*second_scale_, 1);
-  if (third_scale_) dataset.attach_scale(*third_scale_, static_cast<unsigned>(inner_extent_.size()));
+  if (last_scale_) dataset.attach_scale(*last_scale_, static_cast<unsigned>(inner_extent_.size()));
   return datasets_.emplace_back(std::move(dataset));
 }
 

@@ -59,8 +59,8 @@ class TableIo {
   hdf5::Group group_;
   hdf5::Dataset row_scale_;
   std::optional<hdf5::Dataset> second_scale_;
-  std::optional<hdf5::Dataset> third_scale_;
-  std::vector<hdf5::Size> inner_extent_;  ///< sizes of the second and third dimensions that there are
+  std::optional<hdf5::Dataset> last_scale_;
+  std::vector<hdf5::Size> inner_extent_;  ///< sizes of the dimensions after the rows
   std::vector<hdf5::Dataset> datasets_;
 };
 

@@ -86,7 +86,7 @@ Table outcome_table(std::int64_t version, const study::StudyFeatures& features,
           whole_numbers("move", "index of the move"), columns_of(move_fields(version, features, measures))};
 }
 
-ThirdDimension band_dimension(const trial::ErrorBands& bands) {
+RootDimension band_dimension(const trial::ErrorBands& bands) {
   return {{"band", "count", "error band: largest absolute error within it", hdf5::Element::int64},
           {bands.values().begin(), bands.values().end()}};
 }
@@ -142,7 +142,7 @@ Table on_axis(Table table, parameters::AxisKind axis) {
   };
   reword(table.rows);
   if (table.second) reword(*table.second);
-  if (table.third) reword(table.third->scale);
+  if (table.last) reword(table.last->scale);
   for (Column& column : table.columns) reword(column);
   return table;
 }

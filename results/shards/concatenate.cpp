@@ -25,7 +25,7 @@ struct Source {
 
 /// @param width size of the second dimension
 std::int64_t elements_of_row(const layout::Table& table, std::int64_t width) {
-  return table.third ? width * std::ssize(table.third->values) : width;
+  return table.last ? width * std::ssize(table.last->values) : width;
 }
 
 std::vector<Source> find_sources(const layout::Table& table, std::span<const ShardInfo> shards,

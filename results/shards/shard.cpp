@@ -69,8 +69,8 @@ layout::TableIo write_table(hdf5::File& file, const layout::Table& table,
                             const std::vector<layout::RecordField<Record>>& fields,
                             const std::vector<Record>& records, std::int64_t width,
                             hdf5::Compression compression) {
-  const std::int64_t of_third = table.third ? std::ssize(table.third->values) : 1;
-  const std::int64_t rows = std::ssize(records) / (width * of_third);
+  const std::int64_t of_last = table.last ? std::ssize(table.last->values) : 1;
+  const std::int64_t rows = std::ssize(records) / (width * of_last);
   layout::TableIo io = layout::TableIo::create(file, table, rows, width, compression);
   layout::write_records(io, fields, 0, std::span<const Record>(records));
   return io;

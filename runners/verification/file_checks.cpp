@@ -57,7 +57,7 @@ std::vector<layout::Table> tables_of(const reading::ResultsFile& file, const stu
 /// Opens every column on its own, so that all problems are found.
 void check_columns(const reading::ResultsFile& file, const layout::Table& table, ProblemList& problems) {
   for (const layout::Column& column : table.columns) {
-    layout::Table single{table.group, table.rows, table.second, {column}, table.third};
+    layout::Table single{table.group, table.rows, table.second, {column}, table.last};
     try {
       const layout::TableIo io = layout::TableIo::open(file.root(), single);
       const std::string unit = io.column(0).text("units");

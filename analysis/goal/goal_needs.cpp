@@ -80,7 +80,7 @@ Needs needs_of(const study::Goal& goal, const measures::GoalCounts& counts, std:
   std::sort(sorted.begin(), sorted.end(), [](const statistics::RigMoves& a, const statistics::RigMoves& b) {
     return a.met * b.moves < b.met * a.moves;
   });
-  constexpr std::int64_t max_rigs = 1'000'000;
+  constexpr std::int64_t max_rigs = 100'000;
   // More trials on each rig are needed where these cannot tell rigs below and above Goal::moves apart.
   for (std::int64_t more = 1; more <= 1024; more *= 2) {
     std::vector<statistics::RigMoves> rigs = sorted;

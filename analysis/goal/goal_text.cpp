@@ -1,7 +1,5 @@
 #include "analysis/goal/goal_text.hpp"
 
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "analysis/statistics/proportion.hpp"
@@ -11,7 +9,7 @@
 namespace zerocount::goal {
 namespace {
 
-/// "97.6 % (at least 97.1 %, at most 98.0 %)".
+/// "at least 97.1 %, at most 98 %".
 std::string with_bounds(const BoundedProportion& proportion) {
   return fmt::format("at least {}, at most {}", text::percent_at_least(proportion.low),
                      text::percent_at_most(proportion.high));
@@ -37,21 +35,21 @@ std::string readings_text(const study::Goal& goal, const measures::GoalCounts& c
   if (counts.rigs.empty()) return text;
   const std::int64_t rigs = std::ssize(counts.rigs);
   if (goal.machines) {
-    const std::int64_t meeting = std::llround(verdict.machines.value * static_cast<double>(rigs));
     text += fmt::format(
         "  machines that meet it in at least {} of their moves: {} of {} by their {} moves; {} "
         "of all machines\n",
-        text::percent(goal.moves), meeting, rigs, counts.rigs.front().moves, with_bounds(verdict.machines));
+        text::percent(goal.moves), verdict.rigs_meeting, rigs, counts.rigs.front().moves,
+        with_bounds(verdict.machines));
   }
   return text + fmt::format("  machines without a miss in their {} moves: {} of {}\n",
                             counts.rigs.front().moves, verdict.rigs_without_miss, rigs);
 }
 
-std::string needs_sentence(const study::Goal& goal, const Needs& needs) {
+std::string needs_sentence(const study::Goal& goal, const Needs& needs, bool on_rigs) {
   if (needs.trials == 0) {
     return fmt::format(
-        "The proportion is so close to the goal that no study of up to 10⁹ trials is expected "
-        "to decide it");
+        "The proportion is so close to the goal that no study of up to 10⁹ trials{} is expected to decide it",
+        on_rigs ? " on 10⁵ rigs" : "");
   }
   if (needs.rigs == 0) return fmt::format("About {} trials are expected to decide it", needs.trials);
   return fmt::format("About {} rigs with {} trials each are expected to decide it{}", needs.rigs,

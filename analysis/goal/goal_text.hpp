@@ -15,7 +15,8 @@ std::string goal_sentence(const study::Goal& goal);
 std::string readings_text(const study::Goal& goal, const measures::GoalCounts& counts,
                           const Verdict& verdict);
 
-/// "300 rigs with 100 trials each are expected to decide it", or why no study does.
-std::string needs_sentence(const study::Goal& goal, const Needs& needs);
+/// "300 rigs with 100 trials each are expected to decide it", or that no study is.
+/// @param on_rigs whether trials share rigs
+std::string needs_sentence(const study::Goal& goal, const Needs& needs, bool on_rigs);
 
 }  // namespace zerocount::goal

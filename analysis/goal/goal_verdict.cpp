@@ -28,7 +28,7 @@ std::string_view text_of(Status status) {
 }
 
 Verdict judge_goal(const study::Goal& goal, const measures::GoalCounts& counts, std::size_t points) {
-  const double confidence = 1.0 - (1.0 - goal.confidence) / static_cast<double>(points);
+  const double confidence = statistics::confidence_of_each(goal.confidence, points);
   const statistics::ClusterSums clusters = measures::clusters_of(counts);
   Verdict verdict;
   verdict.moves = {statistics::rate(counts.met, counts.moves),
@@ -43,7 +43,8 @@ Verdict judge_goal(const study::Goal& goal, const measures::GoalCounts& counts, 
   }
   const statistics::RigProportion rigs =
       statistics::rig_proportion(counts.rigs, goal.moves, *goal.machines, confidence);
-  verdict.machines = {rigs.observed, rigs.low, rigs.high};
+  verdict.rigs_meeting = rigs.meeting;
+  verdict.machines = {statistics::rate(rigs.meeting, std::ssize(counts.rigs)), rigs.low, rigs.high};
   verdict.status = status_of(verdict.machines, *goal.machines);
   return verdict;
 }

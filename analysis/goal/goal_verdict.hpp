@@ -26,12 +26,13 @@ struct BoundedProportion {
   double high{1.0};
 };
 
-/// What the trials of a point show of all axes that the manifest describes.
+/// Verdict on the goal at one design point, for all axes that the manifest describes.
 struct Verdict {
   Status status{Status::undecided};
-  BoundedProportion moves;     ///< of all moves of all axes that meet the goal (clustered_proportion.hpp)
-  BoundedProportion machines;  ///< of axes that meet it in Goal::moves of their moves (rig_proportion.hpp);
-                               ///< NaN, 0 and 1 where the goal does not ask for machines
+  BoundedProportion moves;       ///< of all moves of all axes that meet the goal (clustered_proportion.hpp)
+  BoundedProportion machines;    ///< of axes that meet it in Goal::moves of their moves (rig_proportion.hpp);
+                                 ///< NaN, 0 and 1 where the goal does not ask for machines
+  std::int64_t rigs_meeting{0};  ///< rigs that meet it in Goal::moves of their moves, as observed
   std::int64_t rigs_without_miss{0};  ///< rigs all of whose moves meet the goal
 };
 
@@ -43,12 +44,13 @@ Verdict judge_goal(const study::Goal& goal, const measures::GoalCounts& counts, 
 /// Study size that is expected to decide the goal.
 struct Needs {
   std::int64_t rigs{0};    ///< 0 without rigs
-  std::int64_t trials{0};  ///< per design point; 0 if no size up to 10⁹ trials decides, such as a rate on
+  std::int64_t trials{0};  ///< per design point; 0 if none of up to 10⁹ trials decides, such as a rate on
                            ///< the goal itself
 };
 
 /// The smallest study of which the verdict is expected to be decided, if the proportions, and the differences
-/// between rigs, are those observed. Rigs get as many trials each as they have.
+/// between rigs, are those observed. With rigs it has at most 10⁵ of them; they get more trials each where
+/// those that they have cannot tell rigs that meet the goal from others.
 Needs needs_of(const study::Goal& goal, const measures::GoalCounts& counts, std::size_t points);
 
 }  // namespace zerocount::goal

@@ -52,6 +52,15 @@ void require_open_unit(const char* what, double value) {
                 fmt::format("a {} of {}; expected a number between 0 and 1", what, value));
 }
 
+double confidence_of_each(double confidence, std::size_t statements) {
+  return 1.0 - (1.0 - confidence) / static_cast<double>(statements);
+}
+
+double bernoulli_divergence(double y, double q) {
+  const auto term = [](double a, double b) { return a > 0.0 ? a * std::log(a / b) : 0.0; };
+  return term(y, q) + term(1.0 - y, 1.0 - q);
+}
+
 double rate(std::int64_t successes, std::int64_t trials) {
   if (trials == 0) return unknown;
   return static_cast<double>(successes) / static_cast<double>(trials);

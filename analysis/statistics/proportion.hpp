@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace zerocount::statistics {
@@ -18,6 +19,13 @@ void require_open_unit(const char* what, double value);
 inline void require_confidence(double confidence) {
   require_open_unit("confidence", confidence);
 }
+
+/// 1 − (1 − γ)/m: with this confidence of each of m statements, all of them hold with the confidence γ
+/// (Bonferroni).
+double confidence_of_each(double confidence, std::size_t statements);
+
+/// y·ln(y/q) + (1 − y)·ln((1 − y)/(1 − q)), the divergence KL(y‖q) of Bernoulli distributions.
+double bernoulli_divergence(double y, double q);
 
 /// successes/trials; NaN if trials is 0.
 double rate(std::int64_t successes, std::int64_t trials);

@@ -19,10 +19,9 @@ struct MovesOfRig {
   double mean(std::int64_t met) const { return static_cast<double>(met) / static_cast<double>(moves); }
 };
 
-/// exp(−m·KL(y‖q)), KL(y‖q) = y·ln(y/q) + (1 − y)·ln((1 − y)/(1 − q)).
+/// exp(−m·KL(y‖q)).
 double chernoff_bound(const MovesOfRig& rig, double y) {
-  const auto term = [](double a, double b) { return a > 0.0 ? a * std::log(a / b) : 0.0; };
-  return std::exp(-rig.trials * (term(y, rig.q) + term(1.0 - y, 1.0 - rig.q)));
+  return std::exp(-rig.trials * bernoulli_divergence(y, rig.q));
 }
 
 /// ε(c): how probably a rig below q shows `met` or more.
@@ -96,8 +95,7 @@ RigProportion rig_proportion(std::span<const RigMoves> rigs, double proportion, 
   const MovesOfRig rig{static_cast<double>(fewest.trials), fewest.moves, proportion};
   const auto meeting = std::count_if(
       rigs.begin(), rigs.end(), [&](const RigMoves& one) { return rate(one.met, one.moves) >= proportion; });
-  return {rate(meeting, std::ssize(rigs)),
-          low_of(without_further_moves(rigs, rig.moves), rig, wanted, confidence),
+  return {meeting, low_of(without_further_moves(rigs, rig.moves), rig, wanted, confidence),
           high_of(rigs, rig, wanted, confidence)};
 }
 

@@ -4,7 +4,6 @@
 #include <span>
 
 #include "analysis/statistics/proportion.hpp"
-#include "analysis/statistics/unknown.hpp"
 
 namespace zerocount::statistics {
 
@@ -41,7 +40,7 @@ struct RigMoves {
 /// bound the smallest c with ε(c) ≤ (L* − wanted)/(2·(1 − wanted)), L* being L if all rigs pass, or c = n;
 /// for the upper bound the largest c with δ(c) ≤ (1 − wanted)/2.
 struct RigProportion {
-  double observed{unknown};  ///< proportion of rigs with met/moves ≥ q
+  std::int64_t meeting{0};  ///< rigs with met/moves ≥ q
   double low{0.0};
   double high{1.0};
 };

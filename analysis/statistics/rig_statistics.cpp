@@ -35,18 +35,12 @@ RankAndAllowance rank_and_allowance(std::int64_t rigs, double content, double co
   return chosen;
 }
 
-/// y·ln(y/q) + (1 − y)·ln((1 − y)/(1 − q)).
-double divergence(double y, double q) {
-  const auto term = [](double a, double b) { return a > 0.0 ? a * std::log(a / b) : 0.0; };
-  return term(y, q) + term(1.0 - y, 1.0 - q);
-}
-
 /// The q < y for which trials·KL(y‖q) = −ln(allowance).
 double chernoff_lower(double y, std::int64_t trials, double allowance) {
   const double limit = -std::log(allowance) / static_cast<double>(trials);
   if (!(y > 0.0)) return 0.0;
   if (!(y < 1.0)) return std::exp(-limit);
-  const auto excess = [&](double q) { return divergence(y, q) - limit; };
+  const auto excess = [&](double q) { return bernoulli_divergence(y, q) - limit; };
   constexpr double min_q = 1e-300;
   if (!(excess(min_q) > 0.0)) return 0.0;
   std::uintmax_t iterations = 200;

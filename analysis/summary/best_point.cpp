@@ -14,7 +14,7 @@
 namespace zerocount::summary {
 namespace {
 
-/// What a point is judged by. The first numbers that differ decide; larger ones are better.
+/// Criteria for the best point, the most important first. Larger values are better.
 using Merits = std::vector<double>;
 
 /// A time not reached within the hold is later than any other.
@@ -50,14 +50,10 @@ std::int64_t best_point(std::span<const measures::PointSummary> points,
   return static_cast<std::int64_t>(best);
 }
 
-double confidence_of_each(double confidence, std::size_t points) {
-  return 1.0 - (1.0 - confidence) / static_cast<double>(points);
-}
-
 statistics::SuccessClaim claim_of_chosen(const measures::PointSummary& point, std::size_t points,
                                          bool stopped) {
   const std::int64_t successes = point.claim.trials - point.claim.failures;
-  const double confidence = confidence_of_each(point.claim.confidence, points);
+  const double confidence = statistics::confidence_of_each(point.claim.confidence, points);
   statistics::SuccessClaim claim =
       stopped ? statistics::success_claim_at_any_time(successes, point.claim.trials, confidence)
               : statistics::success_claim(successes, point.claim.trials, confidence);
@@ -72,7 +68,7 @@ statistics::SuccessClaim claim_of_chosen(const measures::PointSummary& point, st
 
 statistics::ConfidenceInterval bounds_of_chosen(const measures::PointSummary& point, std::size_t points,
                                                 bool stopped, double confidence) {
-  const double each = confidence_of_each(confidence, points);
+  const double each = statistics::confidence_of_each(confidence, points);
   const statistics::ConfidenceInterval fixed =
       point.rigs.n > 0 ? statistics::clustered_proportion(point.rigs.successes, each).korn_graubard
                        : statistics::clopper_pearson(point.outcomes.zero_count, point.judged, each);

@@ -24,9 +24,6 @@ namespace zerocount::summary {
 std::int64_t best_point(std::span<const measures::PointSummary> points,
                         const std::optional<study::Goal>& goal);
 
-/// 1 − (1 − γ)/m
-double confidence_of_each(double confidence, std::size_t points);
-
 /// The claim of a point that was chosen from `points`.
 /// @param stopped whether the outcomes decided the number of trials (`stop`)
 statistics::SuccessClaim claim_of_chosen(const measures::PointSummary& point, std::size_t points,

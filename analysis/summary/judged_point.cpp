@@ -59,7 +59,8 @@ std::string judgement_text(const StudySummary& summary, const JudgedPoint& judge
                   verdict_words(judged.verdict.status),
                   goal::readings_text(*summary.goal, counts_of(summary, judged.point), judged.verdict));
   if (judged.chosen_from > 1) text += "  the bounds allow for the choice of the point by these trials\n";
-  if (judged.needs) text += fmt::format("  {}\n", goal::needs_sentence(*summary.goal, *judged.needs));
+  if (judged.needs)
+    text += fmt::format("  {}\n", goal::needs_sentence(*summary.goal, *judged.needs, summary.features.rigs));
   return text;
 }
 

@@ -16,7 +16,7 @@ TEST(RigProportion, OfRigsThatAllPassIsThatOfWilksLessWhatFewMovesHide) {
   const std::vector<RigMoves> rigs(300, {100, 100, 100});
   const RigProportion found = rig_proportion(rigs, 0.5, 0.95, 0.95);
   const double all_pass = std::pow(0.05, 1.0 / 300.0);
-  EXPECT_EQ(found.observed, 1.0);
+  EXPECT_EQ(found.meeting, 300);
   EXPECT_NEAR(found.low, (all_pass - 0.38218) / (1.0 - 0.38218), 1e-6);
   EXPECT_EQ(found.high, 1.0);
   // Five moves hardly tell a rig at 99 % from one at 98 %.
@@ -25,14 +25,14 @@ TEST(RigProportion, OfRigsThatAllPassIsThatOfWilksLessWhatFewMovesHide) {
 
 TEST(RigProportion, OfRigsThatAllFailIsSmall) {
   const RigProportion found = rig_proportion(std::vector<RigMoves>(100, {200, 200, 20}), 0.9, 0.9, 0.95);
-  EXPECT_EQ(found.observed, 0.0);
+  EXPECT_EQ(found.meeting, 0);
   EXPECT_EQ(found.low, 0.0);
   EXPECT_NEAR(found.high, 1.0 - std::pow(0.05, 1.0 / 100.0), 2e-3);
 }
 
 TEST(RigProportion, OfNoRigIsUnknown) {
   const RigProportion none = rig_proportion({}, 0.9, 0.9, 0.95);
-  EXPECT_TRUE(std::isnan(none.observed));
+  EXPECT_EQ(none.meeting, 0);
   EXPECT_EQ(none.low, 0.0);
   EXPECT_EQ(none.high, 1.0);
 }

@@ -53,6 +53,7 @@ MeasureAccumulator::MeasureAccumulator(const layout::Measure& measure,
       reported_(&reported),
       kind_(kind),
       in_clusters_(needs_every_value(measure, reported)),
+      has_mean_bounds_(reports(reported, layout::Statistic::bootstrap_low)),
       clusters_(kind.rigs) {}
 
 void MeasureAccumulator::add_quality(std::int64_t trial, std::span<const trial::MoveOutcome> moves) {
@@ -67,8 +68,7 @@ void MeasureAccumulator::add_quality(std::int64_t trial, std::span<const trial::
 
 /// Adds values_ to the clusters, with `size` − |values_| censored values: later than all others.
 void MeasureAccumulator::add_clusters(std::int64_t trial, std::int64_t size) {
-  if (reports(*reported_, layout::Statistic::bootstrap_low))
-    totals_.add(kind_.rigs > 0 ? trial % kind_.rigs : trial, values_);
+  if (has_mean_bounds_) totals_.add(kind_.rigs > 0 ? trial % kind_.rigs : trial, values_);
   clusters_.add_trial(trial, values_, size);
 }
 

@@ -76,7 +76,8 @@ class MeasureAccumulator {
   const layout::Measure* measure_;
   const layout::ReportedStatistics* reported_;
   MoveKind kind_;
-  bool in_clusters_;  ///< whether values are kept in clusters; otherwise only their moments
+  bool in_clusters_;      ///< whether values are kept in clusters; otherwise only their moments
+  bool has_mean_bounds_;  ///< whether bootstrap bounds of the mean are reported
   std::int64_t trials_{0};
   statistics::MomentSums moments_;
   statistics::TrialClusters clusters_;

@@ -24,8 +24,8 @@ struct ExitCodeMeaning {
 };
 
 inline constexpr std::array exit_code_meanings{
-    ExitCodeMeaning{ExitCode::success, "success, or the gate passed"},
-    ExitCodeMeaning{ExitCode::regression, "a statistical regression was found"},
+    ExitCodeMeaning{ExitCode::success, "success, the gate passed, or the goal is met"},
+    ExitCodeMeaning{ExitCode::regression, "a statistical regression was found, or the goal is missed"},
     ExitCodeMeaning{ExitCode::bad_input, "bad usage or a bad manifest"},
     ExitCodeMeaning{ExitCode::inconclusive, "too little data to decide"},
     ExitCodeMeaning{ExitCode::bad_data, "results incomplete, damaged or incompatible"},

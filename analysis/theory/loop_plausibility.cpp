@@ -69,7 +69,7 @@ bool is_used(const ExaminedLoop& loop) {
   return loop.of_trial.name != "at k1" || !is_integral_alone(loop.trial);
 }
 
-/// How far a loop is on the good side of a test; NaN if the test does not concern it.
+/// The value of a loop that a test compares with its limit; NaN if the test does not apply to the loop.
 using Measure = double (*)(const ExaminedLoop&);
 constexpr double not_concerned = std::numeric_limits<double>::quiet_NaN();
 
@@ -77,7 +77,7 @@ double phase_margin(const ExaminedLoop& loop) {
   return loop.stability == LoopStability::stable ? std::abs(loop.phase.value) : loop.phase.value;
 }
 
-// Of loops with a sufficient phase margin.
+// Only of stable loops with a sufficient phase margin: the others are reported by that test.
 double delay_margin(const ExaminedLoop& loop) {
   if (loop.stability != LoopStability::stable || !(loop.phase.value >= least_phase_margin))
     return not_concerned;

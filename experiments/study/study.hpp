@@ -126,8 +126,8 @@ struct StoppingRule {
   std::int64_t max_trials{1};  ///< trials per point at which the study ends in any case
 };
 
-/// What the axis must achieve (`goal`). A move meets it if its error is within the band for good after
-/// `within` at the latest (BandOutcome::settling_time). The goal is a claim about all axes that the manifest
+/// The goal of a study (`goal`). A move meets it if its error is within the band for good after `within` at
+/// the latest (BandOutcome::settling_time). The goal is a claim about all axes that the manifest
 /// describes, one-sided, with this confidence:
 ///   without `machines`: at least the proportion `moves` of all their moves meets it;
 ///   with `machines`: at least the proportion `machines` of them meets it in at least `moves` of its moves.

@@ -47,7 +47,7 @@ std::string keys_to_set() {
   return keys;
 }
 
-/// What the shell offers as the value of an option, besides its words and files.
+/// Values that the shell completes for an option, other than a fixed list of words or files.
 enum class Offered { other, key, point, figure };
 
 Offered offered_for(const OptionSpec& option) {

@@ -1,4 +1,4 @@
-// What is allowed and absurd is told with its number and its place, and nothing else is.
+// Warnings of values that are allowed but absurd give the number and its place. Other values cause none.
 #include <cmath>
 #include <numbers>
 #include <random>

@@ -78,8 +78,9 @@ struct RepeatabilitySummary {
 measures::SummarySection repeatability_section(const RepeatabilitySummary& summary,
                                                const std::vector<std::string>& labels);
 
-/// Two tables for people, of the axis and of the targets: a row for each point (and target) and source, each
-/// value as its median and 95 % quantile over the trials; a legend below.
-std::string repeatability_tables(const RepeatabilitySummary& summary, const std::vector<std::string>& labels);
+/// Adds two tables for people, of the axis and of the targets, and their legend: a row for each point (and
+/// target) and source, each value as its median and 95 % quantile over the trials.
+void add_tables(measures::SummarySection& section, const RepeatabilitySummary& summary,
+                const std::vector<std::string>& labels);
 
 }  // namespace zerocount::iso230

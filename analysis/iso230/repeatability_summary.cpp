@@ -79,11 +79,9 @@ std::vector<layout::PointColumn> section_columns(const RepeatabilitySummary& sum
 
 measures::SummarySection repeatability_section(const RepeatabilitySummary& summary,
                                                const std::vector<std::string>& labels) {
-  measures::SummarySection section{.key = "repeatability",
-                                   .json = {},
-                                   .columns = section_columns(summary),
-                                   .text = repeatability_tables(summary, labels),
-                                   .open = true};
+  measures::SummarySection section{
+      .key = "repeatability", .json = {}, .columns = section_columns(summary), .open = true};
+  add_tables(section, summary, labels);
   for (const PointRepeatability& point : summary.points)
     section.json.push_back(point_json(point, summary.axis));
   return section;

@@ -11,6 +11,7 @@
 
 #include "analysis/iso230/repeatability_columns.hpp"
 #include "analysis/iso230/repeatability_statistics.hpp"
+#include "analysis/measures/summary_section.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/tolerance.hpp"
 #include "analysis/text/percent.hpp"
@@ -44,6 +45,7 @@ std::string median_and_p95(const DeviationSource& source, parameters::AxisKind a
 
 /// A row of the tables: a point, a target (not used in the table of the axis) and a source.
 struct RowOfValues {
+  std::int64_t index;  ///< of the point
   std::string label;
   const PointRepeatability& point;
   std::size_t target;
@@ -59,11 +61,18 @@ std::vector<RowOfValues> rows_of(const RepeatabilitySummary& summary, const std:
   for (std::size_t i = 0; i < summary.points.size(); ++i) {
     for (std::size_t target = 0; target < targets; ++target) {
       for (std::size_t source = 0; source < deviation_sources().size(); ++source) {
-        rows.push_back({text::printable(labels[i]), summary.points[i], target, source, summary.axis});
+        rows.push_back({static_cast<std::int64_t>(i), text::printable(labels[i]), summary.points[i], target,
+                        source, summary.axis});
       }
     }
   }
   return rows;
+}
+
+std::vector<std::int64_t> points_of(std::span<const RowOfValues> rows) {
+  std::vector<std::int64_t> points;
+  for (const RowOfValues& row : rows) points.push_back(row.index);
+  return points;
 }
 
 template <typename Cell>
@@ -118,7 +127,7 @@ std::string zero_bounds(const RowOfValues& row) {
   return fmt::format("[{}]", text::percent_bounds(bounds.low, bounds.high));
 }
 
-std::string table_of_axis(const RepeatabilitySummary& summary, const std::vector<std::string>& labels) {
+text::PointTable table_of_axis(const RepeatabilitySummary& summary, const std::vector<std::string>& labels) {
   using A = AxisRepeatability;
   static const Shown<A> shown{{&A::reversal, &A::repeatability_positive, &A::repeatability_negative,
                                &A::repeatability, &A::systematic, &A::mean_bidirectional, &A::accuracy},
@@ -134,7 +143,7 @@ std::string table_of_axis(const RepeatabilitySummary& summary, const std::vector
              [](Row row) { return std::span(row.point.sources[row.source].axis); });
   columns.push_back(column_of("zero", true, rows, zero_share));
   columns.push_back(column_of(text::percent(summary.confidence) + " bounds", true, rows, zero_bounds));
-  return text::aligned_table(columns);
+  return {std::move(columns), points_of(rows)};
 }
 
 std::string position_text(const statistics::Moments& position) {
@@ -142,7 +151,8 @@ std::string position_text(const statistics::Moments& position) {
   return fmt::format("{:.0f} to {:.0f}", position.min, position.max);
 }
 
-std::string table_of_targets(const RepeatabilitySummary& summary, const std::vector<std::string>& labels) {
+text::PointTable table_of_targets(const RepeatabilitySummary& summary,
+                                  const std::vector<std::string>& labels) {
   using T = TargetRepeatability;
   static const Shown<T> shown{{&T::mean_positive, &T::mean_negative, &T::reversal, &T::repeatability_positive,
                                &T::repeatability_negative, &T::repeatability},
@@ -157,7 +167,7 @@ std::string table_of_targets(const RepeatabilitySummary& summary, const std::vec
   columns.push_back(sources_of(rows));
   add_values(columns, target_fields(), shown, summary.shape, rows,
              [](Row row) { return std::span(row.point.sources[row.source].targets[row.target]); });
-  return text::aligned_table(columns);
+  return {std::move(columns), points_of(rows)};
 }
 
 std::string title(const SequenceShape& shape) {
@@ -187,23 +197,19 @@ std::string exact_points(const RepeatabilitySummary& summary, const std::vector<
 
 constexpr std::string_view legend =
     "median (95 % quantile) over the trials without a nonfinite move; deviations by the true position are "
-    "from "
-    "the\n"
-    "middle of the target's count, those by the encoder, the fine one, from the target\n"
+    "from the middle of the target's count, those by the encoder, the fine one, from the target\n"
     "R: repeatability; B: reversal value; E: systematic deviation; M: mean bidirectional deviation; "
-    "A: accuracy;\n"
-    "x̄: mean deviation; ↑: approached from below; ↓: from above\n"
+    "A: accuracy; x̄: mean deviation; ↑: approached from below; ↓: from above\n"
     "zero: proportion of all trials whose repeatability by the encoder is exactly 0, the paper's 100 %; "
-    "bounds "
-    "after\n"
-    "Clopper and Pearson, in %\n";
+    "bounds after Clopper and Pearson, in %\n";
 
 }  // namespace
 
-std::string repeatability_tables(const RepeatabilitySummary& summary,
-                                 const std::vector<std::string>& labels) {
-  return title(summary.shape) + "\n\n" + table_of_axis(summary, labels) + "\n" +
-         table_of_targets(summary, labels) + "\n" + exact_points(summary, labels) + std::string(legend);
+void add_tables(measures::SummarySection& section, const RepeatabilitySummary& summary,
+                const std::vector<std::string>& labels) {
+  section.title = title(summary.shape);
+  section.tables = {table_of_axis(summary, labels), table_of_targets(summary, labels)};
+  section.note = exact_points(summary, labels) + std::string(legend);
 }
 
 }  // namespace zerocount::iso230

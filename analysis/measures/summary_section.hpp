@@ -1,10 +1,12 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/text/text.hpp"
 #include "results/layout/layout.hpp"
 
 namespace zerocount::measures {
@@ -14,8 +16,13 @@ struct SummarySection {
   std::string key;                           ///< its name in the JSON of each point
   std::vector<nlohmann::ordered_json> json;  ///< [point]
   std::vector<layout::PointColumn> columns;  ///< of the CSV: a value per point
-  std::string text;                          ///< below the table, whole lines
-  bool open{false};                          ///< the report shows the text at once: it is a result
+  std::string title{};                       ///< above its tables, one line; may be empty
+  std::vector<text::PointTable> tables{};    ///< below the main table
+  std::string note{};                        ///< below these, whole lines
+  bool open{false};                          ///< the report shows the section at once: it is a result
 };
+
+/// The rows of these points in the tables of the section, with its title and its note; empty without rows.
+std::string text_of(const SummarySection& section, std::span<const std::int64_t> points);
 
 }  // namespace zerocount::measures

@@ -180,7 +180,7 @@ std::string title_of(std::string key) {
 
 std::string level_table_html(const summary::StudySummary& summary, std::size_t rows) {
   std::vector<HtmlColumn> columns;
-  for (text::TextColumn& column : summary::level_columns(summary)) {
+  for (text::TextColumn& column : summary::level_table(summary).columns) {
     column.cells.resize(std::min(column.cells.size(), rows));
     columns.push_back({column.head, "", !column.numeric, std::move(column.cells)});
   }
@@ -202,8 +202,8 @@ std::string points_html(const ReportedStudy& reported) {
         rows, all);
   }
   for (const measures::SummarySection& section : summary.sections) {
-    if (section.text.empty()) continue;
-    html += html_preformatted(title_of(section.key), section.text, section.open);
+    const std::string text = measures::text_of(section, summary::points_shown(summary, {}));
+    if (!text.empty()) html += html_preformatted(title_of(section.key), text, section.open);
   }
   return html;
 }

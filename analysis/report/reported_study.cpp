@@ -20,7 +20,7 @@ ReportedStudy reported_study(const reading::StudyFile& file) {
   for (const measures::PointSummary& point : reported.summary.points)
     reported.success_bounds.push_back(
         summary::bounds_of_chosen(point, 1, reported.study.stop.has_value(), statistics::summary_confidence));
-  reported.focus = summary::best_point(reported.summary.points, reported.summary.goal);
+  reported.focus = summary::best_point(reported.summary);
   return reported;
 }
 

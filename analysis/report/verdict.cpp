@@ -246,7 +246,7 @@ std::string open_loop_verdict(const ReportedStudy& reported) {
 
 std::string verdict_html(const ReportedStudy& reported) {
   if (reported.study.open_loop) return open_loop_verdict(reported);
-  const std::int64_t best = summary::best_point(reported.summary.points, reported.summary.goal);
+  const std::int64_t best = summary::best_point(reported.summary);
   std::vector<std::string> lines;
   if (reported.summary.features.dependent_trials) {
     lines.push_back(

@@ -10,6 +10,7 @@
 #include "analysis/statistics/clustered_proportion.hpp"
 #include "analysis/statistics/confidence_sequence.hpp"
 #include "analysis/statistics/rig_statistics.hpp"
+#include "experiments/parameters/parameter_table.hpp"
 
 namespace zerocount::summary {
 namespace {
@@ -22,32 +23,50 @@ double earliness(double time) {
   return std::isnan(time) ? -std::numeric_limits<double>::infinity() : -time;
 }
 
-Merits merits_without_goal(const measures::PointSummary& point) {
-  return {statistics::rate(point.outcomes.zero_count, point.trials),
-          earliness(point.of(&trial::MoveOutcome::settling_time).median.value)};
+/// Swept parameters of the point that are other than 0 or none: the fewer, the simpler.
+std::int64_t parts_in_use(const StudySummary& summary, std::size_t point) {
+  return std::ranges::count_if(summary.axes, [&](const study::SweepAxis& axis) {
+    if (axis.kind != study::SweepAxis::Kind::number) return false;
+    const auto row = parameters::find_parameter(axis.name);
+    const double value = axis.numbers[point];
+    return value != 0.0 && !(row && parameters::parameter_table()[*row].none == value);
+  });
 }
 
-Merits merits_by_goal(const measures::PointSummary& point, const study::Goal& goal) {
-  const goal::Verdict verdict = goal::judge_goal(goal, *point.goal, 1);
-  return {goal.machines ? verdict.machines.value : 0.0, verdict.moves.value,
-          earliness(measures::of_band(point, "band_settling_time", goal.band).p95.value)};
+Merits merits_of(const StudySummary& summary, std::size_t index) {
+  const measures::PointSummary& point = summary.points[index];
+  if (summary.features.open_loop) return {};
+  Merits merits;
+  if (summary.goal && point.goal) {
+    const goal::Verdict verdict = goal::judge_goal(*summary.goal, *point.goal, 1);
+    if (summary.goal->machines) merits.push_back(verdict.machines.value);
+    merits.push_back(verdict.moves.value);
+    merits.push_back(earliness(measures::of_band(point, "band_settling_time", summary.goal->band).p95.value));
+  } else {
+    merits.push_back(statistics::rate(point.outcomes.zero_count, point.trials));
+    merits.push_back(earliness(point.of(&trial::MoveOutcome::settling_time).median.value));
+  }
+  merits.push_back(-static_cast<double>(parts_in_use(summary, index)));
+  return merits;
 }
 
 }  // namespace
 
-std::int64_t best_point(std::span<const measures::PointSummary> points,
-                        const std::optional<study::Goal>& goal) {
-  std::size_t best = 0;
-  Merits of_best;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].trials == 0) continue;  // of an unfinished run
-    Merits merits =
-        goal && points[i].goal ? merits_by_goal(points[i], *goal) : merits_without_goal(points[i]);
-    if (!of_best.empty() && !(merits > of_best)) continue;
-    best = i;
-    of_best = std::move(merits);
+std::vector<std::int64_t> points_by_merit(const StudySummary& summary) {
+  std::vector<std::pair<Merits, std::int64_t>> points;
+  for (std::size_t i = 0; i < summary.points.size(); ++i) {
+    if (summary.points[i].trials > 0)
+      points.emplace_back(merits_of(summary, i), static_cast<std::int64_t>(i));
   }
-  return static_cast<std::int64_t>(best);
+  std::ranges::stable_sort(points, [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<std::int64_t> order;
+  for (const auto& [merits, point] : points) order.push_back(point);
+  return order;
+}
+
+std::int64_t best_point(const StudySummary& summary) {
+  const std::vector<std::int64_t> order = points_by_merit(summary);
+  return order.empty() ? 0 : order.front();
 }
 
 statistics::SuccessClaim claim_of_chosen(const measures::PointSummary& point, std::size_t points,

@@ -108,25 +108,32 @@ std::string simulated_text(const measures::PointSummary& point) {
                      point.rigs.n > 0 ? fmt::format(" on {} rigs", point.rigs.n) : "");
 }
 
-std::string text_of(std::span<const measures::PointSummary> points, const std::vector<std::string>& labels,
-                    const std::vector<std::optional<Comparison>>& comparisons, double confidence) {
-  std::vector<std::vector<std::string>> cells{
-      {"point", "real rig", "simulated", "the simulation and the rig"}};
+void add_text(measures::SummarySection& section, std::span<const measures::PointSummary> points,
+              const std::vector<std::string>& labels,
+              const std::vector<std::optional<Comparison>>& comparisons, double confidence) {
+  text::PointTable table{{{"point", false, {}},
+                          {"real rig", false, {}},
+                          {"simulated", false, {}},
+                          {"the simulation and the rig", false, {}}},
+                         {}};
   bool rigs = false;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!comparisons[i]) continue;
     rigs = rigs || points[i].rigs.n > 0;
-    cells.push_back({text::printable(labels[i]),
-                     fmt::format("{} of {}", comparisons[i]->counts.successes, comparisons[i]->counts.of),
-                     simulated_text(points[i]), statement_of(points[i], *comparisons[i], confidence)});
+    table.columns[0].cells.push_back(text::printable(labels[i]));
+    table.columns[1].cells.push_back(
+        fmt::format("{} of {}", comparisons[i]->counts.successes, comparisons[i]->counts.of));
+    table.columns[2].cells.push_back(simulated_text(points[i]));
+    table.columns[3].cells.push_back(statement_of(points[i], *comparisons[i], confidence));
+    table.points.push_back(static_cast<std::int64_t>(i));
   }
-  return text::aligned_table(cells, {false, false, false, false}) +
-         fmt::format(
-             "\n{}, each point by itself: it differs where p ≤ {}. Consistent counts do not prove the\n"
-             "simulation right: they only do not contradict it\n",
-             rigs ? "rank of the real rig among the simulated ones, by as many trials of each"
-                  : "Fisher's exact test",
-             text::percent(1.0 - confidence));
+  section.tables.push_back(std::move(table));
+  section.note = fmt::format(
+      "{}, each point by itself: it differs where p ≤ {}. Consistent counts do not prove the simulation "
+      "right: they only do not contradict it\n",
+      rigs ? "rank of the real rig among the simulated ones, by as many trials of each"
+           : "Fisher's exact test",
+      text::percent(1.0 - confidence));
 }
 
 }  // namespace
@@ -136,10 +143,8 @@ measures::SummarySection observed_section(std::span<const measures::PointSummary
                                           const std::map<std::string, study::ObservedCounts>& counts,
                                           double confidence) {
   const std::vector<std::optional<Comparison>> compared = comparisons(points, labels, counts);
-  measures::SummarySection section{.key = observed_key,
-                                   .json = {},
-                                   .columns = columns_of(compared),
-                                   .text = text_of(points, labels, compared, confidence)};
+  measures::SummarySection section{.key = observed_key, .json = {}, .columns = columns_of(compared)};
+  add_text(section, points, labels, compared, confidence);
   for (std::size_t i = 0; i < points.size(); ++i)
     section.json.push_back(json_of(points[i], compared[i], confidence));
   return section;

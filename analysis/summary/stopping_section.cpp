@@ -24,33 +24,36 @@ double halfwidth(const statistics::ConfidenceInterval& bounds) {
 }
 
 /// @param bounds at the confidence of the summary. @param judged at that of the rule.
-std::string text_of(const std::vector<statistics::ConfidenceInterval>& bounds,
-                    const std::vector<statistics::ConfidenceInterval>& judged,
-                    const std::vector<std::string>& labels, const study::StoppingRule& rule,
-                    std::int64_t rigs, double confidence) {
-  std::vector<std::vector<std::string>> cells{
-      {"point", text::percent(confidence) + " bounds of zero-count, however often one looks (%)",
-       fmt::format("asked for: ± {:.4g} %, came to", 100.0 * rule.success_rate_halfwidth)}};
+void add_text(measures::SummarySection& section, const std::vector<statistics::ConfidenceInterval>& bounds,
+              const std::vector<statistics::ConfidenceInterval>& judged,
+              const std::vector<std::string>& labels, const study::StoppingRule& rule, std::int64_t rigs,
+              double confidence) {
+  text::PointTable table{
+      {{"point", false, {}},
+       {text::percent(confidence) + " bounds of zero-count, however often one looks (%)", false, {}},
+       {fmt::format("asked for: ± {:.4g} %, came to", 100.0 * rule.success_rate_halfwidth), false, {}}},
+      {}};
   bool reached = true;
   for (std::size_t i = 0; i < bounds.size(); ++i) {
     const bool here = halfwidth(judged[i]) <= rule.success_rate_halfwidth;
     reached = reached && here;
-    cells.push_back({text::printable(labels[i]),
-                     fmt::format("[{}]", text::percent_bounds(bounds[i].low, bounds[i].high, 2)),
-                     fmt::format("± {} %{}", text::rounded_up(100.0 * halfwidth(judged[i]), 2),
-                                 here ? "" : ": not reached")});
+    table.columns[0].cells.push_back(text::printable(labels[i]));
+    table.columns[1].cells.push_back(
+        fmt::format("[{}]", text::percent_bounds(bounds[i].low, bounds[i].high, 2)));
+    table.columns[2].cells.push_back(fmt::format(
+        "± {} %{}", text::rounded_up(100.0 * halfwidth(judged[i]), 2), here ? "" : ": not reached"));
+    table.points.push_back(static_cast<std::int64_t>(i));
   }
-  return text::aligned_table(cells, {false, false, false}) +
-         fmt::format(
-             "\nhow many trials there are was decided by their outcomes, after every {} at each "
-             "point{};\nall other bounds are those of a number fixed beforehand\n{}",
-             rule.block, reached ? "" : ", and ended by max_trials before all was known as well as asked for",
-             rigs == 0 ? ""
-                       : fmt::format(
-                             "these bounds are of the mean over the {} rigs of the study, which more trials "
-                             "narrow; those over all rigs are in\nthe table above, and more rigs narrow "
-                             "them\n",
-                             rigs));
+  section.tables.push_back(std::move(table));
+  section.note = fmt::format(
+      "how many trials there are was decided by their outcomes, after every {} at each point{}; all other "
+      "bounds are those of a number fixed beforehand\n{}",
+      rule.block, reached ? "" : ", and ended by max_trials before all was known as well as asked for",
+      rigs == 0 ? ""
+                : fmt::format("these bounds are of the mean over the {} rigs of the study, which more trials "
+                              "narrow; those over all rigs are in the table above, and more rigs narrow "
+                              "them\n",
+                              rigs));
 }
 
 }  // namespace
@@ -67,10 +70,9 @@ measures::SummarySection stopping_section(std::span<const measures::PointSummary
                                {}};
   };
   const std::int64_t rigs = points.empty() ? 0 : points.front().rigs.n;
-  measures::SummarySection section{.key = stopping_key,
-                                   .json = {},
-                                   .columns = {column("low", "lower"), column("high", "upper")},
-                                   .text = text_of(bounds, judged, labels, rule, rigs, confidence)};
+  measures::SummarySection section{
+      .key = stopping_key, .json = {}, .columns = {column("low", "lower"), column("high", "upper")}};
+  add_text(section, bounds, judged, labels, rule, rigs, confidence);
   for (std::size_t i = 0; i < bounds.size(); ++i) {
     section.columns[0].values.push_back(bounds[i].low);
     section.columns[1].values.push_back(bounds[i].high);

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "analysis/summary/chosen_point.hpp"
 #include "analysis/summary/summary_parts.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
@@ -17,9 +20,10 @@ namespace {
 
 /// A line for every point with trials whose motion was lost: they count as failures, and the reader must
 /// know.
-std::string nonfinite_notes(const StudySummary& summary) {
+std::string nonfinite_notes(const StudySummary& summary, std::span<const std::int64_t> points) {
   std::string notes;
-  for (std::size_t i = 0; i < summary.points.size(); ++i) {
+  for (const std::int64_t point : points) {
+    const auto i = static_cast<std::size_t>(point);
     const std::int64_t lost = summary.points[i].outcomes.nonfinite;
     if (lost == 0) continue;
     notes += fmt::format(
@@ -81,18 +85,33 @@ std::vector<std::string> observations(const StudySummary& summary) {
   return any ? texts : std::vector<std::string>{};
 }
 
-std::string summary_table(const StudySummary& summary) {
+std::vector<std::int64_t> points_shown(const StudySummary& summary, const SummaryForm& form) {
+  if (!form.points.empty()) return form.points;
+  std::vector<std::int64_t> all(summary.points.size());
+  std::iota(all.begin(), all.end(), std::int64_t{0});
+  return all;
+}
+
+std::string summary_table(const StudySummary& summary, const SummaryForm& form) {
   require_consistent(summary);
   const bool levels = summary.features.open_loop;
+  const std::vector<std::int64_t> points = points_shown(summary, form);
+  const ChosenPoint chosen = choose_point(summary, form.chosen);
   const std::string unfinished = unfinished_sentence(summary);
-  std::string text = text::printable(summary.name) + "\n" + (unfinished.empty() ? "" : unfinished + "\n") +
-                     "\n" + text::aligned_table(levels ? level_columns(summary) : loop_columns(summary)) +
-                     nonfinite_notes(summary) + "\n" +
-                     (levels ? level_legend(summary.features.axis) : loop_legend(summary));
+  const text::PointTable table =
+      levels ? level_table(summary)
+             : text::PointTable{loop_columns(summary, chosen.point), points_shown(summary, {})};
+  std::string text = fmt::format("{}: {}\n{}{}\n\n{}{}", text::printable(summary.name), size_line(summary),
+                                 unfinished.empty() ? "" : unfinished + "\n", design_line(summary),
+                                 text::aligned_table(table, points), nonfinite_notes(summary, points));
+  if (points.size() < summary.points.size())
+    text += fmt::format("({} of {} points)\n", points.size(), summary.points.size());
+  if (form.legend) text += "\n" + (levels ? level_legend(summary.features.axis) : loop_legend(summary));
   for (const measures::SummarySection& section : summary.sections) {
-    if (!section.text.empty()) text += "\n" + section.text;
+    const std::string section_text = measures::text_of(section, points);
+    if (!section_text.empty()) text += "\n" + section_text;
   }
-  return text;
+  return levels ? text : text + "\n" + verdict_text(summary, chosen);
 }
 
 }  // namespace zerocount::summary

@@ -53,6 +53,16 @@ inline constexpr const char* stopping_key = "stopped";
 /// functions below call it.
 void require_consistent(const StudySummary& summary);
 
+/// How a summary is printed.
+struct SummaryForm {
+  std::vector<std::int64_t> points{};    ///< that are shown, in their order; empty: all
+  std::optional<std::int64_t> chosen{};  ///< point that the text speaks of; nothing: the best
+  bool legend{false};                    ///< the table explains its columns
+};
+
+/// The points that the form shows, in their order.
+std::vector<std::int64_t> points_shown(const StudySummary& summary, const SummaryForm& form);
+
 /// The observations on the real rig at `point`; empty where there are none.
 std::string observed_at(const StudySummary& summary, std::int64_t point);
 
@@ -61,15 +71,16 @@ std::string observed_at(const StudySummary& summary, std::int64_t point);
 std::string unfinished_sentence(const StudySummary& summary);
 
 /// The table for people: a row per point in aligned columns, of an open-loop study a row per point and level,
-/// a legend below, then the sections. UTF-8, one line per row.
-std::string summary_table(const StudySummary& summary);
+/// then the sections, at last the verdict on the chosen point. UTF-8, one line per row, sentences on one
+/// line each: text::fitted fits it to a terminal.
+std::string summary_table(const StudySummary& summary, const SummaryForm& form = {});
 
 /// {"name", "design", "conservative_bounds", "confidence", "unfinished" (only of an unfinished study:
 /// {"finished", "trials"}), "points": [{"point", "label", "axes": {…}, …}]}
 /// with the names of statistic_fields() and mean_bound_fields(), by group; points of an open-loop study have
-/// "levels": […] with the names of level_fields(); each section has its key. Whole numbers are integers, NaN
-/// is null, every other number reads back to the same double.
-nlohmann::ordered_json summary_json(const StudySummary& summary);
+/// "levels": […] with the names of level_fields(); each section has its key; "best": chosen_point_json().
+/// Whole numbers are integers, NaN is null, every other number reads back to the same double.
+nlohmann::ordered_json summary_json(const StudySummary& summary, const SummaryForm& form = {});
 
 /// summary_json as text, indented, ending with a line break.
 std::string summary_json_text(const StudySummary& summary);
@@ -78,7 +89,7 @@ std::string summary_json_text(const StudySummary& summary);
 /// proportions of trials, the observation and the columns of the sections. Of an open-loop study, a line per
 /// point and level: point, label, axes, level, then level_fields() by flat_name, and the observation. RFC
 /// 4180 with \n; NaN is `nan`; numbers read back to the same double.
-std::string summary_csv(const StudySummary& summary);
+std::string summary_csv(const StudySummary& summary, const SummaryForm& form = {});
 
 /// The summary of a complete results file. What was observed comes from its manifest, what the criteria say
 /// from the columns of its /point: the trials are not drawn again. Every bound is found anew.

@@ -17,9 +17,10 @@ struct CsvSubject {
   std::size_t level{0};
 };
 
-std::vector<CsvSubject> csv_subjects(const StudySummary& summary) {
+std::vector<CsvSubject> csv_subjects(const StudySummary& summary, const SummaryForm& form) {
   std::vector<CsvSubject> subjects;
-  for (std::size_t point = 0; point < summary.points.size(); ++point) {
+  for (const std::int64_t index : points_shown(summary, form)) {
+    const auto point = static_cast<std::size_t>(index);
     const std::size_t levels = summary.features.open_loop ? summary.points[point].levels.size() : 1;
     for (std::size_t level = 0; level < levels; ++level) subjects.push_back({point, level});
   }
@@ -40,9 +41,9 @@ std::string csv_line(const std::vector<std::string>& cells) {
 
 }  // namespace
 
-std::string summary_csv(const StudySummary& summary) {
+std::string summary_csv(const StudySummary& summary, const SummaryForm& form) {
   require_consistent(summary);
-  const std::vector<CsvSubject> subjects = csv_subjects(summary);
+  const std::vector<CsvSubject> subjects = csv_subjects(summary, form);
   std::vector<std::vector<std::string>> lines(subjects.size() + 1);
   const auto add = [&](const std::string& name, const auto& cell) {
     lines[0].push_back(name);

@@ -5,6 +5,7 @@
 
 #include "analysis/measures/point_columns.hpp"
 #include "analysis/statistics/proportion.hpp"
+#include "analysis/summary/chosen_point.hpp"
 #include "analysis/summary/summary_parts.hpp"
 #include "analysis/text/report_json.hpp"
 #include "results/layout/layout.hpp"
@@ -53,14 +54,16 @@ nlohmann::ordered_json prediction_json(const theory::PointPrediction& prediction
 
 }  // namespace
 
-nlohmann::ordered_json summary_json(const StudySummary& summary) {
+nlohmann::ordered_json summary_json(const StudySummary& summary, const SummaryForm& form) {
   require_consistent(summary);
   const std::vector<measures::StatisticField> fields =
       measures::statistic_fields(summary.features, summary.table());
   const std::vector<measures::StatisticField> bounds = measures::mean_bound_fields(summary.table());
   nlohmann::ordered_json points = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < summary.points.size(); ++i) {
-    nlohmann::ordered_json point{{"point", i}, {"label", summary.labels[i]}, {"axes", axes_json(summary, i)}};
+  for (const std::int64_t index : points_shown(summary, form)) {
+    const auto i = static_cast<std::size_t>(index);
+    nlohmann::ordered_json point{
+        {"point", index}, {"label", summary.labels[i]}, {"axes", axes_json(summary, i)}};
     text::add_fields(point, fields, summary.points[i]);
     text::add_fields(point, bounds, summary.points[i]);
     point["moves"] = moves_json(summary.points[i], summary.features);
@@ -78,6 +81,8 @@ nlohmann::ordered_json summary_json(const StudySummary& summary) {
                               {"confidence", summary.confidence}};
   if (const auto& unfinished = summary.unfinished)
     json["unfinished"] = {{"finished", unfinished->finished}, {"trials", unfinished->trials}};
+  if (!summary.features.open_loop)
+    json["best"] = chosen_point_json(summary, choose_point(summary, form.chosen));
   json["points"] = std::move(points);
   return json;
 }

@@ -37,7 +37,7 @@ std::string bounds_text(const statistics::ConfidenceInterval& bounds) {
 
 }  // namespace
 
-std::vector<text::TextColumn> level_columns(const StudySummary& summary) {
+text::PointTable level_table(const StudySummary& summary) {
   const parameters::AxisKind axis = summary.features.axis;
   const std::string torque_head =
       fmt::format("{} ({})", parameters::text_on(axis, "$torque"), parameters::unit_on(axis, "N m"));
@@ -54,8 +54,10 @@ std::vector<text::TextColumn> level_columns(const StudySummary& summary) {
                                         {"broke away", true, {}}};
   const std::vector<std::string> observed = observations(summary);
   if (!observed.empty()) columns.push_back({"observed", false, {}});
+  std::vector<std::int64_t> points;
   for (std::size_t point = 0; point < summary.points.size(); ++point) {
     const std::vector<measures::LevelStatistics>& levels = summary.points[point].levels;
+    points.insert(points.end(), levels.size(), static_cast<std::int64_t>(point));
     for (std::size_t i = 0; i < levels.size(); ++i) {
       const measures::LevelStatistics& level = levels[i];
       const measures::MeasureStatistics& torque = level.of(&trial::MoveOutcome::holding_torque);
@@ -78,7 +80,7 @@ std::vector<text::TextColumn> level_columns(const StudySummary& summary) {
       }
     }
   }
-  return columns;
+  return {std::move(columns), std::move(points)};
 }
 
 std::string level_legend(parameters::AxisKind axis) {

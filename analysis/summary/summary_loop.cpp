@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
+#include <span>
 
 #include <fmt/format.h>
 
+#include "analysis/goal/goal_text.hpp"
 #include "analysis/summary/summary_parts.hpp"
 #include "analysis/text/percent.hpp"
 
@@ -45,28 +48,66 @@ text::TextColumn by_point(const StudySummary& summary, std::string head, Cell ce
   return column;
 }
 
+/// "98.2 %" and "[97.1, 98.9]" of each point, in two columns.
+void add_proportion(std::vector<text::TextColumn>& columns, const std::string& head,
+                    std::span<const std::optional<goal::Verdict>> verdicts,
+                    goal::BoundedProportion goal::Verdict::*proportion) {
+  text::TextColumn values{head, true, {}}, bounds{"bounds", true, {}};
+  for (const std::optional<goal::Verdict>& verdict : verdicts) {
+    const goal::BoundedProportion shown = verdict ? (*verdict).*proportion : goal::BoundedProportion{};
+    values.cells.push_back(verdict ? text::percent_near(shown.value) : "–");
+    bounds.cells.push_back(verdict ? fmt::format("[{}]", text::percent_bounds(shown.low, shown.high)) : "–");
+  }
+  columns.push_back(std::move(values));
+  columns.push_back(std::move(bounds));
+}
+
+void add_goal(std::vector<text::TextColumn>& columns, const StudySummary& summary) {
+  if (!summary.goal) return;
+  const std::vector<std::optional<goal::Verdict>> verdicts = goal_verdicts(summary);
+  text::TextColumn status{"goal", false, {}};
+  for (const std::optional<goal::Verdict>& verdict : verdicts)
+    status.cells.emplace_back(verdict ? goal::text_of(verdict->status) : "–");
+  columns.push_back(std::move(status));
+  if (summary.goal->machines) add_proportion(columns, "machines in goal", verdicts, &goal::Verdict::machines);
+  add_proportion(columns, "moves in goal", verdicts, &goal::Verdict::moves);
+}
+
+void add_success(std::vector<text::TextColumn>& columns, const StudySummary& summary) {
+  columns.push_back(by_point(summary, "zero-count", [](const measures::PointSummary& p) {
+    return text::percentage(p.outcomes.zero_count, p.judged);
+  }));
+  columns.push_back(by_point(summary, bounds_head(summary), [](const measures::PointSummary& p) {
+    return interval_in_percent(p.success_rate().clopper_pearson);
+  }));
+}
+
 void add_outcomes(std::vector<text::TextColumn>& columns, const StudySummary& summary) {
-  using Point = const measures::PointSummary&;
-  columns.push_back(by_point(summary, "trials", [](Point p) { return fmt::format("{}", p.trials); }));
-  columns.push_back(by_point(summary, "stable", [](Point p) {
+  columns.push_back(by_point(summary, "stable", [](const measures::PointSummary& p) {
     return text::percentage(p.of(&trial::MoveOutcome::stable).trials, p.judged);
   }));
   if (any_undecided(summary)) {
-    columns.push_back(by_point(summary, "undecided",
-                               [](Point p) { return text::percentage(p.outcomes.off_target, p.judged); }));
+    columns.push_back(by_point(summary, "undecided", [](const measures::PointSummary& p) {
+      return text::percentage(p.outcomes.off_target, p.judged);
+    }));
   }
   if (any_unsettled(summary)) {
-    columns.push_back(
-        by_point(summary, "unsettled", [](Point p) { return text::percentage(unsettled(p), p.judged); }));
+    columns.push_back(by_point(summary, "unsettled", [](const measures::PointSummary& p) {
+      return text::percentage(unsettled(p), p.judged);
+    }));
   }
-  columns.push_back(by_point(summary, "zero-count",
-                             [](Point p) { return text::percentage(p.outcomes.zero_count, p.judged); }));
-  columns.push_back(by_point(summary, bounds_head(summary),
-                             [](Point p) { return interval_in_percent(p.success_rate().clopper_pearson); }));
   if (summary.features.rigs) {
-    columns.push_back(by_point(summary, "rigs w/o failure",
-                               [](Point p) { return text::percentage(rigs_without_failure(p), p.rigs.n); }));
+    columns.push_back(by_point(summary, "rigs w/o failure", [](const measures::PointSummary& p) {
+      return text::percentage(rigs_without_failure(p), p.rigs.n);
+    }));
   }
+}
+
+/// Only where points differ in it.
+void add_trials(std::vector<text::TextColumn>& columns, const StudySummary& summary) {
+  if (!trials_of_each(summary))
+    columns.push_back(by_point(summary, "trials",
+                               [](const measures::PointSummary& p) { return fmt::format("{}", p.trials); }));
 }
 
 /// The measures of the table that have columns in this summary.
@@ -97,7 +138,7 @@ std::string cell_text(layout::CellText text, const measures::PointSummary& point
 void add_measures(std::vector<text::TextColumn>& columns, const StudySummary& summary) {
   for (const layout::Measure* measure : shown_measures(summary)) {
     for (const layout::SummaryColumn& column : measure->summary.columns) {
-      columns.push_back(by_point(summary, std::string(column.head), [&](const measures::PointSummary& point) {
+      columns.push_back(by_point(summary, column.head, [&](const measures::PointSummary& point) {
         return cell_text(column.text, point, measures::value_of(column.statistic, point.of(*measure)));
       }));
     }
@@ -137,10 +178,13 @@ std::string settling_text(const measures::PointSummary& point, double time) {
   return std::isnan(point.hold) ? "> hold" : fmt::format("> {} s", text::short_number(point.hold));
 }
 
-std::vector<text::TextColumn> loop_columns(const StudySummary& summary) {
-  std::vector<text::TextColumn> columns = sweep_columns(summary);
-  add_outcomes(columns, summary);
+std::vector<text::TextColumn> loop_columns(const StudySummary& summary, std::int64_t chosen) {
+  std::vector<text::TextColumn> columns = sweep_columns(summary, chosen);
+  add_goal(columns, summary);
+  add_success(columns, summary);
+  add_trials(columns, summary);
   add_measures(columns, summary);
+  add_outcomes(columns, summary);
   if (has_predictions(summary)) add_predictions(columns, summary);
   if (const std::vector<std::string> observed = observations(summary); !observed.empty()) {
     text::TextColumn column{"observed", false, {}};
@@ -150,6 +194,14 @@ std::vector<text::TextColumn> loop_columns(const StudySummary& summary) {
   return columns;
 }
 
+std::optional<std::int64_t> trials_of_each(const StudySummary& summary) {
+  if (summary.points.empty()) return std::nullopt;
+  const std::int64_t trials = summary.points.front().trials;
+  const bool equal = std::ranges::all_of(
+      summary.points, [&](const measures::PointSummary& point) { return point.trials == trials; });
+  return equal ? std::optional(trials) : std::nullopt;
+}
+
 /// Rigs that have trials; of an unfinished run, at the point with most of them.
 std::int64_t rigs_of(const StudySummary& summary) {
   std::int64_t rigs = 0;
@@ -157,24 +209,31 @@ std::int64_t rigs_of(const StudySummary& summary) {
   return rigs;
 }
 
+std::string size_line(const StudySummary& summary) {
+  const std::size_t points = summary.points.size();
+  std::string line = fmt::format("{} point{}", points, points == 1 ? "" : "s");
+  if (const std::optional<std::int64_t> trials = trials_of_each(summary))
+    line += fmt::format(" × {} trials", *trials);
+  if (summary.features.rigs) line += fmt::format(" on {} rigs", rigs_of(summary));
+  return line;
+}
+
 std::string design_line(const StudySummary& summary) {
   const study::StudyFeatures& features = summary.features;
   if (features.dependent_trials) {
     return "The trials of a saltelli design are not independent: all bounds here are too narrow. They are "
-           "for\n"
-           "'zerocount sensitivity'";
+           "for 'zerocount sensitivity'";
   }
   std::string line = fmt::format("design: {}", summary.design);
   if (features.rigs && !summary.points.empty()) {
     line += fmt::format(
-        ", {} rigs: bounds are of all rigs that the manifest describes, and more trials on the same "
-        "rigs\nnarrow them only so far",
+        ", {} rigs: bounds are of all rigs that the manifest describes, and more trials on the same rigs "
+        "narrow them only so far",
         rigs_of(summary));
   }
   if (features.spread_trials) {
     line += fmt::format(
-        "{} bounds are conservative: made for trials by chance, which vary more than those of this "
-        "design",
+        "{} bounds are conservative: made for trials by chance, which vary more than those of this design",
         features.rigs ? ";" : ":");
   }
   return line;
@@ -182,36 +241,37 @@ std::string design_line(const StudySummary& summary) {
 
 std::string loop_legend(const StudySummary& summary) {
   const study::StudyFeatures& features = summary.features;
-  std::string legend =
-      "stable: proportion of trials whose moves all arrived and stayed within one count\n"
-      "zero-count: proportion of trials whose moves all ended at zero error; bounds of it after " +
-      std::string(features.rigs ? "Korn and Graubard" : "Clopper and Pearson") + ", in %\n" +
-      legend_of(summary, [](const layout::Measure& m) { return m.summary.use == nullptr; });
+  std::string legend;
+  if (summary.points.size() > 1) legend += "*: the chosen point, of which the last lines speak\n";
+  if (summary.goal) {
+    legend += fmt::format("in goal: {}; one-sided {} bounds of each point alone, in %\n",
+                          goal::goal_sentence(*summary.goal), text::percent(summary.goal->confidence));
+  }
+  legend += "zero-count: proportion of trials whose moves all ended at zero error; bounds of it after " +
+            std::string(features.rigs ? "Korn and Graubard" : "Clopper and Pearson") +
+            ", in %\n"
+            "stable: proportion of trials whose moves all arrived and stayed within one count\n" +
+            legend_of(summary, [](const layout::Measure& m) { return m.summary.use == nullptr; });
   if (features.rigs)
     legend += "rigs w/o failure: proportion of rigs all of whose trials ended at zero error\n";
   if (any_undecided(summary)) {
     legend +=
         "undecided: proportion of trials whose worst move ended off target, stalled or still on its way: "
-        "neither "
-        "stable nor\nshown unstable\n";
+        "neither stable nor shown unstable\n";
   }
   if (any_unsettled(summary)) {
     legend +=
         "unsettled: proportion of trials that ended within one count without being stable: a move had not "
-        "arrived "
-        "yet, hunts by\none count, or had left by more than one; all other trials oscillated\n";
+        "arrived yet, hunts by one count, or had left by more than one; all other trials oscillated\n";
   }
   legend += legend_of(summary, layout::is_quality);
-  legend += design_line(summary) + "\n";
   legend += legend_of(
       summary, [](const layout::Measure& m) { return m.summary.use != nullptr && !layout::is_quality(m); });
   if (has_predictions(summary)) {
     legend +=
         "(6), (7): proportion of trials in which the paper's criterion (6) holds, which promises stability "
-        "before "
-        "sliding, and\n"
-        "in which its criterion (7) is exceeded, which rules it out; by the friction where the trial "
-        "starts\n";
+        "before sliding, and in which its criterion (7) is exceeded, which rules it out; by the friction "
+        "where the trial starts\n";
   }
   return legend;
 }

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "analysis/goal/goal_verdict.hpp"
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/summary/summary.hpp"
 #include "analysis/text/text.hpp"
@@ -22,20 +24,30 @@ std::string bounds_head(const StudySummary& summary);
 /// @param time s; NaN if not reached
 std::string settling_text(const measures::PointSummary& point, double time);
 
+/// The end of the dotted path that no other of the axes has: "ki", or "coarse.kp" beside a "kp".
+std::string short_name(const study::SweepAxis& axis, std::span<const study::SweepAxis> axes);
+
 /// The columns that tell the points apart: their labels, and a column for each swept parameter with its unit
 /// in the head, where these are few. In a grid, whose labels only repeat the swept values, the number of the
-/// point takes the place of the label.
-std::vector<text::TextColumn> sweep_columns(const StudySummary& summary);
+/// point takes the place of the label. A star marks the chosen point among several.
+std::vector<text::TextColumn> sweep_columns(const StudySummary& summary, std::int64_t chosen);
 
-/// The table of a study with targets, and what its columns mean.
-std::vector<text::TextColumn> loop_columns(const StudySummary& summary);
+/// The table of a study with targets, the most important columns first, and what its columns mean.
+/// @param chosen the point that is marked
+std::vector<text::TextColumn> loop_columns(const StudySummary& summary, std::int64_t chosen);
 std::string loop_legend(const StudySummary& summary);
 
-/// The effect of the study's design on the bounds, one line or two.
+/// The number of trials of every point; nothing where points differ in it.
+std::optional<std::int64_t> trials_of_each(const StudySummary& summary);
+
+/// "8 points × 2000 trials on 100 rigs".
+std::string size_line(const StudySummary& summary);
+
+/// The effect of the study's design on the bounds, one line.
 std::string design_line(const StudySummary& summary);
 
 /// The table of an open-loop study, a row per point and level, and what its columns mean.
-std::vector<text::TextColumn> level_columns(const StudySummary& summary);
+text::PointTable level_table(const StudySummary& summary);
 std::string level_legend(parameters::AxisKind axis);
 
 /// The observations on the real rig, [point]; empty where there are none at any point.
@@ -82,13 +94,18 @@ measures::SummarySection observed_section(std::span<const measures::PointSummary
 std::vector<layout::PointColumn> observed_columns(std::span<const measures::PointSummary> points,
                                                   const study::Study& study);
 
+/// The verdicts of the points by the goal of the study, each on its own; nothing for a point without trials.
+std::vector<std::optional<goal::Verdict>> goal_verdicts(const StudySummary& summary);
+
+/// {"status", "rate", "rate_low", "rate_high"}, the proportion of moves that meet the goal; if the goal asks
+/// for machines "machines", "machines_low", "machines_high" too, with rigs "rigs_without_miss".
+nlohmann::ordered_json verdict_json(const study::Goal& goal, const goal::Verdict& verdict, bool on_rigs);
+
 /// The section "goal" of a summary: whether each point meets the goal of the study, with bounds of that point
-/// alone, and the judgement of the best.
+/// alone.
 ///
-/// Its JSON is {"status", "rate", "rate_low", "rate_high"}, the proportion of moves that meet the goal, and
-/// with rigs "rigs_without_miss"; if the goal asks for machines, "machines", "machines_low", "machines_high".
-/// Its columns are goal_rate, goal_rate_low, goal_rate_high, and goal_machines… likewise; its text is a table
-/// and the paragraph of judge_point().
+/// Its JSON is verdict_json(). Its columns are goal_rate, goal_rate_low, goal_rate_high, and goal_machines…
+/// likewise; its cells are columns of the main table.
 measures::SummarySection goal_section(const StudySummary& summary);
 
 /// The section "assurance" of a summary: what the trials of each point show of all axes that the manifest

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/summary/shown_points.hpp"
 #include "analysis/summary/summary_parts.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 
@@ -40,20 +41,6 @@ std::string last_parts(const std::string& path, std::size_t parts) {
   return start == std::string::npos ? path : path.substr(start + 1);
 }
 
-/// The end of the dotted path that no other swept parameter has: "ki", or "coarse.kp" beside a "kp".
-std::string short_name(const study::SweepAxis& axis, const std::vector<const study::SweepAxis*>& swept) {
-  const auto sections = std::count(axis.name.begin(), axis.name.end(), '.');
-  for (std::size_t parts = 1; parts <= static_cast<std::size_t>(sections); ++parts) {
-    std::string name = last_parts(axis.name, parts);
-    const bool is_index = name.find_first_not_of("0123456789.") == std::string::npos;
-    const bool unique = std::none_of(swept.begin(), swept.end(), [&](const study::SweepAxis* other) {
-      return other != &axis && last_parts(other->name, parts) == name;
-    });
-    if (unique && !is_index) return name;
-  }
-  return axis.name;
-}
-
 std::string number_cell(const study::SweepAxis& axis, double value) {
   if (std::isnan(value)) return "random";
   const auto row = parameters::find_parameter(axis.name);
@@ -61,11 +48,10 @@ std::string number_cell(const study::SweepAxis& axis, double value) {
   return fmt::format("{:.6g}", value);
 }
 
-text::TextColumn swept_column(const study::SweepAxis& axis,
-                              const std::vector<const study::SweepAxis*>& swept) {
+text::TextColumn swept_column(const study::SweepAxis& axis, std::span<const study::SweepAxis> axes) {
   const bool numeric = axis.kind == study::SweepAxis::Kind::number;
   const std::string unit = numeric && axis.unit != "1" ? fmt::format(" ({})", axis.unit) : "";
-  text::TextColumn column{short_name(axis, swept) + unit, numeric, {}};
+  text::TextColumn column{short_name(axis, axes) + unit, numeric, {}};
   if (!numeric) {
     column.cells = axis.texts;
     return column;
@@ -85,29 +71,46 @@ bool labels_name_values(const StudySummary& summary, const std::vector<const stu
   });
 }
 
-/// "point": the label, unless other columns say the same; then the number of the point.
-text::TextColumn point_column(const StudySummary& summary, bool by_number) {
-  text::TextColumn column{"point", by_number, {}};
-  for (std::size_t i = 0; i < summary.labels.size(); ++i) {
-    column.cells.push_back(by_number ? fmt::format("{}", i) : text::printable(summary.labels[i]));
+/// "point": the label, unless other columns say the same; then the number of the point. A star marks the
+/// chosen point among several.
+text::TextColumn point_column(const StudySummary& summary, bool by_number, std::int64_t chosen) {
+  text::TextColumn column{"point", false, {}};
+  const std::vector<std::string> labels = short_labels(summary);
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const bool marked = labels.size() > 1 && static_cast<std::int64_t>(i) == chosen;
+    column.cells.push_back((by_number ? fmt::format("{}", i) : text::printable(labels[i])) +
+                           (marked ? " *" : ""));
   }
   return column;
 }
 
 }  // namespace
 
-std::vector<text::TextColumn> sweep_columns(const StudySummary& summary) {
+std::string short_name(const study::SweepAxis& axis, std::span<const study::SweepAxis> axes) {
+  const auto sections = std::count(axis.name.begin(), axis.name.end(), '.');
+  for (std::size_t parts = 1; parts <= static_cast<std::size_t>(sections); ++parts) {
+    std::string name = last_parts(axis.name, parts);
+    const bool is_index = name.find_first_not_of("0123456789.") == std::string::npos;
+    const bool unique = std::none_of(axes.begin(), axes.end(), [&](const study::SweepAxis& other) {
+      return other.name != axis.name && last_parts(other.name, parts) == name;
+    });
+    if (unique && !is_index) return name;
+  }
+  return axis.name;
+}
+
+std::vector<text::TextColumn> sweep_columns(const StudySummary& summary, std::int64_t chosen) {
   const std::vector<const study::SweepAxis*> swept = varying_parameters(summary);
-  if (swept.empty() || swept.size() > max_swept_columns) return {point_column(summary, false)};
+  if (swept.empty() || swept.size() > max_swept_columns) return {point_column(summary, false, chosen)};
   const bool by_number = labels_name_values(summary, swept);
-  std::vector<text::TextColumn> columns{point_column(summary, by_number)};
+  std::vector<text::TextColumn> columns{point_column(summary, by_number, chosen)};
   const auto cases = std::find_if(summary.axes.begin(), summary.axes.end(), is_case);
   if (by_number && cases != summary.axes.end()) {
     text::TextColumn names{"case", false, {}};
     for (const std::string& name : cases->texts) names.cells.push_back(text::printable(name));
     columns.push_back(std::move(names));
   }
-  for (const study::SweepAxis* axis : swept) columns.push_back(swept_column(*axis, swept));
+  for (const study::SweepAxis* axis : swept) columns.push_back(swept_column(*axis, summary.axes));
   return columns;
 }
 

@@ -82,20 +82,39 @@ std::vector<layout::PointColumn> columns_of(std::span<const measures::PointSumma
   return columns;
 }
 
-std::string text_of(std::span<const measures::PointSummary> points, const std::vector<std::string>& labels) {
-  std::vector<std::vector<std::string>> cells{
-      {"point", "what the trials show of all axes that the manifest describes"}};
+text::TextColumn text_column(std::span<const measures::PointSummary> points, std::string head,
+                             const auto& cell) {
+  text::TextColumn column{std::move(head), true, {}};
+  for (const measures::PointSummary& point : points) {
+    if (point.trials > 0) column.cells.push_back(cell(point));
+  }
+  return column;
+}
+
+text::PointTable table_of(std::span<const measures::PointSummary> points,
+                          const std::vector<std::string>& labels) {
+  using Point = const measures::PointSummary&;
+  text::PointTable table{{{"point", false, {}}}, {}};
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i].trials == 0) continue;  // of an unfinished run
-    cells.push_back({text::printable(labels[i]), statement(points[i])});
-    if (points[i].rigs.tolerance.min_rigs > 0) {
-      cells.back()[1] = statistics::tolerance_sentence(points[i].rigs.tolerance);
-      cells.push_back({"", statement(points[i])});
-    }
+    table.columns[0].cells.push_back(text::printable(labels[i]));
+    table.points.push_back(static_cast<std::int64_t>(i));
   }
-  return text::aligned_table(cells, {false, false}) +
-         fmt::format("\nbounds of one side each (Wilks; {}); settle: of the slowest move of a trial\n",
-                     on_rigs(points) ? "Korn and Graubard" : "Clopper and Pearson");
+  table.columns.push_back(text_column(points, "success of at least", [](Point point) {
+    return text::percent_at_least(point.claim.success_at_least);
+  }));
+  if (on_rigs(points)) {
+    table.columns.push_back(text_column(points, "90 % of rigs: zero in at least", [](Point point) {
+      const double zero = point.rigs.tolerance.zero_at_least;
+      return std::isnan(zero) ? "–" : text::percent_at_least(zero);
+    }));
+  }
+  for (std::size_t i = 0; i < std::size(statistics::tolerance_contents); ++i) {
+    table.columns.push_back(
+        text_column(points, fmt::format("{} arrive by (s)", text::percent(statistics::tolerance_contents[i])),
+                    [i](Point point) { return text::short_number(point.settles_within.at(i).within); }));
+  }
+  return table;
 }
 
 }  // namespace
@@ -103,7 +122,16 @@ std::string text_of(std::span<const measures::PointSummary> points, const std::v
 measures::SummarySection tolerance_section(std::span<const measures::PointSummary> points,
                                            const std::vector<std::string>& labels) {
   measures::SummarySection section{
-      .key = "assurance", .json = {}, .columns = columns_of(points), .text = text_of(points, labels)};
+      .key = "assurance",
+      .json = {},
+      .columns = columns_of(points),
+      .title = "shown with 95 % confidence of all axes that the manifest describes"};
+  section.tables.push_back(table_of(points, labels));
+  section.note = fmt::format(
+      "bounds of one side each (Wilks; {}). success of at least: of trials. arrive by: all moves of a trial; "
+      "a tolerance limit, later than the quantile of the trials at hand. –: the trials are too few, or more "
+      "of them never arrive\n",
+      on_rigs(points) ? "Korn and Graubard" : "Clopper and Pearson");
   for (const measures::PointSummary& point : points) section.json.push_back(point_json(point));
   return section;
 }

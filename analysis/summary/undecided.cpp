@@ -123,7 +123,8 @@ std::vector<measures::UndecidedMoves> UndecidedAccumulator::moves() const {
 
 measures::SummarySection undecided_section(std::span<const measures::PointSummary> points,
                                            const std::vector<std::string>& labels) {
-  measures::SummarySection section{.key = "undecided", .json = {}, .columns = {}, .text = {}};
+  measures::SummarySection section{.key = "undecided", .json = {}, .columns = {}};
+  text::PointTable table{{{"point", false, {}}, {"undecided moves", false, {}}}, {}};
   for (const measures::UndecidedCount& each : measures::undecided_counts)
     section.columns.push_back({each.column, "1", each.long_name, {}});
   section.columns.push_back({"hold_at_least", "s", "hold that most of these are expected to need", {}});
@@ -139,10 +140,12 @@ measures::SummarySection undecided_section(std::span<const measures::PointSummar
     json["hold_at_least"] = point.advised_hold;
     column->values.push_back(point.advised_hold);
     if (!measures::any_undecided(point)) continue;
-    section.text += fmt::format("{}: {}{}\n", text::printable(labels[i]), measures::undecided_sentence(point),
-                                clipping_remark(points[i]));
+    table.columns[0].cells.push_back(text::printable(labels[i]));
+    table.columns[1].cells.push_back(measures::undecided_sentence(point) + clipping_remark(points[i]));
+    table.points.push_back(static_cast<std::int64_t>(i));
   }
-  if (!section.text.empty()) section.text += fmt::format("{}\n", measures::undecided_meaning);
+  section.tables.push_back(std::move(table));
+  section.note = fmt::format("{}\n", measures::undecided_meaning);
   return section;
 }
 

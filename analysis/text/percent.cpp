@@ -43,6 +43,13 @@ std::string percent(double proportion) {
   return fmt::format("{} %", 100.0 * proportion);
 }
 
+std::string percent_near(double proportion) {
+  if (std::isnan(proportion)) return "–";
+  if (proportion == 0.0 || proportion == 1.0) return proportion == 0.0 ? "0 %" : "100 %";
+  const double percent = 100.0 * proportion;
+  return fmt::format("{:.{}f} %", percent, std::max(1, percent_decimals(std::min(percent, 100.0 - percent))));
+}
+
 std::string percent_at_least(double proportion) {
   const double percent = 100.0 * proportion;
   const int decimals = percent_decimals(std::min(percent, 100.0 - percent));

@@ -10,6 +10,10 @@ namespace zerocount::text {
 /// "95 %", "99.99999 %".
 std::string percent(double proportion);
 
+/// A proportion that was observed, rounded to as many digits as tell it from 0 and 1, at least one decimal:
+/// "97.4 %", "99.96 %"; "0 %" and "100 %" are exact.
+std::string percent_near(double proportion);
+
 /// A lower bound, rounded down to two significant digits of the smaller of p and 1 − p, and to one decimal if
 /// both are above 1 %. Never "100 %": no sample shows that.
 std::string percent_at_least(double proportion);

@@ -104,6 +104,22 @@ std::string aligned_table(const std::vector<TextColumn>& columns) {
   return aligned_table(cells, numeric);
 }
 
+std::string aligned_table(const PointTable& table, std::span<const std::int64_t> points) {
+  std::vector<std::size_t> rows;
+  for (const std::int64_t point : points) {
+    for (std::size_t row = 0; row < table.points.size(); ++row) {
+      if (table.points[row] == point) rows.push_back(row);
+    }
+  }
+  if (rows.empty()) return {};
+  std::vector<TextColumn> columns;
+  for (const TextColumn& column : table.columns) {
+    TextColumn& shown = columns.emplace_back(TextColumn{column.head, column.numeric, {}});
+    for (const std::size_t row : rows) shown.cells.push_back(column.cells[row]);
+  }
+  return aligned_table(columns);
+}
+
 std::string aligned_table(const std::vector<std::vector<std::string>>& cells,
                           const std::vector<bool>& numeric) {
   std::vector<std::size_t> widths(numeric.size(), 0);

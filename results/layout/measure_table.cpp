@@ -64,11 +64,13 @@ MeasureTable all_measures() {
                   {{max}, "longest settling time of the moves that arrived"},
                   {{bootstrap_low, bootstrap_high},
                    "{0} settling time of the moves that arrived: Student and studentised bootstrap"}}},
-       .summary = {.columns = {{"median (s)", median, CellText::settling_time},
+       .summary = {.columns = {{"arrival median (s)", median, CellText::settling_time},
                                {"p95 (s)", p95, CellText::settling_time},
                                {"arrived", n, CellText::proportion_of_moves}},
-                   .legend = "median, p95: settling time of all moves, those that never arrived being later "
-                             "than any time; arrived: proportion of moves\n"},
+                   .legend =
+                       "arrival: the error is first 0 for the whole dwell; median and p95 of all moves, "
+                       "those that never arrived being later than any time; arrived: proportion of "
+                       "moves\n"},
        .output = {{"settling_time",
                    "time until arrival, the longest of the trial's moves; a move that never arrived counts "
                    "with its duration"}},
@@ -275,7 +277,7 @@ MeasureTable all_measures() {
        .summary = {&study::StudyFeatures::stopping,
                    {{"stopped", count, CellText::proportion_of_trials}},
                    "stopped: proportion of trials that were ended where a move had diverged; they count as "
-                   "oscillating, and what is\nmeasured of their moves is up to there\n"}},
+                   "oscillating, and what is measured of their moves is up to there\n"}},
       {.field = field<M>("controller_failed", "1",
                          "the controller gave no finite $torque, in this move or one before: it is nonfinite",
                          &M::controller_failed),
@@ -349,6 +351,11 @@ std::vector<Measure> measures_of_band(const trial::ErrorBands& bands, std::size_
                    "NaN if not within the hold"},
                   {{bootstrap_low, bootstrap_high},
                    "{1} of the mean settling time: Student and studentised bootstrap"}}},
+       .summary = {.columns = {{fmt::format("settled ±{} p95 (s)", band), p95, CellText::settling_time}},
+                   .legend = slot > 0 ? ""
+                                      : "settled ±b: the error stays within b counts from then to the end of "
+                                        "the move; p95 of all moves, those that end outside being later "
+                                        "than any time\n"},
        .output = {{name_of_band("band_settling_time", band),
                    "time until the error is within the band for good, the longest of the trial's moves; a "
                    "move that ends outside counts with its duration"}}});

@@ -93,7 +93,7 @@ struct ReportedStatistics {
 enum class CellText { number, settling_time, proportion_of_trials, proportion_of_moves };
 
 struct SummaryColumn {
-  std::string_view head;
+  std::string head;
   Statistic statistic;
   CellText text{CellText::number};
 };
@@ -102,7 +102,7 @@ struct SummaryColumn {
 struct SummaryColumns {
   bool study::StudyFeatures::*use{nullptr};  ///< what a study must make use of to have them; null: nothing
   std::vector<SummaryColumn> columns{};
-  std::string_view legend{};  ///< whole lines below the table
+  std::string legend{};  ///< whole lines that explain the columns
 };
 
 /// A measure as an output of a trial that `sensitivity` explains.

@@ -29,8 +29,8 @@ constexpr const char* judge_help =
 nlohmann::ordered_json judgement_json(const summary::StudySummary& summary,
                                       const summary::JudgedPoint& judged) {
   const goal::Verdict& verdict = judged.verdict;
-  nlohmann::ordered_json json{{"point", judged.point},
-                              {"label", summary.labels[static_cast<std::size_t>(judged.point)]},
+  nlohmann::ordered_json json{{"point", judged.chosen.point},
+                              {"label", summary.labels[static_cast<std::size_t>(judged.chosen.point)]},
                               {"status", goal::text_of(verdict.status)},
                               {"rate", verdict.moves.value},
                               {"rate_low", verdict.moves.low},
@@ -38,7 +38,7 @@ nlohmann::ordered_json judgement_json(const summary::StudySummary& summary,
   const bool machines = summary.goal->machines.has_value();
   json["machines_low"] = machines ? nlohmann::ordered_json(verdict.machines.low) : nullptr;
   json["machines_high"] = machines ? nlohmann::ordered_json(verdict.machines.high) : nullptr;
-  json["chosen_from"] = judged.chosen_from;
+  json["chosen_from"] = judged.chosen.chosen_from;
   json["needed"] = nullptr;
   if (judged.needs && judged.needs->trials > 0)
     json["needed"] = {{"rigs", judged.needs->rigs}, {"trials", judged.needs->trials}};
@@ -77,12 +77,12 @@ ExitCode judge(const command_line::Arguments& arguments) {
                               "0.05, moves: 0.99}}",
                               arguments.operands()[0]));
   }
-  const auto point = arguments.whole_number("point", 0, std::ssize(summary.points) - 1);
-  const summary::JudgedPoint judged = summary::judge_point(summary, point);
+  const auto point = command_line::point_option(arguments, summary.labels);
+  const summary::JudgedPoint judged = summary::judge_point(summary, summary::choose_point(summary, point));
   if (arguments.choice("format") == "json") {
     standard_output::write(text::json_text(judgement_json(summary, judged)));
   } else {
-    standard_output::write(summary::judgement_text(summary, judged));
+    standard_output::show(summary::judgement_text(summary, judged));
   }
   return exit_code_of(judged.verdict.status);
 }

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -6,8 +5,13 @@
 
 #include <fmt/format.h>
 
-#include "analysis/summary/best_point.hpp"
+#include "analysis/goal/goal_text.hpp"
+#include "analysis/goal/goal_verdict.hpp"
+#include "analysis/statistics/proportion.hpp"
+#include "analysis/summary/chosen_point.hpp"
+#include "analysis/summary/shown_points.hpp"
 #include "analysis/summary/summary.hpp"
+#include "analysis/summary/summary_parts.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/report_json.hpp"
 #include "analysis/text/text.hpp"
@@ -28,19 +32,27 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* summary_help =
-    "Prints one row per design point: the proportions of trials that were stable and that ended\n"
-    "at zero counts of error (with 95 % bounds), settling times, jerks, the prediction of the\n"
-    "paper's criteria (6) and (7), and the observation on the real rig if the manifest has one.\n"
-    "For an open-loop study, one row per design point and torque level. Below the table stand\n"
-    "tolerance statements about all axes that the manifest describes. The formats json and csv\n"
-    "have more statistics than the table. The file stores 95 % bounds; others are computed.\n"
-    "--confirm N runs the point with the highest success rate again, with N new trials from a\n"
-    "fresh seed, and prints their rate with plain Clopper-Pearson bounds, beside the bound of the\n"
-    "file's trials that allows for the choice among all points. The file stays as it is.\n"
+    "Prints one row per design point: the goal of the manifest if it has one, the proportions of\n"
+    "trials that ended at zero counts of error and that were stable (with 95 % bounds), arrival\n"
+    "and settling times, jerks, the prediction of the paper's criteria (6) and (7), and the\n"
+    "observation on the real rig if the manifest has one. --legend explains the columns.\n"
+    "For an open-loop study, one row per design point and torque level. A table that is too wide\n"
+    "for the terminal is divided. The last lines are the verdict on the best point, or on that of\n"
+    "--point: what is shown of all axes that the manifest describes, which points are as good,\n"
+    "and whether it lies at an end of the sweep.\n"
+    "--sort, --where and --top choose rows. They take the names of the columns of --format csv\n"
+    "and of swept parameters, which may be shortened (ki).\n"
+    "The formats json and csv have more statistics than the table. The file stores 95 % bounds;\n"
+    "others are computed.\n"
+    "--confirm N runs the best point again, with N new trials from a fresh seed, and prints what\n"
+    "they show, beside the bound of the file's trials that allows for the choice among all points.\n"
+    "The file stays as it is.\n"
     "During a run, or after an interrupted one, the summary covers the finished trials and\n"
     "reports that.\n"
     "\n"
     "Example: zerocount summary gains.h5 --format json\n"
+    "         zerocount summary gains.h5 --where 'kp > 0' --where 'stable_rate >= 0.9' --top 5\n"
+    "         zerocount summary gains.h5 --sort -success_rate\n"
     "         zerocount summary gains.h5 --confirm 1000\n";
 
 bool is_there(const fs::path& path) {
@@ -65,15 +77,10 @@ summary::StudySummary summary_of(const fs::path& path, double confidence, bool w
   return summary;
 }
 
-/// A run of the best point with new trials.
-struct ConfirmedBest {
-  study_run::Confirmation confirmation;
-  statistics::ConfidenceInterval bounds;  ///< Clopper–Pearson, of the new trials
-};
-
 /// The run that the option --confirm asks for; nothing without it.
-std::optional<ConfirmedBest> confirmed_best(const command_line::Arguments& arguments,
-                                            const summary::StudySummary& summary) {
+std::optional<study_run::Confirmation> confirmation_of(const command_line::Arguments& arguments,
+                                                       const summary::StudySummary& summary,
+                                                       std::int64_t point) {
   constexpr std::int64_t max_trials = 10'000'000;
   const std::optional<std::int64_t> trials = arguments.whole_number("confirm", 2, max_trials);
   if (!trials) {
@@ -82,52 +89,62 @@ std::optional<ConfirmedBest> confirmed_best(const command_line::Arguments& argum
   }
   if (summary.unfinished) arguments.refuse("option '--confirm' needs a run that has ended");
   const reading::ResultsFile file(arguments.operands()[0]);
-  status::tell("running {} new trials of the best point\n", *trials);
-  const study_run::Confirmation confirmation = study_run::confirm_point(
-      file, summary::best_point(summary.points, summary.goal), *trials, plugin_option(arguments));
-  return ConfirmedBest{confirmation, statistics::clopper_pearson(confirmation.successes, confirmation.trials,
-                                                                 summary.confidence)};
+  status::tell("running {} new trials of the point {}\n", *trials,
+               summary::point_names(summary)[static_cast<std::size_t>(point)]);
+  return study_run::confirm_point(file, point, *trials, plugin_option(arguments));
 }
 
-/// The claim of the best point by the trials of the file. Those of a saltelli design are not independent.
-std::string chosen_text(const summary::StudySummary& summary, std::int64_t best) {
-  const std::size_t points = summary.points.size();
-  const measures::PointSummary& point = summary.points[static_cast<std::size_t>(best)];
-  const std::string label = text::printable(summary.labels[static_cast<std::size_t>(best)]);
-  const std::string of = points == 1 ? label : fmt::format("best of {} points: {}", points, label);
-  if (summary.features.dependent_trials) {
-    return fmt::format("{}: {} of {} trials succeeded; dependent trials give no bounds\n", of,
-                       point.outcomes.zero_count, point.trials);
+/// Clopper–Pearson bounds of the success rate of the new trials, which are independent unless they share rigs
+/// (in a study with a goal).
+std::optional<statistics::ConfidenceInterval> bounds_of(const study_run::Confirmation& confirmed,
+                                                        double confidence) {
+  if (confirmed.rigs > 0 && confirmed.rigs < confirmed.trials) return std::nullopt;
+  return statistics::clopper_pearson(confirmed.successes, confirmed.trials, confidence);
+}
+
+std::string confirmation_text(const summary::StudySummary& summary,
+                              const study_run::Confirmation& confirmed) {
+  std::string text = fmt::format(
+      "\nrun anew with seed {}, everything drawn anew, chosen beforehand so that no bound needs a "
+      "correction:\n  {} of {} trials{} succeeded, {}",
+      confirmed.seed, confirmed.successes, confirmed.trials,
+      confirmed.rigs == 0                  ? ""
+      : confirmed.rigs == confirmed.trials ? ", each on a rig of its own,"
+                                           : fmt::format(" on {} rigs", confirmed.rigs),
+      text::percentage(confirmed.successes, confirmed.trials));
+  if (const auto bounds = bounds_of(confirmed, summary.confidence)) {
+    text += fmt::format(", {} bounds [{}] % (Clopper and Pearson)", text::percent(summary.confidence),
+                        text::percent_bounds(bounds->low, bounds->high));
   }
-  const bool stopped = std::any_of(
-      summary.sections.begin(), summary.sections.end(),
-      [](const measures::SummarySection& section) { return section.key == summary::stopping_key; });
-  return fmt::format("{}: {}{}\n", of,
-                     statistics::claim_sentence(summary::claim_of_chosen(point, points, stopped)),
-                     points == 1 ? "" : "; the bound allows for the choice among all points (Bonferroni)");
+  text += "\n";
+  if (!confirmed.goal) return text;
+  const goal::Verdict verdict = goal::judge_goal(*summary.goal, *confirmed.goal, 1);
+  return text + fmt::format("  goal: {}\n{}", goal::text_of(verdict.status),
+                            goal::readings_text(*summary.goal, *confirmed.goal, verdict));
 }
 
-std::string confirmation_text(const summary::StudySummary& summary, const ConfirmedBest& best) {
-  const study_run::Confirmation& confirmed = best.confirmation;
-  return fmt::format(
-      "\n{}run anew with seed {}, everything drawn anew: {} of {} trials{} succeeded, {}, {} bounds [{}] %\n"
-      "(Clopper and Pearson; the point was chosen before these trials, so that they need no correction)\n",
-      chosen_text(summary, confirmed.point), confirmed.seed, confirmed.successes, confirmed.trials,
-      confirmed.on_rigs ? ", each on a rig of its own," : "",
-      text::percentage(confirmed.successes, confirmed.trials), text::percent(summary.confidence),
-      text::percent_bounds(best.bounds.low, best.bounds.high));
+nlohmann::ordered_json confirmation_json(const summary::StudySummary& summary,
+                                         const study_run::Confirmation& confirmed) {
+  using Json = nlohmann::ordered_json;
+  const auto bounds = bounds_of(confirmed, summary.confidence);
+  Json json{{"point", confirmed.point},
+            {"seed", confirmed.seed},
+            {"trials", confirmed.trials},
+            {"zero_count", confirmed.successes},
+            {"success_rate", statistics::rate(confirmed.successes, confirmed.trials)},
+            {"success_rate_low", bounds ? Json(bounds->low) : Json()},
+            {"success_rate_high", bounds ? Json(bounds->high) : Json()},
+            {"one_trial_per_rig", confirmed.rigs == confirmed.trials}};
+  if (confirmed.goal) {
+    json["goal"] = summary::verdict_json(*summary.goal, goal::judge_goal(*summary.goal, *confirmed.goal, 1),
+                                         confirmed.rigs > 0);
+  }
+  return json;
 }
 
-nlohmann::ordered_json confirmation_json(const ConfirmedBest& best) {
-  const study_run::Confirmation& confirmed = best.confirmation;
-  return {{"point", confirmed.point},
-          {"seed", confirmed.seed},
-          {"trials", confirmed.trials},
-          {"zero_count", confirmed.successes},
-          {"success_rate", statistics::rate(confirmed.successes, confirmed.trials)},
-          {"success_rate_low", best.bounds.low},
-          {"success_rate_high", best.bounds.high},
-          {"one_trial_per_rig", confirmed.on_rigs}};
+summary::PointSelection selection_of(const command_line::Arguments& arguments) {
+  return {arguments.value("sort"), arguments.values("where"),
+          arguments.whole_number("top", 1, std::int64_t{1} << 40)};
 }
 
 ExitCode summarise_file(const command_line::Arguments& arguments) {
@@ -138,18 +155,22 @@ ExitCode summarise_file(const command_line::Arguments& arguments) {
   const summary::StudySummary summary = summary_of(arguments.operands()[0], confidence, with_means);
   if (format == "csv" && arguments.has("confirm"))
     arguments.refuse("option '--confirm' goes with the formats table and json");
-  const std::optional<ConfirmedBest> best = confirmed_best(arguments, summary);
+  const summary::SummaryForm form{summary::selected_points(summary, selection_of(arguments)),
+                                  command_line::point_option(arguments, summary.labels),
+                                  arguments.has("legend")};
+  const std::optional<study_run::Confirmation> confirmed =
+      confirmation_of(arguments, summary, summary::choose_point(summary, form.chosen).point);
   if (format == "table") {
-    standard_output::print("{}{}", summary::summary_table(summary),
-                           best ? confirmation_text(summary, *best) : "");
+    standard_output::show(summary::summary_table(summary, form) +
+                          (confirmed ? confirmation_text(summary, *confirmed) : ""));
   }
   if (format == "json") {
-    nlohmann::ordered_json json = summary::summary_json(summary);
-    if (best) json["confirmation"] = confirmation_json(*best);
+    nlohmann::ordered_json json = summary::summary_json(summary, form);
+    if (confirmed) json["confirmation"] = confirmation_json(summary, *confirmed);
     standard_output::write(text::json_text(json));
   }
   if (format == "csv" && summary.unfinished) status::tell("{}\n", summary::unfinished_sentence(summary));
-  if (format == "csv") standard_output::write(summary::summary_csv(summary));
+  if (format == "csv") standard_output::write(summary::summary_csv(summary, form));
   return ExitCode::success;
 }
 
@@ -159,7 +180,12 @@ Command summary_command() {
   return {{"summary",
            "FILE",
            {command_line::format_option({"table", "json", "csv"}),
-            {"confirm", "N", "run the best point again with N new trials, and print what they show"},
+            {"point", "P", "the design point that the last lines speak of (default: the best)"},
+            {"sort", "NAME", "order rows by a value, with -NAME from the largest on, or by 'best'"},
+            {"where", "CONDITION", "rows that meet it, such as 'ki < 2e4'; may be repeated", true},
+            {"top", "N", "the first N rows; without --sort the best"},
+            {"legend", "", "explain the columns of the table"},
+            {"confirm", "N", "run the chosen point again with N new trials, and print what they show"},
             {"plugin", "LIBRARY", "for --confirm: the controller of a study that has one of its own"},
             {"confidence", "LEVEL", "of all bounds, between 0 and 1 (default 0.95)"}}},
           "print the statistics of a results file",

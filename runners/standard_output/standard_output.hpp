@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -21,5 +23,13 @@ template <class... Arguments>
 void print(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
   write(text::printable_lines(fmt::format(format, std::forward<Arguments>(arguments)...)));
 }
+
+/// Width of the terminal that standard output is, in columns: that of the device, else the environment's
+/// COLUMNS, else 80. Nothing if standard output is no terminal.
+std::optional<std::size_t> terminal_width();
+
+/// Writes tables and sentences for people, fitted to the width of the terminal (text::fitted).
+/// @throws std::system_error if they cannot be written
+void show(std::string_view text);
 
 }  // namespace zerocount::standard_output

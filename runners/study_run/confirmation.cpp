@@ -1,7 +1,7 @@
 #include "runners/study_run/confirmation.hpp"
 
 #include <algorithm>
-#include <functional>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -39,9 +39,14 @@ study::Study fresh_study(const reading::ResultsFile& file, std::int64_t trials,
     header.overrides.push_back(fmt::format("{}={}", key, value));
   };
   set("seed", fresh_seed(recorded.seed));
+  const std::int64_t each = recorded.goal && recorded.rigs > 0 ? recorded.trials / recorded.rigs : 1;
+  const std::int64_t rigs = std::max<std::int64_t>(2, trials / each);
+  if (recorded.rigs > 0) {
+    set("rigs", rigs);
+    trials = rigs * each;
+  }
   set("trials", trials);
   set("design", "monte_carlo");
-  if (recorded.rigs > 0) set("rigs", trials);
   if (recorded.stop) {
     set("stop.min_trials", trials);
     set("stop.max_trials", trials);
@@ -51,11 +56,23 @@ study::Study fresh_study(const reading::ResultsFile& file, std::int64_t trials,
   return layout::recorded_study(header, file.path(), std::move(plugin));
 }
 
-std::int64_t successes_in(const study::Study& study, layout::RowRange rows) {
-  const std::vector<shards::TrialResult> results = TrialRunner(study).run(rows);
-  return std::count_if(results.begin(), results.end(), [](const shards::TrialResult& result) {
-    return trial::succeeded(result.outcome.moves);
-  });
+/// What is counted of the trials of `rows`.
+Confirmation counted_in(const study::Study& study, layout::RowRange rows) {
+  const std::optional<measures::CountedGoal> goal = measures::counted_goal(study);
+  Confirmation counts;
+  if (goal) counts.goal.emplace();
+  for (const shards::TrialResult& result : TrialRunner(study).run(rows)) {
+    counts.successes += trial::succeeded(result.outcome.moves) ? 1 : 0;
+    if (goal) counts.goal->add(*goal, result.row % study.trials, study.rigs, result.outcome.moves);
+  }
+  return counts;
+}
+
+Confirmation sum_of(Confirmation sum, const Confirmation& part) {
+  sum.successes += part.successes;
+  if (sum.goal && part.goal) *sum.goal += *part.goal;
+  if (!sum.goal) sum.goal = part.goal;
+  return sum;
 }
 
 }  // namespace
@@ -69,13 +86,18 @@ Confirmation confirm_point(const reading::ResultsFile& file, std::int64_t point,
                               "expected its path with --plugin",
                               file.path().string(), study.plugin->description.name));
   }
-  const auto count = [&](const oneapi::tbb::blocked_range<std::int64_t>& part, std::int64_t successes) {
-    return successes + successes_in(study, {point * study.trials + part.begin(), part.end() - part.begin()});
+  const auto count = [&](const oneapi::tbb::blocked_range<std::int64_t>& part, Confirmation sum) {
+    return sum_of(std::move(sum),
+                  counted_in(study, {point * study.trials + part.begin(), part.end() - part.begin()}));
   };
-  const std::int64_t successes =
-      oneapi::tbb::parallel_reduce(oneapi::tbb::blocked_range<std::int64_t>(0, trials, trials_at_once),
-                                   std::int64_t{0}, count, std::plus<>());
-  return {point, study.seed, trials, successes, study.rigs > 0};
+  Confirmation confirmation =
+      oneapi::tbb::parallel_reduce(oneapi::tbb::blocked_range<std::int64_t>(0, study.trials, trials_at_once),
+                                   Confirmation{}, count, sum_of);
+  confirmation.point = point;
+  confirmation.seed = study.seed;
+  confirmation.trials = study.trials;
+  confirmation.rigs = study.rigs;
+  return confirmation;
 }
 
 }  // namespace zerocount::study_run

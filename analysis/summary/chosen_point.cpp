@@ -1,0 +1,186 @@
+#include "analysis/summary/chosen_point.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "analysis/statistics/clustered_proportion.hpp"
+#include "analysis/statistics/distributions.hpp"
+#include "analysis/statistics/moments.hpp"
+#include "analysis/statistics/normal.hpp"
+#include "analysis/summary/best_point.hpp"
+#include "analysis/summary/judged_point.hpp"
+#include "analysis/summary/shown_points.hpp"
+
+namespace zerocount::summary {
+namespace {
+
+constexpr double confidence_of_worse = 0.95;
+
+const measures::PointSummary& point_of(const StudySummary& summary, std::int64_t point) {
+  return summary.points[static_cast<std::size_t>(point)];
+}
+
+/// [rig] what the rig adds to the rate that points are compared by; empty without rigs.
+std::vector<double> rates_of_rigs(const StudySummary& summary, const measures::PointSummary& point) {
+  std::vector<double> rates;
+  if (!summary.goal) {
+    for (const std::int64_t successes : point.rigs.successes_of_rigs)
+      rates.push_back(statistics::rate(successes, point.rigs.trials_of_rig));
+    return rates;
+  }
+  for (const statistics::RigMoves& rig : point.goal->rigs) {
+    const double met = statistics::rate(rig.met, rig.moves);
+    rates.push_back(!summary.goal->machines ? met : met >= summary.goal->moves ? 1.0 : 0.0);
+  }
+  return rates;
+}
+
+/// Whether the mean of `better` − `worse` is shown to be positive.
+bool differ(std::span<const double> better, std::span<const double> worse) {
+  statistics::Moments differences;
+  for (std::size_t i = 0; i < better.size(); ++i) differences.add(better[i] - worse[i]);
+  const auto rigs = static_cast<double>(better.size());
+  if (better.size() < 2) return false;
+  return differences.mean >
+         statistics::student_t_quantile(rigs - 1.0, confidence_of_worse) * differences.sd() / std::sqrt(rigs);
+}
+
+/// A rate of independent events, with one more event of each kind.
+struct AdjustedRate {
+  double value{0.5};
+  double variance{0.0};  ///< of the value
+
+  explicit AdjustedRate(const statistics::ClusterSums& sums) {
+    const double events = statistics::effective_events(sums) + 2.0;
+    value = (statistics::rate(sums.hits, sums.events) * (events - 2.0) + 1.0) / events;
+    variance = value * (1.0 - value) / events;
+  }
+};
+
+statistics::ClusterSums sums_of(const StudySummary& summary, const measures::PointSummary& point) {
+  if (summary.goal) return measures::clusters_of(*point.goal);
+  const auto successes = static_cast<double>(point.outcomes.zero_count);
+  return {.clusters = point.judged,
+          .hits = point.outcomes.zero_count,
+          .events = point.judged,
+          .hits_squared = successes,
+          .hits_by_events = successes,
+          .events_squared = static_cast<double>(point.judged)};
+}
+
+/// Whether the trials show that `other` is worse than `best`.
+bool is_shown_worse(const StudySummary& summary, const measures::PointSummary& best,
+                    const measures::PointSummary& other) {
+  const std::vector<double> of_best = rates_of_rigs(summary, best);
+  const std::vector<double> of_other = rates_of_rigs(summary, other);
+  if (!of_best.empty() && of_best.size() == of_other.size()) return differ(of_best, of_other);
+  const AdjustedRate a(sums_of(summary, best)), b(sums_of(summary, other));
+  return a.value - b.value >
+         statistics::normal_quantile(confidence_of_worse) * std::sqrt(a.variance + b.variance);
+}
+
+std::vector<EndOfRange> ends_at(const StudySummary& summary, std::int64_t point) {
+  std::vector<EndOfRange> ends;
+  for (std::size_t i = 0; i < summary.axes.size(); ++i) {
+    const study::SweepAxis& axis = summary.axes[i];
+    if (axis.kind != study::SweepAxis::Kind::number) continue;
+    std::vector<double> values = axis.numbers;
+    std::erase_if(values, [](double value) { return std::isnan(value); });
+    std::ranges::sort(values);
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    constexpr std::size_t fewest = 3;  // two values are alternatives, not a range
+    if (values.size() < fewest) continue;
+    const double here = axis.numbers[static_cast<std::size_t>(point)];
+    if (here != 0.0 && (here == values.front() || here == values.back()))
+      ends.push_back({i, here == values.front()});
+  }
+  return ends;
+}
+
+double value_at(const StudySummary& summary, const EndOfRange& end, std::int64_t point) {
+  return summary.axes[end.axis].numbers[static_cast<std::size_t>(point)];
+}
+
+}  // namespace
+
+ChosenPoint choose_point(const StudySummary& summary, std::optional<std::int64_t> point) {
+  const std::vector<std::int64_t> order = points_by_merit(summary);
+  ChosenPoint chosen;
+  chosen.point = point ? *point : order.empty() ? 0 : order.front();
+  if (!point) chosen.chosen_from = std::max<std::int64_t>(1, std::ssize(order));
+  if (summary.features.open_loop) return chosen;
+  for (const std::int64_t other : order) {
+    if (other == chosen.point) continue;
+    if (!chosen.runner_up) chosen.runner_up = other;
+    if (!is_shown_worse(summary, point_of(summary, chosen.point), point_of(summary, other)))
+      chosen.as_good.push_back(other);
+  }
+  std::ranges::sort(chosen.as_good);
+  if (!order.empty() && chosen.point == order.front()) chosen.ends = ends_at(summary, chosen.point);
+  return chosen;
+}
+
+std::string name_of_chosen(const StudySummary& summary, const ChosenPoint& chosen) {
+  const std::string name = point_names(summary)[static_cast<std::size_t>(chosen.point)];
+  return chosen.chosen_from > 1 ? fmt::format("best of {} points: {}", chosen.chosen_from, name) : name;
+}
+
+std::string verdict_text(const StudySummary& summary, const ChosenPoint& chosen) {
+  if (summary.goal) return judgement_text(summary, judge_point(summary, chosen));
+  const measures::PointSummary& point = point_of(summary, chosen.point);
+  std::string text = name_of_chosen(summary, chosen) + ": ";
+  if (summary.features.dependent_trials) {
+    return text + fmt::format("{} of {} trials succeeded; dependent trials give no bounds\n",
+                              point.outcomes.zero_count, point.trials);
+  }
+  const bool stopped = std::ranges::any_of(
+      summary.sections, [](const measures::SummarySection& section) { return section.key == stopping_key; });
+  const auto points = static_cast<std::size_t>(chosen.chosen_from);
+  text += statistics::claim_sentence(claim_of_chosen(point, points, stopped)) + "\n";
+  if (points > 1) text += "  the bound allows for the choice of the point by these trials\n";
+  return text + competition_text(summary, chosen);
+}
+
+std::string competition_text(const StudySummary& summary, const ChosenPoint& chosen) {
+  const std::vector<std::string> names = point_names(summary);
+  std::string text;
+  if (!chosen.as_good.empty()) {
+    constexpr std::size_t shown = 5;
+    std::vector<std::string> others;
+    for (std::size_t i = 0; i < std::min(chosen.as_good.size(), shown); ++i)
+      others.push_back(names[static_cast<std::size_t>(chosen.as_good[i])]);
+    text += fmt::format("  not shown to be worse (95 %): {}{}\n", fmt::join(others, ", "),
+                        chosen.as_good.size() > shown
+                            ? fmt::format(" and {} more points", chosen.as_good.size() - shown)
+                            : "");
+  }
+  for (const EndOfRange& end : chosen.ends) {
+    text += fmt::format("  {} = {:.6g} is the {} value of the sweep: {} ones may be better\n",
+                        summary.axes[end.axis].name, value_at(summary, end, chosen.point),
+                        end.lowest ? "lowest" : "highest", end.lowest ? "lower" : "higher");
+  }
+  return text;
+}
+
+nlohmann::ordered_json chosen_point_json(const StudySummary& summary, const ChosenPoint& chosen) {
+  using Json = nlohmann::ordered_json;
+  Json ends = Json::array();
+  for (const EndOfRange& end : chosen.ends) {
+    ends.push_back({{"parameter", summary.axes[end.axis].name},
+                    {"value", value_at(summary, end, chosen.point)},
+                    {"end", end.lowest ? "lowest" : "highest"}});
+  }
+  return {{"point", chosen.point},
+          {"label", summary.labels[static_cast<std::size_t>(chosen.point)]},
+          {"chosen_from", chosen.chosen_from},
+          {"runner_up", chosen.runner_up ? Json(*chosen.runner_up) : Json()},
+          {"as_good", chosen.as_good},
+          {"ends_of_ranges", std::move(ends)}};
+}
+
+}  // namespace zerocount::summary

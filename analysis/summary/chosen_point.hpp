@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "analysis/summary/summary.hpp"
+
+/// The design point that all outputs of a study speak of.
+namespace zerocount::summary {
+
+/// A swept number at the end of its range: beyond it better values may lie.
+struct EndOfRange {
+  std::size_t axis{0};  ///< of StudySummary::axes
+  bool lowest{false};   ///< otherwise it is the highest
+};
+
+/// The chosen point, and its competitors.
+struct ChosenPoint {
+  std::int64_t point{0};
+  std::int64_t chosen_from{1};              ///< points with trials; 1 for a point that was named beforehand
+  std::optional<std::int64_t> runner_up{};  ///< the best of the other points
+  std::vector<std::int64_t> as_good{};      ///< other points that are not shown to be worse, in their order
+  std::vector<EndOfRange> ends{};  ///< where the point is the best; 0 is no end, as gains have no less
+};
+
+/// Chooses the best point (best_point.hpp), or takes `point`.
+///
+/// Another point is shown to be worse if the one-sided 95 % bound of the difference of their rates is above
+/// zero: the rate of success, or of the goal. With rigs it is Student's bound for the differences of the
+/// rates of each rig, which are the same machines at both points. Without rigs, rates are compared as if
+/// their trials were independent, with one success and one failure added to each (Agresti and Caffo, Amer.
+/// Statist. 54 (2000) 280); trials of the same random numbers differ less.
+ChosenPoint choose_point(const StudySummary& summary, std::optional<std::int64_t> point = {});
+
+/// "best of 8 points: 3 (kp=400)", or only the name of the point.
+std::string name_of_chosen(const StudySummary& summary, const ChosenPoint& chosen);
+
+/// The verdict on the chosen point of a study with targets: by the goal, or what its trials show of all axes.
+/// Whole lines.
+std::string verdict_text(const StudySummary& summary, const ChosenPoint& chosen);
+
+/// What stands beside the verdict on the chosen point: points as good, and ends of swept ranges. Whole lines,
+/// or empty.
+std::string competition_text(const StudySummary& summary, const ChosenPoint& chosen);
+
+/// {"point", "label", "chosen_from", "runner_up", "as_good": […], "ends_of_ranges": [{"parameter", "value",
+/// "end": "lowest" | "highest"}]}
+nlohmann::ordered_json chosen_point_json(const StudySummary& summary, const ChosenPoint& chosen);
+
+}  // namespace zerocount::summary

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/summary/summary.hpp"
+
+/// Which design points a table shows, in which order, and by which names.
+namespace zerocount::summary {
+
+/// [point] its label as tables show it: the paths in the labels of a grid are shortened to their ends, as in
+/// "kp=400 ki=8e4".
+std::vector<std::string> short_labels(const StudySummary& summary);
+
+/// [point] its number and short label: "3 (kp=400 ki=8e4)". Only the label where it does not name swept
+/// values, as that of a case.
+std::vector<std::string> point_names(const StudySummary& summary);
+
+/// The points that a user asks for.
+struct PointSelection {
+  std::optional<std::string> sort{};  ///< name of a value, with a leading '-' from the largest on; or "best"
+  std::vector<std::string> where{};   ///< conditions, such as "kp > 0" or "success_rate ≥ 0.9"
+  std::optional<std::int64_t> top{};  ///< so many of them, by points_by_merit() unless sorted otherwise
+};
+
+/// The selected points in their order. Values have the names of the columns of summary_csv, where a '.' may
+/// stand for '_' ("settling_time.p95"), and those of swept parameters, which may be shortened to an end that
+/// no other has ("ki"). A value that is NaN comes last, and meets no condition.
+/// @throws Failure (bad_input) for an unknown name or a condition that is none, (inconclusive) if no point
+/// is left
+std::vector<std::int64_t> selected_points(const StudySummary& summary, const PointSelection& selection);
+
+}  // namespace zerocount::summary

@@ -1,0 +1,113 @@
+#include "analysis/text/fitted_text.hpp"
+
+#include <algorithm>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "analysis/text/text.hpp"
+
+namespace zerocount::text {
+namespace {
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+std::size_t width_of(const std::string& text) {
+  std::size_t width = 0;
+  for (const std::string& line : lines_of(text)) width = std::max(width, display_width(line));
+  return width;
+}
+
+/// The words of a text without the lines that underline heads, sorted.
+std::vector<std::string> words_of(const std::string& text) {
+  std::vector<std::string> words;
+  std::istringstream stream(text);
+  for (std::string word; stream >> word;) {
+    if (word.rfind("─", 0) != 0) words.push_back(word);
+  }
+  std::sort(words.begin(), words.end());
+  return words;
+}
+
+/// A table of words, of which each is there once.
+std::vector<TextColumn> random_table(std::mt19937_64& random, std::size_t rows) {
+  std::uniform_int_distribution<std::size_t> length(1, 9), words(1, 6), columns(1, 12);
+  std::size_t number = 0;
+  const auto word = [&] {
+    return std::string(length(random), random() % 2 == 0 ? 'x' : 'e') + std::to_string(number++);
+  };
+  std::vector<TextColumn> table;
+  for (std::size_t column = columns(random); column > 0; --column) {
+    TextColumn& added = table.emplace_back(TextColumn{word(), random() % 2 == 0, {}});
+    for (std::size_t row = 0; row < rows; ++row) {
+      std::string& cell = added.cells.emplace_back(word());
+      for (std::size_t more = words(random); more > 1 && !added.numeric; --more) cell += " " + word();
+    }
+  }
+  return table;
+}
+
+TEST(FittedText, HasTheWidthAndEveryWordOfATable) {
+  std::mt19937_64 random(2002);
+  for (int round = 0; round < 500; ++round) {
+    const std::vector<TextColumn> columns = random_table(random, 1 + random() % 5);
+    const std::string table = aligned_table(columns);
+    const std::size_t width = 45 + random() % 100;
+    const std::string shown = fitted(table + "\nits meaning\n", width);
+    EXPECT_LE(width_of(shown), width);
+    if (width_of(table) <= width) {
+      EXPECT_EQ(shown, table + "\nits meaning\n");
+    }
+    // The first column stands in every part.
+    std::vector<std::string> words = words_of(shown), expected = words_of(table + "its meaning");
+    words.erase(std::unique(words.begin(), words.end()), words.end());
+    EXPECT_EQ(words, expected);
+  }
+}
+
+TEST(FittedText, RepeatsTheNamesOfTheRows) {
+  const std::string table = aligned_table({{"point", true, {"0", "1"}},
+                                           {"zero-count", true, {"98.0 %", "7 %"}},
+                                           {"bounds", true, {"[97, 99]", "[6, 8]"}},
+                                           {"observed", false, {"stable in all tests", "unstable"}}});
+  EXPECT_EQ(fitted(table, 32),
+            "point  zero-count    bounds\n"
+            "─────  ──────────  ────────\n"
+            "    0      98.0 %  [97, 99]\n"
+            "    1         7 %    [6, 8]\n"
+            "\n"
+            "point  observed\n"
+            "─────  ───────────────────\n"
+            "    0  stable in all tests\n"
+            "    1  unstable\n");
+  EXPECT_EQ(fitted(table, std::nullopt), table);
+}
+
+TEST(FittedText, WrapsSentencesBetweenWords) {
+  EXPECT_EQ(fitted("  (6) holds: proportion of the trials\nend\n", 24),
+            "  (6) holds: proportion\n"
+            "    of the trials\n"
+            "end\n");
+  EXPECT_EQ(width_of(fitted(std::string(200, 'a') + " b", std::nullopt)), 200U);  // no word is broken
+  std::string sentence;
+  for (int i = 0; i < 60; ++i) sentence += "word ";
+  EXPECT_LE(width_of(fitted(sentence, std::nullopt)), width_of_prose);
+  EXPECT_EQ(words_of(fitted(sentence, 40)), words_of(sentence));
+}
+
+TEST(FittedText, KeepsALineWithoutABreakAtItsEnd) {
+  EXPECT_EQ(fitted("short", 80), "short");
+  EXPECT_EQ(fitted("", 80), "");
+  EXPECT_EQ(fitted("\n\n", 80), "\n\n");
+}
+
+}  // namespace
+}  // namespace zerocount::text

@@ -50,14 +50,20 @@ std::string comparison_table(const StudyComparison& comparison) {
     std::erase_if(rows, [](const ComparisonRow& row) { return !row.noteworthy; });
     omitted = fmt::format("({} rows that simply passed are not shown)\n", all - rows.size());
   }
-  std::vector<std::vector<std::string>> cells{{heads.begin(), heads.end()}};
-  for (const ComparisonRow& row : rows) cells.push_back(cells_of(row));
-  const std::vector<bool> numeric{false, false, true, true, true, true, true, true, true, false, false};
+  // One column names the rows, so that every part of a divided table has it.
+  const auto joined = [](std::vector<std::string> row, const char* between) {
+    row[1] = row[0] + between + row[1];
+    row.erase(row.begin());
+    return row;
+  };
+  std::vector<std::vector<std::string>> cells{joined({heads.begin(), heads.end()}, ", ")};
+  for (const ComparisonRow& row : rows) cells.push_back(joined(cells_of(row), " "));
+  const std::vector<bool> numeric{false, true, true, true, true, true, true, true, false, false};
   const std::string table = rows.empty() ? "" : text::aligned_table(cells, numeric);
   const std::string detectable = detectable_sentence(comparison);
   return fmt::format(
-      "{}\n{}{}\nBounds: {:.6g} % each. p: of {} tests, adjusted for a false discovery rate of {:.6g} "
-      "%. Detects: the smallest change\nfor the worse that these trials find with a probability of {:.0f} "
+      "{}\n{}{}\nBounds: {:.6g} % each. p: of {} tests, adjusted for a false discovery rate of {:.6g} %. "
+      "Detects: the smallest change for the worse that these trials find with a probability of {:.0f} "
       "%.\n{}{}{}\n",
       head_of(comparison), table, omitted, 100.0 * comparison.confidence, comparison.tests,
       100.0 * comparison.false_discovery_rate, 100.0 * decision_probability, detectable,

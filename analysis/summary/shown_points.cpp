@@ -52,7 +52,7 @@ std::vector<double> by_point(const StudySummary& summary, const Value& value) {
 /// The swept parameter of this name, in full or short; null if there is none.
 const study::SweepAxis* find_axis(const StudySummary& summary, std::string_view name) {
   for (const study::SweepAxis& axis : summary.axes) {
-    if (axis.name == name || short_name(axis, summary.axes) == name) return &axis;
+    if (axis.name == name || short_name(summary.axes, axis) == name) return &axis;
   }
   return nullptr;
 }
@@ -136,11 +136,11 @@ void sort_by(std::vector<std::int64_t>& points, const std::vector<double>& value
 
 }  // namespace
 
-std::vector<std::string> short_labels(const StudySummary& summary) {
-  std::vector<std::string> labels = summary.labels;
-  for (std::string& label : labels) {
-    for (const study::SweepAxis& axis : summary.axes) {
-      const std::string name = short_name(axis, summary.axes);
+std::vector<std::string> short_labels(std::vector<std::string> labels,
+                                      std::span<const study::SweepAxis> axes) {
+  for (const study::SweepAxis& axis : axes) {
+    const std::string name = short_name(axes, axis);
+    for (std::string& label : labels) {
       replace_all(label, ", " + axis.name + "=", " " + name + "=");
       if (label.starts_with(axis.name + "=")) label.replace(0, axis.name.size(), name);
     }
@@ -149,7 +149,7 @@ std::vector<std::string> short_labels(const StudySummary& summary) {
 }
 
 std::vector<std::string> point_names(const StudySummary& summary) {
-  std::vector<std::string> names = short_labels(summary);
+  std::vector<std::string> names = short_labels(summary.labels, summary.axes);
   for (std::size_t i = 0; i < names.size(); ++i)
     names[i] = names[i] == summary.labels[i] ? text::printable(names[i])
                                              : fmt::format("{} ({})", i, text::printable(names[i]));

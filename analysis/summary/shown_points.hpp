@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,8 @@ namespace zerocount::summary {
 
 /// [point] its label as tables show it: the paths in the labels of a grid are shortened to their ends, as in
 /// "kp=400 ki=8e4".
-std::vector<std::string> short_labels(const StudySummary& summary);
+std::vector<std::string> short_labels(std::vector<std::string> labels,
+                                      std::span<const study::SweepAxis> axes);
 
 /// [point] its number and short label: "3 (kp=400 ki=8e4)". Only the label where it does not name swept
 /// values, as that of a case.

@@ -12,6 +12,7 @@
 #include "analysis/iso230/repeatability_statistics.hpp"
 #include "analysis/measures/point_columns.hpp"
 #include "analysis/statistics/unknown.hpp"
+#include "analysis/summary/shown_points.hpp"
 #include "analysis/summary/study_statistics.hpp"
 #include "analysis/summary/summary.hpp"
 #include "analysis/summary/summary_parts.hpp"
@@ -63,7 +64,8 @@ void complete_points(StudySummary& summary, const study::Study& study,
     summary.points[point].hold = hold_of(study, static_cast<std::int64_t>(point));
     summary.points[point].undecided = undecided[point];
   }
-  if (!study.open_loop) summary.sections.push_back(undecided_section(summary.points, summary.labels));
+  if (!study.open_loop)
+    summary.sections.push_back(undecided_section(summary.points, short_labels(summary.labels, summary.axes)));
   // Trials of a saltelli design are not independent: no test applies to them.
   if (!study.observed_counts.empty() && !study.features.dependent_trials) {
     summary.sections.push_back(
@@ -75,7 +77,7 @@ void complete_points(StudySummary& summary, const study::Study& study,
 void add_claims(StudySummary& summary) {
   if (summary.goal) summary.sections.push_back(goal_section(summary));
   if (summary.features.open_loop || summary.features.dependent_trials) return;
-  summary.sections.push_back(tolerance_section(summary.points, summary.labels));
+  summary.sections.push_back(tolerance_section(summary.points, short_labels(summary.labels, summary.axes)));
 }
 
 /// Leaves the first `points` points.
@@ -252,11 +254,12 @@ StudySummary summarise(const reading::StudyFile& file, double confidence, bool b
   undecided.add(file, file.rows());
   complete_points(summary, study, undecided.moves());
   if (!study.sequence.empty()) {
-    summary.sections.push_back(
-        iso230::repeatability_section(iso230::study_repeatability(file, study, confidence), summary.labels));
+    summary.sections.push_back(iso230::repeatability_section(
+        iso230::study_repeatability(file, study, confidence), short_labels(summary.labels, summary.axes)));
   }
   if (study.stop) {
-    summary.sections.push_back(stopping_section(summary.points, summary.labels, *study.stop, confidence));
+    summary.sections.push_back(stopping_section(summary.points, short_labels(summary.labels, summary.axes),
+                                                *study.stop, confidence));
   }
   add_claims(summary);
   return summary;

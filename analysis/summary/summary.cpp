@@ -106,6 +106,7 @@ std::string summary_table(const StudySummary& summary, const SummaryForm& form) 
                                  text::aligned_table(table, points), nonfinite_notes(summary, points));
   if (points.size() < summary.points.size())
     text += fmt::format("({} of {} points)\n", points.size(), summary.points.size());
+  text += form.legend ? "" : "(zerocount summary --legend explains the columns)\n";
   if (form.legend) text += "\n" + (levels ? level_legend(summary.features.axis) : loop_legend(summary));
   for (const measures::SummarySection& section : summary.sections) {
     const std::string section_text = measures::text_of(section, points);

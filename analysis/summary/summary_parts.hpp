@@ -24,8 +24,9 @@ std::string bounds_head(const StudySummary& summary);
 /// @param time s; NaN if not reached
 std::string settling_text(const measures::PointSummary& point, double time);
 
-/// The end of the dotted path that no other of the axes has: "ki", or "coarse.kp" beside a "kp".
-std::string short_name(const study::SweepAxis& axis, std::span<const study::SweepAxis> axes);
+/// The end of the dotted path of the axis that no other swept parameter has: "ki", or "coarse.kp" beside a
+/// "kp".
+std::string short_name(std::span<const study::SweepAxis> axes, const study::SweepAxis& axis);
 
 /// The columns that tell the points apart: their labels, and a column for each swept parameter with its unit
 /// in the head, where these are few. In a grid, whose labels only repeat the swept values, the number of the

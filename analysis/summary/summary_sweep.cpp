@@ -27,9 +27,9 @@ bool varies(const study::SweepAxis& axis) {
   return axis.kind == study::SweepAxis::Kind::text ? differs(axis.texts) : differs(axis.numbers);
 }
 
-std::vector<const study::SweepAxis*> varying_parameters(const StudySummary& summary) {
+std::vector<const study::SweepAxis*> varying_parameters(std::span<const study::SweepAxis> axes) {
   std::vector<const study::SweepAxis*> found;
-  for (const study::SweepAxis& axis : summary.axes) {
+  for (const study::SweepAxis& axis : axes) {
     if (!is_case(axis) && varies(axis)) found.push_back(&axis);
   }
   return found;
@@ -48,10 +48,10 @@ std::string number_cell(const study::SweepAxis& axis, double value) {
   return fmt::format("{:.6g}", value);
 }
 
-text::TextColumn swept_column(const study::SweepAxis& axis, std::span<const study::SweepAxis> axes) {
+text::TextColumn swept_column(const StudySummary& summary, const study::SweepAxis& axis) {
   const bool numeric = axis.kind == study::SweepAxis::Kind::number;
   const std::string unit = numeric && axis.unit != "1" ? fmt::format(" ({})", axis.unit) : "";
-  text::TextColumn column{short_name(axis, axes) + unit, numeric, {}};
+  text::TextColumn column{short_name(summary.axes, axis) + unit, numeric, {}};
   if (!numeric) {
     column.cells = axis.texts;
     return column;
@@ -75,7 +75,7 @@ bool labels_name_values(const StudySummary& summary, const std::vector<const stu
 /// chosen point among several.
 text::TextColumn point_column(const StudySummary& summary, bool by_number, std::int64_t chosen) {
   text::TextColumn column{"point", false, {}};
-  const std::vector<std::string> labels = short_labels(summary);
+  const std::vector<std::string> labels = short_labels(summary.labels, summary.axes);
   for (std::size_t i = 0; i < labels.size(); ++i) {
     const bool marked = labels.size() > 1 && static_cast<std::int64_t>(i) == chosen;
     column.cells.push_back((by_number ? fmt::format("{}", i) : text::printable(labels[i])) +
@@ -86,13 +86,14 @@ text::TextColumn point_column(const StudySummary& summary, bool by_number, std::
 
 }  // namespace
 
-std::string short_name(const study::SweepAxis& axis, std::span<const study::SweepAxis> axes) {
+std::string short_name(std::span<const study::SweepAxis> axes, const study::SweepAxis& axis) {
+  const std::vector<const study::SweepAxis*> swept = varying_parameters(axes);
   const auto sections = std::count(axis.name.begin(), axis.name.end(), '.');
   for (std::size_t parts = 1; parts <= static_cast<std::size_t>(sections); ++parts) {
     std::string name = last_parts(axis.name, parts);
     const bool is_index = name.find_first_not_of("0123456789.") == std::string::npos;
-    const bool unique = std::none_of(axes.begin(), axes.end(), [&](const study::SweepAxis& other) {
-      return other.name != axis.name && last_parts(other.name, parts) == name;
+    const bool unique = std::none_of(swept.begin(), swept.end(), [&](const study::SweepAxis* other) {
+      return other->name != axis.name && last_parts(other->name, parts) == name;
     });
     if (unique && !is_index) return name;
   }
@@ -100,7 +101,7 @@ std::string short_name(const study::SweepAxis& axis, std::span<const study::Swee
 }
 
 std::vector<text::TextColumn> sweep_columns(const StudySummary& summary, std::int64_t chosen) {
-  const std::vector<const study::SweepAxis*> swept = varying_parameters(summary);
+  const std::vector<const study::SweepAxis*> swept = varying_parameters(summary.axes);
   if (swept.empty() || swept.size() > max_swept_columns) return {point_column(summary, false, chosen)};
   const bool by_number = labels_name_values(summary, swept);
   std::vector<text::TextColumn> columns{point_column(summary, by_number, chosen)};
@@ -110,7 +111,7 @@ std::vector<text::TextColumn> sweep_columns(const StudySummary& summary, std::in
     for (const std::string& name : cases->texts) names.cells.push_back(text::printable(name));
     columns.push_back(std::move(names));
   }
-  for (const study::SweepAxis* axis : swept) columns.push_back(swept_column(*axis, summary.axes));
+  for (const study::SweepAxis* axis : swept) columns.push_back(swept_column(summary, *axis));
   return columns;
 }
 

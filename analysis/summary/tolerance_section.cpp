@@ -91,6 +91,12 @@ text::TextColumn text_column(std::span<const measures::PointSummary> points, std
   return column;
 }
 
+std::string title_of(std::span<const measures::PointSummary> points) {
+  const double confidence = points.empty() ? statistics::summary_confidence : points.front().claim.confidence;
+  return fmt::format("shown with {} confidence of all axes that the manifest describes",
+                     text::percent(confidence));
+}
+
 text::PointTable table_of(std::span<const measures::PointSummary> points,
                           const std::vector<std::string>& labels) {
   using Point = const measures::PointSummary&;
@@ -100,11 +106,10 @@ text::PointTable table_of(std::span<const measures::PointSummary> points,
     table.columns[0].cells.push_back(text::printable(labels[i]));
     table.points.push_back(static_cast<std::int64_t>(i));
   }
-  table.columns.push_back(text_column(points, "success of at least", [](Point point) {
-    return text::percent_at_least(point.claim.success_at_least);
-  }));
+  table.columns.push_back(text_column(
+      points, "success ≥", [](Point point) { return text::percent_at_least(point.claim.success_at_least); }));
   if (on_rigs(points)) {
-    table.columns.push_back(text_column(points, "90 % of rigs: zero in at least", [](Point point) {
+    table.columns.push_back(text_column(points, "90 % of rigs ≥", [](Point point) {
       const double zero = point.rigs.tolerance.zero_at_least;
       return std::isnan(zero) ? "–" : text::percent_at_least(zero);
     }));
@@ -122,16 +127,15 @@ text::PointTable table_of(std::span<const measures::PointSummary> points,
 measures::SummarySection tolerance_section(std::span<const measures::PointSummary> points,
                                            const std::vector<std::string>& labels) {
   measures::SummarySection section{
-      .key = "assurance",
-      .json = {},
-      .columns = columns_of(points),
-      .title = "shown with 95 % confidence of all axes that the manifest describes"};
+      .key = "assurance", .json = {}, .columns = columns_of(points), .title = title_of(points)};
   section.tables.push_back(table_of(points, labels));
   section.note = fmt::format(
-      "bounds of one side each (Wilks; {}). success of at least: of trials. arrive by: all moves of a trial; "
-      "a tolerance limit, later than the quantile of the trials at hand. –: the trials are too few, or more "
-      "of them never arrive\n",
-      on_rigs(points) ? "Korn and Graubard" : "Clopper and Pearson");
+      "bounds of one side each (Wilks; {}). success: of trials{}; arrive by: all moves of a trial; a "
+      "tolerance "
+      "limit is later than the quantile of the trials at hand, and – where these are too few, or too many "
+      "never arrive\n",
+      on_rigs(points) ? "Korn and Graubard" : "Clopper and Pearson",
+      on_rigs(points) ? "; of rigs: their moves that end at zero error" : "");
   for (const measures::PointSummary& point : points) section.json.push_back(point_json(point));
   return section;
 }

@@ -91,6 +91,15 @@ std::string_view fitting_part(std::string_view word, std::size_t width) {
   return word.substr(0, bytes);
 }
 
+/// The end of the word that begins there; a percent sign belongs to its number.
+std::size_t end_of_word(std::string_view text, std::size_t begin) {
+  constexpr std::string_view percent = " %";
+  std::size_t end = std::min(text.find(' ', begin), text.size());
+  while (text.substr(end, percent.size()) == percent)
+    end = std::min(text.find(' ', end + percent.size()), text.size());
+  return end;
+}
+
 /// Text in lines of at most `width`. Runs of spaces between words stay, unless a line ends there.
 /// @param breaks_words whether words that are wider than a line are broken
 std::vector<std::string> wrapped(std::string_view text, std::size_t width, std::size_t later_width,
@@ -99,7 +108,7 @@ std::vector<std::string> wrapped(std::string_view text, std::size_t width, std::
   while (!text.empty()) {
     const std::size_t limit = lines.size() == 1 ? width : later_width;
     const std::size_t word_begin = std::min(text.find_first_not_of(' '), text.size());
-    const std::size_t word_end = std::min(text.find(' ', word_begin), text.size());
+    const std::size_t word_end = end_of_word(text, word_begin);
     std::string_view word = text.substr(word_begin, word_end - word_begin);
     const bool fits =
         display_width(lines.back()) + (lines.back().empty() ? 0 : word_begin) + display_width(word) <= limit;
@@ -203,7 +212,8 @@ void append_divided(std::string& text, const std::vector<std::string_view>& line
 }  // namespace
 
 std::string fitted(std::string_view text, std::optional<std::size_t> width) {
-  const std::size_t of_prose = std::min(width.value_or(width_of_prose), width_of_prose);
+  if (!width) return std::string(text);
+  const std::size_t of_prose = std::min(*width, width_of_prose);
   const std::vector<std::string_view> lines = lines_of(text);
   std::string result;
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -215,7 +225,7 @@ std::string fitted(std::string_view text, std::optional<std::size_t> width) {
     std::vector<std::string_view> table{lines[i], lines[i + 1]};
     for (i += 2; i < lines.size() && is_row(lines[i], columns); ++i) table.push_back(lines[i]);
     --i;
-    if (!width || columns.back().end() <= *width) {
+    if (columns.back().end() <= *width) {
       for (const std::string_view line : table) append_line(result, std::string(line));
     } else {
       append_divided(result, table, columns, *width);

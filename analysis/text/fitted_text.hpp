@@ -14,8 +14,7 @@ namespace zerocount::text {
 /// does not fit by itself are wrapped within its cells. All other lines are wrapped between words, and
 /// continue two columns further in. Words are only broken in tables, where they are wider than their cell.
 ///
-/// @param width columns of the terminal, at least 20; nothing: tables stay as they are, other lines are
-/// wrapped at `width_of_prose`
+/// @param width columns of the terminal, at least 20; nothing: the text stays as it is
 std::string fitted(std::string_view text, std::optional<std::size_t> width);
 
 /// Lines of sentences are not wider than this, on any terminal: longer ones are hard to read.

@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "analysis/statistics/sample_size.hpp"
+#include "analysis/summary/shown_points.hpp"
 #include "analysis/text/percent.hpp"
 #include "core/loop/encoder.hpp"
 #include "experiments/study/study.hpp"
@@ -126,8 +128,8 @@ void print_theory_heading(const study::Study& study) {
   }
 }
 
-/// The targets of trial 0 in SI units, and the counts that they become; nothing for targets in counts.
-void print_targets(const study::Study& study, std::int64_t point) {
+/// Adds the targets of trial 0 in SI units, and the counts that they become; nothing for targets in counts.
+void add_targets(std::vector<TheoryItem>& items, const study::Study& study, std::int64_t point) {
   constexpr std::size_t shown = 5;
   const study::StudyTrial trial = study::study_trial(study, point, 0);
   const std::size_t moves = trial.target_positions.size();
@@ -138,9 +140,9 @@ void print_targets(const study::Study& study, std::int64_t point) {
     text += fmt::format("{}{:.6g} {} = {}", i == 0 ? "" : ", ", trial.target_positions[i], unit,
                         counted(trial.parameters.command.targets[i], "count"));
   }
-  standard_output::print("    targets of trial 0, to the nearest of {:.4g} {}: {}{}\n",
-                         loop::fine_resolution(trial.parameters.encoder), unit, text,
-                         moves > shown ? ", …" : "");
+  items.push_back({"targets of trial 0", fmt::format("to the nearest of {:.4g} {}: {}{}",
+                                                     loop::fine_resolution(trial.parameters.encoder), unit,
+                                                     text, moves > shown ? ", …" : "")});
 }
 
 ExitCode check(const command_line::Arguments& arguments) {
@@ -152,16 +154,20 @@ ExitCode check(const command_line::Arguments& arguments) {
   print_theory_heading(study);
   const std::int64_t shown = arguments.has("all-points") ? study::point_count(study)
                                                          : std::min(study::point_count(study), points_shown);
+  std::vector<std::vector<TheoryItem>> items;
   for (std::int64_t point = 0; point < shown; ++point) {
     const theory::PointTheory theory = theory::examine(study, point);
+    items.push_back(theory_items(theory));
+    add_targets(items.back(), study, point);
     const std::string& label = study.point_labels[static_cast<std::size_t>(point)];
-    standard_output::print("  point {}: {}\n{}", point, label, describe(theory));
-    print_targets(study, point);
     if (!theory.approach.exceeds_hold()) continue;
     status::tell(
         "warning: point {} ({}): the loop's slowest time constant{}: moves may end before they arrive\n",
         point, label, slowness_text(theory.approach));
   }
+  std::vector<std::string> labels = summary::short_labels(study.point_labels, study.axes);
+  labels.resize(static_cast<std::size_t>(shown));
+  standard_output::show(theory_text(labels, items));
   if (shown < study::point_count(study)) {
     standard_output::print("  … and {} more points (--all-points shows them)\n",
                            study::point_count(study) - shown);

@@ -17,6 +17,7 @@
 #include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
+#include "runners/standard_output/standard_output.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -126,7 +127,13 @@ ExitCode compare(const command_line::Arguments& arguments) {
   options.changed_fails = arguments.has("changed-fails");
   options.max_trials = arguments.whole_number("max-trials", 1, std::int64_t{1} << 53);
   const comparison::StudyComparison result = compared(arguments, options);
-  for (const FormPlace& place : places) command_line::write_text(place.place, place.form.text(result));
+  for (const FormPlace& place : places) {
+    if (place.form.name == "table") {
+      standard_output::show(place.form.text(result));
+    } else {
+      command_line::write_text(place.place, place.form.text(result));
+    }
+  }
   return code_of(result.verdict);
 }
 

@@ -1,15 +1,20 @@
 #include "runners/commands/point_theory_text.hpp"
 
+#include <algorithm>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+
+#include "analysis/text/text.hpp"
 
 namespace zerocount::commands {
 namespace {
 
 using theory::PointTheory;
 using theory::Range;
+using Items = std::vector<TheoryItem>;
 
 std::string text(const Range& range) {
   if (range.low == range.high) return fmt::format("{:.3g}", range.low);
@@ -24,26 +29,20 @@ std::string stability_text(const std::set<theory::LoopStability>& stability) {
   return "marginal, with an eigenvalue of 1";
 }
 
-std::string margins_text(const theory::LoopRanges& loop) {
-  const std::string gain =
-      loop.gain.empty() ? "no phase crossover"
-                        : fmt::format("gain margin {} dB at {} Hz", text(loop.gain), text(loop.gain_at));
-  const std::string phase =
-      loop.phase.empty() ? "no gain crossover"
-                         : fmt::format("phase margin {}° at {} Hz", text(loop.phase), text(loop.phase_at));
-  return gain + ", " + phase;
-}
-
-std::string loop_lines(const std::vector<theory::LoopRanges>& loops) {
-  std::string out;
+void add_loops(Items& items, const std::vector<theory::LoopRanges>& loops) {
   for (const theory::LoopRanges& loop : loops) {
-    const std::string bandwidth =
-        loop.bandwidth.empty() ? "" : fmt::format("crosses gain 1 at {} Hz, ", text(loop.bandwidth));
-    const char* const separator = loop.slides ? ": " : ", ";
-    out += fmt::format("    {}{}{}{}: {}\n", loop.name, separator, bandwidth, margins_text(loop),
-                       stability_text(loop.stability));
+    const auto add = [&](std::string_view what, std::string value) {
+      items.push_back({fmt::format("{}: {}", loop.name, what), std::move(value)});
+    };
+    add("loop", stability_text(loop.stability));
+    if (!loop.bandwidth.empty()) add("crosses gain 1", fmt::format("at {} Hz", text(loop.bandwidth)));
+    add("gain margin", loop.gain.empty()
+                           ? "no phase crossover"
+                           : fmt::format("{} dB at {} Hz", text(loop.gain), text(loop.gain_at)));
+    add("phase margin", loop.phase.empty()
+                            ? "no gain crossover"
+                            : fmt::format("{}° at {} Hz", text(loop.phase), text(loop.phase_at)));
   }
-  return out;
 }
 
 std::string source_text(const theory::LowestStiffness& lowest) {
@@ -61,12 +60,14 @@ std::string source_text(const theory::LowestStiffness& lowest) {
   return fmt::format("the lowest along the profiles of {} rigs", lowest.rigs);
 }
 
-std::string lowest_line(const theory::LowestStiffness& lowest, const theory::GainTheory& gain) {
-  const std::string criterion =
-      gain.left_out.empty() ? fmt::format("(6) stable below {:.3g} {}, ", lowest.stable_below.low, gain.unit)
-                            : "";
-  return fmt::format("    at the lowest k1, {:.3g} ({}): {}sampled loop below {:.3g} {}\n", lowest.k1.low,
-                     source_text(lowest), criterion, lowest.sampled_below.low, gain.unit);
+void add_lowest(Items& items, const theory::LowestStiffness& lowest, const theory::GainTheory& gain) {
+  items.push_back({"lowest k1", fmt::format("{:.3g}, {}", lowest.k1.low, source_text(lowest))});
+  if (gain.left_out.empty()) {
+    items.push_back(
+        {"at the lowest k1: (6) stable below", fmt::format("{:.3g} {}", lowest.stable_below.low, gain.unit)});
+  }
+  items.push_back({"at the lowest k1: sampled loop below",
+                   fmt::format("{:.3g} {}", lowest.sampled_below.low, gain.unit)});
 }
 
 /// "a move of 30 counts needs about 1 s"; empty where no move is a step.
@@ -76,18 +77,17 @@ std::string arrival_text(const theory::Approach& approach) {
                      approach.longest_time);
 }
 
-/// The line of the slowest time constant; empty if no loop is stable.
-std::string slowness_line(const theory::Approach& approach) {
-  if (approach.time_constant.empty()) return {};
+/// Nothing if no loop is stable.
+void add_approach(Items& items, const theory::Approach& approach) {
+  if (approach.time_constant.empty()) return;
   const std::string arrival = arrival_text(approach);
-  return fmt::format("    slowest time constant         {} s{}{}, hold {:.4g} s{}\n",
-                     text(approach.time_constant), arrival.empty() ? "" : "; ", arrival, approach.hold,
-                     approach.exceeds_hold() ? ": moves may end before they arrive" : "");
+  items.push_back({"slowest time constant", text(approach.time_constant) + " s"});
+  items.push_back({"hold", fmt::format("{:.4g} s{}{}{}", approach.hold, arrival.empty() ? "" : "; ", arrival,
+                                       approach.exceeds_hold() ? ": moves may end before they arrive" : "")});
 }
 
-/// "    (6) stable below              1 … 2 N m/count".
-std::string range_line(std::string_view name, const Range& range, std::string_view unit) {
-  return fmt::format("    {:<29} {} {}", name, text(range), unit);
+void add_range(Items& items, std::string name, const Range& range, std::string_view unit) {
+  items.push_back({std::move(name), fmt::format("{} {}", text(range), unit)});
 }
 
 /// Verdict of the sampled loop on the integral gain.
@@ -96,62 +96,62 @@ std::string sampled_verdict(const theory::GainTheory& gain) {
   return gain.sampled_stable == std::set{false} ? "unstable" : "unstable in some trials";
 }
 
-std::string cycle_lines(std::string_view method, const std::vector<theory::LimitCycle>& cycles,
-                        const theory::HuntingPrediction& hunting) {
-  const std::string start = fmt::format("    hunting of trial 0, {}: ", method);
-  std::string lines;
+void add_cycles(Items& items, std::string_view method, const std::vector<theory::LimitCycle>& cycles,
+                const theory::HuntingPrediction& hunting) {
+  const std::string name = fmt::format("hunting of trial 0, {}", method);
   for (const theory::LimitCycle& cycle : cycles) {
-    lines += fmt::format("{}amplitude {:.4g} counts, period {:.4g} s\n", start,
-                         cycle.amplitude / hunting.count_angle, cycle.period);
+    items.push_back({name, fmt::format("amplitude {:.4g} counts, period {:.4g} s",
+                                       cycle.amplitude / hunting.count_angle, cycle.period)});
   }
-  if (!lines.empty()) return lines;
-  return fmt::format("{}no lasting cycle{}\n", start,
-                     hunting.grows_while_sliding
-                         ? "; the loop is unstable while the rotor slides: what has broken loose may grow"
-                         : "");
+  if (!cycles.empty()) return;
+  items.push_back({name, hunting.grows_while_sliding
+                             ? "no lasting cycle; the loop is unstable while the rotor slides: "
+                               "what has broken loose may grow"
+                             : "no lasting cycle"});
 }
 
-std::string hunting_lines(const theory::HuntingPrediction& hunting) {
-  if (!hunting.left_out.empty())
-    return fmt::format("    hunting of trial 0: not predicted, since the predictions leave out {}\n",
-                       hunting.left_out);
-  const std::string lines = cycle_lines("by describing function", hunting.by_function, hunting);
-  return hunting.sticks ? lines + cycle_lines("by stick-slip", hunting.by_stick_slip, hunting) : lines;
+void add_hunting(Items& items, const theory::HuntingPrediction& hunting) {
+  if (!hunting.left_out.empty()) {
+    items.push_back({"hunting of trial 0",
+                     fmt::format("not predicted, since the predictions leave out {}", hunting.left_out)});
+    return;
+  }
+  add_cycles(items, "by describing function", hunting.by_function, hunting);
+  if (hunting.sticks) add_cycles(items, "by stick-slip", hunting.by_stick_slip, hunting);
 }
 
-std::string describe_outside(const PointTheory& theory) {
-  std::string out = fmt::format("    the criteria do not apply: {}\n", theory.outside);
-  if (theory.hunting) out += hunting_lines(*theory.hunting);
+Items items_outside(const PointTheory& theory) {
+  Items items;
+  items.push_back({"the criteria do not apply", std::string(theory.outside)});
+  if (theory.hunting) add_hunting(items, *theory.hunting);
   const theory::GainTheory& gain = theory.gain;
   if (theory.free) {
-    out += range_line(gain.name, gain.value, gain.unit) + ": sampled loop " + sampled_verdict(gain) + "\n" +
-           range_line("sampled loop, below", gain.sampled_below, gain.unit) + "\n" +
-           slowness_line(theory.approach);
+    add_range(items, gain.name, gain.value, gain.unit);
+    items.push_back({"sampled loop", sampled_verdict(gain)});
+    add_range(items, "sampled loop, below", gain.sampled_below, gain.unit);
+    add_approach(items, theory.approach);
   }
-  return out + loop_lines(theory.loops);
+  add_loops(items, theory.loops);
+  return items;
 }
 
-/// Verdict of the criteria (6) and (7) and of the sampled loop on the integral gain.
-std::string gain_verdict(const theory::GainTheory& gain) {
-  if (gain.value.low == 0.0 && gain.value.high == 0.0) {
-    return gain.observes
-               ? "no integral: the disturbance observer takes its place"
-               : "no integral control: the error stays wherever friction holds the rest of the torque";
-  }
-  const std::string by_criteria =
-      gain.left_out.empty()
-          ? fmt::format("by (6) and (7) {}; ", theory::verdict(gain.prediction))
-          : fmt::format("(6) and (7) do not apply, since they leave out {}; ", gain.left_out);
-  return fmt::format("{}sampled loop at k1 {}", by_criteria, sampled_verdict(gain));
-}
-
-std::string gain_lines(const theory::GainTheory& gain) {
+/// Verdicts of the criteria (6) and (7) and of the sampled loop on the integral gain.
+void add_gain(Items& items, const theory::GainTheory& gain) {
+  add_range(items, gain.name, gain.value, gain.unit);
   const bool applies = gain.left_out.empty();
-  std::string out = range_line(gain.name, gain.value, gain.unit) + ": " + gain_verdict(gain) + "\n";
-  if (applies) out += range_line("(6) stable below", gain.stable_below, gain.unit) + "\n";
-  out += range_line("sampled loop at k1, below", gain.sampled_below, gain.unit) + "\n";
-  if (applies) out += range_line("(7) unstable above", gain.unstable_above, gain.unit) + "\n";
-  return out;
+  if (gain.value.low == 0.0 && gain.value.high == 0.0) {
+    items.push_back({"integral", gain.observes ? "none: the disturbance observer takes its place"
+                                               : "none: the error stays wherever friction holds the rest of "
+                                                 "the torque"});
+  } else {
+    items.push_back(
+        {"by (6) and (7)", applies ? theory::verdict(gain.prediction)
+                                   : fmt::format("do not apply, since they leave out {}", gain.left_out)});
+    items.push_back({"sampled loop at k1", sampled_verdict(gain)});
+  }
+  if (applies) add_range(items, "(6) stable below", gain.stable_below, gain.unit);
+  add_range(items, "sampled loop at k1, below", gain.sampled_below, gain.unit);
+  if (applies) add_range(items, "(7) unstable above", gain.unstable_above, gain.unit);
 }
 
 /// "holds", "holds in 3 of 200 trials", "holds in no trial".
@@ -160,17 +160,53 @@ std::string holds_text(std::int64_t holding, std::int64_t trials) {
   return holding == 0 ? "holds in no trial" : fmt::format("holds in {} of {} trials", holding, trials);
 }
 
-std::string rule_lines(const theory::DesignRules& rules) {
-  return fmt::format("    DAC: resolution {} {}, must be below k1·Δx = {} {}{}: {}\n",
-                     text(rules.dac_resolution), rules.torque_unit, text(rules.dac_bound), rules.torque_unit,
-                     rules.coarse_feedback ? " with the Δx of the coarse encoder" : "",
-                     holds_text(rules.fine_enough, rules.trials)) +
-         fmt::format("    natural frequency {} Hz, sample rate {} Hz: {}\n", text(rules.frequency),
-                     text(rules.sample_rate),
-                     rules.fast_enough == rules.trials
-                         ? "ten times that, as advised"
-                         : fmt::format("ten times that, which is advised, {}",
-                                       holds_text(rules.fast_enough, rules.trials)));
+void add_rules(Items& items, const theory::DesignRules& rules) {
+  items.push_back(
+      {"DAC resolution", fmt::format("{} {}, must be below k1·Δx = {} {}{}: {}", text(rules.dac_resolution),
+                                     rules.torque_unit, text(rules.dac_bound), rules.torque_unit,
+                                     rules.coarse_feedback ? " with the Δx of the coarse encoder" : "",
+                                     holds_text(rules.fine_enough, rules.trials))});
+  items.push_back({"natural frequency", text(rules.frequency) + " Hz"});
+  items.push_back(
+      {"sample rate", fmt::format("{} Hz: {}", text(rules.sample_rate),
+                                  rules.fast_enough == rules.trials
+                                      ? "ten times the natural frequency, as advised"
+                                      : fmt::format("ten times the natural frequency, which is advised, {}",
+                                                    holds_text(rules.fast_enough, rules.trials)))});
+}
+
+/// A line per item.
+std::string list_of(std::span<const TheoryItem> items) {
+  std::size_t width = 0;
+  for (const TheoryItem& item : items) width = std::max(width, text::display_width(item.name));
+  std::string lines;
+  for (const TheoryItem& item : items) {
+    const std::string padding(width - text::display_width(item.name), ' ');
+    lines += fmt::format("  {}{}  {}\n", item.name, padding, item.value);
+  }
+  return lines;
+}
+
+/// The names of all items, each once, in the order in which points have them.
+std::vector<std::string> names_in(std::span<const std::vector<TheoryItem>> items) {
+  std::vector<std::string> names;
+  for (const std::vector<TheoryItem>& of_point : items) {
+    auto place = names.begin();
+    for (const TheoryItem& item : of_point) {
+      const auto found = std::ranges::find(names, item.name);
+      place = found != names.end() ? found + 1 : names.insert(place, item.name) + 1;
+    }
+  }
+  return names;
+}
+
+/// The values of this name; "–" if there is none.
+std::string value_of(std::span<const TheoryItem> items, std::string_view name) {
+  std::string value;
+  for (const TheoryItem& item : items) {
+    if (item.name == name) value += (value.empty() ? "" : "; ") + item.value;
+  }
+  return value.empty() ? "–" : value;
 }
 
 }  // namespace
@@ -189,10 +225,35 @@ std::string slowness_text(const theory::Approach& approach) {
   return fmt::format(" is {:.3g} s; {}, longer than the hold of {:.4g} s", slowest, arrival, approach.hold);
 }
 
-std::string describe(const PointTheory& theory) {
-  if (!theory.outside.empty()) return describe_outside(theory);
-  return gain_lines(theory.gain) + rule_lines(theory.rules) + lowest_line(theory.lowest, theory.gain) +
-         slowness_line(theory.approach) + loop_lines(theory.loops);
+std::vector<TheoryItem> theory_items(const PointTheory& theory) {
+  if (!theory.outside.empty()) return items_outside(theory);
+  Items items;
+  add_gain(items, theory.gain);
+  add_rules(items, theory.rules);
+  add_lowest(items, theory.lowest, theory.gain);
+  add_approach(items, theory.approach);
+  add_loops(items, theory.loops);
+  return items;
+}
+
+std::string theory_text(std::span<const std::string> labels, std::span<const std::vector<TheoryItem>> items) {
+  if (items.size() == 1) return list_of(items.front());
+  std::vector<TheoryItem> common;
+  std::vector<text::TextColumn> columns{{"point", false, {labels.begin(), labels.end()}}};
+  for (const std::string& name : names_in(items)) {
+    text::TextColumn column{name, false, {}};
+    for (const std::vector<TheoryItem>& of_point : items) column.cells.push_back(value_of(of_point, name));
+    const bool same = std::ranges::all_of(
+        column.cells, [&](const std::string& cell) { return cell == column.cells.front(); });
+    if (same) {
+      common.push_back({name, column.cells.front()});
+    } else {
+      columns.push_back(std::move(column));
+    }
+  }
+  std::string text = common.empty() ? "" : "at all points:\n" + list_of(common);
+  if (columns.size() > 1) text += "\n" + text::aligned_table(columns);
+  return text;
 }
 
 }  // namespace zerocount::commands

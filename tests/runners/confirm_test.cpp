@@ -57,7 +57,7 @@ TEST_F(Confirm, SaysThatTheBoundOfTheFileAllowsForTheChoice) {
   const ProgramResult result = program({"summary", "out.h5", "--confirm", "100"});
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_NE(result.out.find("best of 2 points: "), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("the bound allows for the choice among all points (Bonferroni)"),
+  EXPECT_NE(result.out.find("the bound allows for the choice of the point by these trials"),
             std::string::npos);
   EXPECT_NE(result.out.find(" of 100 trials succeeded, "), std::string::npos);
 }

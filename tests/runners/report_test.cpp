@@ -116,7 +116,8 @@ TEST_F(ReportCommand, TheBodePlotHasTheMarginsOfCheck) {
   const ProgramResult drawn = run({"plot", "margins.h5", "--figure", "bode", "-o", "margins.svg"});
   EXPECT_EQ(drawn.code, 0) << drawn.err;
   const std::string svg = folder->read("margins.svg");
-  const std::regex line("    ((?:at|while)[^:]*)[,:] .*gain margin (\\S+ dB) at .*phase margin (\\S+°) at");
+  const std::regex line(
+      "  ((?:at|while)[^:\n]*): gain margin +(\\S+ dB) at .*\n.*: phase margin +(\\S+°) at");
   int loops = 0;
   for (auto match = std::sregex_iterator(checked.begin(), checked.end(), line);
        match != std::sregex_iterator(); ++match, ++loops) {

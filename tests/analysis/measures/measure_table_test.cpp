@@ -116,7 +116,8 @@ TEST_F(AddedMeasure, IsInEveryFormOfTheSummary) {
   EXPECT_LE(json["median_low"].get<double>(), json["median"].get<double>());
   EXPECT_NE(summary::summary_csv(summary).find("torque_reserve_mean"), std::string::npos);
   EXPECT_NE(summary::summary_table(summary).find("reserve (N m)"), std::string::npos);
-  EXPECT_NE(summary::summary_table(summary).find("reserve: of the torque"), std::string::npos);
+  EXPECT_NE(summary::summary_table(summary, {.legend = true}).find("reserve: of the torque"),
+            std::string::npos);
 }
 
 TEST_F(AddedMeasure, IsAnOutputThatSensitivityExplains) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/measures/point_accumulator.hpp"
+#include "tests/analysis/summary/swept_study.hpp"
 
 namespace zerocount::summary {
 namespace {
@@ -21,8 +22,20 @@ measures::PointSummary point_with(std::int64_t successes, std::int64_t trials) {
 }
 
 TEST(BestPoint, HasTheHighestRate) {
-  const std::vector<measures::PointSummary> points{point_with(3, 10), point_with(9, 10), point_with(9, 10)};
-  EXPECT_EQ(best_point(points, {}), 1);
+  const StudySummary study = swept_study({point_with(3, 10), point_with(9, 10), point_with(9, 10)});
+  EXPECT_EQ(best_point(study), 1);
+  EXPECT_EQ(points_by_merit(study), (std::vector<std::int64_t>{1, 2, 0}));
+}
+
+TEST(BestPoint, OfEqualOnesIsTheSimplest) {
+  StudySummary study = swept_study({point_with(9, 10), point_with(9, 10)});
+  study.axes.push_back({"controller.kp", "N m/count", "", study::SweepAxis::Kind::number, {0.1, 0.0}, {}});
+  EXPECT_EQ(best_point(study), 1);
+}
+
+TEST(BestPoint, LeavesOutPointsWithoutTrials) {
+  EXPECT_EQ(points_by_merit(swept_study({point_with(0, 0), point_with(1, 10)})),
+            std::vector<std::int64_t>{1});
 }
 
 TEST(BestPoint, OfOnePointIsJudgedAsThatPoint) {
@@ -43,7 +56,7 @@ TEST(BestPoint, TheBoundsAllowForTheChoice) {
   for (int round = 0; round < rounds; ++round) {
     std::vector<measures::PointSummary> points;
     for (int i = 0; i < 20; ++i) points.push_back(point_with(successes(random), trials));
-    const measures::PointSummary& best = points[static_cast<std::size_t>(best_point(points, {}))];
+    const measures::PointSummary& best = points[static_cast<std::size_t>(best_point(swept_study(points)))];
     too_high += claim_of_chosen(best, points.size(), false).success_at_least > truth;
     too_high_alone += best.claim.success_at_least > truth;
     EXPECT_LE(bounds_of_chosen(best, points.size(), false, 0.95).low,

@@ -14,6 +14,7 @@
 
 #include "analysis/measures/point_accumulator.hpp"
 #include "analysis/measures/point_columns.hpp"
+#include "analysis/summary/shown_points.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::summary {
@@ -159,19 +160,20 @@ TEST(SummaryCsv, HasALinePerPointAndReadsBackToTheSameDoubles) {
 TEST(SummaryTable, HasARowPerPointWithItsRateItsBoundsAndWhatIsKnownOfIt) {
   const std::vector<std::string> lines = lines_of(summary_table(two_cases()));
   ASSERT_GE(lines.size(), 6U);
-  EXPECT_EQ(lines[0], "paper-gains");
-  for (const char* part : {"low gain", "40", "100 %", "[91.1, 100.0]", "stable in all tests"}) {
-    EXPECT_NE(lines[4].find(part), std::string::npos) << part << " in: " << lines[4];
+  EXPECT_EQ(lines[0], "paper-gains: 2 points");
+  EXPECT_EQ(lines[1], "design: monte_carlo");
+  for (const char* part : {"low gain *", "40", "100 %", "[91.1, 100.0]", "stable in all tests"}) {
+    EXPECT_NE(lines[5].find(part), std::string::npos) << part << " in: " << lines[5];
   }
   for (const char* part : {"high, gain", "7", "0 %", "[0.0, 41.0]", "> hold", "14.3 %", "28.6 %"}) {
-    EXPECT_NE(lines[5].find(part), std::string::npos) << part << " in: " << lines[5];
+    EXPECT_NE(lines[6].find(part), std::string::npos) << part << " in: " << lines[6];
   }
 }
 
 TEST(SummaryTable, SaysWhatIsNotReachedWithinTheHold) {
   StudySummary summary = two_cases();
   summary.points[1].hold = 1.0;
-  EXPECT_NE(lines_of(summary_table(summary))[5].find("> 1 s"), std::string::npos);
+  EXPECT_NE(lines_of(summary_table(summary))[6].find("> 1 s"), std::string::npos);
 }
 
 TEST(SummaryTable, NamesTheDesignAndWhatItMeansForTheBounds) {
@@ -209,8 +211,9 @@ TEST(SummaryTable, ShowsTheValuesOfAGridInPlaceOfItsLabels) {
       {"controller.coarse.kp", "N m/count", "", study::SweepAxis::Kind::number, {1, 1}, {}});
   summary.axes.push_back({"command.targets.0", "count", "", study::SweepAxis::Kind::number, {7, 8}, {}});
   const std::vector<std::string> lines = lines_of(summary_table(summary));
-  EXPECT_EQ(lines[2].rfind("point  case  kp (N m/count)  targets.0 (count)  trials", 0), 0U) << lines[2];
-  EXPECT_EQ(lines[5].rfind("    1  a                0.5                  8", 0), 0U) << lines[5];
+  EXPECT_EQ(lines[3].rfind("point  case  kp (N m/count)  targets.0 (count)  zero-count", 0), 0U) << lines[3];
+  EXPECT_EQ(lines[6].rfind("1      a                0.5                  8", 0), 0U) << lines[6];
+  EXPECT_EQ(point_names(summary)[1], "1 (a kp=0.5 coarse.kp=1)");
 }
 
 TEST(SummaryTable, LeavesManySweptParametersToTheLabels) {
@@ -218,7 +221,7 @@ TEST(SummaryTable, LeavesManySweptParametersToTheLabels) {
   for (const char* name : {"dac.offset", "dac.noise", "dac.bits", "controller.kp"}) {
     summary.axes.push_back({name, "1", "", study::SweepAxis::Kind::number, {0, 1}, {}});
   }
-  EXPECT_EQ(lines_of(summary_table(summary))[2].rfind("point       trials", 0), 0U);
+  EXPECT_EQ(lines_of(summary_table(summary))[3].rfind("point       zero-count", 0), 0U);
 }
 
 TEST(SummaryTable, NamesThePointsThatLostTrials) {
@@ -238,8 +241,8 @@ TEST(SummaryTable, HasColumnsForWhatTheStudyUses) {
   summary.points[0].of(&trial::MoveOutcome::travel_time).mean = 0.25;
   const std::vector<std::string> lines = lines_of(summary_table(summary));
   for (const char* head : {"travel (s)", "|e| median", "phase changes", "|true e| mean", "disagreeing"})
-    EXPECT_NE(lines[2].find(head), std::string::npos) << head;
-  EXPECT_NE(lines[4].find(" 0.25 "), std::string::npos) << lines[4];
+    EXPECT_NE(lines[3].find(head), std::string::npos) << head;
+  EXPECT_NE(lines[5].find(" 0.25 "), std::string::npos) << lines[5];
 }
 
 TEST(Summary, SaysThatTheBoundsOfASaltelliDesignAreTooNarrow) {
@@ -261,8 +264,8 @@ TEST(Summary, SaysHowManyTrialsWereStoppedWhereAStudyCanStopThem) {
 
   summary.features.stopping = true;
   const std::vector<std::string> lines = lines_of(summary_table(summary));
-  EXPECT_NE(lines[2].find("stopped"), std::string::npos);
-  EXPECT_NE(lines[5].find(" 71.4 % "), std::string::npos) << lines[5];
+  EXPECT_NE(lines[3].find("stopped"), std::string::npos);
+  EXPECT_NE(lines[6].find(" 71.4 % "), std::string::npos) << lines[6];
   EXPECT_NE(summary_csv(summary).find(",stopped,"), std::string::npos);
   const auto json = nlohmann::json::parse(summary_json_text(summary));
   EXPECT_EQ(json["points"][0]["stopped"], 0);
@@ -278,7 +281,7 @@ TEST(SummaryTable, HasADashWhereTheCriteriaAreNotAboutAPoint) {
   StudySummary summary = two_cases();
   summary.predictions[1] = {7, 0, 0, 7};
   const std::vector<std::string> lines = lines_of(summary_table(summary));
-  EXPECT_TRUE(lines[5].ends_with("–             –")) << lines[5];
+  EXPECT_TRUE(lines[6].ends_with("–             –")) << lines[6];
 }
 
 /// Two points of three torque levels; the second lost its one trial in the second level.
@@ -313,13 +316,13 @@ StudySummary load_and_unload() {
 TEST(SummaryOfLevels, TableHasARowPerPointAndLevel) {
   const std::vector<std::string> lines = lines_of(summary_table(load_and_unload()));
   ASSERT_GE(lines.size(), 10U);
-  EXPECT_EQ(lines[2].find("zero-count"), std::string::npos) << lines[2];
+  EXPECT_EQ(lines[3].find("zero-count"), std::string::npos) << lines[3];
   // By SciPy: mean 101.5, sd 1.291, t interval [99.446, 103.554] of 100 … 103.
-  EXPECT_NE(lines[4].find("101.5   [99.4, 103.6]      1.291"), std::string::npos) << lines[4];
-  EXPECT_NE(lines[5].find("25.0 %"), std::string::npos) << lines[5];
-  EXPECT_NE(lines[6].find("[-0.6, 3.6]"), std::string::npos) << lines[6];
-  EXPECT_TRUE(lines[8].ends_with("–           –")) << lines[8];
-  EXPECT_TRUE(lines[10].starts_with("lost: 1 of 1 trials nonfinite")) << lines[10];
+  EXPECT_NE(lines[5].find("101.5   [99.4, 103.6]      1.291"), std::string::npos) << lines[5];
+  EXPECT_NE(lines[6].find("25.0 %"), std::string::npos) << lines[6];
+  EXPECT_NE(lines[7].find("[-0.6, 3.6]"), std::string::npos) << lines[7];
+  EXPECT_TRUE(lines[9].ends_with("–           –")) << lines[9];
+  EXPECT_TRUE(lines[11].starts_with("lost: 1 of 1 trials nonfinite")) << lines[11];
 }
 
 TEST(SummaryOfLevels, JsonHasThemInThePoint) {
@@ -348,10 +351,19 @@ TEST(SummaryOfLevels, CsvHasALinePerPointAndLevel) {
 TEST(SummarySections, FollowThePointsInEveryForm) {
   StudySummary summary = two_cases();
   summary.sections.push_back(
-      {"more", {{{"a", 1}}, {{"a", 2}}}, {{"more_a", "1", "a", {1.0, 2.0}}}, "more\n1 2\n"});
+      {.key = "more",
+       .json = {{{"a", 1}}, {{"a", 2}}},
+       .columns = {{"more_a", "1", "a", {1.0, 2.0}}},
+       .title = "more of",
+       .tables = {{{{"point", false, {"low", "high"}}, {"a", true, {"1", "2"}}}, {0, 1}}},
+       .note = "a: number\n"});
   const auto json = nlohmann::json::parse(summary_json_text(summary));
   EXPECT_EQ(json["points"][1]["more"]["a"], 2);
-  EXPECT_TRUE(summary_table(summary).ends_with("\n\nmore\n1 2\n"));
+  const std::string table = summary_table(summary);
+  EXPECT_NE(table.find("\n\nmore of\n\npoint  a\n─────  ─\nlow    1\nhigh   2\n\na: number\n"),
+            std::string::npos)
+      << table;
+  EXPECT_EQ(summary_table(summary, {.points = {1}}).find("low    1"), std::string::npos);
   const std::vector<std::string> lines = lines_of(summary_csv(summary));
   EXPECT_TRUE(lines[0].ends_with(",observed,more_a")) << lines[0];
   EXPECT_TRUE(lines[2].ends_with(",2")) << lines[2];
@@ -391,7 +403,7 @@ TEST(SummaryTable, CallsALimitThatIsOffNone) {
   StudySummary summary = two_cases();
   summary.axes.back() = {"controller.deadband.enter",    "count",     "",
                          study::SweepAxis::Kind::number, {-1.0, 2.0}, {}};
-  EXPECT_NE(lines_of(summary_table(summary))[4].find(" none "), std::string::npos) << summary_table(summary);
+  EXPECT_NE(lines_of(summary_table(summary))[5].find(" none "), std::string::npos) << summary_table(summary);
 }
 
 TEST(SummaryTable, ShowsTheCriteriaOnlyWhereTheyApply) {

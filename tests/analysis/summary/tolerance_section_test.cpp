@@ -9,6 +9,7 @@
 #include "analysis/measures/point_accumulator.hpp"
 #include "analysis/statistics/tolerance.hpp"
 #include "analysis/summary/summary_parts.hpp"
+#include "analysis/text/percent.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::summary {
@@ -76,7 +77,10 @@ TEST(AssuranceSection, TellsTheSameInEveryForm) {
     EXPECT_EQ(section.columns[1].values[i], json["failure_at_most"]);
     EXPECT_EQ(section.columns[2].values[i], json["settling_time"][0]["within"]);
     const auto statement = json["statement"].get<std::string>();
-    EXPECT_NE(section.text.find(statement), std::string::npos) << section.text;
+    const std::string text = measures::text_of(section, std::vector{static_cast<std::int64_t>(i)});
+    const std::string bound = text::percent_at_least(points[i].claim.success_at_least);
+    EXPECT_NE(text.find(bound), std::string::npos) << text;
+    EXPECT_NE(text.find("with 90 % confidence"), std::string::npos) << text;
     EXPECT_EQ(statement.rfind(statistics::claim_sentence(points[i].claim), 0), 0U);
   }
   EXPECT_EQ(section.columns[0].name, "success_at_least");
@@ -130,10 +134,12 @@ TEST(AssuranceSection, TellsOfRigsWhereTrialsShareThem) {
   EXPECT_NEAR(point.success_rate().value, 39.0 / 40.0, 1e-15);
   EXPECT_LT(point.success_rate().clopper_pearson.low, 0.9);  // of 4000 independent trials 0.97
   const measures::SummarySection section = tolerance_section(points, {"only"});
-  EXPECT_NE(section.text.find(statistics::tolerance_sentence(point.rigs.tolerance)), std::string::npos)
-      << section.text;
-  EXPECT_NE(section.text.find("of trials on all rigs succeed"), std::string::npos) << section.text;
-  EXPECT_NE(section.text.find("(100 failures in 4000 trials on 40 rigs)"), std::string::npos);
+  const std::string text = measures::text_of(section, std::vector<std::int64_t>{0});
+  EXPECT_NE(text.find("90 % of rigs ≥"), std::string::npos) << text;
+  EXPECT_NE(text.find(text::percent_at_least(point.rigs.tolerance.zero_at_least)), std::string::npos) << text;
+  const auto statement = section.json[0]["statement"].get<std::string>();
+  EXPECT_NE(statement.find("of trials on all rigs succeed"), std::string::npos) << statement;
+  EXPECT_NE(statement.find("(100 failures in 4000 trials on 40 rigs)"), std::string::npos) << statement;
   EXPECT_EQ(section.json[0]["rigs"]["content"], 0.9);
   EXPECT_EQ(section.json[0]["rigs"]["zero_at_least"], point.rigs.tolerance.zero_at_least);
   const measures::PointSummary decided = stopped.statistics({.stopped_by_outcomes = true});

@@ -89,13 +89,16 @@ TEST(Undecided, SectionHasALineForEachPointThatHasSome) {
   std::vector<measures::PointSummary> points(2);
   points[1].undecided = {3000, 2736, 2700, 0, 0, 2.1};
   const measures::SummarySection section = undecided_section(points, {"fast", "slow"});
-  EXPECT_EQ(section.text.find("fast"), std::string::npos);
-  EXPECT_NE(section.text.find("slow: 2736 of 3000"), std::string::npos);
-  EXPECT_NE(section.text.find("neither stable nor shown unstable"), std::string::npos);
+  const std::vector<std::int64_t> both{0, 1};
+  const std::string text = measures::text_of(section, both);
+  EXPECT_EQ(text.find("fast"), std::string::npos);
+  EXPECT_NE(text.find("slow   2736 of 3000"), std::string::npos) << text;
+  EXPECT_NE(text.find("neither stable nor shown unstable"), std::string::npos);
+  EXPECT_EQ(measures::text_of(section, std::vector<std::int64_t>{0}), "");
   EXPECT_EQ(section.json[1]["hold_at_least"], 2.1);
   EXPECT_EQ(section.json[1]["still_falling"], 2700);
   points[1].undecided = {};
-  EXPECT_EQ(undecided_section(points, {"fast", "slow"}).text, "");
+  EXPECT_EQ(measures::text_of(undecided_section(points, {"fast", "slow"}), both), "");
 }
 
 }  // namespace

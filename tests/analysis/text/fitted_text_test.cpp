@@ -96,10 +96,12 @@ TEST(FittedText, WrapsSentencesBetweenWords) {
             "  (6) holds: proportion\n"
             "    of the trials\n"
             "end\n");
-  EXPECT_EQ(width_of(fitted(std::string(200, 'a') + " b", std::nullopt)), 200U);  // no word is broken
+  EXPECT_EQ(width_of(fitted(std::string(200, 'a') + " b", 100)), 200U);  // no word is broken
+  EXPECT_EQ(fitted("of 97.5 % of moves", 10), "of 97.5 %\n  of moves");
   std::string sentence;
   for (int i = 0; i < 60; ++i) sentence += "word ";
-  EXPECT_LE(width_of(fitted(sentence, std::nullopt)), width_of_prose);
+  EXPECT_LE(width_of(fitted(sentence, 300)), width_of_prose);
+  EXPECT_EQ(fitted(sentence, std::nullopt), sentence);
   EXPECT_EQ(words_of(fitted(sentence, 40)), words_of(sentence));
 }
 

@@ -1,0 +1,125 @@
+// The point that all outputs speak of, and its competitors.
+#include "analysis/summary/chosen_point.hpp"
+
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "analysis/measures/point_accumulator.hpp"
+#include "analysis/summary/shown_points.hpp"
+#include "core/failure/failure.hpp"
+#include "tests/analysis/summary/swept_study.hpp"
+
+namespace zerocount::summary {
+namespace {
+
+trial::MoveOutcome move_that(bool succeeds) {
+  trial::MoveOutcome move;
+  move.outcome = succeeds ? trial::Outcome::zero_count : trial::Outcome::one_count;
+  return move;
+}
+
+/// Rigs of which each succeeds with a probability of its own, less `worse`; the same draws at every call.
+measures::PointSummary on_rigs(std::uint64_t seed, double worse, std::int64_t rigs) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> uniform;
+  measures::PointAccumulator point({.rigs = rigs});
+  std::vector<double> probability;
+  for (std::int64_t rig = 0; rig < rigs; ++rig) probability.push_back(0.3 + 0.6 * uniform(random) - worse);
+  for (std::int64_t trial = 0; trial < 20 * rigs; ++trial) {
+    const double drawn = uniform(random);
+    point.add({{move_that(drawn < probability[static_cast<std::size_t>(trial % rigs)])}}, {});
+  }
+  return point.statistics();
+}
+
+measures::PointSummary independent(std::int64_t successes, std::int64_t trials) {
+  measures::PointAccumulator point;
+  for (std::int64_t i = 0; i < trials; ++i) point.add({{move_that(i < successes)}}, {});
+  return point.statistics();
+}
+
+TEST(ChosenPoint, IsTheBestWithItsRunnerUpUnlessOneIsNamed) {
+  const StudySummary study =
+      swept_study({independent(10, 100), independent(90, 100), independent(85, 100), independent(20, 100)});
+  const ChosenPoint best = choose_point(study);
+  EXPECT_EQ(best.point, 1);
+  EXPECT_EQ(best.chosen_from, 4);
+  EXPECT_EQ(best.runner_up, 2);
+  EXPECT_EQ(best.as_good, std::vector<std::int64_t>{2});
+  const ChosenPoint named = choose_point(study, 3);
+  EXPECT_EQ(named.point, 3);
+  EXPECT_EQ(named.chosen_from, 1);
+  EXPECT_EQ(named.runner_up, 1);
+  EXPECT_EQ(named.as_good, (std::vector<std::int64_t>{1, 2}));
+}
+
+TEST(ChosenPoint, AtTheEndOfASweepSaysWhatMayLieBeyond) {
+  StudySummary study = swept_study({independent(90, 100), independent(10, 100), independent(10, 100)});
+  ASSERT_EQ(choose_point(study).ends.size(), 1U);
+  EXPECT_TRUE(choose_point(study).ends[0].lowest);
+  EXPECT_NE(verdict_text(study, choose_point(study))
+                .find("controller.ki = 1 is the lowest value of the sweep: lower ones may be better"),
+            std::string::npos);
+  EXPECT_EQ(chosen_point_json(study, choose_point(study))["ends_of_ranges"][0]["end"], "lowest");
+  study.axes[0].numbers[0] = 0.0;  // a gain has no lower value
+  EXPECT_TRUE(choose_point(study).ends.empty());
+  study.axes[0].numbers = {3.0, 2.0, 1.0};
+  EXPECT_FALSE(choose_point(study).ends.at(0).lowest);
+  study.axes[0].numbers = {2.0, 1.0, 3.0};
+  EXPECT_TRUE(choose_point(study).ends.empty());
+}
+
+// Of two equally good points, 5 % of studies show the one that looks worse to be so. The machines of both are
+// the same, and so a small difference is shown on few rigs.
+TEST(ChosenPoint, ShowsOthersToBeWorseAtItsConfidence) {
+  constexpr int rounds = 400;
+  int wrong = 0, found = 0;
+  for (int round = 0; round < rounds; ++round) {
+    std::vector<measures::PointSummary> equal{on_rigs(2 * round, 0.0, 30), on_rigs(2 * round + 1, 0.0, 30)};
+    wrong += choose_point(swept_study(std::move(equal)), 0).as_good.empty() ? 1 : 0;
+    std::vector<measures::PointSummary> paired{on_rigs(round, 0.0, 30), on_rigs(round, 0.05, 30)};
+    found += choose_point(swept_study(std::move(paired)), 0).as_good.empty() ? 1 : 0;
+  }
+  EXPECT_LE(wrong, 0.05 * rounds + 3.0 * 4.4);  // three standard errors
+  EXPECT_GE(found, 0.95 * rounds);
+}
+
+TEST(ChosenPoint, ComparesIndependentTrialsAtItsConfidence) {
+  std::mt19937_64 random(36);
+  for (const double rate : {0.5, 0.9, 0.99}) {
+    constexpr int rounds = 2000;
+    std::binomial_distribution<std::int64_t> successes(200, rate);
+    int wrong = 0;
+    for (int round = 0; round < rounds; ++round) {
+      std::vector<measures::PointSummary> equal;
+      for (int i = 0; i < 2; ++i) equal.push_back(independent(successes(random), 200));
+      wrong += choose_point(swept_study(std::move(equal)), 0).as_good.empty() ? 1 : 0;
+    }
+    EXPECT_LE(wrong, 0.05 * rounds + 3.0 * 9.7) << rate;
+  }
+}
+
+TEST(ShownPoints, AreSortedSelectedAndCountedByTheirValues) {
+  const StudySummary study =
+      swept_study({independent(10, 100), independent(90, 100), independent(85, 100), independent(20, 100)});
+  using Points = std::vector<std::int64_t>;
+  EXPECT_EQ(selected_points(study, {}), (Points{0, 1, 2, 3}));
+  EXPECT_EQ(selected_points(study, {.sort = "-success_rate"}), (Points{1, 2, 3, 0}));
+  EXPECT_EQ(selected_points(study, {.sort = "ki", .where = {"success_rate >= 0.2"}}), (Points{1, 2, 3}));
+  EXPECT_EQ(selected_points(study, {.where = {"ki > 1", "controller.ki ≤ 3"}}), (Points{1, 2}));
+  EXPECT_EQ(selected_points(study, {.top = 2}), (Points{1, 2}));
+  EXPECT_EQ(selected_points(study, {.sort = "point", .top = 1}), Points{0});
+  EXPECT_EQ(selected_points(study, {.sort = "best", .where = {"zero_count<90"}, .top = 1}), Points{2});
+  EXPECT_EQ(selected_points(study, {.sort = "settling_time.p95"}), (Points{0, 1, 2, 3}));  // all are NaN
+  EXPECT_THROW(selected_points(study, {.sort = "kp"}), Failure);
+  EXPECT_THROW(selected_points(study, {.where = {"ki"}}), Failure);
+  EXPECT_THROW(selected_points(study, {.where = {"ki > many"}}), Failure);
+  EXPECT_THROW(selected_points(study, {.where = {"ki > 9"}}), Failure);
+}
+
+}  // namespace
+}  // namespace zerocount::summary

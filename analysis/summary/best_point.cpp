@@ -60,6 +60,7 @@ std::vector<std::int64_t> points_by_merit(const StudySummary& summary) {
   }
   std::ranges::stable_sort(points, [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<std::int64_t> order;
+  order.reserve(points.size());
   for (const auto& [merits, point] : points) order.push_back(point);
   return order;
 }

@@ -129,7 +129,7 @@ ExitCode compare(const command_line::Arguments& arguments) {
   const comparison::StudyComparison result = compared(arguments, options);
   for (const FormPlace& place : places) {
     if (place.form.name == "table") {
-      standard_output::show(place.form.text(result));
+      standard_output::write_fitted(place.form.text(result));
     } else {
       command_line::write_text(place.place, place.form.text(result));
     }

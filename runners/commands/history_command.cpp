@@ -73,7 +73,7 @@ ExitCode show(const command_line::Arguments& arguments) {
   const std::string format = arguments.choice("format");
   const history::History shown =
       history::history_of(history::read_runs(database_of(arguments)), filter_of(arguments));
-  if (format == "text") standard_output::show(history::history_text(shown));
+  if (format == "text") standard_output::write_fitted(history::history_text(shown));
   if (format == "json") standard_output::write(history::history_json(shown));
   if (format == "csv") standard_output::write(history::history_csv(shown));
   return ExitCode::success;

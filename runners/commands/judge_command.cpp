@@ -82,7 +82,7 @@ ExitCode judge(const command_line::Arguments& arguments) {
   if (arguments.choice("format") == "json") {
     standard_output::write(text::json_text(judgement_json(summary, judged)));
   } else {
-    standard_output::show(summary::judgement_text(summary, judged));
+    standard_output::write_fitted(summary::judgement_text(summary, judged));
   }
   return exit_code_of(judged.verdict.status);
 }

@@ -31,17 +31,21 @@ std::string stability_text(const std::set<theory::LoopStability>& stability) {
 
 void add_loops(Items& items, const std::vector<theory::LoopRanges>& loops) {
   for (const theory::LoopRanges& loop : loops) {
-    const auto add = [&](std::string_view what, std::string value) {
-      items.push_back({fmt::format("{}: {}", loop.name, what), std::move(value)});
+    const auto add = [&](std::string_view what, std::string value, std::string brief = {}) {
+      items.push_back({fmt::format("{}: {}", loop.name, what), std::move(value), std::move(brief)});
     };
     add("loop", stability_text(loop.stability));
     if (!loop.bandwidth.empty()) add("crosses gain 1", fmt::format("at {} Hz", text(loop.bandwidth)));
-    add("gain margin", loop.gain.empty()
-                           ? "no phase crossover"
-                           : fmt::format("{} dB at {} Hz", text(loop.gain), text(loop.gain_at)));
-    add("phase margin", loop.phase.empty()
-                            ? "no gain crossover"
-                            : fmt::format("{}° at {} Hz", text(loop.phase), text(loop.phase_at)));
+    if (loop.gain.empty()) add("gain margin", "no phase crossover");
+    if (!loop.gain.empty()) {
+      add("gain margin", fmt::format("{} dB at {} Hz", text(loop.gain), text(loop.gain_at)),
+          text(loop.gain) + " dB");
+    }
+    if (loop.phase.empty()) add("phase margin", "no gain crossover");
+    if (!loop.phase.empty()) {
+      add("phase margin", fmt::format("{}° at {} Hz", text(loop.phase), text(loop.phase_at)),
+          text(loop.phase) + "°");
+    }
   }
 }
 
@@ -82,8 +86,9 @@ void add_approach(Items& items, const theory::Approach& approach) {
   if (approach.time_constant.empty()) return;
   const std::string arrival = arrival_text(approach);
   items.push_back({"slowest time constant", text(approach.time_constant) + " s"});
-  items.push_back({"hold", fmt::format("{:.4g} s{}{}{}", approach.hold, arrival.empty() ? "" : "; ", arrival,
-                                       approach.exceeds_hold() ? ": moves may end before they arrive" : "")});
+  items.push_back({"hold", fmt::format("{:.4g} s", approach.hold)});
+  if (approach.longest_step != 0) items.push_back({"slowest move", arrival_text(approach)});
+  if (approach.exceeds_hold()) items.push_back({"warning", "moves may end before they arrive"});
 }
 
 void add_range(Items& items, std::string name, const Range& range, std::string_view unit) {
@@ -200,13 +205,16 @@ std::vector<std::string> names_in(std::span<const std::vector<TheoryItem>> items
   return names;
 }
 
-/// The values of this name; "–" if there is none.
-std::string value_of(std::span<const TheoryItem> items, std::string_view name) {
-  std::string value;
+/// The statement of this name, of several their values in one; "–" if there is none.
+TheoryItem value_of(std::span<const TheoryItem> items, const std::string& name) {
+  TheoryItem found{name, "", ""};
   for (const TheoryItem& item : items) {
-    if (item.name == name) value += (value.empty() ? "" : "; ") + item.value;
+    if (item.name != name) continue;
+    found.value += (found.value.empty() ? "" : "; ") + item.value;
+    found.brief = item.brief;
   }
-  return value.empty() ? "–" : value;
+  if (found.value.empty()) found.value = "–";
+  return found;
 }
 
 }  // namespace
@@ -241,15 +249,17 @@ std::string theory_text(std::span<const std::string> labels, std::span<const std
   std::vector<TheoryItem> common;
   std::vector<text::TextColumn> columns{{"point", false, {labels.begin(), labels.end()}}};
   for (const std::string& name : names_in(items)) {
-    text::TextColumn column{name, false, {}};
-    for (const std::vector<TheoryItem>& of_point : items) column.cells.push_back(value_of(of_point, name));
+    std::vector<TheoryItem> of_points;
+    for (const std::vector<TheoryItem>& of_point : items) of_points.push_back(value_of(of_point, name));
     const bool same = std::ranges::all_of(
-        column.cells, [&](const std::string& cell) { return cell == column.cells.front(); });
+        of_points, [&](const TheoryItem& item) { return item.value == of_points.front().value; });
     if (same) {
-      common.push_back({name, column.cells.front()});
-    } else {
-      columns.push_back(std::move(column));
+      common.push_back(of_points.front());
+      continue;
     }
+    text::TextColumn& column = columns.emplace_back(text::TextColumn{name, false, {}});
+    for (const TheoryItem& item : of_points)
+      column.cells.push_back(item.brief.empty() ? item.value : item.brief);
   }
   std::string text = common.empty() ? "" : "at all points:\n" + list_of(common);
   if (columns.size() > 1) text += "\n" + text::aligned_table(columns);

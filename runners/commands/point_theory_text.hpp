@@ -14,6 +14,7 @@ namespace zerocount::commands {
 struct TheoryItem {
   std::string name;
   std::string value;
+  std::string brief{};  ///< the value in a table; empty: as it is
 };
 
 std::vector<TheoryItem> theory_items(const theory::PointTheory& theory);

@@ -52,7 +52,7 @@ ExitCode print_sensitivity(const command_line::Arguments& arguments) {
     line.show([&] { return fmt::format("sensitivity: {} of {} outputs", done, all); });
   };
   const sensitivity::StudySensitivity sensitivity = sensitivity::study_sensitivity(file, question);
-  if (format == "table") standard_output::show(sensitivity::sensitivity_table(sensitivity));
+  if (format == "table") standard_output::write_fitted(sensitivity::sensitivity_table(sensitivity));
   if (format == "json") standard_output::write(sensitivity::sensitivity_json(sensitivity));
   if (format == "csv") standard_output::write(sensitivity::sensitivity_csv(sensitivity));
   return sensitivity::any_estimated(sensitivity) ? ExitCode::success : ExitCode::inconclusive;

@@ -72,9 +72,9 @@ run_status::RunStatus print_status(const std::filesystem::path& output, std::opt
     standard_output::write(text::json_text(json_of(status), *json_indent));
     return status;
   }
-  standard_output::show(run_status::status_text(status));
+  standard_output::write_fitted(run_status::status_text(status));
   if (status.complete) standard_output::print("see 'zerocount summary {}'\n", output.string());
-  if (!status.complete && status.finished > 0) standard_output::show("\n" + summary_so_far(output));
+  if (!status.complete && status.finished > 0) standard_output::write_fitted("\n" + summary_so_far(output));
   return status;
 }
 

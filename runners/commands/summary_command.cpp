@@ -161,8 +161,8 @@ ExitCode summarise_file(const command_line::Arguments& arguments) {
   const std::optional<study_run::Confirmation> confirmed =
       confirmation_of(arguments, summary, summary::choose_point(summary, form.chosen).point);
   if (format == "table") {
-    standard_output::show(summary::summary_table(summary, form) +
-                          (confirmed ? confirmation_text(summary, *confirmed) : ""));
+    standard_output::write_fitted(summary::summary_table(summary, form) +
+                                  (confirmed ? confirmation_text(summary, *confirmed) : ""));
   }
   if (format == "json") {
     nlohmann::ordered_json json = summary::summary_json(summary, form);

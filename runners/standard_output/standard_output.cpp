@@ -36,7 +36,7 @@ std::optional<std::size_t> terminal_width() {
   return std::max(columns == 0 ? usual : columns, narrowest);
 }
 
-void show(std::string_view text) {
+void write_fitted(std::string_view text) {
   write(text::fitted(text::printable_lines(text), terminal_width()));
 }
 

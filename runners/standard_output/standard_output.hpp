@@ -30,6 +30,12 @@ std::optional<std::size_t> terminal_width();
 
 /// Writes tables and sentences for people, fitted to the width of the terminal (text::fitted).
 /// @throws std::system_error if they cannot be written
-void show(std::string_view text);
+void write_fitted(std::string_view text);
+
+/// Writes a formatted text likewise.
+template <class... Arguments>
+void show(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+  write_fitted(fmt::format(format, std::forward<Arguments>(arguments)...));
+}
 
 }  // namespace zerocount::standard_output

@@ -40,6 +40,13 @@ bool any_unsettled(const StudySummary& summary) {
   });
 }
 
+/// With one trial per rig, rigs without a failure are the trials without one.
+bool has_several_trials_of_rigs(const StudySummary& summary) {
+  return std::ranges::any_of(summary.points, [](const measures::PointSummary& point) {
+    return point.rigs.n > 0 && point.trials > point.rigs.n;
+  });
+}
+
 /// A column with a cell for each point.
 template <typename Cell>
 text::TextColumn by_point(const StudySummary& summary, std::string head, Cell cell) {
@@ -96,7 +103,7 @@ void add_outcomes(std::vector<text::TextColumn>& columns, const StudySummary& su
       return text::percentage(unsettled(p), p.judged);
     }));
   }
-  if (summary.features.rigs) {
+  if (has_several_trials_of_rigs(summary)) {
     columns.push_back(by_point(summary, "rigs w/o failure", [](const measures::PointSummary& p) {
       return text::percentage(rigs_without_failure(p), p.rigs.n);
     }));
@@ -252,7 +259,7 @@ std::string loop_legend(const StudySummary& summary) {
             ", in %\n"
             "stable: proportion of trials whose moves all arrived and stayed within one count\n" +
             legend_of(summary, [](const layout::Measure& m) { return m.summary.use == nullptr; });
-  if (features.rigs)
+  if (has_several_trials_of_rigs(summary))
     legend += "rigs w/o failure: proportion of rigs all of whose trials ended at zero error\n";
   if (any_undecided(summary)) {
     legend +=

@@ -108,7 +108,7 @@ text::PointTable table_of(std::span<const measures::PointSummary> points,
   }
   table.columns.push_back(text_column(
       points, "success ≥", [](Point point) { return text::percent_at_least(point.claim.success_at_least); }));
-  if (on_rigs(points)) {
+  if (points.front().trials > points.front().rigs.n && on_rigs(points)) {
     table.columns.push_back(text_column(points, "90 % of rigs ≥", [](Point point) {
       const double zero = point.rigs.tolerance.zero_at_least;
       return std::isnan(zero) ? "–" : text::percent_at_least(zero);

@@ -21,6 +21,7 @@ manifest = """\
 zerocount: 1
 name: reading
 seed: 7
+rigs: 12
 trials: 60
 friction:
   k1: {uniform: [90, 130]}

@@ -64,7 +64,7 @@ TEST_F(FirstStudy, IsUnderstoodWithoutWarnings) {
   EXPECT_EQ(checked.code, 0);
   EXPECT_EQ(checked.err, "");
   EXPECT_NE(checked.out.find("8 design points × 2000 trials"), std::string::npos) << checked.out;
-  EXPECT_NE(checked.out.find("100 rigs × 20 trials of each"), std::string::npos) << checked.out;
+  EXPECT_NE(checked.out.find("1000 rigs × 2 trials of each"), std::string::npos) << checked.out;
 }
 
 TEST_F(FirstStudy, ItsCommandsWork) {
@@ -77,11 +77,11 @@ TEST_F(FirstStudy, ItsCommandsWork) {
     words.erase(words.begin());
     ASSERT_FALSE(words.empty()) << line;
     verbs.push_back(words.front());
-    if (words.front() == "run") words.insert(words.end(), {"--quiet", "--set", "trials=100"});
+    if (words.front() == "run") words.insert(words.end(), {"--quiet"});
     const ProgramResult result = run(words);
     EXPECT_EQ(result.code, 0) << line << "\n" << result.err;
   }
-  EXPECT_EQ(verbs, (std::vector<std::string>{"check", "run", "summary", "report"}));
+  EXPECT_EQ(verbs, (std::vector<std::string>{"check", "run", "summary", "judge", "report"}));
   EXPECT_NE(folder_.read("my-axis.html").find("</html>"), std::string::npos);
 
   const auto points = points_of("my-axis.h5");
@@ -112,39 +112,52 @@ TEST_F(FirstStudy, ItsTableSaysWhatTheReadmeSays) {
   const auto expect_said = [&text](const std::string& words) {
     EXPECT_NE(text.find(words), std::string::npos) << words;
   };
-  for (const std::size_t p : {0, 3}) {
-    expect_said(success_of(points[p]));
-    expect_said(fmt::format("{:.3f} s", points[p]["settling_time"]["median"].get<double>()));
+  const auto judged = nlohmann::json::parse(run({"judge", "my-axis.h5", "--format", "json"}).out);
+  EXPECT_EQ(judged["point"], 2);
+  EXPECT_EQ(judged["status"], "met");
+  expect_said(
+      fmt::format("{} % of the moves are within one count for good", percent(judged["rate"].get<double>())));
+  expect_said("at least " + text::percent_at_least(judged["rate_low"].get<double>()) + " of all moves");
+  expect_said(fmt::format("too slow ({} %)", percent(points[0]["goal"]["rate"].get<double>())));
+  expect_said(fmt::format("criterion (6) holds in {} % of the trials, {} % are stable.",
+                          percent(points[4]["prediction"]["stable_share"].get<double>()),
+                          percent(points[4]["stable_rate"].get<double>())));
+  expect_said(success_of(points[2]));
+  EXPECT_EQ(points[2]["zero_count"].get<int>() + points[2]["one_count"].get<int>(), 2000);
+}
+
+// The premises that the README names, and that which the answer does not survive.
+TEST_F(FirstStudy, ItsAnswerHoldsUnderThePremisesThatTheReadmeNames) {
+  const auto judged_with = [this](const std::string& set) {
+    EXPECT_EQ(run({"run", "my-axis.yaml", "-o", "other.h5", "--quiet", "--force", "--set", set}).code, 0);
+    return nlohmann::json::parse(run({"judge", "other.h5", "--format", "json"}).out);
+  };
+  for (const char* set : {"seed=3", "seed=11", "controller.delay=1", "controller.delay=2"}) {
+    const auto judged = judged_with(set);
+    EXPECT_EQ(judged["status"], "met") << set;
+    EXPECT_EQ(judged["point"], 2) << set;
+    EXPECT_GE(judged["rate"].get<double>(), 0.9715) << set;
+    EXPECT_LE(judged["rate"].get<double>(), 0.9895) << set;
   }
-  EXPECT_GT(points[3]["success_rate_high"].get<double>(), points[0]["success_rate_low"].get<double>());
-  for (const auto& point : points) {
-    EXPECT_LE(point["success_rate"].get<double>(), points[0]["success_rate"].get<double>());
-  }
-  for (std::size_t p = 0; p < 4; ++p) {
-    EXPECT_EQ(points[p]["zero_count"].get<int>() + points[p]["one_count"].get<int>(), 2000) << p;
-  }
-  const auto stable = [&points](std::size_t p) { return percent(points[p]["stable_rate"].get<double>()); };
-  expect_said(fmt::format("criterion (6) holds in {} % of the trials, {} % are stable, at 100 000 {} %.",
-                          percent(points[4]["prediction"]["stable_share"].get<double>()), stable(4),
-                          stable(7)));
+  EXPECT_EQ(judged_with("friction.k1={lognormal: {median: 90, cv: 0.4}}")["status"], "missed");
 }
 
 TEST_F(FirstStudy, CreepLimitsTheGainsThatAreStable) {
-  ASSERT_EQ(run({"run", "my-axis.yaml", "-o", "still.h5", "--quiet", "--set", "trials=400", "--set",
+  ASSERT_EQ(run({"run", "my-axis.yaml", "-o", "still.h5", "--quiet", "--set", "trials=1000", "--set",
                  "friction.alpha=0"})
                 .code,
             0);
   const auto points = points_of("still.h5");
-  for (std::size_t p = 0; p < 4; ++p) EXPECT_EQ(points[p]["success_rate"].get<double>(), 1.0) << p;
+  for (std::size_t p = 0; p < 3; ++p) EXPECT_EQ(points[p]["success_rate"].get<double>(), 1.0) << p;
   EXPECT_LT(points[4]["success_rate"].get<double>(), 0.95) << "here it is the loop";
 }
 
 TEST_F(FirstStudy, WaitingLongerHelps) {
-  ASSERT_EQ(run({"run", "my-axis.yaml", "-o", "long.h5", "--quiet", "--set", "trials=400", "--set",
-                 "command.hold=2", "--set", "sweep={}", "--set", "controller.ki=18053"})
+  ASSERT_EQ(run({"run", "my-axis.yaml", "-o", "long.h5", "--quiet", "--set", "trials=1000", "--set",
+                 "command.hold=2", "--set", "sweep={}", "--set", "controller.ki=11768"})
                 .code,
             0);
-  EXPECT_GT(points_of("long.h5")[0]["success_rate"].get<double>(), 0.83) << "0.76 with 0.5 s per move";
+  EXPECT_GT(points_of("long.h5")[0]["success_rate"].get<double>(), 0.83) << "0.72 with 0.5 s per move";
 }
 
 }  // namespace

@@ -46,6 +46,7 @@ TEST(Processors, WithoutFusedOperationsHaveOtherExponentialsInTheCLibrary) {
 struct ShortStudy {
   const char* name;
   const char* trials;
+  const char* also{"keep=trials"};  ///< another key to set; this one changes nothing
 };
 
 class EveryProcessor : public ::testing::TestWithParam<ShortStudy> {};
@@ -55,9 +56,10 @@ TEST_P(EveryProcessor, GivesTheSameTrials) {
   const ShortStudy& study = GetParam();
   const std::string manifest = fmt::format("{}/{}.yaml", ZEROCOUNT_MANIFESTS, study.name);
   const auto run = [&](const char* output, const std::vector<std::string>& environment) {
-    const ProgramResult result = zerocount_program(
-        {"run", manifest, "--set", fmt::format("trials={}", study.trials), "-q", "-o", output}, folder.path(),
-        environment);
+    const ProgramResult result =
+        zerocount_program({"run", manifest, "--set", fmt::format("trials={}", study.trials), "--set",
+                           study.also, "-q", "-o", output},
+                          folder.path(), environment);
     EXPECT_EQ(result.code, 0) << result.err;
   };
   run("this.h5", {});
@@ -66,7 +68,7 @@ TEST_P(EveryProcessor, GivesTheSameTrials) {
 }
 
 INSTANTIATE_TEST_SUITE_P(ShippedStudies, EveryProcessor,
-                         ::testing::Values(ShortStudy{"paper-gains", "200"},
+                         ::testing::Values(ShortStudy{"paper-gains", "200", "rigs=100"},
                                            ShortStudy{"contact-variation", "200"},
                                            ShortStudy{"linear-stage", "200"},
                                            ShortStudy{"friction-models", "20"},

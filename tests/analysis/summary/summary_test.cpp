@@ -191,12 +191,12 @@ TEST(SummaryTable, HasRigsWhereTrialsShareThem) {
   StudySummary summary = two_cases();
   EXPECT_FALSE(summary_json(summary)["points"][0].contains("rigs"));
   summary.features.rigs = true;
-  summary.points[0].rigs.n = 40;
+  summary.points[0].rigs.n = 20;
   summary.points[0].rigs.without_failure = 0.5;
   const std::string table = summary_table(summary);
   EXPECT_NE(table.find("rigs w/o failure"), std::string::npos);
   EXPECT_NE(table.find("50.0 %"), std::string::npos) << table;
-  EXPECT_NE(table.find("design: monte_carlo, 40 rigs: bounds are of all rigs"), std::string::npos) << table;
+  EXPECT_NE(table.find("design: monte_carlo, 20 rigs: bounds are of all rigs"), std::string::npos) << table;
   const auto rigs = summary_json(summary)["points"][0]["rigs"];
   EXPECT_EQ(rigs["without_failure"], 0.5);
 }

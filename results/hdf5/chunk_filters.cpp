@@ -1,11 +1,11 @@
 #include "results/hdf5/chunk_filters.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
+#include <memory>
 #include <new>
 
-#include <zlib.h>
+#include <libdeflate.h>
 
 namespace zerocount::hdf5 {
 namespace {
@@ -55,55 +55,24 @@ void unshuffle(std::size_t element_size, std::span<const std::byte> shuffled, st
   }
 }
 
-/// Whether the frequencies of the byte values are those of independent random bytes, as in the low bytes of
-/// random numbers. No coder can shorten these.
-///
-/// Pearson's χ² of the frequencies of the 256 values: 255 ± 23 for random bytes. Bytes that repeat or are not
-/// uniform give more. Bytes that count up give less.
-bool is_noise(std::span<const std::byte> bytes) {
-  constexpr std::size_t min_size = 4096;  // 16 of each value on average
-  if (bytes.size() < min_size) return false;
-  std::array<std::uint32_t, 256> counts{};
-  for (const std::byte byte : bytes) ++counts[std::to_integer<std::size_t>(byte)];
-  const auto size = static_cast<double>(bytes.size());
-  double sum = 0.0;
-  for (const std::uint32_t count : counts) sum += static_cast<double>(count) * count;
-  const double chi_squared = 256.0 / size * sum - size;
-  return chi_squared > 128.0 && chi_squared < 400.0;
-}
-
-/// One zlib stream of parts of `part` bytes each. Noise is stored as it is, which is faster to write and to
-/// read.
-std::vector<std::byte> deflate(std::span<std::byte> bytes, std::size_t part, int level) {
-  constexpr std::size_t bytes_of_change = 64;  // of the blocks that begin where the level changes
-  const std::size_t parts = bytes.size() / std::max<std::size_t>(part, 1);
-  std::vector<std::byte> result(compressBound(static_cast<uLong>(bytes.size())) + parts * bytes_of_change);
-  z_stream stream{};
-  if (deflateInit(&stream, level) != Z_OK) throw std::bad_alloc();
-  stream.next_out = reinterpret_cast<Bytef*>(result.data());
-  stream.avail_out = static_cast<uInt>(result.size());
-  int status = Z_OK;
-  for (; !bytes.empty(); bytes = bytes.subspan(part)) {
-    const std::span<std::byte> next = bytes.first(part);
-    if (status == Z_OK)
-      status = deflateParams(&stream, is_noise(next) ? Z_NO_COMPRESSION : level, Z_DEFAULT_STRATEGY);
-    stream.next_in = reinterpret_cast<Bytef*>(next.data());
-    stream.avail_in = static_cast<uInt>(next.size());
-    if (status == Z_OK) status = ::deflate(&stream, Z_NO_FLUSH);
-  }
-  if (status == Z_OK) status = ::deflate(&stream, Z_FINISH);
-  result.resize(stream.total_out);
-  deflateEnd(&stream);
-  if (status != Z_STREAM_END) result.clear();  // does not decode: encode_chunk reports it
-  return result;
+/// A zlib stream, as the deflate filter of HDF5 writes it. libdeflate takes half the time of zlib.
+std::vector<std::byte> deflate(std::span<const std::byte> bytes, int level) {
+  const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
+      libdeflate_alloc_compressor(level), libdeflate_free_compressor);
+  if (!compressor) throw std::bad_alloc();
+  std::vector<std::byte> stream(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()));
+  stream.resize(
+      libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(), stream.data(), stream.size()));
+  return stream;
 }
 
 bool inflate(std::span<const std::byte> stream, std::span<std::byte> bytes) {
-  auto size = static_cast<uLongf>(bytes.size());
-  return uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size,
-                    reinterpret_cast<const Bytef*>(stream.data()),
-                    static_cast<uLong>(stream.size())) == Z_OK &&
-         size == bytes.size();
+  const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> decompressor(
+      libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
+  if (!decompressor) throw std::bad_alloc();
+  // Without a place for the size, a stream of another size is an error.
+  return libdeflate_zlib_decompress(decompressor.get(), stream.data(), stream.size(), bytes.data(),
+                                    bytes.size(), nullptr) == LIBDEFLATE_SUCCESS;
 }
 
 }  // namespace
@@ -112,8 +81,7 @@ std::optional<std::vector<std::byte>> encode_chunk(const ChunkFilters& filters,
                                                    std::span<const std::byte> elements) {
   std::vector<std::byte> stored;
   if (filters.deflate_level) {
-    stored = shuffle(filters.element_size, elements);
-    stored = deflate(stored, stored.size() / filters.element_size, *filters.deflate_level);
+    stored = deflate(shuffle(filters.element_size, elements), *filters.deflate_level);
   } else {
     stored.assign(elements.begin(), elements.end());
   }

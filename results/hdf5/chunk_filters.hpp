@@ -22,7 +22,7 @@ struct ChunkFilters {
   bool operator==(const ChunkFilters&) const = default;
 };
 
-/// The bytes that the file stores for a chunk with these elements. None if zlib fails, or if they do
+/// The bytes that the file stores for a chunk with these elements. None if deflate fails, or if they do
 /// not decode to the elements.
 std::optional<std::vector<std::byte>> encode_chunk(const ChunkFilters& filters,
                                                    std::span<const std::byte> elements);

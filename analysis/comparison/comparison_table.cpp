@@ -40,6 +40,16 @@ std::string head_of(const StudyComparison& comparison) {
   return text;
 }
 
+/// Whether a test is significant whose bounds leave the direction of the change open.
+bool any_contrast(const StudyComparison& comparison) {
+  return std::ranges::any_of(comparison.points, [&](const PointComparison& point) {
+    return std::ranges::any_of(point.measures, [&](const MeasureComparison& measure) {
+      return shown_p(measure) < comparison.false_discovery_rate && measure.bounds.low < 0.0 &&
+             measure.bounds.high > 0.0;
+    });
+  });
+}
+
 }  // namespace
 
 std::string comparison_table(const StudyComparison& comparison) {
@@ -61,12 +71,17 @@ std::string comparison_table(const StudyComparison& comparison) {
   const std::vector<bool> numeric{false, true, true, true, true, true, true, true, false, false};
   const std::string table = rows.empty() ? "" : text::aligned_table(cells, numeric);
   const std::string detectable = detectable_sentence(comparison);
+  const std::string cautious = any_contrast(comparison)
+                                   ? "A p below the false discovery rate beside bounds that hold 0: bounds "
+                                     "allow for one more rig or trial that differs by as much as one can, "
+                                     "p does not; more rigs bring them together.\n"
+                                   : "";
   return fmt::format(
       "{}\n{}{}\nBounds: {:.6g} % each. p: of {} tests, adjusted for a false discovery rate of {:.6g} %. "
       "Detects: the smallest change for the worse that these trials find with a probability of {:.0f} "
-      "%.\n{}{}{}\n",
+      "%.\n{}{}{}{}\n",
       head_of(comparison), table, omitted, 100.0 * comparison.confidence, comparison.tests,
-      100.0 * comparison.false_discovery_rate, 100.0 * decision_probability, detectable,
+      100.0 * comparison.false_discovery_rate, 100.0 * decision_probability, cautious, detectable,
       detectable.empty() ? "" : "\n", verdict_sentence(comparison));
 }
 

@@ -1,6 +1,7 @@
 #include "runners/command_line/option_values.hpp"
 
 #include <algorithm>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,31 @@
 namespace zerocount::command_line {
 namespace {
 
+/// The label as tables shorten it: "kp=400 ki=8e4" for "controller.kp=400, controller.ki=8e4".
+std::string without_paths(const std::string& label) {
+  std::istringstream words(label);
+  std::string shortened;
+  for (std::string word; words >> word;) {
+    if (word.ends_with(',')) word.pop_back();
+    const std::size_t dot = word.rfind('.', word.find('='));
+    if (word.find('=') != std::string::npos && dot != std::string::npos) word.erase(0, dot + 1);
+    shortened += (shortened.empty() ? "" : " ") + word;
+  }
+  return shortened;
+}
+
+/// The only point with this short label; nothing if there are none or several.
+std::optional<std::int64_t> point_with_short_label(const std::string& text,
+                                                   std::span<const std::string> labels) {
+  std::optional<std::int64_t> found;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (without_paths(labels[i]) != without_paths(text)) continue;
+    if (found) return std::nullopt;
+    found = static_cast<std::int64_t>(i);
+  }
+  return found;
+}
+
 /// Labels take precedence over indices, because a label may be a number.
 std::int64_t point_named(const Arguments& arguments, std::string_view option, const std::string& text,
                          std::span<const std::string> labels) {
@@ -16,6 +42,7 @@ std::int64_t point_named(const Arguments& arguments, std::string_view option, co
   if (found != labels.end()) return found - labels.begin();
   const std::optional<std::int64_t> number = parse_number<std::int64_t>(text);
   if (number && *number >= 0 && *number < std::ssize(labels)) return *number;
+  if (const auto point = point_with_short_label(text, labels)) return *point;
   const std::string_view near = yaml::nearest_name(text, labels);
   arguments.refuse(fmt::format(
       "option '--{}': '{}' is not a design point; expected a number from 0 to {}, or a label{}", option, text,

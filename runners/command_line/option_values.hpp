@@ -17,7 +17,8 @@ namespace zerocount::command_line {
 /// @throws Failure (bad_input) for anything else.
 std::optional<double> probability_option(const Arguments& arguments, std::string_view option);
 
-/// The design points of --point, given by label or by number from 0; empty if the option is missing.
+/// The design points of --point, given by label or by number from 0; empty if the option is missing. Labels
+/// may be shortened as tables shorten them: "ki=5000" for "controller.ki=5000".
 /// @param labels of all points, in their order
 /// @throws Failure (bad_input) for anything else.
 std::vector<std::int64_t> point_options(const Arguments& arguments, std::span<const std::string> labels);

@@ -175,6 +175,21 @@ TEST_F(CommandLine, CheckHasARowPerPointAndSaysOnceWhatIsTheSameAtAll) {
     EXPECT_NE(out.find(row), std::string::npos) << row << "\n" << out;
 }
 
+TEST_F(CommandLine, APointIsNamedByItsNumberItsLabelOrTheLabelThatTablesShow) {
+  folder_.write("grid.yaml",
+                "zerocount: 1\nname: rig\nseed: 1\ntrials: 2\ncommand: {targets: [5], hold: 0.1}\n"
+                "sweep: {grid: {controller.ki: [1.0e-5, 2.0e-5], controller.kp: [0, 1.0e-4]}}\n");
+  ASSERT_EQ(run({"run", "grid.yaml", "-q", "-o", "grid.h5"}).code, 0);
+  const auto best_with = [&](const std::string& point) {
+    return nlohmann::json::parse(
+        run({"summary", "grid.h5", "--format", "json", "--point", point}).out)["best"]["point"];
+  };
+  EXPECT_EQ(best_with("2"), 2);
+  EXPECT_EQ(best_with("controller.ki=2e-05, controller.kp=0"), 2);
+  EXPECT_EQ(best_with("ki=2e-05 kp=0"), 2);
+  EXPECT_EQ(run({"summary", "grid.h5", "--point", "kp=0"}).code, 2);
+}
+
 // At a k1 that is the same in all trials the sampled loop may still be stable in some trials only.
 TEST_F(CommandLine, CheckJudgesTheSampledLoopOfEachTrial) {
   folder_.write("rig.yaml",

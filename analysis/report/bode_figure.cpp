@@ -198,7 +198,7 @@ std::string bode_caption(const ReportedStudy& reported, const trial::TrialParame
       "one nearest to instability counts, as in zerocount check; – stands for none. Magnitudes are shown "
       "from {} to {} dB. Definitions: Franklin, Powell, Workman, Digital Control of Dynamic Systems, 3rd "
       "ed., 1998, section 7.4.",
-      shown_trial, label_of(reported, reported.focus), parameters.controller.sample_rate,
+      shown_trial, label_of(reported, reported.chosen.point), parameters.controller.sample_rate,
       parameters.controller.delay, parameters.controller.delay == 1 ? "" : "s",
       springs_text(parameters, unit), value_with_unit(magnitudes.low, ""),
       value_with_unit(magnitudes.high, ""));
@@ -208,7 +208,7 @@ std::string bode_caption(const ReportedStudy& reported, const trial::TrialParame
 
 std::optional<Figure> bode_figure(const ReportedStudy& reported) {
   const trial::TrialParameters parameters =
-      study::study_trial(reported.study, reported.focus, shown_trial).parameters;
+      study::study_trial(reported.study, reported.chosen.point, shown_trial).parameters;
   const std::vector<LoopCurve> curves = loop_curves(parameters);
   if (curves.empty()) return std::nullopt;
   theory::Range frequencies;

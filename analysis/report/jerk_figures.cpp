@@ -31,16 +31,6 @@ struct ShownMoves {
   std::vector<JerkingMove> shown;
 };
 
-std::int64_t point_with_most_jerks(const std::vector<measures::PointSummary>& points) {
-  std::size_t most = 0;
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    if (points[i].of(&trial::MoveOutcome::jerk_count).total >
-        points[most].of(&trial::MoveOutcome::jerk_count).total)
-      most = i;
-  }
-  return static_cast<std::int64_t>(most);
-}
-
 ShownMoves shown_moves(const ReportedStudy& reported, std::int64_t point) {
   ShownMoves moves;
   const layout::RowRange rows = rows_of(reported, point);
@@ -94,13 +84,21 @@ std::string direction_sentence(const statistics::ClusteredProportion& agreement)
       proportion, agreement.events);
 }
 
-/// Whether the jerks of a move become rarer.
-std::string trend_sentence(const jerks::TrendSummary& slowing) {
-  if (slowing.moves == 0) return "";
+/// Whether the intervals of a move grow, and whether the rate falls: only both show that jerks become rarer.
+std::string trend_sentence(const jerks::JerkStatistics& jerks) {
+  if (jerks.slowing.moves == 0) return "";
   constexpr double level = 0.05;
-  const std::string test = fmt::format("p {}", text::short_number(slowing.p_slowing));
-  if (slowing.p_slowing <= level) return fmt::format(" They become rarer within a move ({}).", test);
-  return fmt::format(" That they become rarer within a move is not shown ({}).", test);
+  const std::string test = fmt::format("p {}", text::short_number(jerks.slowing.p_slowing));
+  if (jerks.slowing.p_slowing > level)
+    return fmt::format(" That their intervals grow within a move is not shown ({}).", test);
+  const bool rate_falls =
+      jerks.rates.size() >= 2 && jerks.rates.back().bounds.high < jerks.rates.front().bounds.low;
+  return rate_falls
+             ? fmt::format(" They become rarer: intervals grow within a move ({}), and the rate falls.", test)
+             : fmt::format(
+                   " Their intervals grow within a move ({}); that the rate of all falls is not "
+                   "shown.",
+                   test);
 }
 
 Figure raster(const ReportedStudy& reported, std::int64_t point, const jerks::JerkStatistics& jerks) {
@@ -119,7 +117,7 @@ Figure raster(const ReportedStudy& reported, std::int64_t point, const jerks::Je
   std::string caption = fmt::format(
       "Each row is a move of point {}, from its arrival on; each mark is the onset of a jerk, coloured by "
       "its direction. {}{} ",
-      label_of(reported, point), direction_sentence(jerks.agreement), trend_sentence(jerks.slowing));
+      label_of(reported, point), direction_sentence(jerks.agreement), trend_sentence(jerks));
   if (std::ssize(moves.shown) < moves.all) {
     caption += fmt::format("Shown are {} of the {} moves with jerks, evenly spaced. ", moves.shown.size(),
                            moves.all);
@@ -169,8 +167,7 @@ std::optional<Figure> rate(const ReportedStudy& reported, std::int64_t point,
 }  // namespace
 
 std::vector<Figure> jerk_figures(const ReportedStudy& reported) {
-  const std::vector<measures::PointSummary>& points = reported.summary.points;
-  const std::int64_t point = point_with_most_jerks(points);
+  const std::int64_t point = reported.chosen.point;
   if (point_of(reported, point).of(&trial::MoveOutcome::jerk_count).total == 0) return {};
   const jerks::JerkStatistics jerks = jerks::jerk_statistics(reported.file, reported.study, point);
   std::vector<Figure> figures{raster(reported, point, jerks)};

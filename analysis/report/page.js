@@ -87,6 +87,11 @@
     });
   }
 
+  // Paper shows what a reader would open.
+  addEventListener("beforeprint", () => {
+    for (const details of document.querySelectorAll("details:not(.data)")) details.open = true;
+  });
+
   let drawing = Promise.resolve();
   const drawAll = () => {
     drawing = drawing.then(async () => {

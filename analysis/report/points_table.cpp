@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -74,14 +76,14 @@ constexpr PointCell outcome_cells[] = {
 
 /// The table of times, jerks and criteria: with those of outcomes it would be wider than the page.
 constexpr PointCell motion_cells[] = {
-    {"settling, median", "s",
+    {"arrival, median", "s",
      [](Point point, Theory) {
        return summary::settling_text(point, point.of(&trial::MoveOutcome::settling_time).median.value);
      },
      [](Point point, Bounds) {
        return settling_bounds(point, point.of(&trial::MoveOutcome::settling_time).median);
      }},
-    {"settling, 95 %", "s",
+    {"arrival, 95 %", "s",
      [](Point point, Theory) {
        return summary::settling_text(point, point.of(&trial::MoveOutcome::settling_time).p95.value);
      },
@@ -100,10 +102,55 @@ constexpr PointCell motion_cells[] = {
      }},
 };
 
-HtmlColumn label_column(const summary::StudySummary& summary, std::size_t rows) {
+HtmlColumn label_column(const ReportedStudy& reported, std::size_t rows) {
   HtmlColumn label{"point", "", true, {}};
-  for (std::size_t i = 0; i < rows; ++i) label.cells.push_back(summary.labels[i]);
+  for (std::size_t i = 0; i < rows; ++i)
+    label.cells.push_back(marked_label_of(reported, static_cast<std::int64_t>(i)));
   return label;
+}
+
+/// The verdict of each point by the goal, and the proportions with their one-sided bounds.
+std::vector<HtmlColumn> goal_columns(const ReportedStudy& reported, std::size_t rows) {
+  const summary::StudySummary& summary = reported.summary;
+  if (!summary.goal) return {};
+  const std::vector<std::optional<goal::Verdict>> verdicts = summary::goal_verdicts(summary);
+  const std::string bounds = text::percent(summary.goal->confidence) + " bounds";
+  std::vector<HtmlColumn> columns{{"goal", "", true, {}}, {"moves in goal", bounds, false, {}}};
+  const auto add = [](HtmlColumn& column, const goal::BoundedProportion& proportion) {
+    column.cells.push_back(text::percent_near(proportion.value));
+    column.below.push_back(text::percent_bounds(proportion.low, proportion.high, 1, " … "));
+  };
+  if (summary.goal->machines) columns.push_back({"machines in goal", bounds, false, {}});
+  for (std::size_t i = 0; i < rows; ++i) {
+    const goal::Verdict verdict = verdicts[i].value_or(goal::Verdict{});
+    columns[0].cells.emplace_back(goal::text_of(verdict.status));
+    add(columns[1], verdict.moves);
+    if (summary.goal->machines) add(columns[2], verdict.machines);
+  }
+  return columns;
+}
+
+/// The 95 % quantile of the settling time of each error band.
+std::vector<HtmlColumn> band_columns(const ReportedStudy& reported, std::size_t rows) {
+  std::vector<HtmlColumn> columns;
+  const trial::ErrorBands& bands = reported.summary.features.bands;
+  for (std::size_t slot = 0; slot < bands.count; ++slot) {
+    HtmlColumn& column = columns.emplace_back(
+        HtmlColumn{fmt::format("settled ±{}, 95 %", bands.values()[slot]), "s", false, {}});
+    for (std::size_t i = 0; i < rows; ++i) {
+      const measures::PointSummary& point = reported.summary.points[i];
+      const statistics::Quantile p95 =
+          measures::of_band(point, "band_settling_time", bands.values()[slot]).p95;
+      column.cells.push_back(summary::settling_text(point, p95.value));
+      column.below.push_back(settling_bounds(point, p95));
+    }
+  }
+  return columns;
+}
+
+void append(std::vector<HtmlColumn>& columns, std::vector<HtmlColumn> more, std::size_t at) {
+  columns.insert(columns.begin() + static_cast<std::ptrdiff_t>(at), std::make_move_iterator(more.begin()),
+                 std::make_move_iterator(more.end()));
 }
 
 HtmlColumn observed_column(const summary::StudySummary& summary, std::size_t rows) {
@@ -137,7 +184,7 @@ HtmlColumn column_of(const PointCell& cell, const ReportedStudy& reported, std::
 std::vector<HtmlColumn> columns_of(std::span<const PointCell> cells, const ReportedStudy& reported,
                                    std::size_t rows) {
   const study::StudyFeatures& features = reported.summary.features;
-  std::vector<HtmlColumn> columns{label_column(reported.summary, rows)};
+  std::vector<HtmlColumn> columns{label_column(reported, rows)};
   for (const PointCell& cell : cells) {
     const bool valid = !(features.dependent_trials && cell.needs_independence);
     if (valid && (features.rigs || !cell.needs_rigs)) columns.push_back(column_of(cell, reported, rows));
@@ -148,9 +195,13 @@ std::vector<HtmlColumn> columns_of(std::span<const PointCell> cells, const Repor
 std::string loop_tables(const ReportedStudy& reported, std::size_t rows) {
   const summary::StudySummary& summary = reported.summary;
   const bool dependent = summary.features.dependent_trials;
+  constexpr std::size_t after_arrival = 3;  // label, median and 95 % quantile
+  std::vector<HtmlColumn> outcomes = columns_of(outcome_cells, reported, rows);
+  append(outcomes, goal_columns(reported, rows), 1);
   std::vector<HtmlColumn> motion = columns_of(motion_cells, reported, rows);
+  append(motion, band_columns(reported, rows), after_arrival);
   if (!summary.observed.empty()) motion.push_back(observed_column(summary, rows));
-  return html_table(columns_of(outcome_cells, reported, rows)) +
+  return html_table(outcomes) +
          fmt::format(
              "<p class=\"note\">zero-count: proportion of trials all of whose moves ended at zero error, "
              "with {}.{} One count, undecided, oscillating, lost: trials by their worst move. Undecided: a "
@@ -165,8 +216,10 @@ std::string loop_tables(const ReportedStudy& reported, std::size_t rows) {
              dependent ? html_text(fmt::format("{} {}", dependence_sentence, too_narrow_sentence))
                        : html_text(summary::design_line(summary))) +
          html_table(motion) +
-         "<p class=\"note\">Quantiles of settling times are those of all moves, with order-statistic bounds; "
-         "moves that never arrived count as later than all others. (6), (7): trials in which the paper's "
+         "<p class=\"note\">Arrival: the error is first 0 for the whole dwell. Settled ±b: the error stays "
+         "within b counts from then to the end of the move. Quantiles are those of all moves, with "
+         "order-statistic bounds; moves that never arrived, or end outside, are later than all others. "
+         "(6), (7): trials in which the paper's "
          "criteria hold and are exceeded.</p>\n";
 }
 

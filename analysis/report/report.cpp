@@ -102,15 +102,7 @@ void qualify_bounds(const ReportedStudy& reported, ReportPage& page) {
 }  // namespace
 
 StudyReport study_report(const reading::StudyFile& file, const ReportOptions& options) {
-  ReportedStudy reported = reported_study(file);
-  if (options.focus) {
-    if (*options.focus < 0 || *options.focus >= file.header().points) {
-      throw Failure(ExitCode::bad_input,
-                    fmt::format("{}: unknown design point {}; expected 0 to {}", file.path().string(),
-                                *options.focus, file.header().points - 1));
-    }
-    reported.focus = *options.focus;
-  }
+  const ReportedStudy reported = reported_study(file, options.point);
   Replays replays{reported, options};
   StudyReport report;
   ReportPage& page = report.page;
@@ -124,8 +116,7 @@ StudyReport study_report(const reading::StudyFile& file, const ReportOptions& op
   if (options.comparison) add(page, comparison_section(*options.comparison));
   if (options.history) add(page, history_section(*options.history, max_history_figures));
   add(page, success_section(reported));
-  if (std::optional<Figure> settling = settling_figure(reported))
-    add(page, {"settling", "Settling time", "", {std::move(*settling)}});
+  add(page, {"settling", "Arrival and settling", "", distribution_figures(reported)});
   add(page,
       {"jerks", "Jerks", "", reported.study.open_loop ? std::vector<Figure>{} : jerk_figures(reported)});
   if (std::optional<PageSection> sensitivity = sensitivity_section(reported))

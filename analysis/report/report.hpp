@@ -19,7 +19,7 @@ namespace zerocount::report {
 struct ReportOptions {
   std::optional<comparison::StudyComparison> comparison{};  ///< with a baseline
   std::optional<history::History> history{};                ///< earlier runs of this study
-  std::optional<std::int64_t> focus{};  ///< design point of the single trials; default: the best point
+  std::optional<std::int64_t> point{};  ///< design point that the page speaks of; default: the best
   /// Compares a repeated trial with its record; returns the differences, one line each.
   std::function<std::vector<std::string>(const ReplayedTrial&)> check{};
 };
@@ -32,7 +32,7 @@ struct StudyReport {
 
 /// The report of a complete results file. Reads the file several times and simulates some of its trials
 /// again.
-/// @throws Failure as StudyFile; bad_input if the focus is not a design point.
+/// @throws Failure as StudyFile; bad_input if `point` is not a design point.
 StudyReport study_report(const reading::StudyFile& file, const ReportOptions& options = {});
 
 /// A page on a history alone: a figure for every series.

@@ -17,8 +17,9 @@ std::optional<Figure> success_figure(const ReportedStudy& reported);
 /// of the other axes.
 std::vector<Figure> stability_maps(const ReportedStudy& reported);
 
-/// Distribution functions of the settling time with bounds.
-std::optional<Figure> settling_figure(const ReportedStudy& reported);
+/// Distribution functions with bounds: of the arrival at several points, and of the times from which the
+/// error of the chosen point stays within each band.
+std::vector<Figure> distribution_figures(const ReportedStudy& reported);
 
 /// Jerks of single moves, and the rate of jerks, at the point with the most jerks.
 std::vector<Figure> jerk_figures(const ReportedStudy& reported);
@@ -26,7 +27,7 @@ std::vector<Figure> jerk_figures(const ReportedStudy& reported);
 /// Profiles along the rotor with the failed trials, and the success rate by position.
 std::vector<Figure> rotor_figures(const ReportedStudy& reported);
 
-/// Bode plot of the open loops of trial 0 of the focus point (theory::trial_loops).
+/// Bode plot of the open loops of trial 0 of the chosen point (theory::trial_loops).
 std::optional<Figure> bode_figure(const ReportedStudy& reported);
 
 /// A shown trial of the study.
@@ -38,7 +39,7 @@ struct SampleTrial {
   std::int64_t buckets{400};  ///< resolution of its samples (see TraceThinner)
 };
 
-/// The median, the worst and the first failed trial of the focus point, without repetitions. If no trial
+/// The median, the worst and the first failed trial of the chosen point, without repetitions. If no trial
 /// failed there, the first failed trial of the study. Empty for an open-loop study.
 std::vector<SampleTrial> sample_trials(const ReportedStudy& reported);
 

@@ -7,30 +7,43 @@
 #include <fmt/format.h>
 
 #include "analysis/summary/best_point.hpp"
+#include "analysis/summary/shown_points.hpp"
 #include "analysis/summary/summary.hpp"
+#include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
 
 namespace zerocount::report {
 
-ReportedStudy reported_study(const reading::StudyFile& file) {
+ReportedStudy reported_study(const reading::StudyFile& file, std::optional<std::int64_t> point) {
+  if (point && (*point < 0 || *point >= file.header().points)) {
+    throw Failure(ExitCode::bad_input, fmt::format("{}: unknown design point {}; expected 0 to {}",
+                                                   file.path().string(), *point, file.header().points - 1));
+  }
   ReportedStudy reported{file, layout::recorded_study(file.header(), file.path()), summary::summarise(file)};
   reported.bounds_name = reported.study.stop   ? "bounds that hold at whatever trial one stops"
                          : reported.study.rigs ? "Korn-Graubard bounds"
                                                : "Clopper-Pearson bounds";
-  for (const measures::PointSummary& point : reported.summary.points)
+  for (const measures::PointSummary& one : reported.summary.points)
     reported.success_bounds.push_back(
-        summary::bounds_of_chosen(point, 1, reported.study.stop.has_value(), statistics::summary_confidence));
-  reported.focus = summary::best_point(reported.summary);
+        summary::bounds_of_chosen(one, 1, reported.study.stop.has_value(), statistics::summary_confidence));
+  reported.chosen = summary::choose_point(reported.summary, point);
+  reported.names = summary::short_labels(reported.summary.labels, reported.summary.axes);
   return reported;
 }
 
-std::int64_t most_telling_point(const std::vector<measures::PointSummary>& points) {
-  const auto distance = [](const measures::PointSummary& point) {
-    return std::abs(point.success_rate().value - 0.5);
+std::string marked_label_of(const ReportedStudy& reported, std::int64_t point) {
+  const bool marked = reported.names.size() > 1 && point == reported.chosen.point;
+  return label_of(reported, point) + (marked ? " ★" : "");
+}
+
+std::vector<std::int64_t> leading_points(const ReportedStudy& reported) {
+  std::vector<std::int64_t> points{reported.chosen.point};
+  const auto add = [&](std::int64_t point) {
+    if (std::ranges::find(points, point) == points.end()) points.push_back(point);
   };
-  return std::min_element(points.begin(), points.end(),
-                          [&](const auto& a, const auto& b) { return distance(a) < distance(b); }) -
-         points.begin();
+  add(0);
+  if (reported.chosen.runner_up) add(*reported.chosen.runner_up);
+  return points;
 }
 
 layout::RowRange rows_of(const ReportedStudy& reported, std::int64_t point) {

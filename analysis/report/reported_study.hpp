@@ -2,12 +2,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "analysis/measures/trial_value.hpp"
 #include "analysis/statistics/proportion.hpp"
+#include "analysis/summary/chosen_point.hpp"
 #include "analysis/summary/summary.hpp"
 #include "experiments/study/study.hpp"
 #include "results/reading/study_file.hpp"
@@ -21,13 +23,18 @@ struct ReportedStudy {
   summary::StudySummary summary;
   std::vector<statistics::ConfidenceInterval> success_bounds{};  ///< 95 %, [point]
   std::string bounds_name{};                                     ///< kind of these bounds, for captions
-  std::int64_t focus{0};                                         ///< design point of the single trials
+  summary::ChosenPoint chosen{};                                 ///< that the page speaks of
+  std::vector<std::string> names{};                              ///< [point] short labels
 };
 
 /// The label, the statistics and the success bounds of a point.
 inline const std::string& label_of(const ReportedStudy& reported, std::int64_t point) {
-  return reported.summary.labels[static_cast<std::size_t>(point)];
+  return reported.names[static_cast<std::size_t>(point)];
 }
+/// The label in a figure, with a star at the chosen one of several points.
+std::string marked_label_of(const ReportedStudy& reported, std::int64_t point);
+/// The chosen point, the first of the study as its baseline, and the runner-up: every figure has them.
+std::vector<std::int64_t> leading_points(const ReportedStudy& reported);
 inline const measures::PointSummary& point_of(const ReportedStudy& reported, std::int64_t point) {
   return reported.summary.points[static_cast<std::size_t>(point)];
 }
@@ -41,13 +48,11 @@ inline constexpr std::string_view dependence_sentence =
 inline constexpr std::string_view too_narrow_sentence =
     "Bounds assume independent trials, and are too narrow here.";
 
-/// Reads the whole file once. The focus is the best point.
+/// Reads the whole file once.
 /// @param file a complete study.
-ReportedStudy reported_study(const reading::StudyFile& file);
-
-/// The point whose success rate is nearest to one half. It has the most information about the causes of
-/// failures.
-std::int64_t most_telling_point(const std::vector<measures::PointSummary>& points);
+/// @param point that the page speaks of; nothing: the best
+/// @throws Failure (bad_input) if there is no such point
+ReportedStudy reported_study(const reading::StudyFile& file, std::optional<std::int64_t> point = {});
 
 /// The global rows of the trials of a point.
 layout::RowRange rows_of(const ReportedStudy& reported, std::int64_t point);

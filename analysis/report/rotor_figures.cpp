@@ -61,11 +61,10 @@ void visit_ends(const ReportedStudy& reported, const ShownTrials& shown, std::si
       });
 }
 
-/// A profile's point: the one in its name, otherwise most_telling_point().
+/// A profile's point: the one in its name, otherwise the chosen one.
 std::int64_t point_of_profile(const ReportedStudy& reported, const std::string& profile) {
   const std::size_t at = profile.find('@');
-  return at == std::string::npos ? most_telling_point(reported.summary.points)
-                                 : std::stoll(profile.substr(at + 1));
+  return at == std::string::npos ? reported.chosen.point : std::stoll(profile.substr(at + 1));
 }
 
 double value_at(const reading::StoredProfile& profile, double angle, double period) {

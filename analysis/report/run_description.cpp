@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "analysis/report/reported_study.hpp"
 #include "analysis/statistics/moments.hpp"
 #include "analysis/text/text.hpp"
+#include "experiments/parameters/parameter_table.hpp"
 #include "results/layout/table_io.hpp"
 
 namespace zerocount::report {
@@ -57,6 +59,38 @@ std::string inputs_table(const reading::StudyFile& file) {
   }
   if (columns.front().cells.empty()) return "<p>All trials have the same parameters.</p>\n";
   return "<h3>Parameters that differ between trials</h3>\n" + html_table(columns);
+}
+
+/// A value as a manifest has it: the word of an enumeration, the targets of a list.
+std::string value_text(const parameters::Parameter& row, double value) {
+  if (row.none == value) return "none";
+  const auto index = static_cast<std::size_t>(value);
+  if (!row.labels.empty() && index < row.labels.size()) return std::string(row.labels[index]);
+  return fmt::format("{:.6g}", value);
+}
+
+/// The parameters that are the same in all trials of all points.
+std::string fixed_table(const ReportedStudy& reported) {
+  const study::Study& study = reported.study;
+  const auto differs = [&](std::string_view name) {
+    const auto is_it = [name](const auto& column) {
+      return column.name == name || column.name.rfind(std::string(name) + ".", 0) == 0;
+    };
+    return std::ranges::any_of(study.input_columns, is_it) || std::ranges::any_of(study.axes, is_it);
+  };
+  const trial::TrialParameters parameters = study::study_trial(study, reported.chosen.point, 0).parameters;
+  std::vector<HtmlColumn> columns{{"parameter", "", true, {}},
+                                  {"meaning", "", true, {}},
+                                  {"unit", "", true, {}},
+                                  {"value", "", true, {}}};
+  for (const parameters::Parameter& row : parameters::parameter_table()) {
+    if (!row.get || differs(row.name) || (row.only_on && *row.only_on != study.units.axis)) continue;
+    const double value = row.get(parameters);
+    if (std::isnan(value)) continue;
+    add_row(columns, {std::string(row.name), parameters::text_on(study.units.axis, std::string(row.meaning)),
+                      parameters::unit_on(study.units.axis, std::string(row.unit)), value_text(row, value)});
+  }
+  return "<h3>Parameters that are the same in all trials</h3>\n" + html_table(columns);
 }
 
 /// The sweep: the range of each number of the grid, and the cases.
@@ -123,7 +157,7 @@ std::string run_html(const ReportedStudy& reported) {
         "again from its history.</p>\n";
   }
   html += html_facts(facts_of(reported));
-  html += inputs_table(reported.file);
+  html += inputs_table(reported.file) + fixed_table(reported);
   return html + html_preformatted("The manifest", reported.file.header().manifest);
 }
 

@@ -69,11 +69,17 @@ Figure figure_for(const sensitivity::OutputSensitivity& output, const std::strin
 std::optional<PageSection> sensitivity_section(const ReportedStudy& reported) {
   if (reported.study.open_loop) return std::nullopt;
   sensitivity::SensitivityQuestion question;
-  question.points = {most_telling_point(reported.summary.points)};
+  question.points = {reported.chosen.point};
   const sensitivity::StudySensitivity answer = sensitivity::study_sensitivity(reported.file, question);
-  if (!sensitivity::any_estimated(answer)) return std::nullopt;
-  const sensitivity::PointSensitivity& point = answer.points.front();
   PageSection section{sensitivity_section_name, "Which parameters matter", "", {}};
+  const measures::PointSummary& chosen = point_of(reported, reported.chosen.point);
+  if (!sensitivity::any_estimated(answer)) {
+    if (chosen.outcomes.zero_count < chosen.trials) return std::nullopt;
+    section.html = fmt::format("<p>All trials of {} succeed: no parameter explains a failure.</p>\n",
+                               html_text(label_of(reported, reported.chosen.point)));
+    return section;
+  }
+  const sensitivity::PointSensitivity& point = answer.points.front();
   for (const sensitivity::OutputSensitivity& output : point.outputs) {
     if (!output.estimated) continue;
     section.html += fmt::format("<p>{}</p>\n", html_prose(output.conclusion));

@@ -8,6 +8,8 @@
 #include "analysis/report/report_figures.hpp"
 #include "analysis/statistics/histogram.hpp"
 #include "analysis/statistics/spread_over.hpp"
+#include "analysis/text/percent.hpp"
+#include "analysis/text/text.hpp"
 
 namespace zerocount::report {
 namespace {
@@ -44,7 +46,8 @@ const measures::MeasureStatistics& settling_of(const ReportedStudy& reported, st
   return point_of(reported, point).of(&trial::MoveOutcome::settling_time);
 }
 
-/// The points with arrivals; if there are too many, evenly spaced ones from the best to the worst.
+/// The points with arrivals; if there are too many, evenly spaced ones from the best to the worst, of which
+/// the nearest ones are replaced by the leading points.
 std::vector<std::int64_t> points_with_curves(const ReportedStudy& reported) {
   std::vector<std::int64_t> with_arrivals;
   const auto& points = reported.summary.points;
@@ -57,8 +60,14 @@ std::vector<std::int64_t> points_with_curves(const ReportedStudy& reported) {
     return settling_of(reported, a).n > settling_of(reported, b).n;
   });
   std::vector<std::int64_t> shown;
-  for (const std::int64_t i : statistics::spread_over(std::ssize(with_arrivals), max_curves))
-    shown.push_back(with_arrivals[static_cast<std::size_t>(i)]);
+  for (const std::int64_t point : leading_points(reported)) {
+    if (settling_of(reported, point).n > 0) shown.push_back(point);
+  }
+  for (const std::int64_t i : statistics::spread_over(std::ssize(with_arrivals), max_curves)) {
+    const std::int64_t point = with_arrivals[static_cast<std::size_t>(i)];
+    if (std::ssize(shown) < max_curves && std::ranges::find(shown, point) == shown.end())
+      shown.push_back(point);
+  }
   std::sort(shown.begin(), shown.end());
   return shown;
 }
@@ -85,17 +94,15 @@ void add_curve(FigureData& data, const std::string& label, const statistics::His
   if (statistics::largest(times) < end) row(end, arrived);
 }
 
-}  // namespace
-
-std::optional<Figure> settling_figure(const ReportedStudy& reported) {
+std::optional<Figure> arrival_figure(const ReportedStudy& reported) {
   const std::vector<std::int64_t> shown = points_with_curves(reported);
   if (shown.empty()) return std::nullopt;
   const auto& points = reported.summary.points;
   const std::int64_t moves_per_trial = reported.file.moves();
   std::string caption = fmt::format(
-      "Proportion of all moves of a point that have arrived by a time (also if they left the target later). "
-      "A curve "
-      "that ends below 100 % has moves that never arrived. The bands {} (Dvoretzky-Kiefer-Wolfowitz, n = "
+      "Proportion of all moves of a point that have arrived by a time: their error was first 0 for the whole "
+      "dwell (also if they left the target later). A curve that ends below 100 % has moves that never "
+      "arrived. The bands {} (Dvoretzky-Kiefer-Wolfowitz, n = "
       "{}{}). ",
       reported.summary.features.dependent_trials
           ? "would contain the whole curve of a point with 95 % confidence if its trials were independent"
@@ -109,7 +116,7 @@ std::optional<Figure> settling_figure(const ReportedStudy& reported) {
   });
   if (std::ssize(shown) < arriving) {
     caption +=
-        fmt::format("Shown are {} of {} points, from the one with most arrivals to the one with fewest. ",
+        fmt::format("Shown are {} of {} points: the chosen one, the first, the runner-up, and others. ",
                     shown.size(), arriving);
   }
   if (arriving < std::ssize(points))
@@ -117,7 +124,7 @@ std::optional<Figure> settling_figure(const ReportedStudy& reported) {
         fmt::format("At {} of the {} points no move arrived. ", std::ssize(points) - arriving, points.size());
   FigureData data{"steps",
                   {{"label", "point", ""},
-                   {"time", "settled within", "s"},
+                   {"time", "arrived by", "s"},
                    {"share", "proportion of moves", "1"},
                    {"low", "lower 95 % bound", "1"},
                    {"high", "upper 95 % bound", "1"}}};
@@ -129,10 +136,10 @@ std::optional<Figure> settling_figure(const ReportedStudy& reported) {
   }
   for (const std::int64_t point : shown) {
     const measures::PointSummary& summary = point_of(reported, point);
-    add_curve(data, label_of(reported, point), settling_times(reported, point), summary.moves,
+    add_curve(data, marked_label_of(reported, point), settling_times(reported, point), summary.moves,
               band_of(reported, summary), end);
   }
-  Figure figure = figure_of("settling-time", "settling-time", "Settling time", caption, {std::move(data)});
+  Figure figure = figure_of("settling-time", "settling-time", "Arrival", caption, {std::move(data)});
   ordered_json& x = figure.specification["encoding"]["x"];
   if (start > 0.0 && end > 12.0 * start) {  // otherwise a few late arrivals would compress all others
     x["scale"]["type"] = "symlog";
@@ -143,6 +150,80 @@ std::optional<Figure> settling_figure(const ReportedStudy& reported) {
   }
   if (shown.size() == 1) figure.specification["encoding"]["color"]["legend"] = nullptr;
   return figure;
+}
+
+/// Times from which the error stays within the band to the end of the move.
+statistics::Histogram<double> times_in_band(const ReportedStudy& reported, std::int64_t point,
+                                            std::size_t slot) {
+  statistics::Histogram<double> times;
+  measures::visit_trials(reported.file, rows_of(reported, point),
+                         [&](std::int64_t, std::span<const trial::MoveOutcome> moves) {
+                           for (const trial::MoveOutcome& move : moves) {
+                             if (!std::isnan(move.bands[slot].settling_time))
+                               times.add(move.bands[slot].settling_time);
+                           }
+                         });
+  return times;
+}
+
+/// The rules of the goal: its time and its proportion of moves.
+void add_goal(Figure& figure, const study::Goal& goal) {
+  const auto rule = [&](const char* channel, double value) {
+    figure.specification["layer"].push_back(
+        {{"data", {{"values", ordered_json::array({ordered_json::object()})}}},
+         {"mark", {{"type", "rule"}, {"strokeDash", {4, 3}}, {"color", "var(--ink)"}}},
+         {"encoding", {{channel, {{"datum", value}, {"type", "quantitative"}}}, {"color", nullptr}}}});
+  };
+  rule("x", goal.within);
+  rule("y", goal.moves);
+  figure.caption += fmt::format("The dashed lines are the goal: ±{} counts after {} s, in {} of the moves. ",
+                                goal.band, text::short_number(goal.within), text::percent(goal.moves));
+}
+
+/// Nothing for a file without bands.
+std::optional<Figure> band_figure(const ReportedStudy& reported) {
+  const trial::ErrorBands& bands = reported.study.features.bands;
+  const std::int64_t point = reported.chosen.point;
+  const measures::PointSummary& summary = point_of(reported, point);
+  FigureData data{"steps",
+                  {{"label", "band", ""},
+                   {"time", "within the band for good from", "s"},
+                   {"share", "proportion of moves", "1"},
+                   {"low", "lower 95 % bound", "1"},
+                   {"high", "upper 95 % bound", "1"}}};
+  std::vector<statistics::Histogram<double>> times;
+  double end = 0.0;
+  for (std::size_t slot = 0; slot < bands.count; ++slot) {
+    times.push_back(times_in_band(reported, point, slot));
+    if (times.back().size > 0) end = std::max(end, statistics::largest(times.back()));
+  }
+  if (end == 0.0) return std::nullopt;
+  for (std::size_t slot = 0; slot < bands.count; ++slot) {
+    if (times[slot].size == 0) continue;
+    add_curve(data, fmt::format("±{}", bands.values()[slot]), times[slot], summary.moves,
+              band_of(reported, summary), end);
+  }
+  Figure figure = figure_of(
+      "settling-time", "settled", "Within the band for good",
+      fmt::format("Proportion of all moves of {} whose error stays within ±b counts from a time on to the "
+                  "end of the move. Shortly before the end there is little time left to leave a band in. ",
+                  label_of(reported, point)),
+      {std::move(data)});
+  ordered_json& encoding = figure.specification["encoding"];
+  encoding["x"]["title"] = "within the band for good from (s)";
+  figure.specification["layer"][0]["encoding"]["y"]["title"] = "proportion of moves";
+  if (reported.study.goal) add_goal(figure, *reported.study.goal);
+  return figure;
+}
+
+}  // namespace
+
+std::vector<Figure> distribution_figures(const ReportedStudy& reported) {
+  std::vector<Figure> figures;
+  if (std::optional<Figure> arrival = arrival_figure(reported)) figures.push_back(std::move(*arrival));
+  if (reported.study.open_loop) return figures;
+  if (std::optional<Figure> settled = band_figure(reported)) figures.push_back(std::move(*settled));
+  return figures;
 }
 
 }  // namespace zerocount::report

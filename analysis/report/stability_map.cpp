@@ -60,7 +60,8 @@ FigureData cells_of(const ReportedStudy& reported, const PointGroup& group, cons
                     {"low", "lower 95 % bound", "1"},
                     {"high", "upper 95 % bound", "1"},
                     {"stable", "(6) holds in", "1"},
-                    {"unstable", "(7) exceeded in", "1"}}};
+                    {"unstable", "(7) exceeded in", "1"},
+                    {"star", "", ""}}};
   for (const std::int64_t point : group.points) {
     const auto at = static_cast<std::size_t>(point);
     const measures::RateWithBounds& rate = reported.summary.points[at].success_rate();
@@ -72,10 +73,11 @@ FigureData cells_of(const ReportedStudy& reported, const PointGroup& group, cons
     const double x_value = x.numbers[at];
     const double y_value = y.numbers[at];
     cells.rows.push_back(ordered_json::array(
-        {reported.summary.labels[at], x_edges.from(x_value), x_edges.to(x_value), y_edges.from(y_value),
+        {marked_label_of(reported, point), x_edges.from(x_value), x_edges.to(x_value), y_edges.from(y_value),
          y_edges.to(y_value), x_value, y_value, datum(rate.value), datum(bounds.low), datum(bounds.high),
          datum(zerocount::statistics::rate(prediction.stable, of)),
-         datum(zerocount::statistics::rate(prediction.unstable, of))}));
+         datum(zerocount::statistics::rate(prediction.unstable, of)),
+         point == reported.chosen.point ? "★" : ""}));
   }
   return cells;
 }
@@ -119,7 +121,8 @@ Figure map_of(const ReportedStudy& reported, const PointGroup& group, std::size_
               const study::SweepAxis& x, const study::SweepAxis& y) {
   FigureData curves = curves_of(reported, group, x, y);
   std::string caption =
-      "Each cell is a design point. Its colour is the proportion of trials that end at zero counts. ";
+      "Each cell is a design point. Its colour is the proportion of trials that end at zero counts. A star "
+      "marks the chosen point. ";
   if (!curves.rows.empty()) {
     caption +=
         "The lines are the paper's criteria (6), white, and (7), orange; solid for the trial with the lowest "
@@ -136,7 +139,7 @@ Figure map_of(const ReportedStudy& reported, const PointGroup& group, std::size_
   set_axis(encoding["y"], y, CellEdges(y));
   if (figure.data.back().rows.empty()) {
     ordered_json& layers = figure.specification["layer"];
-    layers.erase(layers.begin() + 1, layers.end());
+    layers.erase(layers.begin() + 2, layers.end());
   }
   return figure;
 }

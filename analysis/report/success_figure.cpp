@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -33,7 +34,7 @@ std::vector<FigureColumn> common_columns() {
 ordered_json row_of(const ReportedStudy& reported, std::int64_t point) {
   const measures::PointSummary& summary = point_of(reported, point);
   const statistics::ConfidenceInterval& bounds = bounds_of(reported, point);
-  return ordered_json::array({label_of(reported, point), datum(summary.success_rate().value),
+  return ordered_json::array({marked_label_of(reported, point), datum(summary.success_rate().value),
                               datum(bounds.low), datum(bounds.high), summary.outcomes.zero_count,
                               summary.trials});
 }
@@ -47,8 +48,13 @@ std::vector<std::int64_t> points_with_lines(const ReportedStudy& reported) {
     return point_of(reported, a).success_rate().value > point_of(reported, b).success_rate().value;
   });
   std::vector<std::int64_t> shown;
-  for (const std::int64_t i : statistics::spread_over(std::ssize(order), max_lines))
-    shown.push_back(order[static_cast<std::size_t>(i)]);
+  const std::vector<std::int64_t> leading = leading_points(reported);
+  const std::vector<std::int64_t> spread = statistics::spread_over(std::ssize(order), max_lines);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool wanted = std::ranges::binary_search(spread, static_cast<std::int64_t>(i)) ||
+                        std::ranges::find(leading, order[i]) != leading.end();
+    if (wanted) shown.push_back(order[i]);
+  }
   return shown;
 }
 
@@ -79,18 +85,30 @@ Figure line_per_point(const ReportedStudy& reported) {
   return figure;
 }
 
+/// Evenly spaced groups, the nearest one replaced by that of the chosen point.
+std::vector<std::int64_t> groups_shown(const ReportedStudy& reported, const std::vector<PointGroup>& groups) {
+  std::vector<std::int64_t> shown = statistics::spread_over(std::ssize(groups), max_series);
+  const auto chosen = std::ranges::find_if(groups, [&](const PointGroup& group) {
+    return std::ranges::find(group.points, reported.chosen.point) != group.points.end();
+  });
+  const std::int64_t wanted = chosen - groups.begin();
+  *std::ranges::min_element(shown, {}, [&](std::int64_t group) { return std::abs(group - wanted); }) = wanted;
+  return shown;
+}
+
 Figure along_axis(const ReportedStudy& reported, std::size_t axis) {
   const study::SweepAxis& swept = reported.summary.axes[axis];
   const std::vector<PointGroup> groups = groups_along(reported, {axis});
   std::string caption = fmt::format(
       "Proportion of all trials of each point that end at zero counts (line), over {}. ", axis_title(swept));
   if (std::ssize(groups) > max_series) {
-    caption += fmt::format("Shown are {} of {} lines, evenly spaced. ", max_series, groups.size());
+    caption += fmt::format("Shown are {} of {} lines: that of the chosen point, and others evenly spaced. ",
+                           max_series, groups.size());
   }
   FigureData data{"points", common_columns()};
   data.columns.push_back({"x", swept.name, swept.unit});
   data.columns.push_back({"series", "", ""});
-  for (const std::int64_t group : statistics::spread_over(std::ssize(groups), max_series)) {
+  for (const std::int64_t group : groups_shown(reported, groups)) {
     for (const std::int64_t point : groups[static_cast<std::size_t>(group)].points) {
       ordered_json row = row_of(reported, point);
       row.push_back(swept.numbers[static_cast<std::size_t>(point)]);

@@ -47,8 +47,8 @@ RowsOfPoint rows_to_show(const ReportedStudy& reported) {
   RowsOfPoint rows;
   TrialRank worst;
   const double median =
-      point_of(reported, reported.focus).of(&trial::MoveOutcome::settling_time).median.value;
-  measures::visit_trials(reported.file, rows_of(reported, reported.focus),
+      point_of(reported, reported.chosen.point).of(&trial::MoveOutcome::settling_time).median.value;
+  measures::visit_trials(reported.file, rows_of(reported, reported.chosen.point),
                          [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
                            const TrialRank rank = rank_of(moves);
                            if (rows.worst < 0 || worst < rank) {

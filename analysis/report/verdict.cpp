@@ -1,15 +1,20 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <sstream>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "analysis/goal/goal_text.hpp"
 #include "analysis/report/html.hpp"
 #include "analysis/report/report_sections.hpp"
 #include "analysis/statistics/sample_size.hpp"
 #include "analysis/statistics/tolerance.hpp"
 #include "analysis/summary/best_point.hpp"
+#include "analysis/summary/judged_point.hpp"
+#include "analysis/summary/shown_points.hpp"
 #include "analysis/summary/undecided.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
@@ -17,11 +22,17 @@
 namespace zerocount::report {
 namespace {
 
-/// " (95 % bounds a to b)" of the best or the worst point, which account for its choice among all points;
+/// The number of points that the bounds of a point account for: those that it was chosen from.
+std::size_t chosen_from(const ReportedStudy& reported, std::int64_t point) {
+  return point == reported.chosen.point ? static_cast<std::size_t>(reported.chosen.chosen_from)
+                                        : reported.summary.points.size();
+}
+
+/// " (95 % bounds a to b)" of the chosen or the worst point, which account for its choice among all points;
 /// empty if the trials are not independent.
 std::string bounds_text(const ReportedStudy& reported, std::int64_t point) {
   if (reported.summary.features.dependent_trials) return "";
-  const std::size_t points = reported.summary.points.size();
+  const std::size_t points = chosen_from(reported, point);
   const statistics::ConfidenceInterval bounds = summary::bounds_of_chosen(
       point_of(reported, point), points, reported.study.stop.has_value(), statistics::summary_confidence);
   return fmt::format(" (95 % bounds {} to {}{})", text::percent_at_least(bounds.low),
@@ -50,7 +61,7 @@ std::string flawless_text(const ReportedStudy& reported, const statistics::Succe
 
 /// The claim of the best point, with bounds that account for its choice among all points.
 statistics::SuccessClaim claim_of_best(const ReportedStudy& reported, std::int64_t best) {
-  return summary::claim_of_chosen(point_of(reported, best), reported.summary.points.size(),
+  return summary::claim_of_chosen(point_of(reported, best), chosen_from(reported, best),
                                   reported.study.stop.has_value());
 }
 
@@ -64,14 +75,43 @@ std::string claim_text(const ReportedStudy& reported, std::int64_t best) {
                      of_all(point.outcomes.zero_count, point.trials));
 }
 
-std::string headline(const ReportedStudy& reported, std::int64_t best) {
-  std::string claim = claim_text(reported, best);
-  const std::size_t points = reported.summary.points.size();
-  if (points == 1) return claim;
-  return fmt::format("Best of {} points, {}: {}{}", points, label_of(reported, best), claim,
+/// "Best of 8 points, 3 (kp=400): …", or "At 3 (kp=400): …" for a point that was named.
+std::string of_chosen(const ReportedStudy& reported, const std::string& claim) {
+  if (reported.summary.points.size() == 1) return claim;
+  const std::string name =
+      summary::point_names(reported.summary)[static_cast<std::size_t>(reported.chosen.point)];
+  if (reported.chosen.chosen_from == 1) return fmt::format("At {}: {}", name, claim);
+  return fmt::format("Best of {} points, {}: {}{}", reported.chosen.chosen_from, name, claim,
                      reported.summary.features.dependent_trials
                          ? ""
                          : ", with bounds that account for the selection of the best point");
+}
+
+std::string headline(const ReportedStudy& reported, const std::optional<summary::JudgedPoint>& judged) {
+  if (judged) return of_chosen(reported, std::string(summary::verdict_words(judged->verdict.status)));
+  return of_chosen(reported, claim_text(reported, reported.chosen.point));
+}
+
+/// A line per line of the text, as a sentence.
+void add_sentences(std::vector<std::string>& lines, const std::string& text) {
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    line.erase(0, line.find_first_not_of(' '));
+    if (line.empty()) continue;
+    if (line.front() >= 'a' && line.front() <= 'z')
+      line.front() = static_cast<char>(line.front() - 'a' + 'A');
+    lines.push_back(line + ".");
+  }
+}
+
+void add_goal(std::vector<std::string>& lines, const ReportedStudy& reported,
+              const summary::JudgedPoint& judged) {
+  const study::Goal& goal = *reported.summary.goal;
+  lines.push_back(fmt::format("The goal: {}.", goal::goal_sentence(goal)));
+  add_sentences(lines,
+                goal::readings_text(goal, *point_of(reported, judged.chosen.point).goal, judged.verdict));
+  if (judged.needs)
+    lines.push_back(goal::needs_sentence(goal, *judged.needs, reported.summary.features.rigs) + ".");
 }
 
 void add_success(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
@@ -111,7 +151,7 @@ void add_undecided(std::vector<std::string>& lines, const ReportedStudy& reporte
   if (most - points.begin() != best) add(most - points.begin());
 }
 
-/// Adds the differences between rigs at the best point.
+/// Adds the differences between rigs at the chosen point.
 void add_rigs(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
   const statistics::RigStatistics& rigs = point_of(reported, best).rigs;
   if (rigs.n == 0) return;
@@ -246,20 +286,24 @@ std::string open_loop_verdict(const ReportedStudy& reported) {
 
 std::string verdict_html(const ReportedStudy& reported) {
   if (reported.study.open_loop) return open_loop_verdict(reported);
-  const std::int64_t best = summary::best_point(reported.summary);
+  const std::int64_t best = reported.chosen.point;
   std::vector<std::string> lines;
+  std::optional<summary::JudgedPoint> judged;
+  if (reported.summary.goal) judged = summary::judge_point(reported.summary, reported.chosen);
+  if (judged) add_goal(lines, reported, *judged);
   if (reported.summary.features.dependent_trials) {
     lines.push_back(
         fmt::format("{} Statements about all axes, with bounds, need a study with `design: monte_carlo`.",
                     dependence_sentence));
   }
   add_success(lines, reported, best);
+  add_sentences(lines, summary::competition_text(reported.summary, reported.chosen));
   add_undecided(lines, reported, best);
   add_rigs(lines, reported, best);
   add_times(lines, reported, best);
   add_spread(lines, reported, best);
   add_theory(lines, reported);
-  return html_verdict(headline(reported, best), lines);
+  return html_verdict(headline(reported, judged), lines);
 }
 
 }  // namespace zerocount::report

@@ -11,8 +11,9 @@ const measures::GoalCounts& counts_of(const StudySummary& summary, std::int64_t 
   return summary.points[static_cast<std::size_t>(point)].goal.value();
 }
 
-/// "the goal is met", "the goal is missed", "undecided".
-std::string verdict_words(goal::Status status) {
+}  // namespace
+
+std::string_view verdict_words(goal::Status status) {
   switch (status) {
     case goal::Status::met:
       return "the goal is met";
@@ -23,8 +24,6 @@ std::string verdict_words(goal::Status status) {
   }
   return "it is undecided whether the goal is met";
 }
-
-}  // namespace
 
 JudgedPoint judge_point(const StudySummary& summary, const ChosenPoint& chosen) {
   JudgedPoint judged{chosen, {}, {}};

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "analysis/goal/goal_verdict.hpp"
 #include "analysis/summary/chosen_point.hpp"
@@ -17,6 +18,9 @@ struct JudgedPoint {
 
 /// @param summary of a study with a goal
 JudgedPoint judge_point(const StudySummary& summary, const ChosenPoint& chosen);
+
+/// "the goal is met", "the goal is missed", "it is undecided whether the goal is met".
+std::string_view verdict_words(goal::Status status);
 
 /// The judgement as a paragraph: the goal, the point, the verdict with its bounds, what would decide it, and
 /// the competitors of the point.

@@ -56,7 +56,7 @@ history::History history_of_study(const std::filesystem::path& database, const r
 
 report::StudyReport report_of(const command_line::Arguments& arguments, const reading::StudyFile& file) {
   report::ReportOptions options;
-  options.focus = command_line::point_option(arguments, file.point_labels());
+  options.point = command_line::point_option(arguments, file.point_labels());
   if (const auto baseline = arguments.value("baseline")) {
     comparison::CompareOptions compare;
     if (const auto margins = arguments.value("margins")) compare.margins = *margins;

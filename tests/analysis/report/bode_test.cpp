@@ -94,7 +94,7 @@ TEST(BodeFigure, IsOfThePointAskedFor) {
                           std::string(fixed_study) + "sweep: {grid: {controller.ki: [1.0e-5, 2.0e-5]}}\n");
   for (const std::int64_t point : {0, 1}) {
     ReportOptions options;
-    options.focus = point;
+    options.point = point;
     const ReportPage page = study_report(reading::StudyFile(folder / "a.h5"), options).page;
     loop::ControllerParameters controller;
     controller.ki = point == 0 ? 1e-5 : 2e-5;

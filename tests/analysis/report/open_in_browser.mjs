@@ -164,7 +164,7 @@ try {
     if (scheme === "light" && width === 1000) {
       await checkTables(opened);
       await checkHover(opened, "stability-map", "success rate");
-      await checkHover(opened, "settling-time", "settled within");
+      await checkHover(opened, "settling-time", "by (s)");
       await checkPolicy(opened);
       await opened.page.pdf({path: join(screenshots, "printed.pdf"), format: "A4", printBackground: true});
     }

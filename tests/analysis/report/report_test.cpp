@@ -80,14 +80,24 @@ TEST_F(Report, EveryFigureHasACaptionAndUnitsAndATable) {
   }
 }
 
+/// [point] the labels that figures show.
+std::vector<std::string> labels_in_figures(const reading::StudyFile& file) {
+  const ReportedStudy reported = reported_study(file);
+  std::vector<std::string> labels;
+  for (std::int64_t point = 0; point < file.header().points; ++point)
+    labels.push_back(marked_label_of(reported, point));
+  return labels;
+}
+
 TEST_F(Report, TheFigureOfSuccessHasTheNumbersOfTheSummary) {
   const summary::StudySummary summary = summary::summarise(file);
   const FigureData data = find_figure(study_report(file).page, "success").data.front();
+  const std::vector<std::string> labels = labels_in_figures(file);
   ASSERT_EQ(data.rows.size(), summary.points.size());
   for (const auto& row : data.rows) {
     const auto label = row[0].get<std::string>();
-    const auto at = static_cast<std::size_t>(std::find(summary.labels.begin(), summary.labels.end(), label) -
-                                             summary.labels.begin());
+    const auto at = static_cast<std::size_t>(std::find(labels.begin(), labels.end(), label) - labels.begin());
+    ASSERT_LT(at, labels.size()) << label;
     EXPECT_NEAR(row[1].get<double>(), summary.points[at].success_rate().value, 1e-6);
     EXPECT_NEAR(row[2].get<double>(), summary.points[at].success_rate().clopper_pearson.low, 1e-6);
     EXPECT_NEAR(row[3].get<double>(), summary.points[at].success_rate().clopper_pearson.high, 1e-6);
@@ -99,7 +109,7 @@ TEST_F(Report, TheSettlingCurvesAreDistributionFunctionsInTheirBands) {
   const FigureData data = find_figure(study_report(file).page, "settling-time").data.front();
   const double half_width = std::sqrt(std::log(2.0 / 0.05) / (2.0 * 40.0));
   std::map<std::string, std::vector<double>> times;
-  const std::vector<std::string> labels = file.point_labels();
+  const std::vector<std::string> labels = labels_in_figures(file);
   const std::vector<double> all = file.measure("settling_time", file.rows());
   for (std::size_t row = 0; row < all.size(); ++row) times[labels[row / 40]].push_back(all[row]);
   const std::vector<double> at = column(data, "time");
@@ -118,6 +128,25 @@ TEST_F(Report, TheSettlingCurvesAreDistributionFunctionsInTheirBands) {
   }
 }
 
+/// The curves of the bands are made again from /outcome/band_settling_time.
+TEST_F(Report, TheCurvesOfBandsAreOfTheChosenPoint) {
+  const FigureData data = find_figure(study_report(file).page, "settled").data.front();
+  const std::int64_t point = reported_study(file).chosen.point;
+  const std::vector<trial::MoveOutcome> moves = file.outcomes({point * 40, 40});
+  const std::vector<double> at = column(data, "time");
+  const std::vector<double> proportion = column(data, "share");
+  ASSERT_FALSE(data.rows.empty());
+  for (std::size_t i = 0; i < data.rows.size(); ++i) {
+    const std::size_t slot = data.rows[i][0] == "±0" ? 0 : 1;
+    const auto settled = std::count_if(moves.begin(), moves.end(), [&](const trial::MoveOutcome& move) {
+      return move.bands[slot].settling_time <= at[i] + 1e-9;
+    });
+    if (at[i] > 0.0) {
+      EXPECT_NEAR(proportion[i], static_cast<double>(settled) / 40.0, 1e-6) << i;
+    }
+  }
+}
+
 TEST_F(Report, TheSampleTrialsAreWhatTheySay) {
   const ReportedStudy reported = reported_study(file);
   const std::vector<SampleTrial> trials = sample_trials(reported);
@@ -126,7 +155,7 @@ TEST_F(Report, TheSampleTrialsAreWhatTheySay) {
     return outcomes[static_cast<std::size_t>(trial.point * 40 + trial.index)];
   };
   ASSERT_FALSE(trials.empty());
-  const double median = reported.summary.points[static_cast<std::size_t>(reported.focus)]
+  const double median = reported.summary.points[static_cast<std::size_t>(reported.chosen.point)]
                             .of(&trial::MoveOutcome::settling_time)
                             .median.value;
   for (const SampleTrial& trial : trials) {
@@ -136,7 +165,7 @@ TEST_F(Report, TheSampleTrialsAreWhatTheySay) {
     }
     if (trial.name == "worst") {
       for (std::int64_t index = 0; index < 40; ++index)
-        EXPECT_GE(of(trial).outcome, of(SampleTrial{"", "", reported.focus, index}).outcome);
+        EXPECT_GE(of(trial).outcome, of(SampleTrial{"", "", reported.chosen.point, index}).outcome);
     }
     if (trial.name == "first-failure") {
       EXPECT_NE(of(trial).outcome, trial::Outcome::zero_count);
@@ -161,7 +190,7 @@ TEST_F(Report, TracesAreTheRecordedTrials) {
 
 TEST_F(Report, ShowsTheTrialsOfThePointAskedFor) {
   ReportOptions options;
-  options.focus = 3;
+  options.point = 3;
   std::vector<std::int64_t> points;
   options.check = [&](const ReplayedTrial& replayed) {
     points.push_back(replayed.point);
@@ -169,7 +198,7 @@ TEST_F(Report, ShowsTheTrialsOfThePointAskedFor) {
   };
   study_report(file, options);
   EXPECT_EQ(std::count(points.begin(), points.end(), 3), std::ssize(points));
-  options.focus = 8;
+  options.point = 8;
   testing::expect_failure(ExitCode::bad_input, "unknown design point 8; expected 0 to 7",
                           [&] { study_report(file, options); });
 }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/goal/goal_verdict.hpp"
 #include "analysis/summary/best_point.hpp"
 #include "analysis/summary/shown_points.hpp"
 #include "analysis/summary/summary.hpp"
@@ -44,6 +45,20 @@ std::vector<std::int64_t> leading_points(const ReportedStudy& reported) {
   add(0);
   if (reported.chosen.runner_up) add(*reported.chosen.runner_up);
   return points;
+}
+
+ShownRate shown_rate(const ReportedStudy& reported, std::int64_t point) {
+  const measures::PointSummary& summary = point_of(reported, point);
+  if (!reported.summary.goal)
+    return {summary.success_rate().value, bounds_of(reported, point), summary.outcomes.zero_count,
+            summary.trials};
+  const goal::Verdict verdict = goal::judge_goal(*reported.summary.goal, *summary.goal, 1);
+  return {
+      verdict.moves.value, {verdict.moves.low, verdict.moves.high}, summary.goal->met, summary.goal->moves};
+}
+
+std::string_view rate_meaning(const ReportedStudy& reported) {
+  return reported.summary.goal ? "moves that meet the goal" : "trials that end at zero counts";
 }
 
 layout::RowRange rows_of(const ReportedStudy& reported, std::int64_t point) {

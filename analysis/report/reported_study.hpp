@@ -42,6 +42,17 @@ inline const statistics::ConfidenceInterval& bounds_of(const ReportedStudy& repo
   return reported.success_bounds[static_cast<std::size_t>(point)];
 }
 
+/// The rate that figures compare points by: of the moves that meet the goal, or without a goal of the trials
+/// that succeed.
+struct ShownRate {
+  double value{0.0};
+  statistics::ConfidenceInterval bounds;
+  std::int64_t hits{0}, events{0};
+};
+ShownRate shown_rate(const ReportedStudy& reported, std::int64_t point);
+/// What these rates are: "moves that meet the goal", "trials that end at zero counts".
+std::string_view rate_meaning(const ReportedStudy& reported);
+
 /// Note for results of a study with dependent trials (StudyFeatures::dependent_trials).
 inline constexpr std::string_view dependence_sentence =
     "The trials of a saltelli design are not independent: those of a row share most of their draws.";

@@ -166,16 +166,21 @@ statistics::Histogram<double> times_in_band(const ReportedStudy& reported, std::
   return times;
 }
 
-/// The rules of the goal: its time and its proportion of moves.
+/// The time of the goal and its proportion of moves, as rules across the figure.
 void add_goal(Figure& figure, const study::Goal& goal) {
-  const auto rule = [&](const char* channel, double value) {
+  figure.data.push_back({"goal",
+                         {{"within", "within", "s"}, {"moves", "proportion of moves", "1"}},
+                         {ordered_json::array({goal.within, goal.moves})}});
+  const ordered_json start{{"value", 0}};
+  const auto add = [&](ordered_json encoding) {
+    encoding["color"] = {{"value", "var(--ink)"}};
     figure.specification["layer"].push_back(
-        {{"data", {{"values", ordered_json::array({ordered_json::object()})}}},
-         {"mark", {{"type", "rule"}, {"strokeDash", {4, 3}}, {"color", "var(--ink)"}}},
-         {"encoding", {{channel, {{"datum", value}, {"type", "quantitative"}}}, {"color", nullptr}}}});
+        {{"data", {{"name", "goal"}}},
+         {"mark", {{"type", "rule"}, {"strokeDash", {4, 3}}, {"strokeWidth", 1.2}}},
+         {"encoding", std::move(encoding)}});
   };
-  rule("x", goal.within);
-  rule("y", goal.moves);
+  add({{"x", {{"field", "within"}, {"type", "quantitative"}}}, {"y", start}, {"y2", {{"value", "height"}}}});
+  add({{"x", start}, {"x2", {{"value", "width"}}}, {"y", {{"field", "moves"}, {"type", "quantitative"}}}});
   figure.caption += fmt::format("The dashed lines are the goal: ±{} counts after {} s, in {} of the moves. ",
                                 goal.band, text::short_number(goal.within), text::percent(goal.moves));
 }

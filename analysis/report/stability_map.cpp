@@ -56,7 +56,7 @@ FigureData cells_of(const ReportedStudy& reported, const PointGroup& group, cons
                     {"y_to", "", y.unit},
                     {"x", x.name, x.unit},
                     {"y", y.name, y.unit},
-                    {"rate", "success rate", "1"},
+                    {"rate", reported.summary.goal ? "rate of moves in goal" : "success rate", "1"},
                     {"low", "lower 95 % bound", "1"},
                     {"high", "upper 95 % bound", "1"},
                     {"stable", "(6) holds in", "1"},
@@ -64,8 +64,7 @@ FigureData cells_of(const ReportedStudy& reported, const PointGroup& group, cons
                     {"star", "", ""}}};
   for (const std::int64_t point : group.points) {
     const auto at = static_cast<std::size_t>(point);
-    const measures::RateWithBounds& rate = reported.summary.points[at].success_rate();
-    const statistics::ConfidenceInterval& bounds = reported.success_bounds[at];
+    const ShownRate rate = shown_rate(reported, point);
     const bool predicted = !reported.summary.predictions.empty();
     const theory::PointPrediction prediction =
         predicted ? reported.summary.predictions[at] : theory::PointPrediction{};
@@ -74,8 +73,8 @@ FigureData cells_of(const ReportedStudy& reported, const PointGroup& group, cons
     const double y_value = y.numbers[at];
     cells.rows.push_back(ordered_json::array(
         {marked_label_of(reported, point), x_edges.from(x_value), x_edges.to(x_value), y_edges.from(y_value),
-         y_edges.to(y_value), x_value, y_value, datum(rate.value), datum(bounds.low), datum(bounds.high),
-         datum(zerocount::statistics::rate(prediction.stable, of)),
+         y_edges.to(y_value), x_value, y_value, datum(rate.value), datum(rate.bounds.low),
+         datum(rate.bounds.high), datum(zerocount::statistics::rate(prediction.stable, of)),
          datum(zerocount::statistics::rate(prediction.unstable, of)),
          point == reported.chosen.point ? "★" : ""}));
   }
@@ -120,9 +119,10 @@ FigureData curves_of(const ReportedStudy& reported, const PointGroup& group, con
 Figure map_of(const ReportedStudy& reported, const PointGroup& group, std::size_t number,
               const study::SweepAxis& x, const study::SweepAxis& y) {
   FigureData curves = curves_of(reported, group, x, y);
-  std::string caption =
-      "Each cell is a design point. Its colour is the proportion of trials that end at zero counts. A star "
-      "marks the chosen point. ";
+  std::string caption = fmt::format(
+      "Each cell is a design point. Its colour is the proportion of the {}. A star marks the chosen "
+      "point. ",
+      rate_meaning(reported));
   if (!curves.rows.empty()) {
     caption +=
         "The lines are the paper's criteria (6), white, and (7), orange; solid for the trial with the lowest "
@@ -135,6 +135,7 @@ Figure map_of(const ReportedStudy& reported, const PointGroup& group, std::size_
                 group.label.empty() ? "Stability map" : fmt::format("Stability map: {}", group.label),
                 caption, {cells_of(reported, group, x, y), std::move(curves)});
   ordered_json& encoding = figure.specification["layer"][0]["encoding"];
+  if (reported.summary.goal) encoding["color"]["title"] = "moves in goal";
   set_axis(encoding["x"], x, CellEdges(x));
   set_axis(encoding["y"], y, CellEdges(y));
   if (figure.data.back().rows.empty()) {

@@ -10,6 +10,7 @@
 #include "analysis/report/report_figures.hpp"
 #include "analysis/report/reported_study.hpp"
 #include "analysis/statistics/spread_over.hpp"
+#include "analysis/text/percent.hpp"
 
 namespace zerocount::report {
 namespace {
@@ -20,23 +21,34 @@ constexpr std::int64_t max_lines = 60;  ///< maximum number of points with a lin
 constexpr std::int64_t max_series = 8;  ///< number of colours
 
 std::string bounds_note(const ReportedStudy& reported) {
+  if (reported.summary.goal) {
+    return fmt::format("The bars or bands are one-sided {} bounds, for each point separately.",
+                       text::percent(reported.summary.goal->confidence));
+  }
   return fmt::format(
       "The bars or bands are 95 % {}, for each point separately. They count all trials of the point.",
       reported.bounds_name);
 }
 
-std::vector<FigureColumn> common_columns() {
-  return {{"label", "point", ""},           {"rate", "success rate", "1"},
-          {"low", "lower 95 % bound", "1"}, {"high", "upper 95 % bound", "1"},
-          {"successes", "successes", "1"},  {"trials", "trials", "1"}};
+std::vector<FigureColumn> common_columns(const ReportedStudy& reported) {
+  const bool goal = reported.summary.goal.has_value();
+  return {{"label", "point", ""},
+          {"rate", goal ? "rate of moves in goal" : "success rate", "1"},
+          {"low", goal ? "lower bound" : "lower 95 % bound", "1"},
+          {"high", goal ? "upper bound" : "upper 95 % bound", "1"},
+          {"successes", goal ? "moves in goal" : "successes", "1"},
+          {"trials", goal ? "moves" : "trials", "1"}};
 }
 
 ordered_json row_of(const ReportedStudy& reported, std::int64_t point) {
-  const measures::PointSummary& summary = point_of(reported, point);
-  const statistics::ConfidenceInterval& bounds = bounds_of(reported, point);
-  return ordered_json::array({marked_label_of(reported, point), datum(summary.success_rate().value),
-                              datum(bounds.low), datum(bounds.high), summary.outcomes.zero_count,
-                              summary.trials});
+  const ShownRate rate = shown_rate(reported, point);
+  return ordered_json::array({marked_label_of(reported, point), datum(rate.value), datum(rate.bounds.low),
+                              datum(rate.bounds.high), rate.hits, rate.events});
+}
+
+/// The title of an axis of rates: "success rate", "proportion of moves that meet the goal".
+std::string rate_title(const ReportedStudy& reported) {
+  return reported.summary.goal ? fmt::format("proportion of {}", rate_meaning(reported)) : "success rate";
 }
 
 /// The points by decreasing success; evenly spaced points of that order if there are too many.
@@ -45,7 +57,7 @@ std::vector<std::int64_t> points_with_lines(const ReportedStudy& reported) {
   std::iota(order.begin(), order.end(), std::int64_t{0});
   if (std::ssize(order) <= max_lines) return order;
   std::stable_sort(order.begin(), order.end(), [&](std::int64_t a, std::int64_t b) {
-    return point_of(reported, a).success_rate().value > point_of(reported, b).success_rate().value;
+    return shown_rate(reported, a).value > shown_rate(reported, b).value;
   });
   std::vector<std::int64_t> shown;
   const std::vector<std::int64_t> leading = leading_points(reported);
@@ -60,7 +72,7 @@ std::vector<std::int64_t> points_with_lines(const ReportedStudy& reported) {
 
 Figure line_per_point(const ReportedStudy& reported) {
   const std::vector<std::int64_t> shown = points_with_lines(reported);
-  std::string caption = "Proportion of all trials of each point that end at zero counts. ";
+  std::string caption = fmt::format("Proportion of the {}, of all of each point. ", rate_meaning(reported));
   if (!reported.summary.features.dependent_trials) {
     caption +=
         "Points whose bounds do not overlap differ significantly. A dot at 100 % does not exclude failures: "
@@ -71,16 +83,20 @@ Figure line_per_point(const ReportedStudy& reported) {
     caption += fmt::format("Shown are {} of {} points, evenly spaced from the best to the worst. ",
                            shown.size(), reported.summary.points.size());
   }
-  FigureData data{"points", common_columns()};
+  FigureData data{"points", common_columns(reported)};
   double lowest = 1.0;
   for (const std::int64_t point : shown) {
     data.rows.push_back(row_of(reported, point));
-    lowest = std::min(lowest, bounds_of(reported, point).low);
+    lowest = std::min(lowest, shown_rate(reported, point).bounds.low);
   }
-  Figure figure = figure_of("success", "success", "Success at each point", caption + bounds_note(reported),
-                            {std::move(data)});
+  Figure figure =
+      figure_of("success", "success",
+                reported.summary.goal ? "Moves in the goal at each point" : "Success at each point",
+                caption + bounds_note(reported), {std::move(data)});
   const double from = lowest > 0.9 ? std::floor(lowest * 100.0) / 100.0 : 0.0;
-  figure.specification["layer"][0]["encoding"]["x"]["scale"]["domain"] = {from, 1};
+  ordered_json& x = figure.specification["layer"][0]["encoding"]["x"];
+  x["scale"]["domain"] = {from, 1};
+  if (reported.summary.goal) x["title"] = rate_title(reported);
   set_rows(figure, shown.size(), 24);
   return figure;
 }
@@ -100,12 +116,13 @@ Figure along_axis(const ReportedStudy& reported, std::size_t axis) {
   const study::SweepAxis& swept = reported.summary.axes[axis];
   const std::vector<PointGroup> groups = groups_along(reported, {axis});
   std::string caption = fmt::format(
-      "Proportion of all trials of each point that end at zero counts (line), over {}. ", axis_title(swept));
+      "Proportion of the {}, of all of each point (line), over {}. A star marks the chosen point. ",
+      rate_meaning(reported), axis_title(swept));
   if (std::ssize(groups) > max_series) {
     caption += fmt::format("Shown are {} of {} lines: that of the chosen point, and others evenly spaced. ",
                            max_series, groups.size());
   }
-  FigureData data{"points", common_columns()};
+  FigureData data{"points", common_columns(reported)};
   data.columns.push_back({"x", swept.name, swept.unit});
   data.columns.push_back({"series", "", ""});
   for (const std::int64_t group : groups_shown(reported, groups)) {
@@ -116,10 +133,13 @@ Figure along_axis(const ReportedStudy& reported, std::size_t axis) {
       data.rows.push_back(std::move(row));
     }
   }
-  Figure figure = figure_of("success-along", "success", fmt::format("Success over {}", swept.name),
-                            caption + bounds_note(reported), {std::move(data)});
+  Figure figure = figure_of(
+      "success-along", "success",
+      fmt::format("{} over {}", reported.summary.goal ? "Moves in the goal" : "Success", swept.name),
+      caption + bounds_note(reported), {std::move(data)});
   ordered_json& encoding = figure.specification["encoding"];
   encoding["x"]["title"] = axis_title(swept);
+  figure.specification["layer"][0]["encoding"]["y"]["title"] = rate_title(reported);
   set_number_format(encoding["x"]["axis"], values_of(swept).back());
   if (spaced_by_ratio(values_of(swept))) encoding["x"]["scale"]["type"] = "log";
   encoding["x"]["scale"]["domain"] = {values_of(swept).front(), values_of(swept).back()};

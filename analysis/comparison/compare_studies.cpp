@@ -17,6 +17,7 @@
 #include "analysis/comparison/measure_comparison.hpp"
 #include "analysis/comparison/point_trials.hpp"
 #include "core/failure/failure.hpp"
+#include "results/layout/header.hpp"
 #include "results/reading/first_difference.hpp"
 
 namespace zerocount::comparison {
@@ -157,6 +158,7 @@ struct ComparedData {
   std::int64_t current_rigs{0};
   std::int64_t baseline_trials{0};  ///< of each point that are compared, its first
   std::int64_t current_trials{0};   ///< of the current file
+  AlsoRead of_current{};            ///< what the requirements need
 };
 
 /// The most trials of each point that are compared.
@@ -169,12 +171,43 @@ std::int64_t compared_trials(const GateRules& rules, const reading::StudyFile& f
   return std::min(file.header().trials, std::max(trial_limit(rules, file), rigs));
 }
 
+/// The measure of the file's own bands in place of the one that a requirement names.
+GateMeasure in_file(const reading::StudyFile& file, const GateMeasure& wanted) {
+  std::string bands;
+  for (const layout::Measure& measure : file.table()) {
+    if (measure.field.column.name == wanted.name) return {&measure, wanted.name, wanted.unit, wanted.margin};
+    if (measure.band && measure.field.column.name.starts_with("band_exits"))
+      bands += (bands.empty() ? "" : ", ") + std::to_string(*measure.band);
+  }
+  throw Failure(ExitCode::bad_input,
+                fmt::format("{}: it has no {}; expected a requirement of one of its bands: {}",
+                            file.path().string(), wanted.name, bands.empty() ? "none" : bands));
+}
+
+/// What the requirements need of the current file.
+AlsoRead needed_by(const GateRules& rules, const reading::StudyFile& file, std::int64_t rigs) {
+  AlsoRead also;
+  also.rigs = rigs;
+  for (const GateMeasure& measure : measures_of_bands(rules)) also.bands.push_back(in_file(file, measure));
+  if (!requires_goal(rules)) return also;
+  const study::Study study = layout::recorded_study(file.header(), file.path());
+  also.goal = study.goal;
+  also.counted = measures::counted_goal(study);
+  if (also.goal) return also;
+  throw Failure(
+      ExitCode::bad_input,
+      fmt::format("{}: its manifest has no goal, which a requirement asks for; expected one such as "
+                  "goal: {{band: 1, within: 0.05, moves: 0.99}}",
+                  file.path().string()));
+}
+
 ComparedData compared_data(const reading::StudyFile& baseline, const ManifestValues& old_values,
                            const reading::StudyFile& current, const ManifestValues& new_values,
                            std::vector<MatchedPoint> points, const GateRules& rules) {
   ComparedData data{baseline, current, std::move(points), rigs_of(old_values), rigs_of(new_values)};
   data.baseline_trials = compared_trials(rules, baseline, data.baseline_rigs);
   data.current_trials = compared_trials(rules, current, data.current_rigs);
+  data.of_current = needed_by(rules, current, data.current_rigs);
   return data;
 }
 
@@ -191,9 +224,8 @@ struct TrialsOfBoth {
 
 TrialsOfBoth read_trials(const ComparedData& data, const MatchedPoint& point) {
   TrialsOfBoth trials{read_point_trials(data.baseline, point.baseline, data.baseline_trials),
-                      read_point_trials(data.current, point.current, data.current_trials)};
+                      read_point_trials(data.current, point.current, data.current_trials, data.of_current)};
   trials.baseline.rigs = data.baseline_rigs;
-  trials.current.rigs = data.current_rigs;
   return trials;
 }
 

@@ -1,6 +1,7 @@
 #include "analysis/comparison/gate_rules.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <utility>
 
 namespace zerocount::comparison {
@@ -11,22 +12,46 @@ auto find_named(const List& all, std::string_view name) {
   return std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.name == name; });
 }
 
-std::vector<RequirableQuantity> all_requirable() {
-  std::vector<RequirableQuantity> quantities;
-  for (const GateMeasure& measure : gate_measures()) {
-    const std::string name(measure.name);
-    if (measure.proportion()) {
-      quantities.push_back({name, measure.unit, RequirementKind::proportion, measure});
-    } else if (measure.measure->of_trial == layout::OfTrial::sum) {
-      quantities.push_back({name, measure.unit, RequirementKind::mean, measure});
-    } else {
-      for (const auto& [quantile, probability] :
-           {std::pair(".median", 0.5), std::pair(".p95", 0.95), std::pair(".p99", 0.99)})
-        quantities.push_back(
-            {name + quantile, measure.unit, RequirementKind::quantile, measure, probability});
-    }
+/// The quantities of a measure. @param stem its name, before that of a quantile
+void add_quantities(std::vector<RequirableQuantity>& quantities, const std::string& stem,
+                    const GateMeasure& measure) {
+  if (measure.proportion()) {
+    quantities.push_back({stem, measure.unit, RequirementKind::proportion, measure});
+  } else if (measure.measure->of_trial == layout::OfTrial::sum) {
+    quantities.push_back({stem, measure.unit, RequirementKind::mean, measure});
+  } else {
+    for (const auto& [quantile, probability] :
+         {std::pair(".median", 0.5), std::pair(".p95", 0.95), std::pair(".p99", 0.99)})
+      quantities.push_back({stem + quantile, measure.unit, RequirementKind::quantile, measure, probability});
   }
-  return quantities;
+}
+
+/// The quantities of the bands of the table.
+void add_band_quantities(std::vector<RequirableQuantity>& quantities, const layout::MeasureTable& measures) {
+  for (const layout::Measure& measure : measures) {
+    if (!measure.band) continue;
+    const layout::Column& column = measure.field.column;
+    add_quantities(quantities, column.name, {&measure, column.name, column.unit, {}});
+  }
+}
+
+/// The band in "band_settling_time[5].p95"; nothing for other names.
+std::optional<std::int64_t> band_in(std::string_view name) {
+  const std::size_t open = name.find('[');
+  const std::size_t close = name.find(']');
+  if (!name.starts_with("band_") || open >= close || close == std::string_view::npos) return std::nullopt;
+  std::int64_t band = 0;
+  const auto [end, error] = std::from_chars(name.data() + open + 1, name.data() + close, band);
+  return error == std::errc{} && end == name.data() + close && band >= 0 ? std::optional(band) : std::nullopt;
+}
+
+std::vector<const Requirement*> all_requirements(const GateRules& rules) {
+  std::vector<const Requirement*> all;
+  for (const Requirement& one : rules.requirements) all.push_back(&one);
+  for (const auto& [label, own] : rules.requirements_at) {
+    for (const Requirement& one : own) all.push_back(&one);
+  }
+  return all;
 }
 
 }  // namespace
@@ -51,14 +76,38 @@ std::optional<GateMeasure> find_gate_measure(std::string_view name) {
   return found == all.end() ? std::nullopt : std::optional(*found);
 }
 
-std::span<const RequirableQuantity> requirable_quantities() {
-  static const std::vector<RequirableQuantity> quantities = all_requirable();
+std::vector<RequirableQuantity> requirable_quantities() {
+  std::vector<RequirableQuantity> quantities;
+  for (const GateMeasure& measure : gate_measures())
+    add_quantities(quantities, std::string(measure.name), measure);
+  add_band_quantities(quantities, layout::measure_table());
+  quantities.push_back({.name = "goal", .unit = "1", .kind = RequirementKind::goal});
   return quantities;
 }
 
-const RequirableQuantity* find_requirable(std::string_view name) {
-  const auto found = find_named(requirable_quantities(), name);
-  return found == requirable_quantities().end() ? nullptr : &*found;
+std::optional<RequirableQuantity> find_requirable(std::string_view name) {
+  std::vector<RequirableQuantity> quantities = requirable_quantities();
+  if (const std::optional<std::int64_t> band = band_in(name))
+    add_band_quantities(quantities, layout::measure_table({.limits = {*band}, .count = 1}));
+  const auto found = find_named(quantities, name);
+  return found == quantities.end() ? std::nullopt : std::optional(*found);
+}
+
+bool requires_goal(const GateRules& rules) {
+  return std::ranges::any_of(all_requirements(rules), [](const Requirement* one) {
+    return one->quantity.kind == RequirementKind::goal;
+  });
+}
+
+std::vector<GateMeasure> measures_of_bands(const GateRules& rules) {
+  std::vector<GateMeasure> measures;
+  for (const Requirement* one : all_requirements(rules)) {
+    const GateMeasure& measure = one->quantity.measure;
+    if (measure.measure != nullptr && measure.measure->band &&
+        find_named(measures, measure.name) == measures.end())
+      measures.push_back(measure);
+  }
+  return measures;
 }
 
 bool is_judged(const GateRules& rules, const GateMeasure& measure) {

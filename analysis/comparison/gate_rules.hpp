@@ -22,10 +22,10 @@ struct GateMargin {
 
 /// One measure that a comparison judges.
 struct GateMeasure {
-  const layout::Measure* measure;
-  std::string_view name;
-  std::string_view unit;
-  GateMargin margin;  ///< the default
+  const layout::Measure* measure{nullptr};  ///< of the program's own table
+  std::string_view name{};
+  std::string_view unit{};
+  GateMargin margin{};  ///< the default
 
   /// Judged by the proportion of trials with a quality; otherwise by a mean over trials.
   bool proportion() const { return layout::is_quality(*measure); }
@@ -40,27 +40,30 @@ std::optional<GateMeasure> find_gate_measure(std::string_view name);
 enum class RequirementKind {
   proportion,  ///< of trials with the quality of a gate measure
   quantile,    ///< over trials; the value of a trial is that of its worst move
-  mean         ///< over trials; the value of a trial is the sum over its moves
+  mean,        ///< over trials; the value of a trial is the sum over its moves
+  goal         ///< the goal of the manifest
 };
 
 /// A quantity that a requirement can limit, independently of the baseline.
 struct RequirableQuantity {
   std::string name;
   std::string_view unit;
-  RequirementKind kind;
-  GateMeasure measure;
+  RequirementKind kind{RequirementKind::proportion};
+  GateMeasure measure{};
   double probability{0.0};  ///< of a quantile
 };
 
-/// The quantities that a requirement can limit. A proportion, or the mean of a sum, has the name of its gate
-/// measure; other measures have quantiles (NAME.median, .p95, .p99).
-std::span<const RequirableQuantity> requirable_quantities();
-const RequirableQuantity* find_requirable(std::string_view name);
+/// The quantities that a requirement can limit, those of error bands for the bands 0 and 1. A proportion, or
+/// the mean of a sum, has the name of its gate measure; other measures have quantiles (NAME.median, .p95,
+/// .p99); "goal" has no limit of its own.
+std::vector<RequirableQuantity> requirable_quantities();
+/// Of error bands, for any band: "band_settling_time[5].p95".
+std::optional<RequirableQuantity> find_requirable(std::string_view name);
 
 /// "success_rate ≥ 0.995".
 struct Requirement {
   std::string text;
-  const RequirableQuantity* quantity{nullptr};
+  RequirableQuantity quantity{};
   bool at_least{true};
   double limit{0.0};
 };
@@ -86,6 +89,11 @@ bool is_judged(const GateRules& rules, const GateMeasure& measure);
 
 /// The margin of a measure at a point: the point's own, or that of all points, or the default.
 GateMargin margin_of(const GateRules& rules, const std::string& label, const GateMeasure& measure);
+
+/// Whether any requirement, at whatever point, is the goal.
+bool requires_goal(const GateRules& rules);
+/// The measures of requirements that are no gate measures: those of error bands.
+std::vector<GateMeasure> measures_of_bands(const GateRules& rules);
 
 /// The requirements at a point: those of every point and its own.
 std::vector<Requirement> requirements_of(const GateRules& rules, const std::string& label);

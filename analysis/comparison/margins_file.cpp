@@ -98,7 +98,7 @@ void read_margins(const yaml::Field& field, std::map<std::string, GateMargin>& m
   for (const yaml::YamlEntry& entry : field.node->entries) read_margin_of(field, entry, margins, problems);
 }
 
-const char* const requirement_form = "a text such as 'success_rate ≥ 0.995' (or >=, ≤, <=)";
+const char* const requirement_form = "a text such as 'success_rate ≥ 0.995' (or >=, ≤, <=), or goal";
 
 /// The parts of a text such as "success_rate ≥ 0.995".
 struct RequirementParts {
@@ -115,12 +115,13 @@ std::optional<RequirementParts> parts_of(std::string_view text) {
   };
   take(0);
   RequirementParts parts;
-  parts.name = take(text.find_first_not_of("abcdefghijklmnopqrstuvwxyz_.0123456789"));
+  parts.name = take(text.find_first_not_of("abcdefghijklmnopqrstuvwxyz_.0123456789[]"));
   for (const std::string_view relation : {"≥", ">=", "≤", "<="}) {
     if (parts.relation.empty() && text.starts_with(relation)) parts.relation = take(relation.size());
   }
   parts.number = take(text.find_first_of(blanks));
-  const bool complete = !parts.name.empty() && !parts.relation.empty() && !parts.number.empty();
+  const bool limited = !parts.relation.empty() && !parts.number.empty();
+  const bool complete = !parts.name.empty() && (limited || parts.name == "goal");
   return complete && text.empty() ? std::optional(parts) : std::nullopt;
 }
 
@@ -129,29 +130,35 @@ std::optional<Requirement> read_requirement(const yaml::Field& field, yaml::Prob
   if (!text) return std::nullopt;
   constexpr std::size_t max_length = 200;  // bytes; no requirement is so long
   const std::optional<RequirementParts> parts = text->size() <= max_length ? parts_of(*text) : std::nullopt;
-  Requirement requirement{*text, nullptr, true, 0.0};
+  Requirement requirement{*text, {}, true, 0.0};
   const auto refuse = [&](const std::string& what, const std::string& expected) {
     problems.add(field.node->place, field.path, what, expected);
     return std::nullopt;
   };
   if (!parts) return refuse(fmt::format("{} cannot be understood", yaml::in_quotes(*text)), requirement_form);
-  requirement.quantity = find_requirable(parts->name);
+  const std::optional<RequirableQuantity> quantity = find_requirable(parts->name);
+  if (quantity) requirement.quantity = *quantity;
+  if (quantity && quantity->kind == RequirementKind::goal) {
+    if (!parts->relation.empty())
+      return refuse("a goal with a limit", "goal by itself: its limits stand in the manifest");
+    return requirement;
+  }
   requirement.at_least = parts->relation == "≥" || parts->relation == ">=";
   const std::string& number = parts->number;
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), requirement.limit);
-  if (requirement.quantity == nullptr) {
+  if (!quantity) {
     return refuse(fmt::format("{} cannot be required", yaml::in_quotes(parts->name)),
                   fmt::format("one of {}", fmt::join(names_of(requirable_quantities()), ", ")));
   }
   if (error != std::errc{} || end != number.data() + number.size() || !std::isfinite(requirement.limit)) {
     return refuse(fmt::format("{} is not a number", yaml::in_quotes(number)), requirement_form);
   }
-  const bool proportion = requirement.quantity->kind == RequirementKind::proportion;
+  const bool proportion = quantity->kind == RequirementKind::proportion;
   if (proportion && (requirement.limit < 0.0 || requirement.limit > 1.0)) {
     return refuse(fmt::format("{} is not a proportion", number), "a number from 0 to 1");
   }
   if (!proportion && requirement.at_least) {
-    return refuse(fmt::format("a least {} is asked for", requirement.quantity->name), "≤ and a limit");
+    return refuse(fmt::format("a least {} is asked for", quantity->name), "≤ and a limit");
   }
   return requirement;
 }

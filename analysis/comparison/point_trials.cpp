@@ -11,8 +11,18 @@
 namespace zerocount::comparison {
 
 void add_trials(PointTrials& trials, std::span<const trial::MoveOutcome> outcomes) {
+  if (trials.counted) {
+    std::int64_t index = trials.trials;
+    for (auto move = outcomes.begin(); move != outcomes.end(); move += trials.moves) {
+      const std::int64_t before = trials.goal_counts.met;
+      trials.goal_counts.add(*trials.counted, index++, trials.rigs, {move, move + trials.moves});
+      trials.moves_in_goal.push_back(static_cast<double>(trials.goal_counts.met - before));
+    }
+  }
   trials.trials += std::ssize(outcomes) / trials.moves;
-  for (const GateMeasure& gated : gate_measures(*trials.table)) {
+  std::vector<GateMeasure> gathered = gate_measures(*trials.table);
+  gathered.insert(gathered.end(), trials.bands.begin(), trials.bands.end());
+  for (const GateMeasure& gated : gathered) {
     const layout::Measure& measure = *gated.measure;
     std::vector<double>& values = trials.values[std::string(gated.name)];
     if (layout::is_quality(measure) || measure.of_trial == layout::OfTrial::sum) {
@@ -35,10 +45,15 @@ PointTrials gather_trials(std::span<const trial::MoveOutcome> outcomes, std::int
   return result;
 }
 
-PointTrials read_point_trials(const reading::StudyFile& file, std::int64_t point, std::int64_t trials) {
+PointTrials read_point_trials(const reading::StudyFile& file, std::int64_t point, std::int64_t trials,
+                              const AlsoRead& also) {
   PointTrials result;
   result.moves = file.moves();
   result.table = &file.table();
+  result.bands = also.bands;
+  result.goal = also.goal;
+  result.counted = also.counted;
+  result.rigs = also.rigs;
   measures::visit_blocks(
       file, {point * file.header().trials, trials},
       [&](layout::RowRange, std::span<const trial::MoveOutcome> outcomes) { add_trials(result, outcomes); });
@@ -99,7 +114,8 @@ std::vector<double> means_by_rig(std::span<const double> values, std::int64_t ri
 
 std::vector<double> worst_of_moves(const PointTrials& trials, const GateMeasure& measure) {
   const std::vector<double>& values = trials.of(measure);
-  const double to_worse = measure.measure->gate->worse == layout::Worse::more ? 1.0 : -1.0;
+  const bool more_is_worse = !measure.measure->gate || measure.measure->gate->worse == layout::Worse::more;
+  const double to_worse = more_is_worse ? 1.0 : -1.0;
   std::vector<double> worst;
   for (auto move = values.begin(); move != values.end(); move += trials.moves) {
     double most = -std::numeric_limits<double>::infinity();

@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "analysis/comparison/gate_rules.hpp"
+#include "analysis/measures/goal_counts.hpp"
 #include "analysis/measures/undecided_moves.hpp"
 #include "core/trial/outcome.hpp"
 #include "results/reading/study_file.hpp"
@@ -24,6 +26,11 @@ struct PointTrials {
   measures::UndecidedMoves undecided{};  ///< of all moves
   std::int64_t rigs{0};  ///< number of rigs, trial i on rig i mod rigs; 0: no trials share a rig
   const layout::MeasureTable* table{&layout::measure_table()};
+  std::vector<GateMeasure> bands{};                ///< measures of error bands that have values, too
+  std::optional<study::Goal> goal{};               ///< that the trials are counted by
+  std::optional<measures::CountedGoal> counted{};  ///< likewise
+  measures::GoalCounts goal_counts{};
+  std::vector<double> moves_in_goal{};             ///< [trial]
 
   const std::vector<double>& of(const GateMeasure& measure) const {
     return values.find(measure.name)->second;
@@ -38,10 +45,18 @@ void add_trials(PointTrials& trials, std::span<const trial::MoveOutcome> outcome
 PointTrials gather_trials(std::span<const trial::MoveOutcome> outcomes, std::int64_t moves,
                           const layout::MeasureTable& table = layout::measure_table());
 
-/// The first `trials` trials of design point `point` of a whole study, with `rigs` 0: a file does not say it
-/// by itself.
+/// What is read of the trials besides the gate measures.
+struct AlsoRead {
+  std::vector<GateMeasure> bands{};  ///< measures of error bands, which the file has
+  std::optional<study::Goal> goal{};
+  std::optional<measures::CountedGoal> counted{};
+  std::int64_t rigs{0};  ///< as PointTrials::rigs
+};
+
+/// The first `trials` trials of design point `point` of a whole study.
 /// @throws Failure (bad_data) where the file is damaged.
-PointTrials read_point_trials(const reading::StudyFile& file, std::int64_t point, std::int64_t trials);
+PointTrials read_point_trials(const reading::StudyFile& file, std::int64_t point, std::int64_t trials,
+                              const AlsoRead& also = {});
 
 /// The first `trials` of them. `undecided` stays that of all.
 PointTrials first_trials(const PointTrials& all, std::int64_t trials);

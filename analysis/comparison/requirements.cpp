@@ -5,6 +5,7 @@
 #include "analysis/comparison/mean_tests.hpp"
 #include "analysis/comparison/measure_comparison.hpp"
 #include "analysis/comparison/quick_tests.hpp"
+#include "analysis/goal/goal_verdict.hpp"
 #include "analysis/statistics/clustered_proportion.hpp"
 #include "analysis/statistics/quantile.hpp"
 
@@ -101,9 +102,43 @@ void judge_mean(RequirementResult& result, const std::vector<double>& values, do
   result.verdict = verdict_of(result.bounds, result.limit, result.at_least);
 }
 
+/// The verdict of the goal; its confidence is that of the manifest.
+void judge_goal(RequirementResult& result, const PointTrials& trials) {
+  const goal::Verdict verdict = goal::judge_goal(*trials.goal, trials.goal_counts, 1);
+  const bool machines = trials.goal->machines.has_value();
+  const goal::BoundedProportion& judged = machines ? verdict.machines : verdict.moves;
+  result.n = machines ? std::ssize(trials.goal_counts.rigs) : trials.goal_counts.moves;
+  result.limit = machines ? *trials.goal->machines : trials.goal->moves;
+  result.value = judged.value;
+  result.bounds = {judged.low, judged.high};
+  result.verdict = verdict.status == goal::Status::met      ? GateVerdict::passed
+                   : verdict.status == goal::Status::missed ? GateVerdict::regression
+                                                            : GateVerdict::inconclusive;
+}
+
+/// The moves of each rig or trial that meet the goal; if the goal asks for machines, whether the rig meets it.
+RequirementSample goal_sample(const PointTrials& trials) {
+  const study::Goal& goal = *trials.goal;
+  RequirementSample sample{RequirementKind::goal, true, goal.machines.value_or(goal.moves), true, {}, {}};
+  const std::size_t units =
+      trials.rigs > 0 ? static_cast<std::size_t>(trials.rigs) : trials.moves_in_goal.size();
+  sample.hits.assign(units, 0.0);
+  sample.events.assign(units, 0.0);
+  for (std::size_t trial = 0; trial < trials.moves_in_goal.size(); ++trial) {
+    sample.hits[trial % units] += trials.moves_in_goal[trial];
+    sample.events[trial % units] += static_cast<double>(trials.moves);
+  }
+  if (!goal.machines) return sample;
+  for (std::size_t rig = 0; rig < units; ++rig) {
+    sample.hits[rig] = sample.hits[rig] >= goal.moves * sample.events[rig] ? 1.0 : 0.0;
+    sample.events[rig] = 1.0;
+  }
+  return sample;
+}
+
 /// [trial] 1 for each trial that meets the requirement by itself, otherwise 0.
 std::vector<double> met_by_trial(const Requirement& requirement, const PointTrials& trials) {
-  const RequirableQuantity& quantity = *requirement.quantity;
+  const RequirableQuantity& quantity = requirement.quantity;
   if (quantity.kind == RequirementKind::proportion) return trials.of(quantity.measure);
   std::vector<double> met = worst_of_moves(trials, quantity.measure);
   for (double& value : met) value = value <= requirement.limit ? 1.0 : 0.0;
@@ -113,7 +148,8 @@ std::vector<double> met_by_trial(const Requirement& requirement, const PointTria
 }  // namespace
 
 RequirementSample requirement_sample(const Requirement& requirement, const PointTrials& trials) {
-  const RequirableQuantity& quantity = *requirement.quantity;
+  const RequirableQuantity& quantity = requirement.quantity;
+  if (quantity.kind == RequirementKind::goal) return goal_sample(trials);
   RequirementSample sample{quantity.kind, requirement.at_least, requirement.limit, trials.rigs > 0, {}, {}};
   if (quantity.kind == RequirementKind::mean) {
     sample.hits = trial_means(trials, quantity.measure);
@@ -153,7 +189,7 @@ GateVerdict requirement_verdict(const RequirementSample& sample, const Requireme
 
 RequirementResult judge_requirement(const Requirement& requirement, const PointTrials& trials,
                                     double confidence, double failing_confidence) {
-  const RequirableQuantity& quantity = *requirement.quantity;
+  const RequirableQuantity& quantity = requirement.quantity;
   RequirementResult result;
   result.text = requirement.text;
   result.quantity = quantity.name;
@@ -170,6 +206,9 @@ RequirementResult judge_requirement(const Requirement& requirement, const PointT
       break;
     case RequirementKind::mean:
       judge_mean(result, trial_means(trials, quantity.measure), confidence, failing_confidence);
+      break;
+    case RequirementKind::goal:
+      judge_goal(result, trials);
       break;
   }
   return result;

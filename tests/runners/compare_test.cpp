@@ -1,6 +1,7 @@
 // `zerocount compare` and `zerocount baseline` from the command line.
 #include <filesystem>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -50,6 +51,44 @@ TEST_F(Compare, TheSameStudyAgainPasses) {
   const auto json = compared("a", "b", 0);
   EXPECT_EQ(json["layer"], "bits");
   EXPECT_EQ(json["verdict"], "passed");
+}
+
+// The verdict of the goal is that of judge, the quantile of a band that of the stored statistics.
+TEST_F(Compare, RequiresTheGoalAndTimesOfErrorBands) {
+  for (const std::string rigs : {"", "rigs: 100\n"}) {
+    using Case = std::pair<std::string, int>;
+    for (const auto& [goal, code] :
+         {Case{"within: 0.05, moves: 0.5", 0}, Case{"within: 0.004, moves: 0.9", 1},
+          Case{"within: 0.05, moves: 0.999", 3}}) {
+      study("a", gains("3.5e-5", 300) + rigs + "goal: {band: 1, " + goal + "}\n", {"--force"});
+      folder_.write("gate.yaml", "require: goal\n");
+      const ProgramResult result =
+          run({"compare", "a.h5", "a.h5", "--margins", "gate.yaml", "--format", "json"});
+      const ProgramResult judged = run({"judge", "a.h5", "--point", "low", "--format", "json"});
+      EXPECT_EQ(result.code, judged.code == code ? code : -1) << goal << rigs << result.out << judged.out;
+      const auto requirement = nlohmann::json::parse(result.out)["points"][0]["requirements"][0];
+      EXPECT_EQ(requirement["value"], nlohmann::json::parse(judged.out)["rate"]);
+      EXPECT_EQ(requirement["bounds"][0], nlohmann::json::parse(judged.out)["rate_low"]);
+      EXPECT_EQ(requirement["trials_to_decide"].is_null(), code != 3) << requirement;
+    }
+  }
+  const auto band = nlohmann::json::parse(
+      run({"summary", "a.h5", "--format", "json"}).out)["points"][0]["bands"][1]["settling_time"];
+  const auto judge_band = [&](double limit) {
+    folder_.write("gate.yaml", fmt::format("require: band_settling_time[1].p95 <= {}\n", limit));
+    return run({"compare", "a.h5", "a.h5", "--margins", "gate.yaml"}).code;
+  };
+  EXPECT_EQ(judge_band(band["p95_high"].get<double>() + 0.05), 0);
+  EXPECT_EQ(judge_band(band["median"].get<double>()), 1);
+  folder_.write("gate.yaml", "require: band_settling_time[4].p95 <= 1\n");
+  const ProgramResult other = run({"compare", "a.h5", "a.h5", "--margins", "gate.yaml"});
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.err.find("one of its bands: 0, 1"), std::string::npos) << other.err;
+  study("plain", gains("3.5e-5", 30));
+  folder_.write("gate.yaml", "require: goal\n");
+  const ProgramResult none = run({"compare", "plain.h5", "plain.h5", "--margins", "gate.yaml"});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_NE(none.err.find("its manifest has no goal"), std::string::npos) << none.err;
 }
 
 TEST_F(Compare, AnotherEngineIsComparedTrialByTrial) {

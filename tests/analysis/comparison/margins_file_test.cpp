@@ -95,7 +95,7 @@ TEST(MarginsFile, TellsEveryMistakeWithItsPlace) {
   EXPECT_EQ(fault("require: success_rate = 1\n"),
             "gate.yaml:1:10: require: 'success_rate = 1' cannot be understood; expected a text such as "
             "'success_rate "
-            "≥ 0.995' (or >=, ≤, <=)");
+            "≥ 0.995' (or >=, ≤, <=), or goal");
   EXPECT_EQ(fault("require: [success_rate ≥ 99.5]\n"),
             "gate.yaml:1:11: require.0: 99.5 is not a proportion; expected a number from 0 to 1");
   EXPECT_EQ(fault("require: settling_time.p95 ≥ 0.1\n"),
@@ -118,11 +118,26 @@ TEST(MarginsFile, TakesARequirementWithAnyBlanks) {
        {"success_rate≥0.5", "'  success_rate  >=\t0.5 '", "\"\\tsuccess_rate >=0.5\\n\""}) {
     const comparison::GateRules rules = read("require: " + text + "\n");
     ASSERT_EQ(rules.requirements.size(), 1u) << text;
-    EXPECT_EQ(rules.requirements[0].quantity->name, "success_rate");
+    EXPECT_EQ(rules.requirements[0].quantity.name, "success_rate");
     EXPECT_TRUE(rules.requirements[0].at_least);
     EXPECT_EQ(rules.requirements[0].limit, 0.5);
   }
   EXPECT_FALSE(read("require: settling_time.p95<=0.1\n").requirements[0].at_least);
+}
+
+TEST(MarginsFile, TakesRequirementsOfErrorBandsAndTheGoal) {
+  const comparison::GateRules rules =
+      read("require: ['band_settling_time[5].p95 ≤ 0.05', 'band_exits[0] <= 2', goal]\n");
+  ASSERT_EQ(rules.requirements.size(), 3u);
+  EXPECT_EQ(rules.requirements[0].quantity.measure.measure->band, 5);
+  EXPECT_EQ(rules.requirements[0].quantity.kind, comparison::RequirementKind::quantile);
+  EXPECT_EQ(rules.requirements[1].quantity.kind, comparison::RequirementKind::mean);
+  EXPECT_EQ(rules.requirements[2].quantity.kind, comparison::RequirementKind::goal);
+  EXPECT_TRUE(comparison::requires_goal(rules));
+  EXPECT_EQ(comparison::measures_of_bands(rules).size(), 2u);
+  EXPECT_NE(fault("require: goal ≥ 0.5\n").find("a goal with a limit; expected goal by itself"),
+            std::string::npos);
+  EXPECT_NE(fault("require: band_settling_time[x].p95 ≤ 1\n").find("cannot be"), std::string::npos);
 }
 
 TEST(MarginsFile, RefusesARequirementWithoutAllItsParts) {

@@ -65,7 +65,7 @@ TEST(ComparisonOverRigs, FindsRigsThatFailNow) {
 TEST(ComparisonOverRigs, RequirementsHaveBoundsOverRigs) {
   std::mt19937_64 random(7);
   PointTrials trials = trials_on_rigs(40, 4000, random);
-  const RequirableQuantity* const success = find_requirable("success_rate");
+  const RequirableQuantity success = find_requirable("success_rate").value();
   const Requirement requirement{.text = "", .quantity = success, .at_least = true, .limit = 0.6};
   const RequirementResult over_rigs = judge_requirement(requirement, trials, 0.95, 0.95);
   trials.rigs = 0;

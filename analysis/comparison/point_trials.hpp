@@ -30,7 +30,7 @@ struct PointTrials {
   std::optional<study::Goal> goal{};               ///< that the trials are counted by
   std::optional<measures::CountedGoal> counted{};  ///< likewise
   measures::GoalCounts goal_counts{};
-  std::vector<double> moves_in_goal{};             ///< [trial]
+  std::vector<double> moves_in_goal{};  ///< [trial]
 
   const std::vector<double>& of(const GateMeasure& measure) const {
     return values.find(measure.name)->second;

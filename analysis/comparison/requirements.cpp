@@ -116,7 +116,8 @@ void judge_goal(RequirementResult& result, const PointTrials& trials) {
                                                             : GateVerdict::inconclusive;
 }
 
-/// The moves of each rig or trial that meet the goal; if the goal asks for machines, whether the rig meets it.
+/// The moves of each rig or trial that meet the goal; if the goal asks for machines, whether the rig meets
+/// it.
 RequirementSample goal_sample(const PointTrials& trials) {
   const study::Goal& goal = *trials.goal;
   RequirementSample sample{RequirementKind::goal, true, goal.machines.value_or(goal.moves), true, {}, {}};

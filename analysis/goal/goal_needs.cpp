@@ -7,6 +7,7 @@ namespace zerocount::goal {
 namespace {
 
 constexpr std::int64_t max_trials = 1'000'000'000;
+constexpr std::int64_t max_rigs = 100'000;
 
 std::int64_t scaled(std::int64_t number, double factor) {
   return std::llround(static_cast<double>(number) * factor);
@@ -29,7 +30,7 @@ measures::GoalCounts larger_study(const measures::GoalCounts& counts, double fac
 
 /// The counts of a study on so many rigs with the proportions of the observed ones: rig i stands for the
 /// quantile (i + ½)/rigs of the rigs in order of their moves that meet the goal.
-measures::GoalCounts on_rigs(std::vector<statistics::RigMoves> sorted, std::int64_t rigs) {
+measures::GoalCounts rigs_like(std::vector<statistics::RigMoves> sorted, std::int64_t rigs) {
   measures::GoalCounts counts;
   for (std::int64_t i = 0; i < rigs; ++i) {
     const double place = (static_cast<double>(i) + 0.5) / static_cast<double>(rigs);
@@ -80,7 +81,6 @@ Needs needs_of(const study::Goal& goal, const measures::GoalCounts& counts, std:
   std::sort(sorted.begin(), sorted.end(), [](const statistics::RigMoves& a, const statistics::RigMoves& b) {
     return a.met * b.moves < b.met * a.moves;
   });
-  constexpr std::int64_t max_rigs = 100'000;
   // More trials on each rig are needed where these cannot tell rigs below and above Goal::moves apart.
   for (std::int64_t more = 1; more <= 1024; more *= 2) {
     std::vector<statistics::RigMoves> rigs = sorted;
@@ -90,11 +90,38 @@ Needs needs_of(const study::Goal& goal, const measures::GoalCounts& counts, std:
       rig.met *= more;
     }
     const std::int64_t needed =
-        smallest(2, max_rigs, [&](std::int64_t n) { return decided(on_rigs(rigs, n)); });
+        smallest(2, max_rigs, [&](std::int64_t n) { return decided(rigs_like(rigs, n)); });
     if (needed > 0 && needed <= max_trials / std::max<std::int64_t>(rigs.front().trials, 1))
       return {needed, needed * rigs.front().trials};
   }
   return {};
+}
+
+std::vector<Needs> smallest_studies(const study::Goal& goal, bool on_rigs, std::int64_t moves,
+                                    std::size_t points) {
+  const auto met = [&](const measures::GoalCounts& counts) {
+    return judge_goal(goal, counts, points).status == Status::met;
+  };
+  if (!on_rigs) {
+    const statistics::ClusterSums of_one = {.clusters = 1,
+                                            .hits = moves,
+                                            .events = moves,
+                                            .hits_squared = static_cast<double>(moves * moves),
+                                            .hits_by_events = static_cast<double>(moves * moves),
+                                            .events_squared = static_cast<double>(moves * moves)};
+    const measures::GoalCounts trial{moves, moves, of_one, {}};
+    const std::int64_t trials = smallest(
+        2, max_trials, [&](std::int64_t n) { return met(larger_study(trial, static_cast<double>(n))); });
+    return trials > 0 ? std::vector<Needs>{{0, trials}} : std::vector<Needs>{};
+  }
+  std::vector<Needs> studies;
+  for (const std::int64_t trials : {1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000}) {
+    const std::vector<statistics::RigMoves> rig{{trials, trials * moves, trials * moves}};
+    const std::int64_t rigs = smallest(2, max_rigs, [&](std::int64_t n) { return met(rigs_like(rig, n)); });
+    const bool fewer = studies.empty() || rigs < studies.back().rigs;
+    if (rigs > 0 && fewer) studies.push_back({rigs, rigs * trials});
+  }
+  return studies;
 }
 
 }  // namespace zerocount::goal

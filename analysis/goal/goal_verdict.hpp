@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "analysis/measures/goal_counts.hpp"
 #include "analysis/statistics/unknown.hpp"
@@ -52,5 +53,12 @@ struct Needs {
 /// between rigs, are those observed. With rigs it has at most 10⁵ of them; they get more trials each where
 /// those that they have cannot tell rigs that meet the goal from others.
 Needs needs_of(const study::Goal& goal, const measures::GoalCounts& counts, std::size_t points);
+
+/// The smallest studies that can meet the goal, if no move misses it: with rigs the fewest rigs for several
+/// numbers of trials on each, without them one study. Empty if none of up to 10⁹ trials, or 10⁵ rigs, can.
+/// @param moves of a trial
+/// @param points that the best is chosen from
+std::vector<Needs> smallest_studies(const study::Goal& goal, bool on_rigs, std::int64_t moves,
+                                    std::size_t points);
 
 }  // namespace zerocount::goal

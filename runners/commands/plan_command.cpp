@@ -19,6 +19,7 @@
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/commands.hpp"
 #include "runners/commands/equivalence_plan.hpp"
+#include "runners/commands/goal_plan.hpp"
 #include "runners/standard_output/standard_output.hpp"
 
 namespace zerocount::commands {
@@ -27,10 +28,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* plan_help =
-    "Prints how many trials a claim needs. --success P: the number of trials that shows that at\n"
-    "least the proportion P of axes succeeds, if none, one, two, … of the trials fail; with\n"
-    "--true-success also the probability that the plan shows it, and with --power the plan that\n"
-    "has this probability. --halfwidth H: the number of trials for bounds of a rate within ± H.\n"
+    "Prints how many trials a claim needs. With a MANIFEST or a PILOT alone: the rigs and trials\n"
+    "that decide the goal of the manifest, if no move misses it, or by the pilot's results.\n"
+    "--success P: the number of trials that shows that at least the proportion P of axes succeeds,\n"
+    "if none, one, two, … of the trials fail; with --true-success also the probability that the\n"
+    "plan shows it, and with --power the plan that has this probability. --halfwidth H: the number\n"
+    "of trials for bounds of a rate within ± H.\n"
     "With rigs, the trials of one rig are not independent. --rigs-share P: the number of rigs, and\n"
     "of trials on each, that shows that at least the proportion P of all rigs succeeds in --success\n"
     "of its trials. With --halfwidth, --rig-sd is the standard deviation of the success probability\n"
@@ -40,7 +43,9 @@ constexpr const char* plan_help =
     "with the probability --power, that two equal studies differ by less than M (a number, or\n"
     "PERCENT% of the measure), at all points and for all --margin together; by a simulated pilot.\n"
     "\n"
-    "Example: zerocount plan --success 0.999 --confidence 0.95\n"
+    "Example: zerocount plan gains.yaml\n"
+    "         zerocount plan pilot.h5\n"
+    "         zerocount plan --success 0.999 --confidence 0.95\n"
     "         zerocount plan --success 0.99 --true-success 0.995 --power 0.9\n"
     "         zerocount plan --halfwidth 0.005\n"
     "         zerocount plan --halfwidth 0.02 --rig-sd 0.1 --true-success 0.9\n"
@@ -289,7 +294,9 @@ ExitCode print_plan(const command_line::Arguments& arguments) {
     require_equivalence_options(arguments);
     return print_equivalence_plan(arguments);
   }
-  if (arguments.has("set")) arguments.refuse("option '--set' needs '--margin'");
+  const bool asked = arguments.has("success") || arguments.has("halfwidth") || arguments.has("rigs-share");
+  if (!asked && !arguments.operands().empty()) return print_goal_plan(arguments);
+  if (arguments.has("set")) arguments.refuse("option '--set' needs a MANIFEST");
   const std::string format = arguments.choice("format");
   const PlanRequest request = request_of(arguments);
   standard_output::write(format == "json" ? plan_json(request).dump(2) + "\n" : plan_text(request));
@@ -311,7 +318,7 @@ Command plan_command() {
         {"rigs-share", "P", "minimum proportion of rigs to be shown to succeed in --success of their trials"},
         {"rig-sd", "SD", "standard deviation of the success probability between rigs"},
         {"margin", "MEASURE=M", "largest accepted difference of two equal studies; may be repeated", true},
-        {"set", "KEY=VALUE", "with --margin: override a manifest key; may be repeated", true},
+        {"set", "KEY=VALUE", "with a MANIFEST: override a manifest key; may be repeated", true},
         command_line::format_option({"table", "json"})},
        0,
        1},

@@ -130,5 +130,23 @@ TEST_F(Judge, NeedsAGoalAndAFinishedFile) {
   EXPECT_NE(unfinished.err.find("begun.h5: unfinished"), std::string::npos) << unfinished.err;
 }
 
+TEST_F(Judge, PlansTheStudyThatDecidesTheGoal) {
+  run_study("goal: {band: 1, within: 0.05, moves: 0.99}\n");
+  const Json plan = json_of({"plan", "study.yaml"});
+  EXPECT_GT(plan["plans"][0]["trials"].get<int>(), 40) << plan;
+  const Json of_pilot = json_of({"plan", "out.h5"});
+  const Json judged = json_of({"judge", "out.h5"});
+  EXPECT_EQ(of_pilot["status"], judged["status"]);
+  EXPECT_EQ(of_pilot["needed"], judged["needed"]);
+  const Json set = json_of({"plan", "study.yaml", "--set", "goal.moves=0.5"});
+  EXPECT_LT(set["plans"][0]["trials"], plan["plans"][0]["trials"]);
+  run_study("");
+  for (const char* operand : {"study.yaml", "out.h5"}) {
+    const ProgramResult none = program({"plan", operand});
+    EXPECT_EQ(none.code, 2);
+    EXPECT_NE(none.err.find("its manifest has no goal"), std::string::npos) << none.err;
+  }
+}
+
 }  // namespace
 }  // namespace zerocount::testing

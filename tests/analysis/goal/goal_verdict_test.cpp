@@ -2,6 +2,7 @@
 #include "analysis/goal/goal_verdict.hpp"
 
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -114,6 +115,36 @@ TEST(GoalText, NamesTheGoalAndItsThreeReadings) {
   EXPECT_NE(text.find("machines that meet it in at least 99 % of their moves: 90 of 100"), std::string::npos)
       << text;
   EXPECT_NE(text.find("machines without a miss in their 10 moves: 90 of 100"), std::string::npos) << text;
+}
+
+// The smallest study meets the goal without a miss, and one rig or trial fewer does not.
+TEST(GoalPlan, IsTheSmallestStudyThatCanMeetTheGoal) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> uniform;
+  for (int round = 0; round < 20; ++round) {
+    study::Goal goal{.band = 1, .within = 0.05, .moves = 0.5 + 0.49 * uniform(random)};
+    if (round % 2 == 0) goal.machines = 0.5 + 0.49 * uniform(random);
+    const std::int64_t moves = 1 + static_cast<std::int64_t>(random() % 3);
+    const std::size_t points = 1 + random() % 9;
+    const auto meets = [&](std::int64_t rigs, std::int64_t trials) {
+      measures::GoalCounts counts;
+      for (std::int64_t rig = 0; rig < rigs; ++rig)
+        counts.rigs.push_back({trials, trials * moves, trials * moves});
+      counts.moves = counts.met = rigs * trials * moves;
+      return judge_goal(goal, counts, points).status == Status::met;
+    };
+    const std::vector<Needs> studies = smallest_studies(goal, true, moves, points);
+    ASSERT_FALSE(studies.empty());
+    for (const Needs& study : studies) {
+      const std::int64_t trials = study.trials / study.rigs;
+      EXPECT_TRUE(meets(study.rigs, trials));
+      EXPECT_FALSE(meets(study.rigs - 1, trials)) << study.rigs << " × " << trials;
+    }
+  }
+  // Clopper and Pearson: 0.05^(1/n) ≥ 0.99 from n = 299 on.
+  const study::Goal plain{.band = 0, .within = 0.05, .moves = 0.99};
+  EXPECT_EQ(smallest_studies(plain, false, 1, 1).at(0).trials, 299);
+  EXPECT_EQ(smallest_studies(plain, true, 1, 1).at(0).rigs, 299);
 }
 
 }  // namespace

@@ -46,13 +46,15 @@ ShardWriter::ShardWriter(const study::Study& study, std::filesystem::path direct
     : study_(study), directory_(std::move(directory)), provenance_(layout::current_provenance()) {}
 
 void ShardWriter::take(KeptBlock&& block) {
-  if (waiting_.rows.end() != block.rows.first) flush();
+  const std::int64_t point = block.rows.first / study_.trials;
+  const bool ends_only_point = block.begins_turn && waiting_.rows.end() == point * study_.trials &&
+                               waiting_.rows.first >= (point - 1) * study_.trials;
+  if (waiting_.rows.end() != block.rows.first || ends_only_point) flush();
+  if (block.begins_turn) write_whole_chunks();
   append(std::move(block));
-  if (waiting_.trials.size() < max_trials_per_shard && bytes_ < max_bytes_per_shard &&
-      waiting_.sums.size() < max_points_of_shard && !clock_.waited_enough())
-    return;
-  const std::int64_t in_chunks = rows_in_chunks();
-  write(in_chunks > 0 ? in_chunks : waiting_.rows.count);
+  if (waiting_.trials.size() >= max_trials_per_shard || bytes_ >= max_bytes_per_shard ||
+      waiting_.sums.size() >= max_points_of_shard)
+    write_whole_chunks();
 }
 
 void ShardWriter::flush() {
@@ -62,7 +64,6 @@ void ShardWriter::flush() {
 void ShardWriter::append(KeptBlock&& block) {
   for (const shards::TrialResult& trial : block.trials) bytes_ += bytes_of(trial);
   if (waiting_.rows.count == 0) {
-    clock_.begin_shard();
     waiting_ = std::move(block);
     return;
   }
@@ -84,8 +85,24 @@ std::int64_t ShardWriter::rows_in_chunks() const {
   return std::max<std::int64_t>(end - end % layout::chunk_elements - waiting_.rows.first, 0);
 }
 
-/// Writes the first `count` of the waiting rows.
+/// Writes the waiting rows: those in whole chunks, or all where no chunk is whole.
+void ShardWriter::write_whole_chunks() {
+  if (waiting_.rows.count == 0) return;
+  const std::int64_t in_chunks = rows_in_chunks();
+  write(in_chunks > 0 ? in_chunks : waiting_.rows.count);
+}
+
+/// Writes the first `count` of the waiting rows: those before several whole chunks as a shard of their own,
+/// so that the chunks can be compressed.
 void ShardWriter::write(std::int64_t count) {
+  constexpr std::int64_t chunk = layout::chunk_elements;
+  const std::int64_t before_chunks = (chunk - waiting_.rows.first % chunk) % chunk;
+  const bool apart = waiting_.sums.empty() && before_chunks > 0 && count >= before_chunks + 2 * chunk;
+  if (apart) write_shard(before_chunks);
+  write_shard(apart ? count - before_chunks : count);
+}
+
+void ShardWriter::write_shard(std::int64_t count) {
   const layout::RowRange rows{waiting_.rows.first, count};
   const bool every_trial = waiting_.sums.empty();
   const std::int64_t trials = every_trial ? count : std::ssize(waiting_.trials);
@@ -101,7 +118,6 @@ void ShardWriter::write(std::int64_t count) {
   waiting_.sums.clear();
   bytes_ = 0;
   for (const shards::TrialResult& trial : waiting_.trials) bytes_ += bytes_of(trial);
-  clock_.begin_shard();
 }
 
 }  // namespace zerocount::study_run

@@ -11,7 +11,6 @@
 #include "results/layout/header.hpp"
 #include "results/layout/row_range.hpp"
 #include "results/shards/shard.hpp"
-#include "runners/study_run/shard_clock.hpp"
 #include "runners/study_run/trial_runner.hpp"
 
 namespace zerocount::study_run {
@@ -29,6 +28,7 @@ struct KeptBlock {
   std::vector<summary::SummedPoint> sums;
   /// [point, from that of the first trial]; empty if the sums have them
   std::vector<theory::PointPrediction> predictions;
+  bool begins_turn{false};  ///< the blocks before go into a shard, without waiting for more
 };
 
 KeptBlock reduce(const study::Study& study, TrialBlock&& block);
@@ -38,12 +38,13 @@ inline constexpr std::size_t max_trials_per_shard = 1 << 16;
 inline constexpr std::size_t max_bytes_per_shard = std::size_t{64} << 20;
 inline constexpr std::size_t max_points_of_shard = 32;  ///< with sums
 
-/// Collects blocks in order of rows and writes them as shards.
+/// Collects blocks and writes them as shards: those of one turn, if they are not too large for one. A shard
+/// has trials of one point, or of several points that took a turn together.
 ///
 /// If every trial is kept, a shard ends at the end of a chunk of the results file if it can: the file then
 /// takes over its compressed chunks, of all tables with a row a trial whose chunks begin where the shard
 /// does. The other shards are not compressed, because their values are compressed again for the file. Trials
-/// after the last whole chunk wait for the next shard, up to twice as long.
+/// after the last whole chunk wait for the next turn, if it goes on with their point.
 class ShardWriter {
  public:
   /// @param study stays as long as this
@@ -56,15 +57,16 @@ class ShardWriter {
 
  private:
   void append(KeptBlock&& block);
+  void write_whole_chunks();
   std::int64_t rows_in_chunks() const;
   void write(std::int64_t rows);
+  void write_shard(std::int64_t rows);
 
   const study::Study& study_;
   std::filesystem::path directory_;
   layout::Provenance provenance_;
   KeptBlock waiting_;
   std::size_t bytes_{0};  ///< of the trials that wait
-  ShardClock clock_;
   std::vector<shards::ShardInfo> written_;
 };
 

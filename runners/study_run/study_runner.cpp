@@ -16,9 +16,12 @@
 #include "analysis/summary/study_statistics.hpp"
 #include "analysis/summary/summed_point.hpp"
 #include "core/trial/trial.hpp"
+#include "results/layout/table_io.hpp"
 #include "results/shards/merge.hpp"
 #include "runners/study_run/shard_writer.hpp"
 #include "runners/study_run/trial_runner.hpp"
+#include "runners/study_run/turn_clock.hpp"
+#include "runners/study_run/turns.hpp"
 
 namespace zerocount::study_run {
 namespace {
@@ -41,26 +44,46 @@ double bytes_of_trace(const study::Study& study) {
   return study.retained_trials.empty() ? 0.0 : samples_per_trial(study) * sizeof(trial::SampleRecord);
 }
 
-/// Divides the ranges into blocks of rows. A block belongs to one range. It has fewer trials where many of
-/// them are retained with their traces.
+/// Rows that one thread runs.
+struct Block {
+  layout::RowRange rows;
+  bool begins_turn{false};
+};
+
+/// Divides the rows of all turns into blocks. A block ends with a chunk of the results file, and has fewer
+/// trials where many of them are retained with their traces.
 class BlockSource {
  public:
-  BlockSource(const study::Study& study, std::span<const layout::RowRange> ranges, std::int64_t block_size)
-      : study_(study), ranges_(ranges), block_size_(block_size), trace_bytes_(bytes_of_trace(study)) {}
+  BlockSource(const study::Study& study, Turns turns, std::int64_t block_size, int threads)
+      : study_(study),
+        turns_(std::move(turns)),
+        clock_(turns_.points(), threads),
+        block_size_(block_size),
+        trace_bytes_(bytes_of_trace(study)) {}
 
-  std::optional<layout::RowRange> next() {
-    while (at_ < ranges_.size() && used_ == ranges_[at_].count) {
-      ++at_;
-      used_ = 0;
+  std::optional<Block> next() {
+    if (turns_.is_empty()) return std::nullopt;
+    const bool begins_turn = clock_.progress() >= end_of_turn();
+    if (begins_turn) {
+      turns_.end_turn();
+      clock_.begin_turn();
     }
-    if (at_ == ranges_.size()) return std::nullopt;
-    const layout::RowRange block =
-        with_few_traces({ranges_[at_].first + used_, std::min(block_size_, ranges_[at_].count - used_)});
-    used_ += block.count;
-    return block;
+    const std::int64_t max_rows = layout::chunk_elements - next_row() % layout::chunk_elements;
+    const layout::RowRange rows = with_few_traces(turns_.upcoming(std::min(block_size_, max_rows)));
+    turns_.take(rows.count);
+    return Block{rows, begins_turn};
   }
 
  private:
+  std::int64_t next_row() const { return turns_.upcoming(1).first; }
+
+  /// Progress of a turn at which it ends here. Short points share a turn, and a point that takes most of one
+  /// has its shard to itself. Shards that begin with a chunk are cheap to join (ShardWriter).
+  double end_of_turn() const {
+    if (turns_.is_at_new_point()) return 0.5;
+    return next_row() % layout::chunk_elements == 0 ? 1.0 : 1.5;
+  }
+
   layout::RowRange with_few_traces(layout::RowRange rows) const {
     double bytes = 0.0;
     for (std::int64_t i = 0; i < rows.count; ++i) {
@@ -71,11 +94,10 @@ class BlockSource {
   }
 
   const study::Study& study_;
-  std::span<const layout::RowRange> ranges_;
+  Turns turns_;
+  TurnClock clock_;
   std::int64_t block_size_;
   double trace_bytes_;  ///< of one retained trial
-  std::size_t at_{0};
-  std::int64_t used_{0};
 };
 
 /// Number of trials per block in a run of `rows` trials.
@@ -88,14 +110,15 @@ std::int64_t block_size_of(const study::Study& study, std::int64_t rows, int thr
                     std::min(limits.trials, rows_per_block));
 }
 
-/// Runs the blocks of `ranges` in parallel, and gives them to `take` one at a time in order of rows.
+/// Runs the blocks of `ranges` in parallel, and gives them to `take` one at a time in this order.
 void run_blocks(const study::Study& study, std::span<const layout::RowRange> ranges, int threads,
                 const std::stop_token& stop, const std::function<void(KeptBlock&&)>& take) {
   namespace tbb = oneapi::tbb;
   using Product = std::shared_ptr<KeptBlock>;
-  BlockSource source(study, ranges, block_size_of(study, layout::total_rows(ranges), threads));
-  const auto next_block = [&](tbb::flow_control& control) -> layout::RowRange {
-    std::optional<layout::RowRange> block = stop.stop_requested() ? std::nullopt : source.next();
+  BlockSource source(study, Turns(ranges, study.trials),
+                     block_size_of(study, layout::total_rows(ranges), threads), threads);
+  const auto next_block = [&](tbb::flow_control& control) -> Block {
+    std::optional<Block> block = stop.stop_requested() ? std::nullopt : source.next();
     if (!block) {
       control.stop();
       return {};
@@ -103,9 +126,11 @@ void run_blocks(const study::Study& study, std::span<const layout::RowRange> ran
     return *block;
   };
   tbb::enumerable_thread_specific<TrialRunner> runners([&study] { return TrialRunner(study); });
-  const auto run_block = [&](layout::RowRange rows) -> Product {
+  const auto run_block = [&](Block block) -> Product {
     try {
-      return std::make_shared<KeptBlock>(reduce(study, runners.local().run_block(rows, stop)));
+      auto kept = std::make_shared<KeptBlock>(reduce(study, runners.local().run_block(block.rows, stop)));
+      kept->begins_turn = block.begins_turn;
+      return kept;
     } catch (const trial::Interrupted&) {
       return nullptr;  // the trials of the block are run again
     }
@@ -116,8 +141,8 @@ void run_blocks(const study::Study& study, std::span<const layout::RowRange> ran
   const auto pipeline = [&] {
     tbb::parallel_pipeline(
         4 * static_cast<std::size_t>(threads),
-        tbb::make_filter<void, layout::RowRange>(tbb::filter_mode::serial_in_order, next_block) &
-            tbb::make_filter<layout::RowRange, Product>(tbb::filter_mode::parallel, run_block) &
+        tbb::make_filter<void, Block>(tbb::filter_mode::serial_in_order, next_block) &
+            tbb::make_filter<Block, Product>(tbb::filter_mode::parallel, run_block) &
             tbb::make_filter<Product, void>(tbb::filter_mode::serial_in_order, take_block));
   };
   tbb::task_arena(threads).execute(pipeline);
@@ -189,7 +214,9 @@ FinishedTrials run_trials(const study::Study& study, std::span<const layout::Row
     if (settings.finished) settings.finished(trials);
   });
   writer.flush();
-  return {writer.written(), std::move(predictions)};
+  FinishedTrials finished{writer.written(), std::move(predictions)};
+  shards::sort_by_rows(finished.shards);
+  return finished;
 }
 
 void assemble(std::span<const shards::ShardInfo> shards, const study::Study& study,

@@ -46,8 +46,9 @@ struct FinishedTrials {
 
 /// Runs the trials of `ranges` and writes them as shards into `directory`.
 ///
-/// Blocks of trials run in parallel. The writer collects them one at a time, in order of rows. A shard is
-/// written when it is large enough or old enough, which bounds the memory and the loss by a crash. If `stop`
+/// The points of a sweep take turns (Turns), so that the trials so far compare all of them. Blocks of trials
+/// run in parallel. The writer collects them one at a time, in the order of the turns. A shard is written at
+/// the end of a turn, or when it is large enough, which bounds the memory and the loss by a crash. If `stop`
 /// is requested, no new block starts, and the finished trials are written.
 FinishedTrials run_trials(const study::Study& study, std::span<const layout::RowRange> ranges,
                           const std::filesystem::path& directory, const RunSettings& settings,

@@ -22,6 +22,7 @@
 #include "runners/study_run/shard_writer.hpp"
 #include "runners/study_run/study_runner.hpp"
 #include "runners/study_run/trial_runner.hpp"
+#include "runners/study_run/turn_clock.hpp"
 
 namespace zerocount::study_run {
 namespace {
@@ -176,11 +177,13 @@ SumBytes bytes_of_sums(const study::Study& study, const std::vector<shards::Tria
   return {all * sizeof(double), growth * (all + of_rigs) * sizeof(double)};
 }
 
-/// Shards of a run: one each 20 s, and more at its beginning.
-double shards_of_run(const study::Study& study) {
-  constexpr double at_the_beginning = 40.0, interval = 20.0;
-  return at_the_beginning + measure_cost(study).seconds() / interval +
-         static_cast<double>(study::point_count(study)) / static_cast<double>(max_points_of_shard);
+/// Shards of a run: one each turn, or more where points are shorter.
+double shards_of_run(const study::Study& study, int threads) {
+  const std::int64_t points = study::point_count(study);
+  const double seconds = measure_cost(study).seconds();
+  double turns = 0.0;
+  for (double elapsed = 0.0; elapsed < seconds; elapsed += turn_seconds(elapsed, points, threads)) ++turns;
+  return turns + static_cast<double>(points) / static_cast<double>(max_points_of_shard);
 }
 
 /// The proportion of trials that the study keeps.
@@ -216,7 +219,8 @@ StudySize measure_size(const study::Study& study, int threads) {
       bytes_of_descriptions(study) + kept * bytes_of_trial(study, jerks, uncompressed) + raw_records;
   size.memory_bytes = peak_memory(study, memory, raw_records, threads);
   if (layout::has_sums(study.kept)) {
-    size.shard_bytes += compressed_sums * sums.of_all * (shards_of_run(study) + points);
+    size.shard_bytes +=
+        compressed_sums * sums.of_all * (shards_of_run(study, threads_to_use(threads)) + points);
     size.memory_bytes += blocks_of_a_thread * std::max(threads, 1) * sums.of_block +
                          copies * sums.of_all * std::min(points, static_cast<double>(max_points_of_shard)) +
                          2.0 * sums.of_all * points;

@@ -1,5 +1,7 @@
 // The summary of a run that has not ended: of its finished trials, and it says so.
+#include <algorithm>
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <thread>
@@ -36,6 +38,12 @@ class UnfinishedSummary : public ::testing::Test {
     const std::string name = "quarter" + std::to_string(i) + ".h5";
     complete(name, {"--shard", std::to_string(i) + "/4"});
     fs::rename(at(name), at("out.h5.shards") / name);
+  }
+
+  std::ptrdiff_t shards_in(const std::string& folder) const {
+    if (!fs::exists(at(folder))) return 0;
+    return std::count_if(fs::directory_iterator(at(folder)), fs::directory_iterator(),
+                         [](const fs::directory_entry& file) { return file.path().extension() == ".h5"; });
   }
 
   nlohmann::json json_of(const std::string& file) {
@@ -130,6 +138,42 @@ TEST_F(UnfinishedSummary, IsThereWhileTheRunGoesOnAndAfterItWasInterrupted) {
   EXPECT_EQ(after.code, 0) << after.err;
   EXPECT_EQ(after.out.find("unfinished"), std::string::npos);
   EXPECT_NE(after.err.find("unfinished"), std::string::npos) << after.err;
+}
+
+// The points of a sweep take turns: whoever looks while it runs can compare all of them.
+TEST_F(UnfinishedSummary, OfAnInterruptedSweepComparesAllPointsByNearlyAsManyTrials) {
+  for (const char* more : {"", "rigs: 20\nkeep: statistics\n"}) {
+    SCOPED_TRACE(more);
+    folder_.write("study.yaml", small_manifest(400000, more));
+    fs::remove_all(at("out.h5.shards"));
+    const std::vector<std::string> sweep{
+        "run",
+        "study.yaml",
+        "-o",
+        "out.h5",
+        "--threads",
+        "1",
+        "--engine",
+        "reference",
+        "--set",
+        "sweep={cases: {a: {controller.ki: 3.0e-5}, b: {controller.ki: 3.2e-5}, "
+        "c: {controller.ki: 3.4e-5}}}"};
+    RunningProgram run(sweep, folder_.path());
+    while (shards_in("out.h5.shards") < 4) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    run.send(SIGINT);
+    EXPECT_EQ(run.wait(), 130);
+    const nlohmann::json summary = json_of("out.h5");
+    ASSERT_EQ(summary["points"].size(), 3U);
+    std::vector<std::int64_t> trials;
+    for (const nlohmann::json& point : summary["points"]) trials.push_back(point["trials"]);
+    const auto [fewest, most] = std::minmax_element(trials.begin(), trials.end());
+    EXPECT_GT(*fewest, 0);
+    EXPECT_LE(*most, 3 * *fewest);
+    EXPECT_EQ(trials[0] + trials[1] + trials[2], summary["unfinished"]["finished"]);
+    const ProgramResult status = program({"status", "out.h5"});
+    EXPECT_EQ(status.code, 0) << status.err;
+    EXPECT_EQ(status.out.find("have none yet"), std::string::npos) << status.out;
+  }
 }
 
 TEST_F(UnfinishedSummary, OfARunThatHasFinishedNothingIsRefused) {

@@ -7,6 +7,7 @@
 
 #include "analysis/comparison/gate_rules.hpp"
 #include "analysis/comparison/manifest_differences.hpp"
+#include "analysis/statistics/clustered_proportion.hpp"
 #include "analysis/summary/summary.hpp"
 #include "core/failure/failure.hpp"
 #include "core/hash/sha256.hpp"
@@ -42,9 +43,22 @@ RunValue value_of(const comparison::GateMeasure& measure, const measures::PointS
   return value;
 }
 
+/// The proportion of moves that meet the goal, with two-sided bounds as those of other proportions.
+RunValue goal_value(const measures::GoalCounts& goal, const std::string& label, double confidence) {
+  RunValue value{label, "goal_rate", "1"};
+  value.kind = statistics::MeasurementKind::proportion;
+  value.value = statistics::rate(goal.met, goal.moves);
+  value.bounds = statistics::clustered_proportion(measures::clusters_of(goal), confidence).korn_graubard;
+  value.n = goal.moves;
+  return value;
+}
+
 std::vector<RunValue> values_of(const summary::StudySummary& summary) {
   std::vector<RunValue> values;
   for (std::size_t point = 0; point < summary.points.size(); ++point) {
+    if (summary.points[point].goal) {
+      values.push_back(goal_value(*summary.points[point].goal, summary.labels[point], summary.confidence));
+    }
     for (const comparison::GateMeasure& measure : comparison::gate_measures(summary.table())) {
       RunValue value = value_of(measure, summary.points[point], summary.labels[point]);
       if (std::isfinite(value.value)) values.push_back(std::move(value));

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -146,6 +147,17 @@ TEST_F(Judge, PlansTheStudyThatDecidesTheGoal) {
     EXPECT_EQ(none.code, 2);
     EXPECT_NE(none.err.find("its manifest has no goal"), std::string::npos) << none.err;
   }
+}
+
+TEST_F(Judge, IsFollowedOverTimeByTheHistory) {
+  run_study("goal: {band: 1, within: 0.05, moves: 0.99}\n");
+  ASSERT_EQ(program({"history", "add", "out.h5", "--database", "runs.sqlite"}).code, 0);
+  const ProgramResult shown =
+      program({"history", "show", "--database", "runs.sqlite", "--measure", "goal_rate", "--format", "csv"});
+  EXPECT_EQ(shown.code, 0) << shown.err;
+  const Json judged = json_of({"judge", "out.h5", "--point", "0"});
+  const auto rate = judged["rate"].get<double>();
+  EXPECT_NE(shown.out.find(fmt::format("{}", rate)), std::string::npos) << shown.out;
 }
 
 }  // namespace

@@ -97,6 +97,11 @@ std::string title_of(std::span<const measures::PointSummary> points) {
                      text::percent(confidence));
 }
 
+/// With one trial per rig, nothing is known of the moves of a rig.
+bool shows_rigs(std::span<const measures::PointSummary> points) {
+  return on_rigs(points) && points.front().trials > points.front().rigs.n;
+}
+
 text::PointTable table_of(std::span<const measures::PointSummary> points,
                           const std::vector<std::string>& labels) {
   using Point = const measures::PointSummary&;
@@ -108,7 +113,7 @@ text::PointTable table_of(std::span<const measures::PointSummary> points,
   }
   table.columns.push_back(text_column(
       points, "success ≥", [](Point point) { return text::percent_at_least(point.claim.success_at_least); }));
-  if (points.front().trials > points.front().rigs.n && on_rigs(points)) {
+  if (shows_rigs(points)) {
     table.columns.push_back(text_column(points, "90 % of rigs ≥", [](Point point) {
       const double zero = point.rigs.tolerance.zero_at_least;
       return std::isnan(zero) ? "–" : text::percent_at_least(zero);
@@ -135,7 +140,7 @@ measures::SummarySection tolerance_section(std::span<const measures::PointSummar
       "limit is later than the quantile of the trials at hand, and – where these are too few, or too many "
       "never arrive\n",
       on_rigs(points) ? "Korn and Graubard" : "Clopper and Pearson",
-      on_rigs(points) ? "; of rigs: their moves that end at zero error" : "");
+      shows_rigs(points) ? "; of rigs: their moves that end at zero error" : "");
   for (const measures::PointSummary& point : points) section.json.push_back(point_json(point));
   return section;
 }

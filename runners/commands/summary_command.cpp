@@ -2,6 +2,7 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -142,9 +143,17 @@ nlohmann::ordered_json confirmation_json(const summary::StudySummary& summary,
   return json;
 }
 
-summary::PointSelection selection_of(const command_line::Arguments& arguments) {
-  return {arguments.value("sort"), arguments.values("where"),
-          arguments.whole_number("top", 1, std::int64_t{1} << 40)};
+/// The points that --sort, --where and --top choose.
+std::vector<std::int64_t> points_asked_for(const command_line::Arguments& arguments,
+                                           const summary::StudySummary& summary) {
+  const summary::PointSelection selection{arguments.value("sort"), arguments.values("where"),
+                                          arguments.whole_number("top", 1, std::int64_t{1} << 40)};
+  try {
+    return summary::selected_points(summary, selection);
+  } catch (const Failure& failure) {
+    if (failure.code() != ExitCode::bad_input) throw;
+    arguments.refuse(fmt::format("options '--sort' and '--where': {}", failure.what()));
+  }
 }
 
 ExitCode summarise_file(const command_line::Arguments& arguments) {
@@ -155,7 +164,7 @@ ExitCode summarise_file(const command_line::Arguments& arguments) {
   const summary::StudySummary summary = summary_of(arguments.operands()[0], confidence, with_means);
   if (format == "csv" && arguments.has("confirm"))
     arguments.refuse("option '--confirm' goes with the formats table and json");
-  const summary::SummaryForm form{summary::selected_points(summary, selection_of(arguments)),
+  const summary::SummaryForm form{points_asked_for(arguments, summary),
                                   command_line::point_option(arguments, summary.labels),
                                   arguments.has("legend")};
   const std::optional<study_run::Confirmation> confirmed =

@@ -1,5 +1,6 @@
 #include "core/batch/batch.hpp"
 
+#include <cmath>
 #include <type_traits>
 
 #include "core/batch/lane_scheduler.hpp"
@@ -13,7 +14,7 @@
 namespace zerocount::batch {
 namespace {
 
-constexpr int max_delay = 64;
+constexpr double max_delay = 64.0;
 
 // Each overload returns the feature that the lanes lack, empty if they have all. Each switch lists all
 // enumerators and each structured binding all members, so that the compiler demands a decision for one that
@@ -96,6 +97,8 @@ std::string lacking_in_lanes(const trial::TrialParameters& p) {
   for (const std::string_view feature : {lacking(amplifier), lacking(controller), lacking(command)}) {
     if (!feature.empty()) return std::string(feature);
   }
+  if (controller.delay != std::floor(controller.delay) && lane_motion(friction.model) == LaneMotion::free)
+    return "a delay of a fraction of a sample without friction";
   return trial::samples_of_move(p, 0) > 0 ? "" : "moves without a sample";
 }
 

@@ -7,6 +7,7 @@
 namespace zerocount::batch {
 
 void LaneScheduler::take_samples() {
+  change_torques();
   const LaneSet at_stop = kernels_.lanes_at_stop(batch_).in_both(active_);
   for_each_lane(at_stop, [&](int lane) {
     if (batch_.measures.samples[lane] == batch_.measures.limits.samples[lane]) end_move(lane, trial_of(lane));
@@ -103,8 +104,9 @@ void LaneScheduler::report_jerk(LaneTrial& trial) {
   if (observers_->jerk) observers_->jerk(trial.number, trial.jerks.last());
 }
 
-/// Exchanges the decided torque for the one that leaves the delay now. The applied torque is constant to the
-/// next stop only if all waiting torques are equal.
+/// Exchanges the decided torque for the one that acts now. It stays until the next stop only if all waiting
+/// torques are equal; otherwise the next stop is the next sample, or before it the change that a delay's
+/// fraction of a sample brings.
 void LaneScheduler::delay_torque(int lane, LaneTrial& trial) {
   const double decided = batch_.motion.torque[lane];
   const std::size_t size = trial.waiting.size();
@@ -113,10 +115,30 @@ void LaneScheduler::delay_torque(int lane, LaneTrial& trial) {
   batch_.motion.torque[lane] = trial.waiting[trial.oldest_waiting];
   trial.waiting[trial.oldest_waiting] = decided;
   trial.oldest_waiting = (trial.oldest_waiting + 1) % size;
-  if (trial.waiting_alike <= static_cast<std::int64_t>(size)) {
-    batch_.time.samples_to_stop[lane] = 1.0;
-    batch_.time.time_to_stop[lane] = batch_.time.sample_time[lane];
-  }
+  if (trial.waiting_alike > static_cast<std::int64_t>(size)) return;
+  TimeLanes& time = batch_.time;
+  time.samples_to_stop[lane] = 1.0;
+  time.time_to_stop[lane] = time.sample_time[lane];
+  const double fraction = batch_.loop.delay[lane] - std::floor(batch_.loop.delay[lane]);
+  if (fraction == 0.0) return;
+  trial.torque_to_come = trial.waiting[trial.oldest_waiting];
+  if (trial.torque_to_come == batch_.motion.torque[lane]) return;
+  time.time_to_stop[lane] *= fraction;
+  changing_.insert(lane);
+}
+
+/// Applies the next torque in the lanes that stand within a sample, where it changes.
+void LaneScheduler::change_torques() {
+  if (changing_.empty()) return;
+  const LaneSet now = changing_.in_both(kernels_.lanes_at_stop(batch_));
+  changing_ = changing_.without(now);
+  for_each_lane(now, [&](int lane) {
+    const double sample_time = batch_.time.sample_time[lane];
+    const double fraction = batch_.loop.delay[lane] - std::floor(batch_.loop.delay[lane]);
+    batch_.motion.torque[lane] = trial_of(lane).torque_to_come;
+    batch_.time.time_to_stop[lane] = sample_time - fraction * sample_time;
+    batch_.time.steps[lane] = 0.0;
+  });
 }
 
 }  // namespace zerocount::batch

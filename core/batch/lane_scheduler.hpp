@@ -42,6 +42,7 @@ class LaneScheduler {
   void track_jerk(int lane, LaneTrial& trial);
   void report_jerk(LaneTrial& trial);
   void delay_torque(int lane, LaneTrial& trial);
+  void change_torques();
 
   // Motion between sampling instants (lane_steps.cpp).
   void move_sticking();
@@ -55,8 +56,8 @@ class LaneScheduler {
   void rerun_lost_lanes();
 
   void set_moving(int lane);
-  std::array<LaneSet*, 7> sets() {
-    return {&active_, &sticking_, &waiting_, &sliding_, &bristles_, &free_, &with_blocks_};
+  std::array<LaneSet*, 8> sets() {
+    return {&active_, &sticking_, &waiting_, &sliding_, &bristles_, &free_, &with_blocks_, &changing_};
   }
   bool is_idle(int lane) const { return !active_.contains(lane); }
   LaneTrial& trial_of(int lane) { return trials_in_work_[trial_index_[lane]]; }
@@ -75,6 +76,7 @@ class LaneScheduler {
   LaneSet free_;      ///< without friction
 
   LaneSet with_blocks_;  ///< active lanes whose controller has blocks
+  LaneSet changing_;     ///< active lanes whose next stop is a change of the torque within the sample
 
   std::span<const trial::TrialParameters* const> trials_;
   std::span<trial::TrialOutcome> outcomes_;

@@ -208,9 +208,9 @@ void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t numb
   trial.first_sample = 0;
   trial.reported_jerks = 0;
   trial.breakaway_spring_torque = 0.0;
-  trial.waiting.assign(static_cast<std::size_t>(p.controller.delay), 0.0);
+  trial.waiting.assign(static_cast<std::size_t>(std::ceil(p.controller.delay)), 0.0);
   trial.oldest_waiting = 0;
-  trial.waiting_alike = p.controller.delay;
+  trial.waiting_alike = static_cast<std::int64_t>(trial.waiting.size());
 
   start_loop(batch.loop, lane, p);
   const double resolution = batch.loop.resolution[lane];

@@ -49,6 +49,7 @@ struct LaneTrial {
 
   std::vector<double> waiting;  ///< decided torques on their way through the delay, N m
   std::size_t oldest_waiting{0};
+  double torque_to_come{0.0};     ///< within this sample, N m
   std::int64_t waiting_alike{0};  ///< number of equal torques decided last
 };
 

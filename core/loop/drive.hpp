@@ -1,8 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
+#include <span>
 #include <vector>
 
 #include "core/loop/dac.hpp"
@@ -13,29 +14,40 @@
 
 namespace zerocount::loop {
 
-/// The decided torques that the delay holds back: zeros at first.
+/// The decided torques on their way through a delay of n + f samples, n whole, 0 ≤ f < 1: zeros at first.
 class TorqueDelay {
  public:
-  explicit TorqueDelay(int samples) : waiting_(static_cast<std::size_t>(samples), 0.0) {}
+  /// What leaves the delay during sample k: the torque decided at k − n − 1 for the fraction f of the sample,
+  /// then the one decided at k − n.
+  struct Leaving {
+    double before;
+    double after;
+  };
 
-  double pass(double torque) {
-    if (waiting_.empty()) return torque;
-    std::swap(torque, waiting_[oldest_]);
-    oldest_ = (oldest_ + 1) % waiting_.size();
-    return torque;
-  }
+  explicit TorqueDelay(double samples);
+
+  Leaving pass(double torque);
+  double fraction() const { return fraction_; }  ///< f
 
  private:
   std::vector<double> waiting_;
   std::size_t oldest_{0};
+  double fraction_;
+};
+
+/// A part of a sample in which the input of the motor's drive stays the same.
+struct TorquePiece {
+  motion::TorqueCourse course;
+  double duration{0.0};  ///< s
+  double decay{0.0};     ///< exp(−course.rate·duration)
 };
 
 /// From the decided torque to the motor's: the converter with its errors, the delay, the amplifier.
 ///
 /// The converter gives torque_with_errors(code) + noise·z_k, z_k standard normal, number k of its key, for
-/// the code decided at sample k. After the delay that is the amplifier's input v, which is held for a sample.
-/// Until the first decided torque has passed the delay, v is exactly 0, without offset and noise. The
-/// amplifier, of bandwidth f, follows from torque 0 at the start by
+/// the code decided at sample k. What leaves the delay is the amplifier's input v: the torque decided at k
+/// acts over [t_k + delay·T, t_{k+1} + delay·T). Until the first decided torque has passed the delay, v is
+/// exactly 0, without offset and noise. The amplifier, of bandwidth f, follows from torque 0 at the start by
 ///
 ///   du/dt = 2πf·(v − u),   so u(t_k + t) = v + (u(t_k) − v)·exp(−2πf·t);
 ///
@@ -44,47 +56,46 @@ class TorqueDelay {
 /// Call one of the two send functions once at each sample, in order.
 class Drive {
  public:
-  /// @param delay samples between deciding a torque and applying it.
+  /// @param delay samples between deciding a torque and applying it, ≥ 0.
   /// @param sample_time T, s.
-  Drive(const DacParameters& dac, const AmplifierParameters& amplifier, int delay, double sample_time,
+  Drive(const DacParameters& dac, const AmplifierParameters& amplifier, double delay, double sample_time,
         const random::TrialRandomness& randomness);
 
   /// Sends the code of sample k through converter, delay and amplifier.
-  /// @returns the motor's torque over [t_k, t_{k+1}].
-  const motion::TorqueCourse& send(std::int64_t k, const DacOutput& decided) {
+  /// @returns the motor's torque over [t_k, t_{k+1}], in one or two pieces; valid until the next call.
+  std::span<const TorquePiece> send(std::int64_t k, const DacOutput& decided) {
     return apply(converter_errors_ ? converted(k, decided.code) : decided.torque);
   }
 
   /// Sends a torque (N m) past the converter, so without its rounding and errors, through delay and
   /// amplifier.
-  /// @returns the motor's torque over [t_k, t_{k+1}].
-  const motion::TorqueCourse& send_exact(double torque) { return apply(torque); }
+  /// @returns the motor's torque over [t_k, t_{k+1}], in one or two pieces; valid until the next call.
+  std::span<const TorquePiece> send_exact(double torque) { return apply(torque); }
 
   /// The motor's torque at the last t_k, just after sending, N m: 0 before the first.
-  double torque() const { return course_.now; }
+  double torque() const { return pieces_.front().course.now; }
 
  private:
-  const motion::TorqueCourse& apply(double torque) {
-    const double input = delay_.pass(torque);
-    if (rate_ == 0.0) {
-      course_ = {input, input, 0.0};
-    } else {
-      follow(input);
-    }
-    return course_;
-  }
+  /// A duration (s) and how far the amplifier's lag decays in it.
+  struct Part {
+    double duration;
+    double decay;
+  };
 
+  std::span<const TorquePiece> apply(double torque);
+  TorquePiece follow(double input, const TorquePiece& last, const Part& part) const;
   double converted(std::int64_t k, std::int64_t code) const;
-  void follow(double input);
+  Part part(double duration) const;
 
   DacParameters dac_;
   bool converter_errors_;
   random::RandomStream noise_;
   std::uint64_t trial_;
   TorqueDelay delay_;
-  double rate_;                    // 2πf
-  double decay_per_sample_;        // exp(−2πf·T)
-  motion::TorqueCourse course_{};  // since the last t_k
+  double rate_;                          // 2πf
+  Part sample_, before_, after_;         // the whole sample; before and after the input changes in it
+  std::array<TorquePiece, 2> pieces_{};  // of the last sample
+  std::size_t count_{1};                 // of its pieces
 };
 
 }  // namespace zerocount::loop

@@ -144,7 +144,7 @@ struct ControllerParameters {
   double kp{0.0};              ///< N m/count
   double ki{3.85e-5};          ///< k_ID = k_I·Δx·T/2 of the trapezoidal rule, N m/count
   double kd{0.0};              ///< on the difference of successive counts, N m/count
-  int delay{0};                ///< samples between deciding a torque and applying it
+  double delay{0.0};           ///< samples between deciding a torque and applying it, whole or not
   AntiWindup anti_windup{AntiWindup::clamp};
   EncoderChoice encoder{EncoderChoice::fine};  ///< that closes the loop in the fine phase
   CoarsePhaseParameters coarse{};

@@ -12,16 +12,16 @@ FrozenLoop frozen_loop(double stiffness, double damping, const motion::PlantPara
                        const LinearDrive& drive) {
   const double T = sample_time(controller);
   const double resolution = loop::fine_resolution(encoder);
-  return {hold_plant(stiffness, damping, plant, resolution, T, drive),
-          loop::linear_chain(controller, resolution), controller.delay, T};
+  return {hold_plant(stiffness, damping, plant, resolution, T, drive, controller.delay),
+          loop::linear_chain(controller, resolution), T};
 }
 
 std::complex<double> open_loop(const FrozenLoop& loop, double angle) {
-  return open_loop(std::polar(1.0, angle), loop.plant, loop.controller, loop.delay);
+  return open_loop(std::polar(1.0, angle), loop.plant, loop.controller);
 }
 
 LoopStability stability_of(const FrozenLoop& loop) {
-  const double radius = spectral_radius(loop.plant, loop.controller, loop.delay);
+  const double radius = spectral_radius(loop.plant, loop.controller);
   if (radius < 1.0 - edge_of_stability) return LoopStability::stable;
   return radius <= 1.0 + edge_of_stability ? LoopStability::marginal : LoopStability::unstable;
 }

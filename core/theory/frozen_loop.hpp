@@ -12,14 +12,13 @@ namespace zerocount::theory {
 /// A sampled loop whose friction is frozen: a spring and a damper that do not change, in place of the
 /// friction law. Its open loop, from error to count, is
 ///
-///   L(z) = C(z)·z^(−delay)·G(z),
+///   L(z) = C(z)·G(z),
 ///
-/// where C is the controller with all its blocks away from their limits, and G the plant in counts, held over
-/// each sample.
+/// where C is the controller with all its blocks away from their limits, and G the plant in counts under the
+/// delayed torque, held over a sample each.
 struct FrozenLoop {
   HeldPlant plant;
   loop::LinearChain controller;
-  int delay{0};             ///< samples between deciding a torque and applying it
   double sample_time{0.0};  ///< T, s
 };
 

@@ -1,5 +1,6 @@
 #include "core/theory/held_plant.hpp"
 
+#include <cmath>
 #include <numbers>
 
 #include "core/numerics/dense.hpp"
@@ -50,9 +51,10 @@ Eigen::MatrixXd generator_of(double stiffness, double damping, double inertia,
 
 }  // namespace
 
-/// exp(F·T) holds A in its upper left block and b above its last entry, in counts and samples.
+/// exp(F·t) holds the free motion over t in its upper left block and the driven one above its last entry, in
+/// counts and samples. The input changes after the delay's fraction of a sample.
 HeldPlant hold_plant(double stiffness, double damping, const motion::PlantParameters& plant,
-                     double count_angle, double sample_time, const LinearDrive& drive) {
+                     double count_angle, double sample_time, const LinearDrive& drive, double delay) {
   const double T = sample_time;
   Eigen::MatrixXd generator = generator_of(stiffness, damping, plant.inertia, plant.load, drive);
   // From rad and rad/s to counts and counts a sample.
@@ -61,8 +63,19 @@ HeldPlant hold_plant(double stiffness, double damping, const motion::PlantParame
     unit[i] = (i % 2 == 0 ? 1.0 : T) / count_angle;
   generator = T * (unit.asDiagonal() * generator * unit.cwiseInverse().asDiagonal());
   const Eigen::Index states = generator.rows() - 1;
-  const Eigen::MatrixXd flow = numerics::matrix_exponential(generator);
-  return {flow.topLeftCorner(states, states), drive.gain * flow.topRightCorner(states, 1)};
+  const double fraction = delay - std::floor(delay);
+  const Eigen::MatrixXd after = numerics::matrix_exponential((1.0 - fraction) * generator);
+  const auto driven = [&](const Eigen::MatrixXd& flow) -> Eigen::VectorXd {
+    return drive.gain * flow.topRightCorner(states, 1);
+  };
+  HeldPlant held{after.topLeftCorner(states, states), driven(after), Eigen::VectorXd::Zero(states),
+                 static_cast<int>(std::floor(delay))};
+  if (fraction > 0.0) {
+    const Eigen::MatrixXd before = numerics::matrix_exponential(fraction * generator);
+    held.b_before = held.A * driven(before);
+    held.A *= before.topLeftCorner(states, states);
+  }
+  return held;
 }
 
 }  // namespace zerocount::theory

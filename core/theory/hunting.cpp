@@ -37,7 +37,7 @@ struct Balance {
   loop::LinearChain chain;
   double resolution;
   double sample_time;
-  int delay;
+  double delay;
   LinearDrive drive;
 
   Complex control(double frequency) const {

@@ -94,7 +94,7 @@ Complex value_at(const std::vector<double>& c, Complex z) {
 
 }  // namespace
 
-Eigen::MatrixXd loop_map(const HeldPlant& plant, const loop::LinearChain& controller, int delay) {
+Eigen::MatrixXd loop_map(const HeldPlant& plant, const loop::LinearChain& controller) {
   const Eigen::Index driven = plant.A.rows();
   Eigen::Index of_blocks = 0;
   bool knows_torque_in_force = false;
@@ -108,7 +108,9 @@ Eigen::MatrixXd loop_map(const HeldPlant& plant, const loop::LinearChain& contro
   }
   // The torques decided at the last samples, newest first.
   const Eigen::Index pending = driven + of_blocks;
-  const Eigen::Index states = pending + std::max(delay, knows_torque_in_force ? 1 : 0);
+  const bool changes_within = !plant.b_before.isZero(0.0);
+  const Eigen::Index states =
+      pending + std::max(plant.delay + (changes_within ? 1 : 0), knows_torque_in_force ? 1 : 0);
   const auto state = [&](Eigen::Index i) -> Row { return Row::Unit(states, i); };
 
   Eigen::MatrixXd map = Eigen::MatrixXd::Zero(states, states);
@@ -121,21 +123,26 @@ Eigen::MatrixXd loop_map(const HeldPlant& plant, const loop::LinearChain& contro
         return output;
       });
   map.topLeftCorner(driven, driven) = plant.A;
-  map.topRows(driven) += plant.b * (delay == 0 ? decided : state(pending + delay - 1));
+  const auto decided_before = [&](int samples) -> Row {
+    return samples == 0 ? decided : state(pending + samples - 1);
+  };
+  map.topRows(driven) += plant.b * decided_before(plant.delay);
+  if (changes_within) map.topRows(driven) += plant.b_before * decided_before(plant.delay + 1);
   if (pending < states) map.row(pending) = decided;
   for (Eigen::Index i = pending + 1; i < states; ++i) map(i, i - 1) = 1.0;
   return map;
 }
 
-double spectral_radius(const HeldPlant& plant, const loop::LinearChain& controller, int delay) {
-  return numerics::spectral_radius(loop_map(plant, controller, delay));
+double spectral_radius(const HeldPlant& plant, const loop::LinearChain& controller) {
+  return numerics::spectral_radius(loop_map(plant, controller));
 }
 
-Complex open_loop(Complex z, const HeldPlant& plant, const loop::LinearChain& controller, int delay) {
+Complex open_loop(Complex z, const HeldPlant& plant, const loop::LinearChain& controller) {
   const Eigen::Index states = plant.A.rows();
   const Eigen::MatrixXcd resolvent = z * Eigen::MatrixXcd::Identity(states, states) - plant.A;
-  const Eigen::VectorXcd response = numerics::solve(resolvent, plant.b.cast<Complex>());
-  return controller_response(z, controller) * std::pow(z, -delay) * response(0);
+  const Eigen::VectorXcd response =
+      numerics::solve(resolvent, plant.b.cast<Complex>() + plant.b_before.cast<Complex>() / z);
+  return controller_response(z, controller) * std::pow(z, -plant.delay) * response(0);
 }
 
 Complex controller_response(Complex z, const loop::LinearChain& controller) {

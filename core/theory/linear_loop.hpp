@@ -8,27 +8,27 @@
 #include "core/theory/held_plant.hpp"
 
 /// The sampled loop made linear, assembled from the transfer functions of the controller's blocks: target 0,
-/// the count a continuous quantity, and `delay` samples between deciding a torque and applying it.
+/// the count a continuous quantity, the decided torques applied after the plant's delay.
 namespace zerocount::theory {
 
 /// The one-sample map x ← M·x of the loop. Its states are those of the driven rotor, of the blocks' transfer
 /// functions (direct form II transposed; paths of a stage with the same poles share them), and the torques
 /// decided and not yet applied.
-Eigen::MatrixXd loop_map(const HeldPlant& plant, const loop::LinearChain& controller, int delay);
+Eigen::MatrixXd loop_map(const HeldPlant& plant, const loop::LinearChain& controller);
 
 /// Distance from 1 below which the magnitude of an eigenvalue may be 1: a double eigenvalue of exactly 1
 /// rounds by about 1e-8.
 inline constexpr double edge_of_stability = 1e-7;
 
 /// max |eigenvalue| of the loop's map; below 1 the loop is stable.
-double spectral_radius(const HeldPlant& plant, const loop::LinearChain& controller, int delay);
+double spectral_radius(const HeldPlant& plant, const loop::LinearChain& controller);
 
 /// C(z): the torque decided per count of error, N m/count, the torque in force that blocks use being that of
 /// the controller itself.
 std::complex<double> controller_response(std::complex<double> z, const loop::LinearChain& controller);
 
-/// L(z) = C(z)·z^(−delay)·G(z): the open loop from error to count.
+/// L(z) = C(z)·G(z), G with the plant's delay: the open loop from error to count.
 std::complex<double> open_loop(std::complex<double> z, const HeldPlant& plant,
-                               const loop::LinearChain& controller, int delay);
+                               const loop::LinearChain& controller);
 
 }  // namespace zerocount::theory

@@ -109,7 +109,7 @@ StabilityMargins stability_margins(const FrozenLoop& loop) {
     last = now;
   }
   // At half the sample rate L is a real number.
-  add_gain(open_loop(Complex(-1.0), loop.plant, loop.controller, loop.delay), half_turn);
+  add_gain(open_loop(Complex(-1.0), loop.plant, loop.controller), half_turn);
   return margins;
 }
 

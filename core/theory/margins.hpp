@@ -6,7 +6,7 @@
 
 /// Gain and phase margins of the sampled loop, from its exact frequency response
 ///
-///   L(z) = C(z)·z^(−delay)·G(z),  z = exp(iωT),  0 < ω ≤ π/T,
+///   L(z) = C(z)·G(z),  z = exp(iωT),  0 < ω ≤ π/T,
 ///
 /// of a FrozenLoop. Source of the definitions: Franklin, Powell, Workman, "Digital Control of Dynamic
 /// Systems", 3rd ed., Addison-Wesley 1998, section 7.4.

@@ -16,7 +16,7 @@ HeldPlant presliding_plant(double stiffness, const motion::PlantParameters& plan
                            const loop::EncoderParameters& encoder,
                            const loop::ControllerParameters& controller, const LinearDrive& drive) {
   return hold_plant(stiffness, plant.presliding_damping, plant, loop::fine_resolution(encoder),
-                    sample_time(controller), drive);
+                    sample_time(controller), drive, controller.delay);
 }
 
 /// Controller is ControllerParameters, const or not.
@@ -49,15 +49,15 @@ double sampled_spectral_radius(double stiffness, const motion::PlantParameters& 
                                const loop::EncoderParameters& encoder,
                                const loop::ControllerParameters& controller, const LinearDrive& drive) {
   return spectral_radius(presliding_plant(stiffness, plant, encoder, controller, drive),
-                         loop::linear_chain(controller, loop::fine_resolution(encoder)), controller.delay);
+                         loop::linear_chain(controller, loop::fine_resolution(encoder)));
 }
 
 double slowest_time_constant(double stiffness, const motion::PlantParameters& plant,
                              const loop::EncoderParameters& encoder,
                              const loop::ControllerParameters& controller, const LinearDrive& drive) {
   const HeldPlant held = presliding_plant(stiffness, plant, encoder, controller, drive);
-  const Eigen::VectorXcd eigenvalues = numerics::eigenvalues(
-      loop_map(held, loop::linear_chain(controller, loop::fine_resolution(encoder)), controller.delay));
+  const Eigen::VectorXcd eigenvalues =
+      numerics::eigenvalues(loop_map(held, loop::linear_chain(controller, loop::fine_resolution(encoder))));
   if (!(eigenvalues.cwiseAbs().maxCoeff() < 1.0 - edge_of_stability))
     return std::numeric_limits<double>::infinity();
   double slowest = 0.0;
@@ -79,8 +79,7 @@ double sampled_critical_integral_gain(double stiffness, const motion::PlantParam
   double& ki = integral_gain_in(controller);
   const auto stable = [&](double gain) {
     ki = gain;
-    return spectral_radius(held, loop::linear_chain(controller, loop::fine_resolution(encoder)),
-                           controller.delay) < 1.0;
+    return spectral_radius(held, loop::linear_chain(controller, loop::fine_resolution(encoder))) < 1.0;
   };
   const double lowest = 1e-6 * static_stiffness(stiffness, encoder, controller);
   // Without stiffness and kp no integral gain is stable; the eigenvalue 1 of the free rotor may round

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 #include "core/loop/dac.hpp"
 #include "core/loop/drive.hpp"
@@ -62,11 +63,11 @@ class Rig {
   /// Applies the wanted torque (N m) at t_k through the converter; completes `record`.
   void drive(double torque, SampleRecord& record) {
     const loop::DacOutput output = loop::convert(dac_, torque);
-    course_ = drive_.send(record.k, output);
+    torque_ = drive_.send(record.k, output);
     clipped_ = output.clipped;
     record.code = output.code;
     record.torque = output.torque;
-    record.drive_torque = course_.now;
+    record.drive_torque = drive_.torque();
   }
 
   /// drive() with the controller's torque. The trial ends if it is not finite.
@@ -77,13 +78,16 @@ class Rig {
 
   /// Applies the torque (N m) at t_k to the motor, past the converter; completes `record`.
   void drive_exactly(double torque, SampleRecord& record) {
-    course_ = drive_.send_exact(torque);
+    torque_ = drive_.send_exact(torque);
     record.torque = torque;
-    record.drive_torque = course_.now;
+    record.drive_torque = drive_.torque();
   }
 
   /// Lets the plant move until t_{k+1}.
-  void hold() { plant_.advance(course_, sample_time_, plant::max_steps_of_sample); }
+  void hold() {
+    for (const loop::TorquePiece& piece : torque_)
+      plant_.advance(piece.course, piece.duration, plant::max_steps_of_sample);
+  }
 
   /// Whether the controller's torque and the motion are still finite, and the motion within the counters'
   /// range.
@@ -105,7 +109,7 @@ class Rig {
   motion::EncoderPlace encoder_place_;
   double last_measured_{0.0};
   AnyPlant plant_;
-  motion::TorqueCourse course_;
+  std::span<const loop::TorquePiece> torque_;  // of this sample
   bool clipped_{false};
   bool controller_failed_{false};
 };

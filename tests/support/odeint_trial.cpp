@@ -62,7 +62,9 @@ std::vector<trial::SampleRecord> odeint_trial(const trial::TrialParameters& para
   const auto samples = static_cast<std::int64_t>(std::llround(parameters.command.hold * rate));
   const long double amplifier = 2 * std::numbers::pi_v<long double> * parameters.amplifier.bandwidth;
   OdeintMotion::Torque drive{0, 0, amplifier};
-  std::deque<double> waiting(static_cast<std::size_t>(parameters.controller.delay), 0.0);
+  const double whole = std::floor(parameters.controller.delay);
+  const long double late = parameters.controller.delay - whole;  // samples
+  std::deque<double> waiting(static_cast<std::size_t>(whole) + 1, 0.0);
   std::vector<trial::SampleRecord> records;
   for (const std::int64_t target : parameters.command.targets) {
     for (std::int64_t i = 0; i < samples; ++i) {
@@ -83,12 +85,16 @@ std::vector<trial::SampleRecord> odeint_trial(const trial::TrialParameters& para
       record.depth = motion.depth();
       record.mode = motion.sliding() ? trial::HookMode::slide : trial::HookMode::stick;
       waiting.push_back(record.torque);
-      drive.settled = waiting.front();
-      if (amplifier == 0) drive.now = drive.settled;
-      record.drive_torque = static_cast<double>(drive.now);
+      const auto drive_by = [&](double torque, long double time) {
+        drive.settled = torque;
+        if (amplifier == 0) drive.now = torque;
+        motion.advance(drive, time);
+        drive.now = drive.settled + (drive.now - drive.settled) * std::exp(-amplifier * time);
+      };
+      record.drive_torque = amplifier == 0 ? waiting[late > 0 ? 0 : 1] : static_cast<double>(drive.now);
       records.push_back(record);
-      motion.advance(drive, period);
-      drive.now = drive.settled + (drive.now - drive.settled) * std::exp(-amplifier * period);
+      if (late > 0) drive_by(waiting[0], late * period);
+      drive_by(waiting[1], (1 - late) * period);
       waiting.pop_front();
     }
   }

@@ -52,12 +52,18 @@ friction::FrictionAlongRotor random_friction(Draws& draws) {
   return friction;
 }
 
+/// Samples up to `most`, half of them whole.
+double random_delay(Draws& draws, double most) {
+  const double delay = draws.uniform(0.0, most);
+  return draws.chance(0.5) ? std::round(delay) : delay;
+}
+
 void choose_loop(Draws& draws, TrialKind kind, trial::TrialParameters& p) {
   loop::ControllerParameters& c = p.controller;
   c.sample_rate = draws.chance(0.7) ? 2000.0 : draws.uniform(1000.0, 5000.0);
   c.kp = draws.chance(0.5) ? 0.0 : draws.uniform(0.0, 6e-4);
   c.kd = draws.chance(0.7) ? 0.0 : draws.uniform(0.0, 4e-4);
-  c.delay = draws.chance(0.75) ? 0 : static_cast<int>(draws.integer(1, 3));
+  if (draws.chance(0.25)) c.delay = random_delay(draws, 3.0);
   c.anti_windup = draws.chance(0.8) ? loop::AntiWindup::clamp : loop::AntiWindup::none;
   p.dac.bits = draws.chance(0.7) ? 12 : static_cast<int>(draws.integer(10, 18));
   p.dac.resolution = draws.chance(0.7) ? 2.4e-4 : 0.4915 / std::ldexp(1.0, p.dac.bits - 1);
@@ -107,7 +113,7 @@ trial::TrialParameters unlike_the_paper(Draws& draws) {
 
   loop::ControllerParameters& c = p.controller;
   c.sample_rate = std::floor(draws.log_uniform(100.0, 30000.0));
-  c.delay = static_cast<int>(draws.integer(0, 2));
+  c.delay = random_delay(draws, 2.0);
   c.anti_windup = draws.chance(0.25) ? loop::AntiWindup::none : loop::AntiWindup::clamp;
   const double count = 2.0 * std::numbers::pi / p.encoder.fine;
   const double lowest_bound =

@@ -31,8 +31,8 @@ struct LoopParts {
     const double T = 1.0 / controller.sample_rate;
     const double resolution = loop::fine_resolution({});
     return open_loop(std::polar(1.0, 2.0 * pi * frequency * T),
-                     hold_plant(stiffness, damping, plant, resolution, T, drive),
-                     loop::linear_chain(controller, resolution), controller.delay);
+                     hold_plant(stiffness, damping, plant, resolution, T, drive, controller.delay),
+                     loop::linear_chain(controller, resolution));
   }
 };
 
@@ -56,7 +56,7 @@ class RandomParts {
     parts.controller.kp = log_uniform(1e-5, 1e-3);
     parts.controller.ki = log_uniform(1e-6, 1e-4);
     parts.controller.kd = log_uniform(1e-4, 5e-3);
-    parts.controller.delay = static_cast<int>(uniform(0.0, 2.99));
+    parts.controller.delay = uniform(0.0, 1.0) < 0.5 ? std::floor(uniform(0.0, 2.99)) : uniform(0.0, 2.99);
     if (uniform(0.0, 1.0) < 0.5) parts.drive.bandwidth = 500.0;
     return parts;
   }

@@ -26,7 +26,8 @@ struct PeerSample {
   loop::DacOutput decided{};
 };
 
-/// The sampled loop around a peer's plant: encoder, PID law, converter, delay, and the measures of each move.
+/// The sampled loop around a peer's plant: encoder, PID law, converter, delay of whole samples, and the
+/// measures of each move.
 /// @param observe called with every PeerSample, before the plant moves on.
 template <class PeerPlant, class Observe>
 trial::TrialOutcome peer_trial(const trial::TrialParameters& p, PeerPlant& plant, Observe observe) {
@@ -56,7 +57,7 @@ trial::TrialOutcome peer_trial(const trial::TrialParameters& p, PeerPlant& plant
       observe(PeerSample{k, target, count, decided});
       measures.add(
           {target, count, decided.torque, decided.clipped, theta, plant.contact().extension(plant.state())});
-      plant.set_torque(delay.pass(decided.torque));
+      plant.set_torque(delay.pass(decided.torque).after);
       plant.advance(sample_time);
     }
     const bool slid = sliding_before || plant.contact().breakaways() > breakaways_before;
@@ -90,7 +91,7 @@ std::vector<trial::SampleRecord> peer_records(const trial::TrialParameters& p, P
     record.error = sample.target - sample.count;
     record.code = sample.decided.code;
     record.torque = sample.decided.torque;
-    record.drive_torque = delay.pass(record.torque);
+    record.drive_torque = delay.pass(record.torque).after;
     record.omega = plant.contact().omega(y);
     record.xp = plant.contact().extension(y);
     record.xh = plant.contact().hardening(y);

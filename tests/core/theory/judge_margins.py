@@ -36,15 +36,18 @@ def open_loop(case):
         rate = 2 * math.pi * case["bandwidth"]
         A = [[0, 1, 0], [*A[1], 1 / J], [0, 0, -rate]]
         B = [[0], [0], [rate]]
-    A, B, *_ = cont2discrete((np.array(A, float), np.array(B, float), np.eye(1, len(A)), np.zeros((1, 1))), T, "zoh")
-    poles, modes = np.linalg.eig(A)
-    residues = modes[0] * np.linalg.solve(modes, B[:, 0])
+    held = lambda t: cont2discrete((np.array(A, float), np.array(B, float), np.eye(1, len(A)), np.zeros((1, 1))), t, "zoh")[:2]
+    whole = math.floor(case["delay"])
+    flow, total = held(T)
+    now = held(T * (1 + whole - case["delay"]))[1]  # of the torque that acts from within the sample to its end
+    poles, modes = np.linalg.eig(flow)
+    residues = [modes[0] * np.linalg.solve(modes, b[:, 0]) for b in (now, total - now)]
 
     def plant(z):  # rad per N m
         if np.min(np.abs(poles[:, None] - poles[None, :]) + np.eye(len(poles))) > 1e-6:
-            return sum(r / (z - p) for r, p in zip(residues, poles))
-        eye = np.eye(len(A))
-        return np.array([np.linalg.solve(x * eye - A, B)[0, 0] for x in np.atleast_1d(z)])
+            return sum((r + before / z) / (z - p) for r, before, p in zip(*residues, poles))
+        eye = np.eye(len(flow))
+        return np.array([np.linalg.solve(x * eye - flow, now + (total - now) / x)[0, 0] for x in np.atleast_1d(z)])
 
     tau, cutoff = c["integrator_leak"], c["derivative_cutoff"]
     left = 1.0 if tau is None else math.exp(-T / tau)
@@ -65,7 +68,7 @@ def open_loop(case):
             s = 2 / T * (z - 1) / (z + 1)
             q = w**2 / (s**2 + math.sqrt(2) * w * s + w**2)
             u = (u - c["observer"]["inertia"] * s**2 * q * dx) / (1 - q / z)
-        return -u * z**-case["delay"] * plant(z) / dx * case["gain"]
+        return -u * z**-whole * plant(z) / dx * case["gain"]
 
     return lambda angle: response(np.exp(1j * np.asarray(angle)))
 

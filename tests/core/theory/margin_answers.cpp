@@ -29,7 +29,7 @@ void print() {
     controller.kp = draw.some(draw.log_uniform(1e-5, 4e-4));
     controller.ki = draw.some(draw.log_uniform(1e-6, 1e-4));
     controller.kd = draw.some(draw.log_uniform(1e-4, 5e-3));
-    controller.delay = static_cast<int>(draw.integer() % 4);
+    controller.delay = static_cast<double>(draw.integer() % 13) / 4.0;
     const auto kind = static_cast<testing::BlockKind>(i % testing::block_kinds);
     controller.blocks = draw.blocks(kind, controller.sample_rate);
     const double stiffness = draw.chance(0.3) ? 0.0 : draw.log_uniform(30.0, 2000.0);

@@ -25,7 +25,7 @@ TEST(Margins, GainMarginIsTheFactorToTheEdgeOfStability) {
     loop::ControllerParameters controller;
     controller.kp = draw.some(draw.log_uniform(1e-5, 1e-3));
     controller.kd = draw.some(draw.log_uniform(1e-4, 5e-3));
-    controller.delay = i % 3;
+    controller.delay = i % 6 / 2.0;
     controller.blocks = draw.blocks(testing::BlockKind::all, controller.sample_rate);
     controller.blocks.observer.bandwidth = 0.0;  // it knows the gain of the controller, but not of the drive
     const double stiffness = draw.log_uniform(50.0, 1000.0);
@@ -36,8 +36,8 @@ TEST(Margins, GainMarginIsTheFactorToTheEdgeOfStability) {
     drive.gain *= margins.gain.value;
     const double T = 1.0 / controller.sample_rate;
     const double resolution = loop::fine_resolution({});
-    const HeldPlant plant = hold_plant(stiffness, 0.2, {}, resolution, T, drive);
-    const Eigen::MatrixXd map = loop_map(plant, loop::linear_chain(controller, resolution), controller.delay);
+    const HeldPlant plant = hold_plant(stiffness, 0.2, {}, resolution, T, drive, controller.delay);
+    const Eigen::MatrixXd map = loop_map(plant, loop::linear_chain(controller, resolution));
     const std::complex<double> expected =
         std::polar(1.0, 2.0 * std::numbers::pi * margins.gain.frequency * T);
     double nearest = 1.0;

@@ -29,7 +29,7 @@ class LinearLoop {
         plant_(plant),
         controller_(controller),
         drive_(drive),
-        pending_(static_cast<std::size_t>(controller.delay), 0.0) {
+        pending_(static_cast<std::size_t>(std::floor(controller.delay)) + 1, 0.0) {
     const std::complex<double> half = plant.presliding_damping / (2.0 * plant.inertia);
     const std::complex<double> root = std::sqrt(half * half - stiffness / plant.inertia);
     fast_ = -half - root;
@@ -44,7 +44,9 @@ class LinearLoop {
     pending_.push_back(integral_ + controller_.kp * error - controller_.kd * (count - last_count_));
     last_error_ = error;
     last_count_ = count;
-    hold(drive_.gain * pending_.front());
+    const double before = controller_.delay - std::floor(controller_.delay);
+    hold(drive_.gain * pending_[0], before);
+    hold(drive_.gain * pending_[1], 1.0 - before);
     pending_.pop_front();
     ++k_;
   }
@@ -54,8 +56,8 @@ class LinearLoop {
  private:
   /// The motor's torque is v + lag·exp(−rt), lag = 0 without an amplifier's; the rotor follows with the
   /// particular solution v/k + follow·exp(−rt).
-  void hold(double input) {
-    const double T = 1.0 / controller_.sample_rate;
+  void hold(double input, double samples) {
+    const double T = samples / controller_.sample_rate;
     const double rate = 2.0 * std::numbers::pi * drive_.bandwidth;
     const double lag = drive_.bandwidth > 0.0 ? torque_ - input : 0.0;
     const double follow =
@@ -137,7 +139,7 @@ TEST(SampledStability, LinearLoopDecaysBelowTheBoundAndGrowsAboveIt) {
     loop::ControllerParameters controller;
     controller.kp = 0.5 * part(random) * stiffness * loop::fine_resolution(paper_encoder);
     controller.kd = 2e-4 * part(random);
-    controller.delay = static_cast<int>(random() % 4);
+    controller.delay = static_cast<double>(random() % 13) / 4.0;
     LinearDrive drive{0.7 + 0.6 * part(random), 0.0};
     if (random() % 2 == 0) drive.bandwidth = 30.0 * std::pow(30.0, part(random));
     const double bound = sampled_critical_integral_gain(stiffness, plant, paper_encoder, controller, drive);
@@ -155,7 +157,7 @@ TEST(SampledStability, LinearLoopDecaysBelowTheBoundAndGrowsAboveIt) {
 }
 
 TEST(SampledStability, SpectralRadiusIsTheGrowthOfTheLinearLoop) {
-  for (const int delay : {0, 1, 3}) {
+  for (const double delay : {0.0, 0.3, 1.0, 3.0}) {
     loop::ControllerParameters controller;
     controller.delay = delay;
     controller.kp = 1e-4;

@@ -49,9 +49,8 @@ void for_each_free_trial(Check check) {
 TEST(FreeTrial, MovesAsItsEquationSays) {
   for_each_free_trial([](const FreeTrial& trial) {
     const trial::TrialParameters& p = trial.parameters;
-    const std::vector<LiteralDrive> drive = literal_drive(p, trial.samples);
+    const auto drive = literal_drive(p, trial.samples);
     const Real rate = 2 * std::numbers::pi_v<Real> * p.amplifier.bandwidth;
-    const Real period = 1 / static_cast<Real>(p.controller.sample_rate);
     const double count = 2.0 * std::numbers::pi / p.encoder.fine;
     boost::numeric::odeint::runge_kutta_fehlberg78<State, Real, State, Real> stepper;
     State state{0, p.initial.velocity};
@@ -61,12 +60,15 @@ TEST(FreeTrial, MovesAsItsEquationSays) {
       ASSERT_NEAR(trial.samples[k].theta, static_cast<double>(state[0]),
                   1e-6 * count + 1e-12 * static_cast<double>(farthest))
           << "sample " << k;
-      const auto slope = [&](const State& y, State& dydt, Real t) {
-        const Real lag = rate == 0 ? 0 : (drive[k].output - drive[k].input) * std::exp(-rate * t);
-        dydt = {y[1], (drive[k].input + lag - p.plant.presliding_damping * y[1]) / p.plant.inertia};
-      };
-      const int steps = 1 + static_cast<int>(8 * rate * period);
-      for (int i = 0; i < steps; ++i) stepper.do_step(slope, state, i * period / steps, period / steps);
+      for (const LiteralDrive& part : drive[k]) {
+        const auto slope = [&](const State& y, State& dydt, Real t) {
+          const Real lag = rate == 0 ? 0 : (part.output - part.input) * std::exp(-rate * t);
+          dydt = {y[1], (part.input + lag - p.plant.presliding_damping * y[1]) / p.plant.inertia};
+        };
+        const int steps = 1 + static_cast<int>(8 * rate * part.time);
+        for (int i = 0; i < steps; ++i)
+          stepper.do_step(slope, state, i * part.time / steps, part.time / steps);
+      }
     }
   });
 }

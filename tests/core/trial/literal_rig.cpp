@@ -86,21 +86,26 @@ std::vector<std::int64_t> literal_coarse_counts(const trial::TrialParameters& p,
                    p.randomness.coarse_missed, p, samples);
 }
 
-std::vector<LiteralDrive> literal_drive(const trial::TrialParameters& p, const Samples& samples) {
+std::vector<std::array<LiteralDrive, 2>> literal_drive(const trial::TrialParameters& p,
+                                                       const Samples& samples) {
   const bool exact = !p.command.torque.levels.empty() && p.command.torque.through == trial::TorquePath::exact;
-  const auto delay = static_cast<std::size_t>(p.controller.delay);
-  const Real lag = turn * p.amplifier.bandwidth / p.controller.sample_rate;  // 2πf·T
-  std::vector<LiteralDrive> drive;
+  const auto input = [&](std::size_t k, std::size_t late) -> Real {
+    if (k < late) return 0;
+    return exact ? Real{samples[k - late].torque} : converted(p, samples, k - late);
+  };
+  const auto whole = static_cast<std::size_t>(p.controller.delay);
+  const Real before = p.controller.delay - static_cast<Real>(whole);  // of a sample, with the older torque
+  std::vector<std::array<LiteralDrive, 2>> drive;
+  Real output = 0;
   for (std::size_t k = 0; k < samples.size(); ++k) {
-    LiteralDrive now;
-    if (k >= delay) now.input = exact ? Real{samples[k - delay].torque} : converted(p, samples, k - delay);
-    if (lag == 0) {
-      now.output = now.input;
-    } else if (k > 0) {
-      const LiteralDrive& before = drive.back();
-      now.output = before.output - std::expm1(-lag) * (before.input - before.output);
+    std::array<LiteralDrive, 2> parts{{{input(k, whole + 1), 0, before}, {input(k, whole), 0, 1 - before}}};
+    for (LiteralDrive& part : parts) {
+      part.time /= p.controller.sample_rate;
+      if (p.amplifier.bandwidth == 0 && part.time > 0) output = part.input;
+      part.output = output;
+      output += -std::expm1(-turn * p.amplifier.bandwidth * part.time) * (part.input - output);
     }
-    drive.push_back(now);
+    drive.push_back(parts);
   }
   return drive;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -15,14 +16,16 @@ std::vector<std::int64_t> literal_fine_counts(const trial::TrialParameters& p,
 std::vector<std::int64_t> literal_coarse_counts(const trial::TrialParameters& p,
                                                 const std::vector<trial::SampleRecord>& samples);
 
-/// The amplifier at a sample.
+/// The amplifier over a part of a sample.
 struct LiteralDrive {
   long double input{0};   ///< v, N m
-  long double output{0};  ///< u at t_k, N m
+  long double output{0};  ///< u at its start, N m
+  long double time{0};    ///< its duration, s
 };
 
-/// The amplifier's input and output by the recorded codes, or by the recorded torques past the converter.
-std::vector<LiteralDrive> literal_drive(const trial::TrialParameters& p,
-                                        const std::vector<trial::SampleRecord>& samples);
+/// The amplifier's input and output in each sample, in two parts, by the recorded codes, or by the recorded
+/// torques past the converter.
+std::vector<std::array<LiteralDrive, 2>> literal_drive(const trial::TrialParameters& p,
+                                                       const std::vector<trial::SampleRecord>& samples);
 
 }  // namespace zerocount::testing

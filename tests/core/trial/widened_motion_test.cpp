@@ -24,7 +24,7 @@ struct IntegratedMotion {
 
 IntegratedMotion integrate(const RecordedTrial& trial) {
   const trial::TrialParameters& p = trial.parameters;
-  const std::vector<LiteralDrive> drive = literal_drive(p, trial.samples);
+  const auto drive = literal_drive(p, trial.samples);
   const long double amplifier = 2 * std::numbers::pi_v<long double> * p.amplifier.bandwidth;
   OdeintMotion motion(p, trial::draw_history(p.initial.history, p.randomness));
   IntegratedMotion integrated{trial.samples, {}};
@@ -35,7 +35,9 @@ IntegratedMotion integrate(const RecordedTrial& trial) {
     sample.xh = static_cast<double>(motion.state()[3]);
     sample.mode = motion.sliding() ? trial::HookMode::slide : trial::HookMode::stick;
     integrated.breakaways.push_back(motion.events().breakaways);
-    motion.advance({drive[k].output, drive[k].input, amplifier}, 1.0L / p.controller.sample_rate);
+    for (const LiteralDrive& part : drive[k]) {
+      if (part.time > 0) motion.advance({part.output, part.input, amplifier}, part.time);
+    }
   }
   integrated.breakaways.push_back(motion.events().breakaways);
   return integrated;

@@ -68,7 +68,7 @@ loop::ControllerParameters laws(WidenedDraws& draws, WidenedKind kind) {
   c.kp = draws.sometimes(draws.uniform(0.0, 3e-4));
   c.ki = draws.log_uniform(1e-5, 6e-5);
   c.kd = draws.sometimes(draws.uniform(0.0, 2e-4));
-  c.delay = draws.below(4);
+  c.delay = static_cast<double>(draws.below(10)) / 3.0;
   c.anti_windup = draws.chance(0.6) ? loop::AntiWindup::clamp : loop::AntiWindup::none;
   c.encoder = draws.chance(0.8) ? loop::EncoderChoice::fine : loop::EncoderChoice::coarse;
   if (kind != WidenedKind::two_phases) return c;

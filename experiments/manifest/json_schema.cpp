@@ -241,6 +241,21 @@ Json count_schema() {
 }
 
 // A number between 0 and 1.
+Json tuning_schema() {
+  const Json ends{{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 2}};
+  const Json margin{{"anyOf", {{{"const", "off"}}, {{"type", "number"}, {"minimum", 0}}}}};
+  const Json free{{"type", "object"},
+                  {"minProperties", 1},
+                  {"additionalProperties", {{"anyOf", {ends, object_of({{"log", ends}}, {"log"})}}}}};
+  return object_of(
+      {{"free", free},
+       {"minimise", {{"type", "string"}}},
+       {"margins",
+        {{"anyOf",
+          {{{"const", "off"}}, object_of({{"gain", margin}, {"phase", margin}, {"delay", margin}})}}}}},
+      {"free"});
+}
+
 Json open_unit_schema() {
   return {{"type", "number"}, {"exclusiveMinimum", 0}, {"exclusiveMaximum", 1}};
 }
@@ -278,6 +293,7 @@ Json general_schemas() {
                           {"machines", open_unit_schema()},
                           {"confidence", open_unit_schema()}},
                          {"within", "moves"})},
+      {"tune", tuning_schema()},
       {"correlation",
        {{"type", "array"},
         {"items",

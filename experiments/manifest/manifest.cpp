@@ -16,6 +16,7 @@
 #include "experiments/manifest/stopping.hpp"
 #include "experiments/manifest/study_assembly.hpp"
 #include "experiments/manifest/sweep.hpp"
+#include "experiments/manifest/tuning.hpp"
 #include "experiments/manifest/values.hpp"
 #include "experiments/parameters/unknown_key.hpp"
 #include "experiments/study/factors.hpp"
@@ -280,6 +281,7 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, con
   if (const auto field = yaml::find_field(m.root, "stop"))
     read_stop(*field, max_study_trials, m.study, problems);
   if (const auto field = yaml::find_field(m.root, "goal")) read_goal(*field, m.plan(), m.study, problems);
+  if (const auto field = yaml::find_field(m.root, "tune")) read_tuning(*field, m.plan(), m.study, problems);
   check_trial_count(m);
   check_rigs(m);
   read_observed(m);

@@ -34,7 +34,7 @@ std::vector<std::string_view> value_paths() {
 }  // namespace
 
 std::span<const GeneralKey> general_keys() {
-  static constexpr std::array<GeneralKey, 27> keys{{
+  static constexpr std::array<GeneralKey, 28> keys{{
       {"zerocount", "version of the manifest's format: 1", true},
       {"name", "name of the study", true},
       {"description", "what the study is for", false},
@@ -64,6 +64,12 @@ std::span<const GeneralKey> general_keys() {
        "the error is within 1 count for good after 0.05 s in at least 99 % of the moves of at least 99 % of "
        "the machines, claimed with 95 % confidence; without `machines` (which needs rigs) in at least 99 % "
        "of all moves; default band 0, confidence 0.95",
+       false},
+      {"tune",
+       "what zerocount tune may change and must keep: {free: {controller.ki: {log: [5.0e+3, 3.0e+5]}, "
+       "controller.kp: [0, 1000]}, minimise: band_settling_time.p95, margins: {gain: 6, phase: 30, delay: "
+       "0.5}}: ranges of parameters, the criterion, and margins of the loop (dB, degrees, samples), each off "
+       "by the word",
        false},
       {"stop",
        "sequential stopping: blocks of `trials` trials are added until the bounds of every success rate are "

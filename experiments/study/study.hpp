@@ -14,6 +14,7 @@
 #include "core/plugin/controller_plugin.hpp"
 #include "core/trial/parameters.hpp"
 #include "experiments/parameters/study_units.hpp"
+#include "experiments/study/tuning.hpp"
 
 namespace zerocount::study {
 
@@ -166,6 +167,7 @@ struct Study {
   std::int64_t rigs{0};              ///< number of rigs; 0: no trials share a rig
   std::optional<StoppingRule> stop;  ///< set for sequential stopping
   std::optional<Goal> goal{};
+  std::optional<Tuning> tuning{};
   Design design{Design::monte_carlo};
   std::vector<Correlation> correlations;  ///< of drawn parameters; all others are independent
   std::optional<JointSamples> samples;    ///< joint draws of several parameters

@@ -21,7 +21,7 @@
 #include "runners/study_run/earlier_shards.hpp"
 #include "runners/study_run/engine_use.hpp"
 #include "runners/study_run/existing_output.hpp"
-#include "runners/study_run/extension.hpp"
+#include "runners/study_run/file_run.hpp"
 #include "runners/study_run/interruption.hpp"
 #include "runners/study_run/progress.hpp"
 #include "runners/study_run/stopping_run.hpp"
@@ -121,61 +121,6 @@ study_run::ForeignShards foreign_shards(const RunRequest& request) {
   return request.force ? study_run::ForeignShards::remove : study_run::ForeignShards::refuse;
 }
 
-/// Makes the folder of the shards. @returns the usable shards that exist before the first trial is run
-study_run::EarlierShards prepare_shards(const RunRequest& request, const fs::path& directory,
-                                        study_run::ExistingUse existing) {
-  study_run::EarlierShards earlier =
-      study_run::earlier_shards(directory, request.study, request.wanted, foreign_shards(request));
-  const std::int64_t missing = layout::total_rows(shards::missing_ranges(earlier.usable, request.wanted));
-  if (!request.force) study_run::require_room(request.output, request.study, missing);
-  storage::make_directory(directory);
-  if (existing != study_run::ExistingUse::extend) return earlier;
-  const reading::StudyFile file(request.output);
-  if (!request.quiet) {
-    status::tell("{}: {} trials at each point are kept, {} are added\n", request.output.string(),
-                 file.header().trials, request.study.trials - file.header().trials);
-  }
-  const std::vector<layout::RowRange> ranges = shards::missing_ranges(earlier.usable, request.wanted);
-  for (shards::ShardInfo& shard : study_run::copy_trials(file, request.study, directory, ranges)) {
-    earlier.all.push_back(shard.path);
-    earlier.usable.push_back(std::move(shard));
-  }
-  return earlier;
-}
-
-void run_rows(const RunRequest& request, study_run::ExistingUse existing, const std::stop_token& stop) {
-  const fs::path directory = layout::shards_directory(request.output);
-  study_run::EarlierShards earlier = prepare_shards(request, directory, existing);
-  const layout::RowRange wanted = request.wanted;
-  const std::vector<layout::RowRange> missing = shards::missing_ranges(earlier.usable, wanted);
-  const std::int64_t kept = wanted.count - layout::total_rows(missing);
-
-  study_run::Progress progress(wanted.count, kept, study_run::samples_per_trial(request.study),
-                               request.quiet);
-  std::int64_t done = kept;
-  study_run::RunSettings settings;
-  settings.threads = request.threads;
-  settings.finished = [&](std::int64_t trials) { progress.update(done += trials); };
-  const study_run::FinishedTrials finished =
-      study_run::run_trials(request.study, missing, directory, settings, stop);
-  progress.finish(done);
-
-  if (done < wanted.count) {
-    throw Failure(
-        ExitCode::interrupted,
-        fmt::format("interrupted: {} of {} trials are kept in {}; give the same command again to continue",
-                    done, wanted.count, directory.string()));
-  }
-  std::vector<shards::ShardInfo> shards = std::move(earlier.usable);
-  shards.insert(shards.end(), finished.shards.begin(), finished.shards.end());
-  shards::sort_by_rows(shards);
-  study_run::assemble(shards, request.study, request.output, wanted,
-                      {.predictions = finished.predictions, .stop = stop});
-  for (const shards::ShardInfo& shard : finished.shards) earlier.all.push_back(shard.path);
-  study_run::remove_shards(directory, earlier.all);
-  if (!request.quiet) status::tell("wrote {}\n", request.output.string());
-}
-
 ExitCode run(const command_line::Arguments& arguments) {
   const RunRequest request = run_request(arguments);
   const oneapi::tbb::global_control limit(
@@ -205,7 +150,9 @@ ExitCode run(const command_line::Arguments& arguments) {
     return ExitCode::success;
   }
   if (!request.study.stop) {
-    run_rows(request, existing, interruption.token());
+    study_run::run_to_file({request.study, request.output, request.wanted, request.threads, request.quiet,
+                            foreign_shards(request), !request.force},
+                           existing, interruption.token());
     return ExitCode::success;
   }
   return study_run::run_until_sure(request.study, request.output,

@@ -1,0 +1,110 @@
+#include "analysis/tuning/candidate.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace zerocount::tuning {
+namespace {
+
+bool machine_meets(const Aim& aim, const UnitResult& unit) {
+  return unit.met >= aim.moves * unit.moves;
+}
+
+double quantile_of(std::vector<float>& values, double quantile) {
+  if (values.empty()) return std::numeric_limits<double>::infinity();
+  const auto size = static_cast<double>(values.size());
+  const auto rank = static_cast<std::ptrdiff_t>(std::clamp(std::ceil(quantile * size), 1.0, size)) - 1;
+  std::nth_element(values.begin(), values.begin() + rank, values.end());
+  return values[static_cast<std::size_t>(rank)];
+}
+
+std::size_t common_units(const Candidate& a, const Candidate& b) {
+  return std::min(a.units.size(), b.units.size());
+}
+
+}  // namespace
+
+Estimate estimate_of(const Aim& aim, const Candidate& candidate, std::int64_t units) {
+  Estimate estimate;
+  std::int64_t moves = 0;
+  std::int64_t met = 0;
+  std::int64_t machines = 0;
+  std::vector<float> values;
+  estimate.units = std::min<std::int64_t>(units, std::ssize(candidate.units));
+  for (std::int64_t i = 0; i < estimate.units; ++i) {
+    const UnitResult& unit = candidate.units[static_cast<std::size_t>(i)];
+    moves += unit.moves;
+    met += unit.met;
+    machines += machine_meets(aim, unit) ? 1 : 0;
+    values.insert(values.end(), unit.values.begin(), unit.values.end());
+  }
+  if (moves == 0) return estimate;
+  estimate.moves = static_cast<double>(met) / static_cast<double>(moves);
+  estimate.rate =
+      aim.machines ? static_cast<double>(machines) / static_cast<double>(estimate.units) : estimate.moves;
+  estimate.criterion = quantile_of(values, aim.quantile);
+  return estimate;
+}
+
+bool seems_to_meet(const Aim& aim, const Estimate& estimate) {
+  const auto n = static_cast<double>(estimate.units);
+  const double cautious = (estimate.rate * n + 1.0) / (n + 2.0);
+  const double error = std::sqrt(cautious * (1.0 - cautious) / std::max(n, 1.0));
+  return estimate.units > 0 &&
+         estimate.rate >= wanted_rate(aim) + std::min(error, 0.5 * (1.0 - wanted_rate(aim)));
+}
+
+bool is_better(const Aim& aim, const Estimate& a, const Estimate& b) {
+  const bool a_meets = seems_to_meet(aim, a);
+  if (a_meets != seems_to_meet(aim, b)) return a_meets;
+  if (a_meets && a.criterion != b.criterion) return a.criterion < b.criterion;
+  if (a.rate != b.rate) return a.rate > b.rate;
+  if (a.moves != b.moves) return a.moves > b.moves;
+  return a.criterion < b.criterion;
+}
+
+double goal_loss(const Aim& aim, const UnitResult& unit) {
+  if (aim.machines) return machine_meets(aim, unit) ? 0.0 : 1.0;
+  return unit.moves == 0 ? 0.0 : 1.0 - static_cast<double>(unit.met) / unit.moves;
+}
+
+double late_part(const UnitResult& unit, double limit) {
+  if (unit.values.empty()) return 0.0;
+  const auto late = std::ranges::count_if(unit.values, [limit](float value) { return value > limit; });
+  return static_cast<double>(late) / static_cast<double>(unit.values.size());
+}
+
+double evidence_of_increase(std::span<const double> differences) {
+  constexpr std::array<double, 6> bets{0.02, 0.05, 0.12, 0.3, 0.6, 0.9};
+  double evidence = 0.0;
+  for (const double bet : bets) {
+    double log_wealth = 0.0;
+    for (const double d : differences) log_wealth += std::log1p(bet * d);
+    evidence += std::exp(std::min(log_wealth, 500.0)) / bets.size();
+  }
+  return evidence;
+}
+
+bool cannot_win(const Aim& aim, const Candidate& candidate, const Candidate& best, double alpha) {
+  const std::size_t units = common_units(candidate, best);
+  const Estimate of_best = estimate_of(aim, best, static_cast<std::int64_t>(units));
+  std::vector<double> beyond_goal;
+  std::vector<double> beyond_best;
+  std::vector<double> later;
+  for (std::size_t i = 0; i < units; ++i) {
+    const double loss = goal_loss(aim, candidate.units[i]);
+    beyond_goal.push_back(loss - (1.0 - wanted_rate(aim)));
+    beyond_best.push_back(loss - goal_loss(aim, best.units[i]));
+    later.push_back(late_part(candidate.units[i], of_best.criterion) -
+                    late_part(best.units[i], of_best.criterion));
+  }
+  const auto is_shown = [alpha](const std::vector<double>& d) {
+    return evidence_of_increase(d) > 1.0 / alpha;
+  };
+  if (is_shown(beyond_goal) && is_shown(beyond_best)) return true;
+  return seems_to_meet(aim, of_best) && is_shown(later);
+}
+
+}  // namespace zerocount::tuning

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "analysis/tuning/search_space.hpp"
+
+namespace zerocount::tuning {
+
+/// What one unit of the search, a machine or, where the goal does not ask for machines, a trial on a machine
+/// of its own, did with a candidate.
+struct UnitResult {
+  std::int32_t moves{0};
+  std::int32_t met{0};        ///< moves that meet the goal
+  std::vector<float> values;  ///< of the moves that have the criterion's measure; infinite for never
+};
+
+/// What is asked of the candidates.
+struct Aim {
+  double moves{0.99};                ///< study::Goal::moves
+  std::optional<double> machines{};  ///< study::Goal::machines
+  double quantile{0.95};             ///< the criterion is this quantile of the values; 0 to 1
+};
+
+/// A point of the search and its results on the units 0, 1, ….
+struct Candidate {
+  Place place;
+  Values values;
+  std::vector<UnitResult> units;
+};
+
+/// Estimates from a candidate's first units.
+struct Estimate {
+  double rate{0.0};       ///< of moves that meet the goal; with Aim::machines of units that do
+  double moves{0.0};      ///< rate of moves that meet the goal
+  double criterion{0.0};  ///< infinite for never
+  std::int64_t units{0};
+};
+
+/// @param units how many; all if there are fewer
+Estimate estimate_of(const Aim& aim, const Candidate& candidate, std::int64_t units);
+
+/// The rate that the goal asks for.
+inline double wanted_rate(const Aim& aim) {
+  return aim.machines.value_or(aim.moves);
+}
+
+/// Whether the candidate meets the goal by its units, with one standard error to spare: a candidate that
+/// meets it just so would not pass the proof.
+bool seems_to_meet(const Aim& aim, const Estimate& estimate);
+
+/// Whether `a` is the better candidate: one that seems to meet the goal is better than one that does not; of
+/// two that do, the smaller criterion is, and of two that do not, the higher rate.
+bool is_better(const Aim& aim, const Estimate& a, const Estimate& b);
+
+/// Loss of a unit, 0 to 1: the proportion of its moves that miss the goal, or 1 for a machine that does.
+double goal_loss(const Aim& aim, const UnitResult& unit);
+
+/// Proportion of a unit's values above `limit`.
+double late_part(const UnitResult& unit, double limit);
+
+/// Evidence against "the mean of the differences is at most 0", for differences within [−1, 1] of units that
+/// are drawn independently: the mean of Π(1 + λ·d) over several bets λ. If the statement is true, the
+/// evidence ever exceeds 1/α with probability α at most, however often one looks (Ville's inequality;
+/// Waudby-Smith and Ramdas, "Estimating means of bounded random variables by betting", 2024).
+double evidence_of_increase(std::span<const double> differences);
+
+/// Whether the candidate cannot become the best, by its units and those of the best so far: it surely misses
+/// the goal more often than allowed and than the best, or, where the best seems to meet the goal, its values
+/// are surely more often above the criterion of the best. The probability of an error is at most `alpha` for
+/// each of the two, at all numbers of units together.
+bool cannot_win(const Aim& aim, const Candidate& candidate, const Candidate& best, double alpha);
+
+}  // namespace zerocount::tuning

@@ -1,0 +1,243 @@
+#include "analysis/tuning/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "core/random/random_numbers.hpp"
+#include "core/random/variates.hpp"
+#include "experiments/designs/random_key.hpp"
+
+namespace zerocount::tuning {
+namespace {
+
+constexpr std::int64_t first_units = 64;
+constexpr int first_candidates = 48;  // and as many for each free parameter
+constexpr int candidates_of_generation = 32;
+constexpr int elite_candidates = 8;
+constexpr double error_of_dropping = 0.01;
+constexpr int tries_of_candidate = 60;       // draws for one admissible candidate
+constexpr double first_step = 0.15;          // in the unit cube
+constexpr double step_ratio = 0.8;           // from generation to generation
+constexpr int patience = 4;                  // generations without improvement
+constexpr double least_improvement = 0.005;  // of the criterion
+
+class Search {
+ public:
+  Search(const SearchProblem& problem, const SearchSettings& settings)
+      : problem_(problem),
+        settings_(settings),
+        numbers_{designs::random_key(settings.seed, "tuning"), 0},
+        step_(first_step) {}
+
+  SearchResult run() {
+    first_generation();
+    int without = 0;
+    while (!population_.empty() && goes_on()) {
+      const Estimate before = best_estimate();
+      next_generation();
+      if (population_.empty()) break;
+      without = improves(before, best_estimate()) ? 0 : without + 1;
+      if (without >= patience) {
+        result_.converged = true;
+        break;
+      }
+    }
+    return finish();
+  }
+
+ private:
+  double uniform() {
+    return random::open_uniform(random::random_bits(numbers_, drawn_++, random::Draw::trial));
+  }
+  double normal() {
+    return random::standard_normal(random::random_bits(numbers_, drawn_++, random::Draw::trial));
+  }
+  std::size_t index_below(std::size_t size) {
+    return std::min(static_cast<std::size_t>(uniform() * static_cast<double>(size)), size - 1);
+  }
+
+  /// Adds the places that are admissible and new, up to `wanted` of them.
+  void add_admissible(const std::vector<Place>& places, std::size_t wanted, std::vector<Candidate>& to) {
+    std::vector<Values> values;
+    std::vector<Place> kept;
+    for (const Place& place : places) {
+      Values at = values_at(problem_.free, place);
+      if (!tried_.insert(at).second) continue;
+      kept.push_back(place_of(problem_.free, at));
+      values.push_back(std::move(at));
+    }
+    const std::vector<bool> admissible = problem_.admissible(values);
+    for (std::size_t i = 0; i < values.size() && to.size() < wanted; ++i) {
+      if (admissible[i]) to.push_back({kept[i], values[i], {}});
+    }
+  }
+
+  void first_generation() {
+    const auto wanted = static_cast<std::size_t>(first_candidates) * (1 + problem_.free.size());
+    std::vector<double> start;
+    for (std::size_t i = 0; i < problem_.free.size(); ++i) start.push_back(uniform());
+    std::vector<Candidate> candidates;
+    std::vector<Place> places;
+    for (const Values& values : problem_.starts) places.push_back(place_of(problem_.free, values));
+    add_admissible(places, wanted, candidates);
+    std::int64_t drawn = 0;
+    const auto most = static_cast<std::int64_t>(wanted) * tries_of_candidate;
+    while (candidates.size() < wanted && drawn < most) {
+      places.clear();
+      for (std::size_t i = 0; i < wanted; ++i) places.push_back(spread_place(start, drawn++));
+      add_admissible(places, wanted, candidates);
+    }
+    race(std::move(candidates));
+  }
+
+  /// A place near an elite, moved along the difference of two others: their spread knows the direction of a
+  /// narrow valley.
+  Place place_near_elites() {
+    const std::size_t elites = population_.size();
+    const double u = uniform();
+    const Place& centre = population_[static_cast<std::size_t>(u * u * static_cast<double>(elites))].place;
+    const Place& from = population_[index_below(elites)].place;
+    const Place& to = population_[index_below(elites)].place;
+    const double along = uniform() < 0.7 ? 0.8 * uniform() : 0.0;
+    Place place;
+    for (std::size_t i = 0; i < centre.size(); ++i) {
+      const double moved = centre[i] + along * (to[i] - from[i]) + step_ * normal();
+      place.push_back(std::clamp(moved, 0.0, 1.0));
+    }
+    return place;
+  }
+
+  void next_generation() {
+    std::vector<Candidate> candidates;
+    constexpr auto wanted = static_cast<std::size_t>(candidates_of_generation);
+    for (int tries = 0; tries < tries_of_candidate && candidates.size() < wanted; ++tries) {
+      std::vector<Place> places;
+      for (std::size_t i = candidates.size(); i < wanted; ++i) places.push_back(place_near_elites());
+      add_admissible(places, wanted, candidates);
+    }
+    race(std::move(candidates));
+    step_ *= step_ratio;
+  }
+
+  /// Lets the candidates race with the population; the best of all become the population.
+  void race(std::vector<Candidate> candidates) {
+    ++result_.generations;
+    result_.points += std::ssize(candidates);
+    for (Candidate& one : population_) candidates.push_back(std::move(one));
+    population_.clear();
+    std::int64_t units = std::min(first_units, problem_.max_units);
+    while (!candidates.empty()) {
+      run_units(candidates, units);
+      sort_by_merit(candidates, units);
+      verify_best(candidates);
+      if (candidates.empty()) return;
+      drop(candidates, units);
+      if (units == problem_.max_units) break;
+      units = std::min(2 * units, problem_.max_units);
+    }
+    if (candidates.size() > elite_candidates) candidates.resize(elite_candidates);
+    population_ = std::move(candidates);
+  }
+
+  void run_units(std::vector<Candidate>& candidates, std::int64_t units) {
+    std::vector<Candidate*> behind;
+    for (Candidate& one : candidates) {
+      const std::int64_t missing = units - std::ssize(one.units);
+      if (missing <= 0) continue;
+      behind.push_back(&one);
+      result_.trials += missing * problem_.trials_of_unit;
+    }
+    problem_.evaluate(behind, units);
+  }
+
+  void sort_by_merit(std::vector<Candidate>& candidates, std::int64_t units) const {
+    std::vector<std::pair<Estimate, std::size_t>> order;
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+      order.emplace_back(estimate_of(problem_.aim, candidates[i], units), i);
+    std::ranges::stable_sort(
+        order, [this](const auto& a, const auto& b) { return is_better(problem_.aim, a.first, b.first); });
+    std::vector<Candidate> sorted;
+    for (const auto& [estimate, i] : order) sorted.push_back(std::move(candidates[i]));
+    candidates = std::move(sorted);
+  }
+
+  /// Removes leading candidates that do not keep all conditions.
+  void verify_best(std::vector<Candidate>& candidates) {
+    while (!candidates.empty() && !problem_.verified(candidates.front().values)) {
+      std::vector<Values> values;
+      for (const Candidate& one : candidates) values.push_back(one.values);
+      const std::vector<bool> admissible = problem_.admissible(values);
+      std::vector<Candidate> left;
+      for (std::size_t i = 1; i < candidates.size(); ++i) {
+        if (admissible[i]) left.push_back(std::move(candidates[i]));
+      }
+      candidates = std::move(left);
+    }
+  }
+
+  void drop(std::vector<Candidate>& candidates, std::int64_t units) const {
+    const Candidate best = candidates.front();
+    std::vector<Candidate> left;
+    for (Candidate& one : candidates) {
+      const bool is_best = left.empty();
+      if (is_best || !cannot_win(problem_.aim, one, best, error_of_dropping)) left.push_back(std::move(one));
+    }
+    // Half of the rest at each doubling of the units, as in successive halving, so that a race over
+    // candidates that are equal ends.
+    const auto most = static_cast<std::size_t>(
+        std::max<std::int64_t>(elite_candidates, 4 * candidates_of_generation * first_units / units));
+    if (left.size() > most) left.resize(most);
+    candidates = std::move(left);
+  }
+
+  Estimate best_estimate() const {
+    return estimate_of(problem_.aim, population_.front(), problem_.max_units);
+  }
+
+  bool improves(const Estimate& before, const Estimate& now) const {
+    const bool met = seems_to_meet(problem_.aim, before);
+    if (met != seems_to_meet(problem_.aim, now)) return !met;
+    if (met) return now.criterion < before.criterion * (1.0 - least_improvement);
+    return now.rate > before.rate + 0.001;
+  }
+
+  bool goes_on() const {
+    if (result_.generations >= settings_.generations || result_.trials >= settings_.max_trials) return false;
+    if (!settings_.go_on) return true;
+    return settings_.go_on(
+        {result_.generations, result_.points, result_.trials, &population_.front(), best_estimate()});
+  }
+
+  SearchResult finish() {
+    // Every finalist is to be fit for the proof.
+    for (Candidate& one : population_) {
+      if (problem_.verified(one.values)) result_.finalists.push_back(std::move(one));
+    }
+    if (!result_.finalists.empty()) {
+      run_units(result_.finalists, problem_.max_units);
+      sort_by_merit(result_.finalists, problem_.max_units);
+    }
+    for (const Candidate& one : result_.finalists)
+      result_.estimates.push_back(estimate_of(problem_.aim, one, problem_.max_units));
+    return std::move(result_);
+  }
+
+  const SearchProblem& problem_;
+  const SearchSettings& settings_;
+  random::RandomStream numbers_;
+  std::uint64_t drawn_{0};
+  double step_;
+  std::set<Values> tried_;
+  std::vector<Candidate> population_;  ///< the best first
+  SearchResult result_;
+};
+
+}  // namespace
+
+SearchResult search(const SearchProblem& problem, const SearchSettings& settings) {
+  return Search(problem, settings).run();
+}
+
+}  // namespace zerocount::tuning

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analysis/tuning/candidate.hpp"
+#include "experiments/study/tuning.hpp"
+
+/// Iterated racing (López-Ibáñez et al., "The irace package", Operations Research Perspectives 3, 2016): a
+/// generation of candidates is drawn around the best of those before it, and races over units that are the
+/// same for all of them. A candidate that cannot win is dropped after few units.
+namespace zerocount::tuning {
+
+/// The problem as the search sees it.
+struct SearchProblem {
+  std::vector<study::FreeParameter> free;
+  Aim aim;
+  std::vector<Values> starts{};  ///< candidates of the first generation, such as the manifest's values
+  std::int64_t max_units{2048};
+  std::int64_t trials_of_unit{1};
+
+  /// Appends the results of the units up to `to` to every candidate.
+  std::function<void(std::span<Candidate* const>, std::int64_t to)> evaluate;
+  /// [candidate] whether the values may be tried at all. Cheap: called for many candidates.
+  std::function<std::vector<bool>(std::span<const Values>)> admissible;
+  /// Whether the values keep all conditions, also those that are costly to examine. Called for candidates
+  /// that lead; what `admissible` says may become stricter by it.
+  std::function<bool(const Values&)> verified;
+};
+
+/// How far a search is.
+struct SearchProgress {
+  int generation{0};
+  std::int64_t points{0};
+  std::int64_t trials{0};
+  const Candidate* best{nullptr};
+  Estimate estimate{};
+};
+
+struct SearchSettings {
+  std::uint64_t seed{0};
+  int generations{30};
+  std::int64_t max_trials{500'000};                    ///< after the generation in which they are run
+  std::function<bool(const SearchProgress&)> go_on{};  ///< asked after each generation
+};
+
+struct SearchResult {
+  std::vector<Candidate> finalists;  ///< the best first; none if no candidate is admissible
+  std::vector<Estimate> estimates;   ///< [finalist] by all units
+  std::int64_t points{0};            ///< candidates that were simulated
+  std::int64_t trials{0};
+  int generations{0};
+  bool converged{false};  ///< the last generations improved nothing
+};
+
+SearchResult search(const SearchProblem& problem, const SearchSettings& settings);
+
+}  // namespace zerocount::tuning

@@ -1,0 +1,203 @@
+#include <charconv>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+#include <oneapi/tbb/global_control.h>
+
+#include "analysis/text/report_json.hpp"
+#include "core/failure/failure.hpp"
+#include "results/layout/header.hpp"
+#include "results/reading/results_file.hpp"
+#include "results/storage/output_lock.hpp"
+#include "runners/command_line/output_place.hpp"
+#include "runners/commands/commands.hpp"
+#include "runners/commands/study_argument.hpp"
+#include "runners/standard_output/standard_output.hpp"
+#include "runners/study_run/interruption.hpp"
+#include "runners/study_run/study_runner.hpp"
+#include "runners/tuning/tune_text.hpp"
+#include "runners/tuning/tuner.hpp"
+
+namespace zerocount::commands {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* tune_help =
+    "Finds values of the free parameters with which the axis meets its goal, and proves them on\n"
+    "machines that the search never saw. The manifest needs a goal and a section tune:\n"
+    "\n"
+    "    goal: {band: 1, within: 0.05, moves: 0.99}\n"
+    "    tune: {free: {controller.ki: {log: [5.0e+3, 3.0e+5]}, controller.kp: [0, 1000]},\n"
+    "           minimise: band_settling_time.p95, margins: {gain: 6, phase: 30, delay: 0.5}}\n"
+    "\n"
+    "Of the values that meet the goal and keep the margins (dB, degrees, samples of delay) at\n"
+    "every machine, the search seeks those with the smallest criterion. Candidates race on the\n"
+    "same machines; one that cannot win is dropped early. The bounds that are told are of the\n"
+    "proof alone. FILE is its results file, whose manifest has the tuned values.\n"
+    "\n"
+    "--budget bounds the search: 500000 trials by default, or a time such as 60s or 5min. With a\n"
+    "number of trials the answer depends on the seed alone, not on the number of threads.\n"
+    "The exit code is 0 if the goal is met, 1 if no values in the ranges meet it, 3 if the proof\n"
+    "does not decide it.\n"
+    "\n"
+    "Example: zerocount tune my-axis.yaml -o tuned.h5\n";
+
+constexpr const char* limits_help =
+    "Tells what stands between a point and its goal: the rate of the goal with each cause of\n"
+    "failures switched off alone, and with the best pair of causes: creep, the converter (16 times\n"
+    "finer), the encoder (4 times finer), the sample rate (twice), delay and amplifier lag, noise.\n"
+    "All are simulated with the same random numbers. The study has one point.\n"
+    "\n"
+    "Example: zerocount limits my-axis.yaml\n";
+
+constexpr const char* worst_help =
+    "Finds the machine of a study that meets its goal in the fewest moves, and prints its inputs.\n"
+    "The study has one point.\n"
+    "\n"
+    "Example: zerocount worst my-axis.yaml\n";
+
+ExitCode exit_code_of(tuning::TuneStatus status) {
+  switch (status) {
+    case tuning::TuneStatus::met:
+      return ExitCode::success;
+    case tuning::TuneStatus::unreachable:
+      return ExitCode::regression;
+    case tuning::TuneStatus::undecided:
+      break;
+  }
+  return ExitCode::inconclusive;
+}
+
+/// "60s", "5min", or a number of trials.
+void read_budget(const command_line::Arguments& arguments, tuning::TuneSettings& settings) {
+  const std::optional<std::string> text = arguments.value("budget");
+  if (!text) return;
+  double number = 0.0;
+  const char* const end = text->data() + text->size();
+  const auto [rest, error] = std::from_chars(text->data(), end, number);
+  const std::string_view unit(rest, static_cast<std::size_t>(end - rest));
+  if (error != std::errc() || !(number > 0.0) || !(number < 1e12) ||
+      (!unit.empty() && unit != "s" && unit != "min" && unit != "h"))
+    arguments.refuse(fmt::format(
+        "option '--budget': '{}' is no budget; expected a number of trials, or a time such as 60s or 5min",
+        *text));
+  if (unit.empty()) {
+    settings.max_trials = static_cast<std::int64_t>(number);
+    return;
+  }
+  settings.seconds = number * (unit == "s" ? 1.0 : unit == "min" ? 60.0 : 3600.0);
+  settings.max_trials = std::int64_t{1} << 50;
+}
+
+ExitCode tune(const command_line::Arguments& arguments) {
+  tuning::TuneSettings settings;
+  settings.output = command_line::output_place(arguments);
+  const study::Study study = load_study(arguments.operands()[0], arguments, {&settings.output, 1});
+  settings.threads = static_cast<int>(arguments.whole_number("threads", 1, 4096).value_or(0));
+  settings.quiet = arguments.has("quiet");
+  read_budget(arguments, settings);
+  if (fs::exists(settings.output) && !arguments.has("force"))
+    arguments.refuse(fmt::format("{}: exists already; expected another FILE, or --force to replace it",
+                                 settings.output.string()));
+  const oneapi::tbb::global_control limit(
+      oneapi::tbb::global_control::max_allowed_parallelism,
+      static_cast<std::size_t>(study_run::threads_to_use(settings.threads)));
+  const study_run::InterruptionWatch interruption;
+  const storage::OutputLock lock(settings.output);
+  const tuning::TuneAnswer answer = tuning::tune(study, settings, interruption.token());
+  if (arguments.choice("format") == "json") {
+    standard_output::write(text::json_text(tuning::json_of(answer)));
+  } else {
+    standard_output::write_fitted(tuning::text_of(answer, study, settings.output.string()));
+  }
+  return exit_code_of(answer.status);
+}
+
+/// The study of a manifest or a results file, with one point and a goal.
+study::Study study_to_examine(const command_line::Arguments& arguments) {
+  const std::string& path = arguments.operands()[0];
+  study::Study study;
+  if (is_results_file(path)) {
+    const reading::ResultsFile file(path);
+    study = layout::recorded_study(file.header(), path);
+  } else {
+    study = load_study(path, arguments);
+  }
+  if (!study.goal)
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: its manifest has no goal; expected one such as goal: {{band: 1, within: "
+                              "0.05, moves: 0.99}}",
+                              path));
+  if (study::point_count(study) > 1)
+    throw Failure(ExitCode::bad_input, fmt::format("{}: it has {} design points; expected a study of one",
+                                                   path, study::point_count(study)));
+  if (!study.tuning)
+    study.tuning = study::Tuning{.free = {}, .minimise = "band_settling_time.p95", .margins = {}};
+  return study;
+}
+
+ExitCode limits(const command_line::Arguments& arguments) {
+  const study::Study study = study_to_examine(arguments);
+  const study_run::InterruptionWatch interruption;
+  const std::vector<tuning::Limit> limits =
+      tuning::limits_of(study, tuning::units_of(study), interruption.token());
+  if (arguments.choice("format") == "json") {
+    standard_output::write(text::json_text({{"limits", tuning::limits_json(limits)}}));
+  } else {
+    standard_output::write_fitted(tuning::limits_text(limits, study.goal->machines.has_value()));
+  }
+  return ExitCode::success;
+}
+
+ExitCode worst(const command_line::Arguments& arguments) {
+  const study::Study study = study_to_examine(arguments);
+  const study_run::InterruptionWatch interruption;
+  const tuning::WorstMachine worst =
+      tuning::worst_machine(study, tuning::units_of(study), interruption.token());
+  if (arguments.choice("format") == "json") {
+    standard_output::write(text::json_text(tuning::worst_json(worst)));
+  } else {
+    standard_output::write_fitted(tuning::worst_text(worst, study.rigs > 0));
+  }
+  return ExitCode::success;
+}
+
+command_line::OptionSpec set_option() {
+  return {"set", "KEY=VALUE", "override a manifest key, e.g. controller.delay=1; may be repeated", true};
+}
+
+}  // namespace
+
+Command tune_command() {
+  return {{"tune",
+           "MANIFEST -o FILE",
+           {{"output,o", "FILE", "the results file of the proof (required)"},
+            command_line::format_option({"text", "json"}),
+            {"budget", "B", "of the search: a number of trials, or a time such as 60s or 5min"},
+            {"threads", "N", "threads to use; default: all cores"},
+            set_option(),
+            {"quiet,q", "", "print no progress"},
+            command_line::force_option()}},
+          "find gains that meet the goal, and prove them",
+          tune_help,
+          tune};
+}
+
+Command limits_command() {
+  return {{"limits", "MANIFEST|FILE", {command_line::format_option({"text", "json"}), set_option()}},
+          "what stands between a point and its goal",
+          limits_help,
+          limits};
+}
+
+Command worst_command() {
+  return {{"worst", "MANIFEST|FILE", {command_line::format_option({"text", "json"}), set_option()}},
+          "the machine that a gain suits worst",
+          worst_help,
+          worst};
+}
+
+}  // namespace zerocount::commands

@@ -1,0 +1,76 @@
+#include "runners/study_run/file_run.hpp"
+
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/failure/failure.hpp"
+#include "results/layout/header.hpp"
+#include "results/reading/study_file.hpp"
+#include "results/shards/shard.hpp"
+#include "results/storage/durable_file.hpp"
+#include "runners/status/status.hpp"
+#include "runners/study_run/extension.hpp"
+#include "runners/study_run/progress.hpp"
+#include "runners/study_run/study_runner.hpp"
+#include "runners/study_run/study_size.hpp"
+
+namespace zerocount::study_run {
+namespace {
+
+/// Makes the folder of the shards. @returns the usable shards that exist before the first trial is run
+EarlierShards prepare_shards(const FileRun& request, const std::filesystem::path& directory,
+                             ExistingUse existing) {
+  EarlierShards earlier = earlier_shards(directory, request.study, request.wanted, request.foreign);
+  const std::int64_t missing = layout::total_rows(shards::missing_ranges(earlier.usable, request.wanted));
+  if (request.check_room) require_room(request.output, request.study, missing);
+  storage::make_directory(directory);
+  if (existing != ExistingUse::extend) return earlier;
+  const reading::StudyFile file(request.output);
+  if (!request.quiet) {
+    status::tell("{}: {} trials at each point are kept, {} are added\n", request.output.string(),
+                 file.header().trials, request.study.trials - file.header().trials);
+  }
+  const std::vector<layout::RowRange> ranges = shards::missing_ranges(earlier.usable, request.wanted);
+  for (shards::ShardInfo& shard : copy_trials(file, request.study, directory, ranges)) {
+    earlier.all.push_back(shard.path);
+    earlier.usable.push_back(std::move(shard));
+  }
+  return earlier;
+}
+
+}  // namespace
+
+void run_to_file(const FileRun& request, ExistingUse existing, const std::stop_token& stop) {
+  const std::filesystem::path directory = layout::shards_directory(request.output);
+  EarlierShards earlier = prepare_shards(request, directory, existing);
+  const layout::RowRange wanted = request.wanted;
+  const std::vector<layout::RowRange> missing = shards::missing_ranges(earlier.usable, wanted);
+  const std::int64_t kept = wanted.count - layout::total_rows(missing);
+
+  Progress progress(wanted.count, kept, samples_per_trial(request.study), request.quiet);
+  std::int64_t done = kept;
+  RunSettings settings;
+  settings.threads = request.threads;
+  settings.finished = [&](std::int64_t trials) { progress.update(done += trials); };
+  const FinishedTrials finished = run_trials(request.study, missing, directory, settings, stop);
+  progress.finish(done);
+
+  if (done < wanted.count) {
+    throw Failure(
+        ExitCode::interrupted,
+        fmt::format("interrupted: {} of {} trials are kept in {}; give the same command again to continue",
+                    done, wanted.count, directory.string()));
+  }
+  std::vector<shards::ShardInfo> shards = std::move(earlier.usable);
+  shards.insert(shards.end(), finished.shards.begin(), finished.shards.end());
+  shards::sort_by_rows(shards);
+  assemble(shards, request.study, request.output, wanted,
+           {.predictions = finished.predictions, .stop = stop});
+  for (const shards::ShardInfo& shard : finished.shards) earlier.all.push_back(shard.path);
+  remove_shards(directory, earlier.all);
+  if (!request.quiet) status::tell("wrote {}\n", request.output.string());
+}
+
+}  // namespace zerocount::study_run

@@ -1,0 +1,205 @@
+#include "runners/tuning/loop_examiner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include "analysis/theory/trial_loops.hpp"
+#include "core/friction/parameters.hpp"
+#include "core/loop/controller.hpp"
+#include "core/theory/margins.hpp"
+
+namespace zerocount::tuning {
+namespace {
+
+constexpr std::int64_t most_machines = 100;
+constexpr int places_on_profile = 64;
+constexpr int stiffnesses = 4;  // from the softest to the stiffest
+constexpr double longest_delay = 10.0;
+
+bool has_spring(const trial::TrialParameters& p) {
+  switch (p.friction.model) {
+    case friction::FrictionModel::presliding:
+    case friction::FrictionModel::spring:
+      return true;
+    case friction::FrictionModel::none:
+    case friction::FrictionModel::coulomb:
+    case friction::FrictionModel::dahl:
+    case friction::FrictionModel::lugre:
+    case friction::FrictionModel::gms:
+      break;
+  }
+  return false;
+}
+
+/// The loops of a machine before it slides, with this much more delay.
+std::vector<theory::FrozenLoop> loops_of(trial::TrialParameters p, double softest, double stiffest,
+                                         double more_delay) {
+  p.controller.delay += more_delay;
+  std::vector<theory::FrozenLoop> loops;
+  if (!has_spring(p)) {
+    const bool free = p.friction.model == friction::FrictionModel::none;
+    for (const theory::TrialLoop& one : theory::trial_loops(p)) {
+      if (!one.slides || free) loops.push_back(one.loop);
+    }
+    return loops;
+  }
+  const loop::ControllerParameters fine = loop::controller_in_phase(p.controller, loop::ControlPhase::fine);
+  for (int i = 0; i < stiffnesses; ++i) {
+    const double share = static_cast<double>(i) / (stiffnesses - 1);
+    const double stiffness = softest * std::pow(stiffest / softest, share);
+    loops.push_back(theory::frozen_loop(stiffness, p.plant.presliding_damping, p.plant, p.encoder, fine,
+                                        theory::drive_of(p)));
+    if (softest == stiffest) break;
+  }
+  return loops;
+}
+
+bool all_stable(const std::vector<theory::FrozenLoop>& loops) {
+  return std::ranges::all_of(loops, [](const theory::FrozenLoop& one) {
+    return theory::stability_of(one) == theory::LoopStability::stable;
+  });
+}
+
+double decibels(double factor) {
+  return std::isnan(factor) ? std::numeric_limits<double>::infinity() : std::abs(20.0 * std::log10(factor));
+}
+
+double degrees(double phase) {
+  return std::isnan(phase) ? std::numeric_limits<double>::infinity() : std::abs(phase);
+}
+
+bool keeps_margins(const trial::TrialParameters& p, double softest, double stiffest,
+                   const study::LoopMargins& margins) {
+  if (!margins.gain && !margins.phase && !margins.delay) return true;
+  const std::vector<theory::FrozenLoop> loops = loops_of(p, softest, stiffest, 0.0);
+  if (!all_stable(loops)) return false;
+  for (const double share : {0.5, 1.0}) {
+    if (margins.delay && !all_stable(loops_of(p, softest, stiffest, share * *margins.delay))) return false;
+  }
+  if (!margins.gain && !margins.phase) return true;
+  return std::ranges::all_of(loops, [&](const theory::FrozenLoop& one) {
+    const theory::StabilityMargins found = theory::stability_margins(one);
+    return !(margins.gain && decibels(found.gain.value) < *margins.gain) &&
+           !(margins.phase && degrees(found.phase.value) < *margins.phase);
+  });
+}
+
+/// The delay (samples) by which the loop may grow until it is unstable, to 0.01.
+double delay_margin(const trial::TrialParameters& p, double softest, double stiffest) {
+  const auto stable = [&](double more) { return all_stable(loops_of(p, softest, stiffest, more)); };
+  double kept = 0.0;
+  double lost = 0.25;
+  while (stable(lost)) {
+    kept = lost;
+    lost += 0.25;
+    if (kept >= longest_delay) return longest_delay;
+  }
+  while (lost - kept > 0.01) {
+    const double middle = 0.5 * (kept + lost);
+    (stable(middle) ? kept : lost) = middle;
+  }
+  return kept;
+}
+
+bool is_same_machine(const trial::TrialParameters& a, const trial::TrialParameters& b) {
+  const auto parts = [](const trial::TrialParameters& p) {
+    return std::vector<double>{p.plant.inertia,          p.plant.presliding_damping,
+                               p.plant.load.inertia,     p.plant.load.stiffness,
+                               p.plant.load.damping,     p.encoder.fine,
+                               p.dac.gain_error,         p.amplifier.bandwidth,
+                               p.controller.sample_rate, p.controller.delay,
+                               p.controller.kp,          p.controller.ki,
+                               p.controller.kd};
+  };
+  return parts(a) == parts(b);
+}
+
+}  // namespace
+
+LoopExaminer::LoopExaminer(const study::Study& study) {
+  const std::int64_t count = std::min(study.trials, most_machines);
+  bool alike = true;
+  const trial::TrialParameters first = study::study_trial(study, 0, 0).parameters;
+  if (theory::has_no_linear_loop(first)) return;
+  for (std::int64_t i = 0; i < count; ++i) {
+    const trial::TrialParameters p = study::study_trial(study, 0, i).parameters;
+    alike = alike && is_same_machine(first, p);
+    Machine machine{i, std::numeric_limits<double>::infinity(), 0.0};
+    const int places = p.friction.profiled.empty() ? 1 : places_on_profile;
+    for (int place = 0; place < places; ++place) {
+      const double position = p.initial.position + study.period * place / places;
+      const friction::FrictionParameters contact = friction::friction_at(p.friction, position);
+      machine.softest = std::min(machine.softest, contact.k1);
+      machine.stiffest = std::max(machine.stiffest, contact.k1 + contact.k2);
+    }
+    machines_.push_back(machine);
+  }
+  if (alike && has_spring(first)) {
+    Machine all = machines_.front();
+    for (const Machine& one : machines_) {
+      all.softest = std::min(all.softest, one.softest);
+      all.stiffest = std::max(all.stiffest, one.stiffest);
+    }
+    machines_ = {all};
+  }
+  const auto by = [this](auto less) {
+    return static_cast<std::size_t>(std::ranges::min_element(machines_, less) - machines_.begin());
+  };
+  critical_ = {by([](const Machine& a, const Machine& b) { return a.softest < b.softest; }),
+               by([](const Machine& a, const Machine& b) { return a.stiffest > b.stiffest; })};
+  if (critical_[0] == critical_[1]) critical_.pop_back();
+}
+
+bool LoopExaminer::may_keep(const study::Study& candidate, const study::LoopMargins& margins) const {
+  return std::ranges::all_of(critical_, [&](std::size_t index) {
+    const Machine& one = machines_[index];
+    return keeps_margins(study::study_trial(candidate, 0, one.trial).parameters, one.softest, one.stiffest,
+                         margins);
+  });
+}
+
+bool LoopExaminer::keeps(const study::Study& candidate, const study::LoopMargins& margins) {
+  std::vector<char> kept(machines_.size(), 1);
+  oneapi::tbb::parallel_for(std::size_t{0}, machines_.size(), [&](std::size_t i) {
+    const Machine& one = machines_[i];
+    kept[i] = keeps_margins(study::study_trial(candidate, 0, one.trial).parameters, one.softest, one.stiffest,
+                            margins)
+                  ? 1
+                  : 0;
+  });
+  const auto broken = std::ranges::find(kept, 0);
+  if (broken == kept.end()) return true;
+  const auto index = static_cast<std::size_t>(broken - kept.begin());
+  if (std::ranges::find(critical_, index) == critical_.end()) critical_.push_back(index);
+  return false;
+}
+
+SmallestMargins LoopExaminer::margins_of(const study::Study& candidate) const {
+  std::vector<SmallestMargins> found(machines_.size());
+  constexpr double none = std::numeric_limits<double>::infinity();
+  oneapi::tbb::parallel_for(std::size_t{0}, machines_.size(), [&](std::size_t i) {
+    const Machine& one = machines_[i];
+    const trial::TrialParameters p = study::study_trial(candidate, 0, one.trial).parameters;
+    SmallestMargins& smallest = found[i];
+    smallest = {true, none, none, delay_margin(p, one.softest, one.stiffest)};
+    for (const theory::FrozenLoop& each : loops_of(p, one.softest, one.stiffest, 0.0)) {
+      smallest.stable = smallest.stable && theory::stability_of(each) == theory::LoopStability::stable;
+      const theory::StabilityMargins margins = theory::stability_margins(each);
+      smallest.gain = std::min(smallest.gain, decibels(margins.gain.value));
+      smallest.phase = std::min(smallest.phase, degrees(margins.phase.value));
+    }
+  });
+  SmallestMargins all{true, none, none, longest_delay};
+  for (const SmallestMargins& one : found) {
+    all.stable = all.stable && one.stable;
+    all.gain = std::min(all.gain, one.gain);
+    all.phase = std::min(all.phase, one.phase);
+    all.delay = std::min(all.delay, one.delay);
+  }
+  return all;
+}
+
+}  // namespace zerocount::tuning

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/study/study.hpp"
+
+namespace zerocount::tuning {
+
+/// The smallest margins of the loops of all examined machines; infinite where no loop has a limit.
+struct SmallestMargins {
+  bool stable{true};
+  double gain{0.0};   ///< dB
+  double phase{0.0};  ///< degrees
+  double delay{0.0};  ///< samples by which the delay may grow until a loop is unstable; 10 means 10 or more
+};
+
+/// Examines whether the linear loops of the machines keep margins at every stiffness of the contact before it
+/// slides, from k1 to k1 + k2, over the friction profile of the machine.
+class LoopExaminer {
+ public:
+  /// @param study whose first trials are the machines; the friction must not depend on free parameters
+  explicit LoopExaminer(const study::Study& study);
+
+  /// Whether the loops have no transfer function: a plugin. Then nothing is examined and all is kept.
+  bool is_blind() const { return machines_.empty(); }
+
+  /// Whether the machines that were critical so far keep the margins.
+  bool may_keep(const study::Study& candidate, const study::LoopMargins& margins) const;
+  /// Whether all machines keep them; one that does not counts as critical from now on.
+  bool keeps(const study::Study& candidate, const study::LoopMargins& margins);
+
+  SmallestMargins margins_of(const study::Study& candidate) const;
+
+ private:
+  /// A trial, and the range of stiffness of its machine.
+  struct Machine {
+    std::int64_t trial;
+    double softest;   ///< N m/rad; 0 for laws without a spring of k1 and k2
+    double stiffest;  ///< N m/rad
+  };
+
+  std::vector<Machine> machines_;
+  std::vector<std::size_t> critical_;  ///< indices of machines
+};
+
+}  // namespace zerocount::tuning

@@ -1,0 +1,258 @@
+#include "runners/tuning/tune_text.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "analysis/goal/goal_text.hpp"
+#include "analysis/text/text.hpp"
+#include "core/loop/encoder.hpp"
+#include "core/theory/gains.hpp"
+
+namespace zerocount::tuning {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using NamedValues = std::vector<std::pair<std::string, double>>;
+
+Json values_json(const NamedValues& values) {
+  Json json = Json::object();
+  for (const auto& [name, value] : values) json[name] = value;
+  return json;
+}
+
+Json finite_or_null(double value) {
+  return std::isfinite(value) ? Json(value) : Json();
+}
+
+std::string values_text(const NamedValues& values) {
+  std::string text;
+  for (const auto& [name, value] : values)
+    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, text::short_number(value));
+  return text;
+}
+
+std::string_view word_of(TuneStatus status) {
+  switch (status) {
+    case TuneStatus::met:
+      return "met";
+    case TuneStatus::unreachable:
+      return "unreachable";
+    case TuneStatus::undecided:
+      break;
+  }
+  return "undecided";
+}
+
+std::string criterion_number(double value) {
+  return std::isfinite(value) ? text::short_number(value) : "not within the hold";
+}
+
+std::string margin_limit(const std::optional<double>& limit, std::string_view unit) {
+  return limit ? fmt::format("at least {:g}{}", *limit, unit) : "off";
+}
+
+std::string margins_text(const TuneAnswer& answer, const study::LoopMargins& wanted) {
+  if (answer.blind)
+    return "margins: none, because the controller is a plugin, whose transfer function is not known\n";
+  const SmallestMargins& m = answer.margins;
+  return fmt::format(
+      "margins of the worst machine before it slides: {} dB (wanted: {}), {}° ({}), {} samples of delay "
+      "({})\n",
+      text::short_number(m.gain), margin_limit(wanted.gain, ""), text::short_number(m.phase),
+      margin_limit(wanted.phase, ""), m.delay >= 10.0 ? "10 or more" : text::short_number(m.delay),
+      margin_limit(wanted.delay, ""));
+}
+
+/// kp, ki and kd in the other system of units, where they are free.
+std::string other_units(const TuneAnswer& answer, const study::Study& study) {
+  const trial::TrialParameters p = study::study_trial(answer.proof->study, 0, 0).parameters;
+  if (p.controller.blocks.structure != loop::ControlStructure::pid || p.controller.user.plugin) return "";
+  const bool si = study.units.gains == parameters::GainUnits::si;
+  const theory::AnalogueGains analogue = theory::analogue_gains(p.controller, p.encoder);
+  const loop::ControllerParameters& c = p.controller;
+  if (si)
+    return fmt::format("  in counts and samples: kp {}, ki {}, kd {}\n", text::short_number(c.kp),
+                       text::short_number(c.ki), text::short_number(c.kd));
+  return fmt::format("  in SI units: kp {}, ki {}, kd {}\n", text::short_number(analogue.kp),
+                     text::short_number(analogue.ki), text::short_number(analogue.kd));
+}
+
+std::string gains_table(const TuneAnswer& answer) {
+  std::vector<text::TextColumn> columns{
+      {"parameter", false, {}}, {"tuned", true, {}}, {"unit", false, {}}, {"range", false, {}}};
+  const bool room = !answer.room.empty();
+  if (room) columns.push_back({"goal seems met from", true, {}});
+  if (room) columns.push_back({"to", true, {}});
+  for (std::size_t i = 0; i < answer.free.size(); ++i) {
+    const study::FreeParameter& one = answer.free[i];
+    columns[0].cells.push_back(one.name);
+    columns[1].cells.push_back(text::short_number(answer.gains[i]));
+    columns[2].cells.push_back(one.unit);
+    columns[3].cells.push_back(
+        fmt::format("{} … {}", text::short_number(one.low), text::short_number(one.high)));
+    if (!room) continue;
+    columns[4].cells.push_back(text::short_number(answer.room[i].low));
+    columns[5].cells.push_back(text::short_number(answer.room[i].high));
+  }
+  return text::aligned_table(columns);
+}
+
+std::string headline(const TuneAnswer& answer) {
+  switch (answer.status) {
+    case TuneStatus::met:
+      return "met: the goal is met by these values";
+    case TuneStatus::unreachable:
+      return "unreachable in these ranges: the best values found miss the goal";
+    case TuneStatus::undecided:
+      break;
+  }
+  return "undecided: the trials of the proof do not decide whether the best values found meet the goal";
+}
+
+std::string proof_text(const TuneAnswer& answer, const study::Study& study) {
+  const Proof& proof = *answer.proof;
+  const bool on_rigs = study.rigs > 0;
+  std::string text = fmt::format(
+      "proof: {} moves{} that the search never saw, of which {:.5g} % meet the goal, at least {:.5g} %\n",
+      proof.study.trials * study.moves,
+      on_rigs ? fmt::format(" on {} machines", proof.study.rigs) : std::string(),
+      100.0 * proof.verdict.moves.value, 100.0 * proof.verdict.moves.low);
+  if (study.goal->machines)
+    text += fmt::format("  at least {:.5g} % of machines meet it in {:g} % of their moves\n",
+                        100.0 * proof.verdict.machines.low, 100.0 * study.goal->moves);
+  if (proof.attempts > 1)
+    text += fmt::format("  it is attempt {}: the bounds allow for all of them\n", proof.attempts);
+  if (proof.needs) text += "  " + goal::needs_sentence(*study.goal, *proof.needs, on_rigs) + "\n";
+  return text;
+}
+
+std::string alternatives_text(const TuneAnswer& answer) {
+  if (answer.alternatives.empty()) return "";
+  std::vector<text::TextColumn> columns{{"fixed", false, {}},
+                                        {"best values", false, {}},
+                                        {"moves that meet it", true, {}},
+                                        {"at least", true, {}},
+                                        {"criterion", true, {}}};
+  for (const Alternative& one : answer.alternatives) {
+    columns[0].cells.push_back(values_text(one.fixed));
+    const bool found = !one.gains.empty();
+    columns[1].cells.push_back(found ? values_text(one.gains) : "none keeps the margins");
+    columns[2].cells.push_back(found ? fmt::format("{:.4g} %", 100.0 * one.moves.value) : "");
+    columns[3].cells.push_back(found ? fmt::format("{:.4g} %", 100.0 * one.moves.low) : "");
+    columns[4].cells.push_back(found ? criterion_number(one.criterion) : "");
+  }
+  return "\nsimpler controls, each at its own best values:\n\n" + text::aligned_table(columns);
+}
+
+}  // namespace
+
+Json limits_json(const std::vector<Limit>& limits) {
+  Json json = Json::array();
+  for (const Limit& one : limits) json.push_back({{"cause", one.cause}, {"rate", one.rate}});
+  return json;
+}
+
+std::string limits_text(const std::vector<Limit>& limits, bool of_machines) {
+  std::vector<text::TextColumn> columns{
+      {"idealisation", false, {}},
+      {of_machines ? "machines that meet the goal" : "moves that meet the goal", true, {}},
+      {"of the failures", true, {}}};
+  const double base = limits.front().rate;
+  for (const Limit& one : limits) {
+    columns[0].cells.push_back(one.cause);
+    columns[1].cells.push_back(fmt::format("{:.2f} %", 100.0 * one.rate));
+    const double share = base < 1.0 ? (one.rate - base) / (1.0 - base) : 0.0;
+    columns[2].cells.push_back(
+        &one == &limits.front() || base == 1.0
+            ? ""
+            : fmt::format("{:.0f} % {}", std::abs(100.0 * share), share >= 0.0 ? "fewer" : "more"));
+  }
+  return text::aligned_table(columns);
+}
+
+Json worst_json(const WorstMachine& worst) {
+  return {{"rig", worst.rig}, {"met", worst.met}, {"inputs", values_json(worst.inputs)}};
+}
+
+std::string worst_text(const WorstMachine& worst, bool on_rigs) {
+  return fmt::format("worst machine: {} {}, {:.4g} % of whose moves meet the goal: {}\n",
+                     on_rigs ? "rig" : "trial", worst.rig, 100.0 * worst.met, values_text(worst.inputs));
+}
+
+Json json_of(const TuneAnswer& answer) {
+  Json gains = Json::object();
+  for (std::size_t i = 0; i < answer.gains.size(); ++i) gains[answer.free[i].name] = answer.gains[i];
+  Json json{{"status", word_of(answer.status)}, {"gains", gains}, {"proof", nullptr}};
+  if (answer.proof) {
+    const goal::Verdict& verdict = answer.proof->verdict;
+    json["proof"] = {{"rate", verdict.moves.value},          {"rate_low", verdict.moves.low},
+                     {"machines_low", verdict.machines.low}, {"rigs", answer.proof->study.rigs},
+                     {"trials", answer.proof->study.trials}, {"seed", answer.proof->study.seed},
+                     {"attempts", answer.proof->attempts},   {"criterion", finite_or_null(answer.criterion)}};
+    if (!answer.proof->study.goal->machines) json["proof"]["machines_low"] = nullptr;
+    json["needed"] = nullptr;
+    if (answer.proof->needs && answer.proof->needs->trials > 0)
+      json["needed"] = {{"rigs", answer.proof->needs->rigs}, {"trials", answer.proof->needs->trials}};
+    json["margins"] = {{"gain", finite_or_null(answer.margins.gain)},
+                       {"phase", finite_or_null(answer.margins.phase)},
+                       {"delay", answer.margins.delay}};
+    if (answer.blind) json["margins"] = nullptr;
+    json["delay_lost"] = answer.delay_lost ? Json(*answer.delay_lost) : Json();
+  }
+  json["at_edges"] = answer.at_edges;
+  json["room"] = Json::object();
+  for (const Room& one : answer.room) json["room"][one.name] = {one.low, one.high};
+  json["alternatives"] = Json::array();
+  for (const Alternative& one : answer.alternatives) {
+    json["alternatives"].push_back({{"fixed", values_json(one.fixed)},
+                                    {"gains", values_json(one.gains)},
+                                    {"rate", finite_or_null(one.moves.value)},
+                                    {"rate_low", one.moves.low},
+                                    {"criterion", finite_or_null(one.criterion)}});
+  }
+  json["limits"] = limits_json(answer.limits);
+  json["worst"] = answer.worst ? worst_json(*answer.worst) : Json();
+  json["searched"] = {{"points", answer.points},
+                      {"trials", answer.trials},
+                      {"seconds", answer.seconds},
+                      {"converged", answer.converged}};
+  return json;
+}
+
+std::string text_of(const TuneAnswer& answer, const study::Study& study, const std::string& output) {
+  std::string text = fmt::format("goal: {}\n", goal::goal_sentence(*study.goal));
+  const std::string searched = fmt::format("searched: {} points, {} trials, {:.0f} s{}\n", answer.points,
+                                           answer.trials, answer.seconds,
+                                           answer.converged ? ""
+                                                            : "; the last generation still improved, "
+                                                              "a larger --budget may find better values");
+  if (!answer.proof) {
+    return text + "unreachable: no values in these ranges keep the margins at every machine\n" + searched +
+           "tune.margins: {gain: …, phase: …, delay: …} makes them smaller, or off\n";
+  }
+  text += headline(answer) + "\n\n" + gains_table(answer) + other_units(answer, study) + "\n" +
+          proof_text(answer, study);
+  text += fmt::format("{}: {} by the proof\n", study.tuning->minimise, criterion_number(answer.criterion));
+  if (answer.status != TuneStatus::met && study.tuning->minimise.starts_with("band_settling_time"))
+    text += fmt::format("  {:g} % of the moves would be within the band for good after {} s\n",
+                        100.0 * study.goal->moves, criterion_number(answer.late_limit));
+  text += margins_text(answer, study.tuning->margins);
+  if (answer.status == TuneStatus::met) {
+    text +=
+        answer.delay_lost
+            ? fmt::format("the goal seems lost at controller.delay = {:.3g} samples; it is {:g} here\n",
+                          *answer.delay_lost, answer.delay)
+            : fmt::format("the goal seems met up to 5 samples more of controller.delay; it is {:g} here\n",
+                          answer.delay);
+  }
+  for (const std::string& edge : answer.at_edges) text += edge + ": values beyond may be better\n";
+  if (answer.worst) text += worst_text(*answer.worst, study.rigs > 0);
+  if (!answer.limits.empty())
+    text += "\nwhat limits it, each by simulation on the machines of the search:\n\n" +
+            limits_text(answer.limits, study.goal->machines.has_value());
+  text += alternatives_text(answer);
+  return text + "\n" + searched + fmt::format("wrote {}: the proof, with the tuned manifest\n", output);
+}
+
+}  // namespace zerocount::tuning

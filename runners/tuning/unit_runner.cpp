@@ -1,0 +1,134 @@
+#include "runners/tuning/unit_runner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include <fmt/format.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "analysis/comparison/gate_rules.hpp"
+#include "analysis/measures/goal_counts.hpp"
+#include "analysis/measures/trial_value.hpp"
+#include "core/batch/batch.hpp"
+#include "core/failure/failure.hpp"
+#include "experiments/manifest/load_study.hpp"
+
+namespace zerocount::tuning {
+namespace {
+
+constexpr std::int64_t units_at_once = 64;
+
+/// A part of an entry that one thread runs.
+struct Part {
+  const UnitsToRun* entry;
+  std::int64_t from;
+  std::int64_t to;
+};
+
+float value_of(const Criterion& criterion, const trial::MoveOutcome& move) {
+  const double value = measures::counted_value(*criterion.measure, move);
+  return std::isnan(value) ? std::numeric_limits<float>::infinity() : static_cast<float>(value);
+}
+
+void run_part(const Part& part, const Units& units, const Criterion& criterion, batch::BatchEngine& engine,
+              const std::stop_token& stop) {
+  const study::Study& study = *part.entry->study;
+  const measures::CountedGoal goal = measures::counted_goal(study).value();
+  std::vector<trial::TrialParameters> trials;
+  for (std::int64_t unit = part.from; unit < part.to; ++unit) {
+    for (std::int64_t i = 0; i < units.trials_each; ++i) {
+      trials.push_back(study::study_trial(study, 0, i * units.count + unit).parameters);
+      if (part.entry->change != nullptr) (*part.entry->change)(trials.back());
+    }
+  }
+  std::vector<const trial::TrialParameters*> parameters;
+  for (const trial::TrialParameters& one : trials) parameters.push_back(&one);
+  std::vector<trial::TrialOutcome> outcomes(trials.size());
+  batch::BatchObservers observers;
+  observers.stop = stop;
+  engine.run(parameters, outcomes, observers);
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    const auto unit = static_cast<std::size_t>(part.from) + i / static_cast<std::size_t>(units.trials_each);
+    UnitResult& result = (*part.entry->results)[unit];
+    for (const trial::MoveOutcome& move : outcomes[i].moves) {
+      ++result.moves;
+      result.met += measures::meets(goal, move) ? 1 : 0;
+      result.values.push_back(value_of(criterion, move));
+    }
+  }
+}
+
+}  // namespace
+
+study::Study variant_of(const study::Study& study, const std::vector<std::string>& overrides) {
+  std::vector<std::string> all = study.overrides;
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  std::optional<std::string> samples;
+  if (study.samples) samples = study.samples->text;
+  return manifest::parse_study(study.manifest_text, study.name, all,
+                               manifest::known_companions(study.plugin, samples));
+}
+
+std::vector<std::string> overrides_of(std::span<const study::FreeParameter> free, const Values& values) {
+  std::vector<std::string> overrides;
+  for (std::size_t i = 0; i < free.size(); ++i)
+    overrides.push_back(fmt::format("{}={}", free[i].name, values[i]));
+  return overrides;
+}
+
+std::vector<std::string> overrides_for(const study::Study& study, const Units& units) {
+  std::vector<std::string> overrides{fmt::format("trials={}", units.count * units.trials_each),
+                                     "design=monte_carlo"};
+  if (study.rigs > 0) overrides.push_back(fmt::format("rigs={}", units.count));
+  if (!study.retained_trials.empty()) overrides.emplace_back("retain={trials: []}");
+  return overrides;
+}
+
+Criterion criterion_of(const study::Study& study) {
+  const std::string& text = study.tuning->minimise;
+  const auto dot = text.rfind('.');
+  const std::string name = text.substr(0, dot);
+  const std::string with_band = name.starts_with("band_") && !name.ends_with("]") && dot != std::string::npos
+                                    ? fmt::format("{}[{}]{}", name, study.goal->band, text.substr(dot))
+                                    : text;
+  const auto quantity = comparison::find_requirable(with_band);
+  if (!quantity || quantity->kind != comparison::RequirementKind::quantile) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: tune.minimise: '{}' is no quantile of a measure; expected one such as "
+                              "band_settling_time.p95 or settling_time.median",
+                              study.name, text));
+  }
+  const layout::Measure& wanted = *quantity->measure.measure;
+  for (const layout::Measure& measure : layout::measure_table(study.features.bands)) {
+    if (measure.field.column.name == wanted.field.column.name && measure.band == wanted.band)
+      return {&measure, quantity->probability};
+  }
+  throw Failure(ExitCode::bad_input,
+                fmt::format("{}: tune.minimise: '{}' is of an error band that the study does not measure; "
+                            "expected one of verdict.bands or the goal's",
+                            study.name, text));
+}
+
+Aim aim_of(const study::Study& study, const Criterion& criterion) {
+  return {study.goal->moves, study.goal->machines, criterion.quantile};
+}
+
+void run_units(std::span<const UnitsToRun> entries, const Units& units, const Criterion& criterion,
+               const std::stop_token& stop) {
+  std::vector<Part> parts;
+  for (const UnitsToRun& entry : entries) {
+    entry.results->resize(static_cast<std::size_t>(entry.to));
+    for (std::int64_t from = entry.from; from < entry.to; from += units_at_once)
+      parts.push_back({&entry, from, std::min(from + units_at_once, entry.to)});
+  }
+  oneapi::tbb::enumerable_thread_specific<std::unique_ptr<batch::BatchEngine>> engines(
+      [] { return std::make_unique<batch::BatchEngine>(); });
+  oneapi::tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+    run_part(parts[i], units, criterion, *engines.local(), stop);
+  });
+}
+
+}  // namespace zerocount::tuning

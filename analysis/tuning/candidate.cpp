@@ -87,24 +87,32 @@ double evidence_of_increase(std::span<const double> differences) {
   return evidence;
 }
 
-bool cannot_win(const Aim& aim, const Candidate& candidate, const Candidate& best, double alpha) {
-  const std::size_t units = common_units(candidate, best);
-  const Estimate of_best = estimate_of(aim, best, static_cast<std::int64_t>(units));
+bool surely_meets(const Aim& aim, const Candidate& candidate, double alpha) {
+  std::vector<double> differences;
+  for (const UnitResult& unit : candidate.units)
+    differences.push_back(1.0 - wanted_rate(aim) - goal_loss(aim, unit));
+  return evidence_of_increase(differences) > 1.0 / alpha;
+}
+
+bool surely_misses(const Aim& aim, const Candidate& candidate, const Candidate& reliable, double alpha) {
   std::vector<double> beyond_goal;
-  std::vector<double> beyond_best;
-  std::vector<double> later;
-  for (std::size_t i = 0; i < units; ++i) {
+  std::vector<double> beyond_reliable;
+  for (std::size_t i = 0; i < common_units(candidate, reliable); ++i) {
     const double loss = goal_loss(aim, candidate.units[i]);
     beyond_goal.push_back(loss - (1.0 - wanted_rate(aim)));
-    beyond_best.push_back(loss - goal_loss(aim, best.units[i]));
-    later.push_back(late_part(candidate.units[i], of_best.criterion) -
-                    late_part(best.units[i], of_best.criterion));
+    beyond_reliable.push_back(loss - goal_loss(aim, reliable.units[i]));
   }
-  const auto is_shown = [alpha](const std::vector<double>& d) {
-    return evidence_of_increase(d) > 1.0 / alpha;
-  };
-  if (is_shown(beyond_goal) && is_shown(beyond_best)) return true;
-  return seems_to_meet(aim, of_best) && is_shown(later);
+  return evidence_of_increase(beyond_goal) > 1.0 / alpha &&
+         evidence_of_increase(beyond_reliable) > 1.0 / alpha;
+}
+
+bool surely_later(const Aim& aim, const Candidate& candidate, const Candidate& best, double alpha) {
+  const std::size_t units = common_units(candidate, best);
+  const double limit = estimate_of(aim, best, static_cast<std::int64_t>(units)).criterion;
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < units; ++i)
+    differences.push_back(late_part(candidate.units[i], limit) - late_part(best.units[i], limit));
+  return evidence_of_increase(differences) > 1.0 / alpha;
 }
 
 }  // namespace zerocount::tuning

@@ -67,10 +67,15 @@ double late_part(const UnitResult& unit, double limit);
 /// Waudby-Smith and Ramdas, "Estimating means of bounded random variables by betting", 2024).
 double evidence_of_increase(std::span<const double> differences);
 
-/// Whether the candidate cannot become the best, by its units and those of the best so far: it surely misses
-/// the goal more often than allowed and than the best, or, where the best seems to meet the goal, its values
-/// are surely more often above the criterion of the best. The probability of an error is at most `alpha` for
-/// each of the two, at all numbers of units together.
-bool cannot_win(const Aim& aim, const Candidate& candidate, const Candidate& best, double alpha);
+/// Whether the candidate meets the goal by its units, with this probability of an error at most, at all
+/// numbers of units together.
+bool surely_meets(const Aim& aim, const Candidate& candidate, double alpha);
+
+/// Whether it misses the goal more often than allowed, and more often than `reliable` does.
+bool surely_misses(const Aim& aim, const Candidate& candidate, const Candidate& reliable, double alpha);
+
+/// Whether its values are more often above the criterion of `best`, by the units of both, than those of
+/// `best`.
+bool surely_later(const Aim& aim, const Candidate& candidate, const Candidate& best, double alpha);
 
 }  // namespace zerocount::tuning

@@ -177,18 +177,45 @@ class Search {
     }
   }
 
+  /// Drops the candidates that cannot win: those that surely miss the goal, and those that are surely later
+  /// than one that surely meets it. Of the others the better half stays at each doubling of the units, as in
+  /// successive halving, so that a race between equals ends: by turns the best and the most reliable, because
+  /// few units make fast points look as if they met the goal.
   void drop(std::vector<Candidate>& candidates, std::int64_t units) const {
-    const Candidate best = candidates.front();
-    std::vector<Candidate> left;
-    for (Candidate& one : candidates) {
-      const bool is_best = left.empty();
-      if (is_best || !cannot_win(problem_.aim, one, best, error_of_dropping)) left.push_back(std::move(one));
+    const Aim& aim = problem_.aim;
+    std::vector<std::size_t> by_rate(candidates.size());
+    std::vector<Estimate> estimates;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      by_rate[i] = i;
+      estimates.push_back(estimate_of(aim, candidates[i], units));
     }
-    // Half of the rest at each doubling of the units, as in successive halving, so that a race over
-    // candidates that are equal ends.
+    std::ranges::stable_sort(
+        by_rate, [&](std::size_t a, std::size_t b) { return estimates[a].rate > estimates[b].rate; });
+    const Candidate& reliable = candidates[by_rate.front()];
+    const auto sure = std::ranges::find_if(
+        candidates, [&](const Candidate& one) { return surely_meets(aim, one, error_of_dropping); });
+    const auto stays = [&](const Candidate& one) {
+      return !surely_misses(aim, one, reliable, error_of_dropping) &&
+             (sure == candidates.end() || &one == &*sure ||
+              !surely_later(aim, one, *sure, error_of_dropping));
+    };
     const auto most = static_cast<std::size_t>(
         std::max<std::int64_t>(elite_candidates, 4 * candidates_of_generation * first_units / units));
-    if (left.size() > most) left.resize(most);
+    std::vector<char> chosen(candidates.size(), 0);
+    std::size_t count = 0;
+    const auto choose = [&](std::size_t i) {
+      if (count == most || chosen[i] != 0 || !stays(candidates[i])) return;
+      chosen[i] = 1;
+      ++count;
+    };
+    for (std::size_t place = 0; place < candidates.size(); ++place) {
+      choose(place);
+      choose(by_rate[place]);
+    }
+    std::vector<Candidate> left;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      if (chosen[i] != 0) left.push_back(std::move(candidates[i]));
+    }
     candidates = std::move(left);
   }
 

@@ -9,7 +9,7 @@ namespace zerocount::study {
 /// A parameter that tuning may change.
 struct FreeParameter {
   std::string name;         ///< dotted path, e.g. "controller.ki"
-  std::string unit;         ///< in the manifest; "1" if dimensionless
+  std::string unit{"1"};    ///< in the manifest; "1" if dimensionless
   double low{0.0};          ///< lowest value
   double high{0.0};         ///< highest value
   bool logarithmic{false};  ///< sought on a logarithmic scale; low is above 0

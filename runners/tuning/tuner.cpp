@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "analysis/tuning/proof.hpp"
 #include "core/failure/failure.hpp"
 #include "core/random/random_numbers.hpp"
 #include "core/trial/trial.hpp"
@@ -33,7 +34,6 @@ constexpr std::int64_t max_units = 2048;
 constexpr std::int64_t max_search_trials_of_machine = 20;
 constexpr std::int64_t least_proof_units = 500;
 constexpr std::int64_t max_proof_trials = 2'000'000;
-constexpr int max_attempts = 3;
 
 std::uint64_t fresh_seed(std::uint64_t seed, std::string_view purpose) {
   constexpr unsigned seed_bits = 52;  // readable as a double everywhere
@@ -216,6 +216,18 @@ std::int64_t proof_units(const study::Study& study, const measures::GoalCounts& 
   return std::clamp(wanted + wanted / 2, least, most);
 }
 
+TuneStatus status_of(goal::Status status) {
+  switch (status) {
+    case goal::Status::met:
+      return TuneStatus::met;
+    case goal::Status::missed:
+      return TuneStatus::unreachable;
+    case goal::Status::undecided:
+      break;
+  }
+  return TuneStatus::undecided;
+}
+
 class Tuner {
  public:
   Tuner(const study::Study& study, const TuneSettings& settings, const std::stop_token& stop)
@@ -270,63 +282,49 @@ class Tuner {
   }
 
   void prove() {
-    const Units& searched = search_.units();
     const std::int64_t each = trials_of_machine(study_);
-    std::size_t finalist = 0;
-    std::int64_t size = 0;
-    for (int attempt = 1;; ++attempt) {
-      const Candidate& candidate = result_.finalists[finalist];
-      // The levels of the attempts add up to that of the goal: 1/2, 1/4, 1/4.
-      const std::size_t level = attempt == 1 ? 2 : 4;
-      if (size == 0) {
-        size = proof_units(study_, counts_of(study_, searched, candidate.units), each, level);
-      }
-      const Units units{size, each};
-      Proof proof;
-      proof.attempts = attempt;
-      proof.study = tuned_study(study_, answer_.free, candidate.values,
-                                fresh_seed(study_.seed, fmt::format("tuning, proof {}", attempt)), units);
-      const std::vector<UnitResult> results = results_of(proof.study, units, nullptr, stop_);
-      const measures::GoalCounts counts = counts_of(study_, units, results);
-      proof.verdict = goal::judge_goal(*study_.goal, counts, level);
-      if (proof.verdict.status == goal::Status::undecided)
-        proof.needs = goal::needs_of(*study_.goal, counts, level);
-      adopt(candidate, result_.estimates[finalist], std::move(proof), results);
-      if (answer_.status == TuneStatus::met || attempt == max_attempts || !has_time(0.8)) break;
-      if (answer_.status == TuneStatus::undecided) {
-        const std::int64_t more = proof_units(study_, counts, each, 4);
-        if (more <= size) break;
-        size = more;
-        continue;
-      }
-      if (!seems_to_meet(search_.aim(), result_.estimates[finalist])) break;  // none of the others does
-      if (++finalist == result_.finalists.size()) break;
-      size = 0;
-    }
+    study::Study proven_study;
+    std::vector<UnitResult> results;
+    ProofProblem problem;
+    problem.goal = *study_.goal;
+    for (const Estimate& one : result_.estimates)
+      problem.promising.push_back(seems_to_meet(search_.aim(), one));
+    problem.first_units = [&](std::size_t finalist, std::size_t correction) {
+      const std::vector<UnitResult>& found = result_.finalists[finalist].units;
+      return proof_units(study_, counts_of(study_, search_.units(), found), each, correction);
+    };
+    problem.more_units = [&](const measures::GoalCounts& counts, std::size_t correction) {
+      return proof_units(study_, counts, each, correction);
+    };
+    problem.run = [&](const Attempt& attempt) {
+      const Units units{attempt.units, each};
+      const std::uint64_t seed = fresh_seed(study_.seed, fmt::format("tuning, proof {}", attempt.number));
+      proven_study =
+          tuned_study(study_, answer_.free, result_.finalists[attempt.finalist].values, seed, units);
+      results = results_of(proven_study, units, nullptr, stop_);
+      return counts_of(study_, units, results);
+    };
+    problem.has_time = [this] { return has_time(0.8); };
+    const ProvenFinalist proven = tuning::prove(problem);
+    adopt(proven, std::move(proven_study), results);
     write_proof();
   }
 
-  void adopt(const Candidate& candidate, const Estimate& estimate, Proof proof,
-             const std::vector<UnitResult>& results) {
+  void adopt(const ProvenFinalist& proven, study::Study proven_study, std::vector<UnitResult>& results) {
+    const Candidate& candidate = result_.finalists[proven.attempt.finalist];
     answer_.gains = candidate.values;
-    answer_.estimate = estimate;
-    switch (proof.verdict.status) {
-      case goal::Status::met:
-        answer_.status = TuneStatus::met;
-        break;
-      case goal::Status::missed:
-        answer_.status = TuneStatus::unreachable;
-        break;
-      case goal::Status::undecided:
-        answer_.status = TuneStatus::undecided;
-        break;
+    answer_.estimate = result_.estimates[proven.attempt.finalist];
+    answer_.status = status_of(proven.verdict.status);
+    answer_.proof = Proof{std::move(proven_study), proven.verdict, {}, proven.attempt.number};
+    if (proven.verdict.status == goal::Status::undecided) {
+      answer_.proof->needs =
+          goal::needs_of(*study_.goal, proven.counts, correction_of(proven.attempt.number));
     }
-    answer_.proof = std::move(proof);
-    const Candidate proven{candidate.place, candidate.values, results};
+    const Candidate by_proof{candidate.place, candidate.values, std::move(results)};
     Aim aim = search_.aim();
-    answer_.criterion = estimate_of(aim, proven, std::ssize(results)).criterion;
+    answer_.criterion = estimate_of(aim, by_proof, proven.attempt.units).criterion;
     aim.quantile = aim.moves;
-    answer_.late_limit = estimate_of(aim, proven, std::ssize(results)).criterion;
+    answer_.late_limit = estimate_of(aim, by_proof, proven.attempt.units).criterion;
   }
 
   void write_proof() {

@@ -1,0 +1,164 @@
+// `tune`, `limits` and `worst`, from the manifest to the proof.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "results/reading/results_file.hpp"
+#include "tests/runners/program.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::string_view axis = R"(zerocount: 1
+name: axis
+seed: 7
+trials: 200
+rigs: 100   # machines
+command: {targets: [29], hold: 0.3}
+friction:
+  k1: {lognormal: {median: 130, cv: 0.2}, per: rig}
+initial: {encoder_phase: {uniform: [0, 1]}}
+controller: {ki: 3.85e-5, delay: 1}
+)";
+
+constexpr std::string_view two_gains = R"(tune:
+  free: {controller.ki: {log: [5.0e-6, 1.0e-3]}, controller.kp: [0, 5.0e-3]}
+)";
+
+class Tune : public ::testing::Test {
+ protected:
+  ProgramResult program(const std::vector<std::string>& words) {
+    return zerocount_program(words, folder_.path());
+  }
+  void write_axis(const std::string& more) { folder_.write("axis.yaml", std::string(axis) + more); }
+  ProgramResult tune(std::vector<std::string> more = {}) {
+    std::vector<std::string> words{"tune", "axis.yaml", "-o",       "tuned.h5", "--format",
+                                   "json", "--force",   "--budget", "20000"};
+    words.insert(words.end(), more.begin(), more.end());
+    return program(words);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Tune, ProvesTheGainsThatItFinds) {
+  write_axis("goal: {band: 1, within: 0.05, moves: 0.95}\n" + std::string(two_gains));
+  const ProgramResult result = tune();
+  ASSERT_EQ(result.code, 0) << result.out << result.err;
+  const Json answer = Json::parse(result.out);
+  EXPECT_EQ(answer["status"], "met");
+  EXPECT_GE(answer["proof"]["rate_low"], 0.95);
+  EXPECT_GE(answer["proof"]["rigs"], 500);
+  EXPECT_GE(answer["margins"]["gain"], 6.0);
+  EXPECT_GE(answer["margins"]["phase"], 30.0);
+  EXPECT_GE(answer["margins"]["delay"], 0.5);
+  EXPECT_GT(answer["delay_lost"], 1.0);
+  EXPECT_LE(answer["room"]["controller.kp"][0], answer["gains"]["controller.kp"]);
+  EXPECT_GE(answer["room"]["controller.kp"][1], answer["gains"]["controller.kp"]);
+  EXPECT_EQ(answer["alternatives"][0]["fixed"], (Json{{"controller.kp", 0.0}}));
+  EXPECT_EQ(answer["limits"][0]["cause"], "none");
+  EXPECT_EQ(answer["worst"]["inputs"].count("friction.k1"), 1U);
+  EXPECT_GT(answer["searched"]["points"], 100);
+
+  // The file is of the tuned manifest, on other machines, and judges itself met.
+  EXPECT_EQ(program({"judge", "tuned.h5"}).code, 0);
+  const reading::ResultsFile file(folder_.path() / "tuned.h5");
+  const std::string& manifest = file.header().manifest;
+  EXPECT_NE(manifest.find("ki: " + answer["gains"]["controller.ki"].dump()), std::string::npos) << manifest;
+  EXPECT_NE(manifest.find("# machines"), std::string::npos) << "comments stay";
+  EXPECT_EQ(manifest.find("seed: 7\n"), std::string::npos);
+  EXPECT_TRUE(file.header().overrides.empty());
+}
+
+TEST_F(Tune, DoesNotDependOnTheNumberOfThreads) {
+  write_axis("goal: {band: 1, within: 0.1, moves: 0.98}\n" + std::string(two_gains));
+  Json one = Json::parse(tune({"--threads", "1"}).out);
+  Json two = Json::parse(tune({"--threads", "2"}).out);
+  for (Json* json : {&one, &two}) (*json)["searched"].erase("seconds");
+  EXPECT_EQ(one, two);
+}
+
+TEST_F(Tune, OfAGoalBeyondReachSaysSo) {
+  write_axis("goal: {band: 0, within: 0.004, moves: 0.98}\n" + std::string(two_gains));
+  const ProgramResult result = tune();
+  EXPECT_EQ(result.code, 1) << result.out << result.err;
+  const Json answer = Json::parse(result.out);
+  EXPECT_EQ(answer["status"], "unreachable");
+  EXPECT_LT(answer["proof"]["rate"], 0.98);
+  EXPECT_EQ(program({"judge", "tuned.h5"}).code, 1);
+}
+
+TEST_F(Tune, NeedsAGoalAndFreeParameters) {
+  write_axis("goal: {band: 1, within: 0.1, moves: 0.98}\n");
+  EXPECT_EQ(tune().code, 2);
+  EXPECT_NE(tune().err.find("does not say what to tune"), std::string::npos);
+  write_axis(std::string(two_gains));
+  EXPECT_NE(tune().err.find("axis.yaml:12:3: tune: without a goal"), std::string::npos) << tune().err;
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "tuned.h5"));
+}
+
+TEST_F(Tune, RefusesWrongSectionsWithTheirPlace) {
+  const auto error_of = [this](const std::string& section) {
+    write_axis("goal: {within: 0.1, moves: 0.98}\n" + section + "\n");
+    const ProgramResult result = program({"check", "axis.yaml"});
+    EXPECT_EQ(result.code, 2) << section;
+    return result.err;
+  };
+  EXPECT_NE(error_of("tune: {free: {controller.ko: [0, 1]}}").find("12:15: tune.free.controller.ko"),
+            std::string::npos);
+  EXPECT_NE(error_of("tune: {free: {controller.ki: [1, 0]}}").find("1 is not below 0"), std::string::npos);
+  EXPECT_NE(error_of("tune: {free: {controller.ki: {log: [0, 1]}}}").find("0 is not above 0"),
+            std::string::npos);
+  EXPECT_NE(error_of("tune: {free: {friction.k1: [10, 20]}}").find("swept or drawn at random"),
+            std::string::npos);
+  EXPECT_NE(error_of("tune: {free: {friction.model: [0, 1]}}").find("is not a number"), std::string::npos);
+  EXPECT_NE(error_of("tune: {free: {controller.ki: [0, 1]}, margins: {gain: no}}").find("tune.margins.gain"),
+            std::string::npos);
+}
+
+TEST_F(Tune, RefusesACriterionThatIsNoQuantile) {
+  write_axis("goal: {within: 0.1, moves: 0.98}\n" + std::string(two_gains) + "  minimise: ki\n");
+  const ProgramResult result = tune();
+  EXPECT_EQ(result.code, 2);
+  EXPECT_NE(result.err.find("tune.minimise: 'ki' is no quantile"), std::string::npos) << result.err;
+}
+
+TEST_F(Tune, LimitsSwitchCausesOffOneByOne) {
+  write_axis("goal: {band: 0, within: 0.05, moves: 0.98}\n");
+  const ProgramResult result = program({"limits", "axis.yaml", "--format", "json"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const Json limits = Json::parse(result.out)["limits"];
+  std::vector<std::string> causes;
+  for (const Json& one : limits) causes.push_back(one["cause"]);
+  EXPECT_EQ(causes.front(), "none");
+  EXPECT_EQ(std::count(causes.begin(), causes.end(), "no delay, no amplifier lag"), 1);
+  EXPECT_EQ(std::count(causes.begin(), causes.end(), "no noise"), 0) << "there is none";
+  // Without the cause of an idealisation the rate is that of the study with the cause switched off.
+  const ProgramResult judged =
+      program({"run", "axis.yaml", "-o", "no-delay.h5", "--set", "controller.delay=0"});
+  ASSERT_EQ(judged.code, 0);
+  const Json judgement = Json::parse(program({"judge", "no-delay.h5", "--format", "json"}).out);
+  for (const Json& one : limits) {
+    if (one["cause"] == "no delay, no amplifier lag") {
+      EXPECT_EQ(one["rate"], judgement["rate"]);
+    }
+  }
+}
+
+TEST_F(Tune, WorstIsTheMachineWithTheFewestGoodMoves) {
+  write_axis("goal: {band: 0, within: 0.05, moves: 0.98}\n");
+  ASSERT_EQ(program({"run", "axis.yaml", "-o", "out.h5"}).code, 0);
+  const Json of_manifest = Json::parse(program({"worst", "axis.yaml", "--format", "json"}).out);
+  const Json of_file = Json::parse(program({"worst", "out.h5", "--format", "json"}).out);
+  EXPECT_EQ(of_manifest, of_file);
+  EXPECT_LT(of_manifest["rig"], 100);
+  EXPECT_GT(of_manifest["inputs"]["friction.k1"], 0.0);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

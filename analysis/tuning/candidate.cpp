@@ -12,7 +12,7 @@ bool machine_meets(const Aim& aim, const UnitResult& unit) {
   return unit.met >= aim.moves * unit.moves;
 }
 
-double quantile_of(std::vector<float>& values, double quantile) {
+double quantile_of(std::vector<double>& values, double quantile) {
   if (values.empty()) return std::numeric_limits<double>::infinity();
   const auto size = static_cast<double>(values.size());
   const auto rank = static_cast<std::ptrdiff_t>(std::clamp(std::ceil(quantile * size), 1.0, size)) - 1;
@@ -31,7 +31,7 @@ Estimate estimate_of(const Aim& aim, const Candidate& candidate, std::int64_t un
   std::int64_t moves = 0;
   std::int64_t met = 0;
   std::int64_t machines = 0;
-  std::vector<float> values;
+  std::vector<double> values;
   estimate.units = std::min<std::int64_t>(units, std::ssize(candidate.units));
   for (std::int64_t i = 0; i < estimate.units; ++i) {
     const UnitResult& unit = candidate.units[static_cast<std::size_t>(i)];
@@ -72,7 +72,7 @@ double goal_loss(const Aim& aim, const UnitResult& unit) {
 
 double late_part(const UnitResult& unit, double limit) {
   if (unit.values.empty()) return 0.0;
-  const auto late = std::ranges::count_if(unit.values, [limit](float value) { return value > limit; });
+  const auto late = std::ranges::count_if(unit.values, [limit](double value) { return value > limit; });
   return static_cast<double>(late) / static_cast<double>(unit.values.size());
 }
 

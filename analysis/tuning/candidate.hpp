@@ -13,8 +13,8 @@ namespace zerocount::tuning {
 /// of its own, did with a candidate.
 struct UnitResult {
   std::int32_t moves{0};
-  std::int32_t met{0};        ///< moves that meet the goal
-  std::vector<float> values;  ///< of the moves that have the criterion's measure; infinite for never
+  std::int32_t met{0};         ///< moves that meet the goal
+  std::vector<double> values;  ///< of the moves that have the criterion's measure; infinite for never
 };
 
 /// What is asked of the candidates.

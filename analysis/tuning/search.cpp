@@ -154,11 +154,13 @@ class Search {
 
   void sort_by_merit(std::vector<Candidate>& candidates, std::int64_t units) const {
     std::vector<std::pair<Estimate, std::size_t>> order;
+    order.reserve(candidates.size());
     for (std::size_t i = 0; i < candidates.size(); ++i)
       order.emplace_back(estimate_of(problem_.aim, candidates[i], units), i);
     std::ranges::stable_sort(
         order, [this](const auto& a, const auto& b) { return is_better(problem_.aim, a.first, b.first); });
     std::vector<Candidate> sorted;
+    sorted.reserve(candidates.size());
     for (const auto& [estimate, i] : order) sorted.push_back(std::move(candidates[i]));
     candidates = std::move(sorted);
   }
@@ -167,6 +169,7 @@ class Search {
   void verify_best(std::vector<Candidate>& candidates) {
     while (!candidates.empty() && !problem_.verified(candidates.front().values)) {
       std::vector<Values> values;
+      values.reserve(candidates.size());
       for (const Candidate& one : candidates) values.push_back(one.values);
       const std::vector<bool> admissible = problem_.admissible(values);
       std::vector<Candidate> left;

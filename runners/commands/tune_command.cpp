@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
 
-#include "analysis/text/report_json.hpp"
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/results_file.hpp"
@@ -109,7 +108,7 @@ ExitCode tune(const command_line::Arguments& arguments) {
   const storage::OutputLock lock(settings.output);
   const tuning::TuneAnswer answer = tuning::tune(study, settings, interruption.token());
   if (arguments.choice("format") == "json") {
-    standard_output::write(text::json_text(tuning::json_of(answer)));
+    standard_output::write(tuning::json_of(answer));
   } else {
     standard_output::write_fitted(tuning::text_of(answer, study, settings.output.string()));
   }
@@ -145,7 +144,7 @@ ExitCode limits(const command_line::Arguments& arguments) {
   const std::vector<tuning::Limit> limits =
       tuning::limits_of(study, tuning::units_of(study), interruption.token());
   if (arguments.choice("format") == "json") {
-    standard_output::write(text::json_text({{"limits", tuning::limits_json(limits)}}));
+    standard_output::write(tuning::limits_json(limits));
   } else {
     standard_output::write_fitted(tuning::limits_text(limits, study.goal->machines.has_value()));
   }
@@ -158,7 +157,7 @@ ExitCode worst(const command_line::Arguments& arguments) {
   const tuning::WorstMachine worst =
       tuning::worst_machine(study, tuning::units_of(study), interruption.token());
   if (arguments.choice("format") == "json") {
-    standard_output::write(text::json_text(tuning::worst_json(worst)));
+    standard_output::write(tuning::worst_json(worst));
   } else {
     standard_output::write_fitted(tuning::worst_text(worst, study.rigs > 0));
   }

@@ -217,7 +217,7 @@ WorstMachine worst_machine(const study::Study& study, const Units& units, const 
   const std::vector<UnitResult> results = results_of(study, units, nullptr, stop);
   const auto met = [](const UnitResult& unit) { return static_cast<double>(unit.met) / unit.moves; };
   const auto latest = [](const UnitResult& unit) {
-    return unit.values.empty() ? 0.0F : *std::ranges::max_element(unit.values);
+    return unit.values.empty() ? 0.0 : *std::ranges::max_element(unit.values);
   };
   const auto worst = std::ranges::min_element(results, [&](const UnitResult& a, const UnitResult& b) {
     return met(a) != met(b) ? met(a) < met(b) : latest(a) > latest(b);

@@ -3,8 +3,10 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "analysis/goal/goal_text.hpp"
+#include "analysis/text/report_json.hpp"
 #include "analysis/text/text.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/theory/gains.hpp"
@@ -145,13 +147,17 @@ std::string alternatives_text(const TuneAnswer& answer) {
   return "\nsimpler controls, each at its own best values:\n\n" + text::aligned_table(columns);
 }
 
-}  // namespace
-
-Json limits_json(const std::vector<Limit>& limits) {
+Json list_of(const std::vector<Limit>& limits) {
   Json json = Json::array();
   for (const Limit& one : limits) json.push_back({{"cause", one.cause}, {"rate", one.rate}});
   return json;
 }
+
+Json object_of(const WorstMachine& worst) {
+  return {{"rig", worst.rig}, {"met", worst.met}, {"inputs", values_json(worst.inputs)}};
+}
+
+}  // namespace
 
 std::string limits_text(const std::vector<Limit>& limits, bool of_machines) {
   std::vector<text::TextColumn> columns{
@@ -171,16 +177,20 @@ std::string limits_text(const std::vector<Limit>& limits, bool of_machines) {
   return text::aligned_table(columns);
 }
 
-Json worst_json(const WorstMachine& worst) {
-  return {{"rig", worst.rig}, {"met", worst.met}, {"inputs", values_json(worst.inputs)}};
-}
-
 std::string worst_text(const WorstMachine& worst, bool on_rigs) {
   return fmt::format("worst machine: {} {}, {:.4g} % of whose moves meet the goal: {}\n",
                      on_rigs ? "rig" : "trial", worst.rig, 100.0 * worst.met, values_text(worst.inputs));
 }
 
-Json json_of(const TuneAnswer& answer) {
+std::string limits_json(const std::vector<Limit>& limits) {
+  return text::json_text({{"limits", list_of(limits)}});
+}
+
+std::string worst_json(const WorstMachine& worst) {
+  return text::json_text(object_of(worst));
+}
+
+std::string json_of(const TuneAnswer& answer) {
   Json gains = Json::object();
   for (std::size_t i = 0; i < answer.gains.size(); ++i) gains[answer.free[i].name] = answer.gains[i];
   Json json{{"status", word_of(answer.status)}, {"gains", gains}, {"proof", nullptr}};
@@ -211,13 +221,13 @@ Json json_of(const TuneAnswer& answer) {
                                     {"rate_low", one.moves.low},
                                     {"criterion", finite_or_null(one.criterion)}});
   }
-  json["limits"] = limits_json(answer.limits);
-  json["worst"] = answer.worst ? worst_json(*answer.worst) : Json();
+  json["limits"] = list_of(answer.limits);
+  json["worst"] = answer.worst ? object_of(*answer.worst) : Json();
   json["searched"] = {{"points", answer.points},
                       {"trials", answer.trials},
                       {"seconds", answer.seconds},
                       {"converged", answer.converged}};
-  return json;
+  return text::json_text(json);
 }
 
 std::string text_of(const TuneAnswer& answer, const study::Study& study, const std::string& output) {

@@ -167,6 +167,21 @@ measures::GoalCounts counts_of(const study::Study& study, const Units& units,
   return counts;
 }
 
+/// The counts as they would be with `each` trials of every machine, at the same rates.
+measures::GoalCounts with_trials_each(measures::GoalCounts counts, std::int64_t each) {
+  for (statistics::RigMoves& rig : counts.rigs) {
+    const auto factor = static_cast<double>(each) / static_cast<double>(rig.trials);
+    counts.moves -= rig.moves;
+    counts.met -= rig.met;
+    rig.trials = each;
+    rig.moves = std::llround(static_cast<double>(rig.moves) * factor);
+    rig.met = std::llround(static_cast<double>(rig.met) * factor);
+    counts.moves += rig.moves;
+    counts.met += rig.met;
+  }
+  return counts;
+}
+
 /// The manifest of the study with these values in its text; an override that is not a number stays one.
 study::Study tuned_study(const study::Study& study, std::span<const study::FreeParameter> free,
                          const Values& gains, std::uint64_t seed, const Units& units) {
@@ -291,7 +306,8 @@ class Tuner {
       problem.promising.push_back(seems_to_meet(search_.aim(), one));
     problem.first_units = [&](std::size_t finalist, std::size_t correction) {
       const std::vector<UnitResult>& found = result_.finalists[finalist].units;
-      return proof_units(study_, counts_of(study_, search_.units(), found), each, correction);
+      const measures::GoalCounts counts = counts_of(study_, search_.units(), found);
+      return proof_units(study_, with_trials_each(counts, each), each, correction);
     };
     problem.more_units = [&](const measures::GoalCounts& counts, std::size_t correction) {
       return proof_units(study_, counts, each, correction);
@@ -374,6 +390,7 @@ class Tuner {
       if (one.low == 0.0 && (one.name.ends_with(".kp") || one.name.ends_with(".kd")))
         zeros.push_back(one.name);
     }
+    choices.reserve(zeros.size() + 1);
     for (const std::string& one : zeros) choices.push_back({one});
     if (zeros.size() > 1) choices.push_back(zeros);
     for (const std::vector<std::string>& fixed : choices) {

@@ -28,9 +28,9 @@ struct Part {
   std::int64_t to;
 };
 
-float value_of(const Criterion& criterion, const trial::MoveOutcome& move) {
+double value_of(const Criterion& criterion, const trial::MoveOutcome& move) {
   const double value = measures::counted_value(*criterion.measure, move);
-  return std::isnan(value) ? std::numeric_limits<float>::infinity() : static_cast<float>(value);
+  return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
 }
 
 void run_part(const Part& part, const Units& units, const Criterion& criterion, batch::BatchEngine& engine,
@@ -45,6 +45,7 @@ void run_part(const Part& part, const Units& units, const Criterion& criterion, 
     }
   }
   std::vector<const trial::TrialParameters*> parameters;
+  parameters.reserve(trials.size());
   for (const trial::TrialParameters& one : trials) parameters.push_back(&one);
   std::vector<trial::TrialOutcome> outcomes(trials.size());
   batch::BatchObservers observers;

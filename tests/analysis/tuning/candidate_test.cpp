@@ -10,7 +10,7 @@
 namespace zerocount::tuning {
 namespace {
 
-constexpr float never = std::numeric_limits<float>::infinity();
+constexpr double never = std::numeric_limits<double>::infinity();
 
 Candidate candidate_of(std::vector<UnitResult> units) {
   return {{}, {}, std::move(units)};
@@ -25,7 +25,7 @@ TEST(Candidate, RateIsOfMovesOrOfMachines) {
 
 TEST(Candidate, CriterionCountsMovesThatNeverSettleAsLate) {
   std::vector<UnitResult> units;
-  for (int i = 1; i <= 100; ++i) units.push_back({1, 1, {i > 96 ? never : static_cast<float>(i)}});
+  for (int i = 1; i <= 100; ++i) units.push_back({1, 1, {i > 96 ? never : static_cast<double>(i)}});
   const Candidate candidate = candidate_of(units);
   EXPECT_EQ(estimate_of({.quantile = 0.95}, candidate, 100).criterion, 95.0);
   EXPECT_EQ(estimate_of({.quantile = 0.5}, candidate, 100).criterion, 50.0);
@@ -73,8 +73,8 @@ TEST(Candidate, IsSurelyLaterThanAFasterOne) {
   std::vector<UnitResult> fast;
   std::vector<UnitResult> slow;
   for (int i = 0; i < 128; ++i) {
-    fast.push_back({1, 1, {0.01F + 1e-4F * static_cast<float>(i % 16)}});
-    slow.push_back({1, 1, {0.03F}});
+    fast.push_back({1, 1, {0.01 + 1e-4 * (i % 16)}});
+    slow.push_back({1, 1, {0.03}});
   }
   const Aim aim{.moves = 0.9};
   EXPECT_TRUE(surely_later(aim, candidate_of(slow), candidate_of(fast), 0.01));

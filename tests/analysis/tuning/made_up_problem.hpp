@@ -43,7 +43,7 @@ struct MadeUpProblem {
     };
     const double luck = std::sqrt(0.5) * (normal(1, everywhere) + normal(3, at));
     const bool met = 0.5 * std::erfc(luck / std::sqrt(2.0)) < rate(at);
-    return {1, met ? 1 : 0, {static_cast<float>(typical_time(at) * std::exp(0.3 * normal(5, everywhere)))}};
+    return {1, met ? 1 : 0, {typical_time(at) * std::exp(0.3 * normal(5, everywhere))}};
   }
 
   SearchProblem problem(std::int64_t units) const {

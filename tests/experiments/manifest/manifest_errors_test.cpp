@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(
              "6:27: friction.coulomb_ratio | greater than 0 and at most 1"},
         Case{"initial: {encoder_phase: 1}", "6:26: initial.encoder_phase | at least 0 and less than 1"},
         Case{"dac: {bits: 33}", "6:13: dac.bits | from 1 to 32"},
-        Case{"controller: {delay: -1}", "6:21: controller.delay | from 0 to 100"},
+        Case{"controller: {delay: -1}", "6:21: controller.delay | at least 0 and at most 100"},
         Case{"encoder: {fine: 0}", "6:17: encoder.fine | from 1 to 1000000000000"},
         Case{"retain: {trials: [10]}", "6:19: retain.trials.0 | from 0 to 9"},
         Case{"retain: {trials: [1, 1]}", "6:18: retain.trials | duplicate"},

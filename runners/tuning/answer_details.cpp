@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "analysis/measures/goal_counts.hpp"
 #include "core/loop/controller.hpp"
 
 namespace zerocount::tuning {
@@ -145,6 +146,17 @@ std::optional<double> delay_lost(const Details& details, double delay) {
   return std::nullopt;
 }
 
+double rate_in_wider_band(const Details& details) {
+  std::vector<std::string> overrides = overrides_of(details.free, details.gains);
+  for (const std::string& one : overrides_for(details.study, details.units)) overrides.push_back(one);
+  const study::Study study = variant_of(details.study, overrides);
+  const std::size_t slot = measures::counted_goal(study).value().slot;
+  const Change wider = [slot](trial::TrialParameters& p) {
+    for (std::size_t b = slot; b < p.verdict.bands.count; ++b) ++p.verdict.bands.limits[b];
+  };
+  return rate_of(study, details.aim, details.units, &wider, details.stop);
+}
+
 std::vector<Room> room_of(const Details& details) {
   const Units units = fewer(details.units);
   const std::vector<std::string> sizes = overrides_for(details.study, units);
@@ -204,7 +216,8 @@ std::vector<Limit> limits_of(const study::Study& study, const Units& units, cons
       if (rate > best.rate) best = {std::string(there[a]->name) + " and " + there[b]->name, rate};
     }
   }
-  if (best.rate >= 0.0) limits.push_back(best);
+  const auto by_rate = [](const Limit& a, const Limit& b) { return a.rate < b.rate; };
+  if (best.rate > std::ranges::max_element(limits, by_rate)->rate) limits.push_back(best);
   return limits;
 }
 

@@ -27,6 +27,9 @@ std::vector<UnitResult> results_of(const study::Study& study, const Units& units
 /// controller.delay (samples) from which on the goal seems to be lost, to 0.05; nothing up to 5 samples more.
 std::optional<double> delay_lost(const Details& details, double delay);
 
+/// Rate of the goal if its band were one count wider.
+double rate_in_wider_band(const Details& details);
+
 std::vector<Room> room_of(const Details& details);
 
 /// Units for the limits: fewer than the search's.

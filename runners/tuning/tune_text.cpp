@@ -223,6 +223,7 @@ std::string json_of(const TuneAnswer& answer) {
   }
   json["limits"] = list_of(answer.limits);
   json["worst"] = answer.worst ? object_of(*answer.worst) : Json();
+  json["wider_band_rate"] = answer.wider_band_rate ? Json(*answer.wider_band_rate) : Json();
   json["searched"] = {{"points", answer.points},
                       {"trials", answer.trials},
                       {"seconds", answer.seconds},
@@ -247,6 +248,9 @@ std::string text_of(const TuneAnswer& answer, const study::Study& study, const s
   if (answer.status != TuneStatus::met && study.tuning->minimise.starts_with("band_settling_time"))
     text += fmt::format("  {:g} % of the moves would be within the band for good after {} s\n",
                         100.0 * study.goal->moves, criterion_number(answer.late_limit));
+  if (answer.wider_band_rate)
+    text += fmt::format("  within ±{} counts {:.4g} % of the {} would meet the goal\n", study.goal->band + 1,
+                        100.0 * *answer.wider_band_rate, study.goal->machines ? "machines" : "moves");
   text += margins_text(answer, study.tuning->margins);
   if (answer.status == TuneStatus::met) {
     text +=

@@ -364,6 +364,7 @@ class Tuner {
     if (met && tell("delay at which the goal is lost"))
       answer_.delay_lost = delay_lost(details, answer_.delay);
     if (met && tell("room")) answer_.room = room_of(details);
+    if (!met && tell("a wider band")) answer_.wider_band_rate = rate_in_wider_band(details);
     if (tell("limits")) answer_.limits = limits_of(tuned, limit_units(details), stop_);
     if (tell("worst machine")) {
       const Units proven{answer_.proof->study.trials / trials_of_machine(study_), trials_of_machine(study_)};

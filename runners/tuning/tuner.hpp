@@ -79,8 +79,8 @@ struct TuneAnswer {
   std::vector<std::string> at_edges;  ///< free parameters at an end of their range, "controller.ki = 5000"
   std::vector<Room> room;
   std::vector<Alternative> alternatives;
-  double base_rate{0.0};  ///< that the limits compare with
   std::vector<Limit> limits;
+  std::optional<double> wider_band_rate;  ///< of the goal with a band one count wider, where it is not met
   std::optional<WorstMachine> worst;
   std::int64_t points{0};  ///< of the search
   std::int64_t trials{0};  ///< of the search

@@ -113,6 +113,7 @@ TEST_F(Tune, OfAGoalBeyondReachSaysSo) {
   const Json answer = Json::parse(result.out);
   EXPECT_EQ(answer["status"], "unreachable");
   EXPECT_LT(answer["proof"]["rate"], 0.98);
+  EXPECT_GE(answer["wider_band_rate"], answer["limits"][0]["rate"]);
   EXPECT_EQ(program({"judge", "tuned.h5"}).code, 1);
 }
 

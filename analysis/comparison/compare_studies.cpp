@@ -184,7 +184,7 @@ GateMeasure in_file(const reading::StudyFile& file, const GateMeasure& wanted) {
                             file.path().string(), wanted.name, bands.empty() ? "none" : bands));
 }
 
-/// What the requirements need of the current file.
+/// The parts of the current file that the requirements need.
 AlsoRead needed_by(const GateRules& rules, const reading::StudyFile& file, std::int64_t rigs) {
   AlsoRead also;
   also.rigs = rigs;

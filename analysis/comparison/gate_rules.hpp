@@ -57,7 +57,7 @@ struct RequirableQuantity {
 /// the mean of a sum, has the name of its gate measure; other measures have quantiles (NAME.median, .p95,
 /// .p99); "goal" has no limit of its own.
 std::vector<RequirableQuantity> requirable_quantities();
-/// Of error bands, for any band: "band_settling_time[5].p95".
+/// The quantity of this name; a measure of an error band has any band: "band_settling_time[5].p95".
 std::optional<RequirableQuantity> find_requirable(std::string_view name);
 
 /// "success_rate ≥ 0.995".

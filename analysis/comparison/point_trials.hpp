@@ -45,7 +45,7 @@ void add_trials(PointTrials& trials, std::span<const trial::MoveOutcome> outcome
 PointTrials gather_trials(std::span<const trial::MoveOutcome> outcomes, std::int64_t moves,
                           const layout::MeasureTable& table = layout::measure_table());
 
-/// What is read of the trials besides the gate measures.
+/// Parts of the trials that are read besides the gate measures.
 struct AlsoRead {
   std::vector<GateMeasure> bands{};  ///< measures of error bands, which the file has
   std::optional<study::Goal> goal{};

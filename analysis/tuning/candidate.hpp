@@ -9,15 +9,15 @@
 
 namespace zerocount::tuning {
 
-/// What one unit of the search, a machine or, where the goal does not ask for machines, a trial on a machine
-/// of its own, did with a candidate.
+/// The result of a candidate on one unit of the search: a machine or, where the goal does not ask for
+/// machines, a trial on a machine of its own.
 struct UnitResult {
   std::int32_t moves{0};
   std::int32_t met{0};         ///< moves that meet the goal
   std::vector<double> values;  ///< of the moves that have the criterion's measure; infinite for never
 };
 
-/// What is asked of the candidates.
+/// The requirements on the candidates.
 struct Aim {
   double moves{0.99};                ///< study::Goal::moves
   std::optional<double> machines{};  ///< study::Goal::machines

@@ -31,7 +31,7 @@ struct ProofProblem {
   std::vector<bool> promising;  ///< [finalist] whether it seems to meet the goal; the best first
   /// Units that are expected to decide the goal with this correction, by the results of the search.
   std::function<std::int64_t(std::size_t finalist, std::size_t correction)> first_units;
-  /// The same by the results of an attempt.
+  /// Units that are expected to decide it, by the results of an attempt.
   std::function<std::int64_t(const measures::GoalCounts&, std::size_t correction)> more_units;
   std::function<measures::GoalCounts(const Attempt&)> run;
   std::function<bool()> has_time;  ///< for another attempt

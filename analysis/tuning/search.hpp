@@ -31,7 +31,7 @@ struct SearchProblem {
   std::function<bool(const Values&)> verified;
 };
 
-/// How far a search is.
+/// Progress of a search.
 struct SearchProgress {
   int generation{0};
   std::int64_t points{0};

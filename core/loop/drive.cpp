@@ -44,7 +44,7 @@ Drive::Part Drive::part(double duration) const {
   return {duration, numerics::exp(-rate_ * duration)};
 }
 
-std::span<const TorquePiece> Drive::apply(double torque) {
+void Drive::apply(double torque) {
   const TorqueDelay::Leaving input = delay_.pass(torque);
   const TorquePiece last = pieces_[count_ - 1];
   if (input.before == input.after) {
@@ -55,7 +55,6 @@ std::span<const TorquePiece> Drive::apply(double torque) {
     pieces_[1] = follow(input.after, pieces_[0], after_);
     count_ = 2;
   }
-  return {pieces_.data(), count_};
 }
 
 double Drive::converted(std::int64_t k, std::int64_t code) const {

@@ -17,7 +17,7 @@ namespace zerocount::loop {
 /// The decided torques on their way through a delay of n + f samples, n whole, 0 ≤ f < 1: zeros at first.
 class TorqueDelay {
  public:
-  /// What leaves the delay during sample k: the torque decided at k − n − 1 for the fraction f of the sample,
+  /// The torques that leave the delay during sample k: for the fraction f of it the one decided at k − n − 1,
   /// then the one decided at k − n.
   struct Leaving {
     double before;
@@ -62,15 +62,17 @@ class Drive {
         const random::TrialRandomness& randomness);
 
   /// Sends the code of sample k through converter, delay and amplifier.
-  /// @returns the motor's torque over [t_k, t_{k+1}], in one or two pieces; valid until the next call.
-  std::span<const TorquePiece> send(std::int64_t k, const DacOutput& decided) {
-    return apply(converter_errors_ ? converted(k, decided.code) : decided.torque);
+  void send(std::int64_t k, const DacOutput& decided) {
+    apply(converter_errors_ ? converted(k, decided.code) : decided.torque);
   }
 
   /// Sends a torque (N m) past the converter, so without its rounding and errors, through delay and
   /// amplifier.
-  /// @returns the motor's torque over [t_k, t_{k+1}], in one or two pieces; valid until the next call.
-  std::span<const TorquePiece> send_exact(double torque) { return apply(torque); }
+  void send_exact(double torque) { apply(torque); }
+
+  /// The motor's torque over [t_k, t_{k+1}] of the last sample sent, in one or two pieces; valid until the
+  /// next is sent.
+  std::span<const TorquePiece> pieces() const { return {pieces_.data(), count_}; }
 
   /// The motor's torque at the last t_k, just after sending, N m: 0 before the first.
   double torque() const { return pieces_.front().course.now; }
@@ -82,7 +84,7 @@ class Drive {
     double decay;
   };
 
-  std::span<const TorquePiece> apply(double torque);
+  void apply(double torque);
   TorquePiece follow(double input, const TorquePiece& last, const Part& part) const;
   double converted(std::int64_t k, std::int64_t code) const;
   Part part(double duration) const;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <span>
 
 #include "core/loop/dac.hpp"
 #include "core/loop/drive.hpp"
@@ -63,7 +62,7 @@ class Rig {
   /// Applies the wanted torque (N m) at t_k through the converter; completes `record`.
   void drive(double torque, SampleRecord& record) {
     const loop::DacOutput output = loop::convert(dac_, torque);
-    torque_ = drive_.send(record.k, output);
+    drive_.send(record.k, output);
     clipped_ = output.clipped;
     record.code = output.code;
     record.torque = output.torque;
@@ -78,14 +77,14 @@ class Rig {
 
   /// Applies the torque (N m) at t_k to the motor, past the converter; completes `record`.
   void drive_exactly(double torque, SampleRecord& record) {
-    torque_ = drive_.send_exact(torque);
+    drive_.send_exact(torque);
     record.torque = torque;
     record.drive_torque = drive_.torque();
   }
 
   /// Lets the plant move until t_{k+1}.
   void hold() {
-    for (const loop::TorquePiece& piece : torque_)
+    for (const loop::TorquePiece& piece : drive_.pieces())
       plant_.advance(piece.course, piece.duration, plant::max_steps_of_sample);
   }
 
@@ -109,7 +108,6 @@ class Rig {
   motion::EncoderPlace encoder_place_;
   double last_measured_{0.0};
   AnyPlant plant_;
-  std::span<const loop::TorquePiece> torque_;  // of this sample
   bool clipped_{false};
   bool controller_failed_{false};
 };

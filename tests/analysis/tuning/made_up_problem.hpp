@@ -33,7 +33,7 @@ struct MadeUpProblem {
                             unit + (hash(at[0]) << 20U) + (hash(at[1]) << 42U), random::Draw::trial));
   }
 
-  /// What a unit does: half of its luck is the machine's, the same at all points, half that of the point.
+  /// The result of a unit: half of its luck is the machine's, the same at all points, half that of the point.
   UnitResult result(const Values& at, std::uint64_t unit) const {
     const Values everywhere{0.0, 0.0};
     const auto normal = [&](std::uint64_t stream, const Values& place) {

@@ -75,8 +75,8 @@ class Answers {
     for (std::int64_t k = first; k < first + 40; ++k) {
       const double wanted = uniform(-1.1, 1.1) * range;
       const loop::DacOutput decided = loop::convert(dac, wanted);
-      const motion::TorqueCourse course =
-          (exact ? drive.send_exact(wanted) : drive.send(k, decided)).front().course;
+      exact ? drive.send_exact(wanted) : drive.send(k, decided);
+      const motion::TorqueCourse course = drive.pieces().front().course;
       samples.push_back({k, wanted, decided.code, course.now, course.settled, course.rate});
     }
     return {{"bits", dac.bits},

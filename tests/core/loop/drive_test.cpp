@@ -39,6 +39,17 @@ std::vector<DacOutput> random_outputs(const DacParameters& dac, unsigned seed, i
   return outputs;
 }
 
+/// The torque of sample k.
+std::span<const TorquePiece> sent(Drive& drive, std::int64_t k, const DacOutput& output) {
+  drive.send(k, output);
+  return drive.pieces();
+}
+
+std::span<const TorquePiece> sent_exactly(Drive& drive, double torque) {
+  drive.send_exact(torque);
+  return drive.pieces();
+}
+
 TEST(Drive, WithoutErrorsHoldsTheDecidedTorqueExactly) {
   const DacParameters dac;
   for (const int delay : {0, 1, 3}) {
@@ -46,7 +57,8 @@ TEST(Drive, WithoutErrorsHoldsTheDecidedTorqueExactly) {
     EXPECT_EQ(drive.torque(), 0.0);
     const std::vector<DacOutput> outputs = random_outputs(dac, 21, 200);
     for (std::size_t k = 0; k < outputs.size(); ++k) {
-      const motion::TorqueCourse course = drive.send(static_cast<std::int64_t>(k), outputs[k]).front().course;
+      const motion::TorqueCourse course =
+          sent(drive, static_cast<std::int64_t>(k), outputs[k]).front().course;
       const auto late = static_cast<std::size_t>(delay);
       const double expected = k < late ? 0.0 : outputs[k - late].torque;
       EXPECT_EQ(course.now, expected);
@@ -68,9 +80,9 @@ TEST(Drive, DelaysByAFractionOfASample) {
       for (std::size_t k = 0; k < outputs.size(); ++k) {
         double now = 0.0;
         double duration = 0.0;
-        const std::span<const TorquePiece> pieces = drive.send(static_cast<std::int64_t>(k), outputs[k]);
+        const std::span<const TorquePiece> pieces = sent(drive, static_cast<std::int64_t>(k), outputs[k]);
         for (int quarter = 0; quarter < 4; ++quarter) {
-          const motion::TorqueCourse expected = fine.send_exact(outputs[k].torque).front().course;
+          const motion::TorqueCourse expected = sent_exactly(fine, outputs[k].torque).front().course;
           const double time = quarter * sample_time / 4.0;
           const bool second = pieces.size() == 2 && time >= pieces[0].duration * (1.0 - 1e-12);
           const TorquePiece& piece = pieces[second ? 1 : 0];
@@ -96,8 +108,8 @@ TEST(Drive, GivesNothingUntilTheFirstTorqueHasComeThrough) {
   const std::vector<DacOutput> outputs = random_outputs(dac, 22, 100);
   for (std::size_t k = 0; k < outputs.size(); ++k) {
     const auto sample = static_cast<std::int64_t>(k);
-    torques.push_back(at_once.send(sample, outputs[k]).front().course.now);
-    EXPECT_EQ(late.send(sample, outputs[k]).front().course.now, k < 4 ? 0.0 : torques[k - 4]);
+    torques.push_back(sent(at_once, sample, outputs[k]).front().course.now);
+    EXPECT_EQ(sent(late, sample, outputs[k]).front().course.now, k < 4 ? 0.0 : torques[k - 4]);
   }
 }
 
@@ -113,8 +125,8 @@ TEST(Drive, ConverterNoiseIsNormalAndNewAtEverySample) {
   double last = 0.0;
   for (int k = 0; k < samples; ++k) {
     const DacOutput output = convert(dac, 0.1 * std::sin(0.01 * k));
-    const double z = (drive.send(k, output).front().course.now - output.torque) / dac.noise;
-    const double other = (other_trial.send(k, output).front().course.now - output.torque) / dac.noise;
+    const double z = (sent(drive, k, output).front().course.now - output.torque) / dac.noise;
+    const double other = (sent(other_trial, k, output).front().course.now - output.torque) / dac.noise;
     probabilities.push_back(0.5 * std::erfc(-z / std::sqrt(2.0)));
     successive += z * last;
     between_trials += z * other;
@@ -131,9 +143,9 @@ TEST(Drive, NoiseDependsOnTrialAndSampleAlone) {
   Drive forward(dac, {}, 0, sample_time, randomness_of(9));
   Drive backward(dac, {}, 0, sample_time, randomness_of(9));
   std::vector<double> torques;
-  for (int k = 0; k < 50; ++k) torques.push_back(forward.send(k, {}).front().course.now);
+  for (int k = 0; k < 50; ++k) torques.push_back(sent(forward, k, {}).front().course.now);
   for (int k = 49; k >= 0; --k)
-    EXPECT_EQ(backward.send(k, {}).front().course.now, torques[static_cast<std::size_t>(k)]);
+    EXPECT_EQ(sent(backward, k, {}).front().course.now, torques[static_cast<std::size_t>(k)]);
 }
 
 TEST(Drive, ExactTorquePassesTheConverterByButNotDelayAndAmplifier) {
@@ -143,12 +155,12 @@ TEST(Drive, ExactTorquePassesTheConverterByButNotDelayAndAmplifier) {
   std::vector<double> levels;
   for (int k = 0; k < 50; ++k) {
     levels.push_back(std::sin(0.3 * k) / 7.0);
-    EXPECT_EQ(direct.send_exact(levels.back()).front().course.now,
+    EXPECT_EQ(sent_exactly(direct, levels.back()).front().course.now,
               k < 2 ? 0.0 : levels[static_cast<std::size_t>(k - 2)]);
   }
   Drive slow(dac, {40.0}, 0, sample_time, randomness_of(1));
-  EXPECT_EQ(slow.send_exact(0.1).front().course.now, 0.0);
-  EXPECT_NEAR(slow.send_exact(0.1).front().course.now,
+  EXPECT_EQ(sent_exactly(slow, 0.1).front().course.now, 0.0);
+  EXPECT_NEAR(sent_exactly(slow, 0.1).front().course.now,
               0.1 * -std::expm1(-2.0 * std::numbers::pi * 40.0 * sample_time), 1e-16);
 }
 
@@ -156,7 +168,7 @@ TEST(Drive, BeyondTheHighestBandwidthThereIsNone) {
   AmplifierParameters fast;
   fast.bandwidth = 1e300;
   Drive drive({}, fast, 0, 5e-4, {});
-  EXPECT_EQ(drive.send_exact(0.1).front().course.rate, 2.0 * std::numbers::pi * 1e12);
+  EXPECT_EQ(sent_exactly(drive, 0.1).front().course.rate, 2.0 * std::numbers::pi * 1e12);
 }
 
 TEST(Drive, AmplifierLetsASineOfItsBandwidthThroughAtMinusThreeDecibels) {
@@ -169,7 +181,7 @@ TEST(Drive, AmplifierLetsASineOfItsBandwidthThroughAtMinusThreeDecibels) {
   double quadrature = 0.0;
   for (int k = 0; k < 6 * samples_per_period; ++k) {
     const double angle = 2.0 * std::numbers::pi * k / samples_per_period;
-    const double torque = drive.send_exact(std::sin(angle)).front().course.now;
+    const double torque = sent_exactly(drive, std::sin(angle)).front().course.now;
     if (k < 5 * samples_per_period) continue;
     in_phase += 2.0 * torque * std::sin(angle) / samples_per_period;
     quadrature += 2.0 * torque * std::cos(angle) / samples_per_period;
@@ -180,10 +192,10 @@ TEST(Drive, AmplifierLetsASineOfItsBandwidthThroughAtMinusThreeDecibels) {
 
 TEST(Drive, AmplifierComesToRest) {
   Drive drive({}, {200.0}, 0, sample_time, randomness_of(1));
-  drive.send_exact(0.3);
+  sent_exactly(drive, 0.3);
   motion::TorqueCourse course;
   for (int k = 0; k < 2000; ++k) {
-    course = drive.send_exact(0.0).front().course;
+    course = sent_exactly(drive, 0.0).front().course;
     ASSERT_TRUE(course.now == 0.0 || std::isnormal(course.now));
   }
   EXPECT_EQ(course.now, 0.0);

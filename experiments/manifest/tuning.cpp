@@ -130,7 +130,7 @@ void read_tuning(const yaml::Field& field, const study::StudyPlan& plan, study::
   if (!yaml::check_map(field, "tune: {free: {controller.ki: {log: [5.0e+3, 3.0e+5]}}}", problems)) return;
   parameters::check_keys(field, tuning_keys, problems);
   yaml::require_key(field, "free", expected_free, problems);
-  study::Tuning tuning{.free = {}, .minimise = "band_settling_time.p95", .margins = {}};
+  study::Tuning tuning;
   if (const auto free = yaml::find_field(field, "free")) read_free(*free, plan, tuning, problems);
   if (const auto minimise = yaml::find_field(field, "minimise"))
     tuning.minimise = yaml::read_text(*minimise, problems).value_or(tuning.minimise);

@@ -24,12 +24,12 @@ struct LoopMargins {
   std::optional<double> delay{0.5};   ///< samples by which the delay may grow
 };
 
-/// What `zerocount tune` is to find (`tune`): values of the free parameters that meet the goal of the study
-/// and keep the margins, and of these the ones with the smallest criterion.
+/// The task of `zerocount tune` (`tune`): values of the free parameters that meet the goal of the study and
+/// keep the margins, and of these the ones with the smallest criterion.
 struct Tuning {
-  std::vector<FreeParameter> free;
-  std::string minimise;  ///< the criterion, e.g. "band_settling_time.p95"; without [band] of the goal's band
-  LoopMargins margins;
+  std::vector<FreeParameter> free{};
+  std::string minimise{"band_settling_time.p95"};  ///< the criterion; without [band] of the goal's band
+  LoopMargins margins{};
 };
 
 }  // namespace zerocount::study

@@ -75,6 +75,18 @@ void print_fallback_lock(const storage::OutputLock& lock, const std::filesystem:
                output.string(), lock.owner()->path().filename().string());
 }
 
+ExitCode exit_code_of(goal::Status status) {
+  switch (status) {
+    case goal::Status::met:
+      return ExitCode::success;
+    case goal::Status::missed:
+      return ExitCode::regression;
+    case goal::Status::undecided:
+      break;
+  }
+  return ExitCode::inconclusive;
+}
+
 void print_warnings(const study::Study& study) {
   for (const std::string& warning : study.warnings) status::tell("warning: {}\n", warning);
   for (const std::string& warning : theory::doubtful_loops(study)) status::tell("warning: {}\n", warning);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/goal/goal_verdict.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/study/study.hpp"
 #include "results/storage/output_lock.hpp"
@@ -53,6 +54,9 @@ void print_fallback_lock(const storage::OutputLock& lock, const std::filesystem:
 
 /// Prints the warnings about the manifest and its loops to stderr.
 void print_warnings(const study::Study& study);
+
+/// success for a goal that is met, regression for one that is missed, inconclusive.
+ExitCode exit_code_of(goal::Status status);
 
 /// All verbs, in the order of the help.
 std::vector<Command> commands();

@@ -45,18 +45,6 @@ nlohmann::ordered_json judgement_json(const summary::StudySummary& summary,
   return json;
 }
 
-ExitCode exit_code_of(goal::Status status) {
-  switch (status) {
-    case goal::Status::met:
-      return ExitCode::success;
-    case goal::Status::missed:
-      return ExitCode::regression;
-    case goal::Status::undecided:
-      break;
-  }
-  return ExitCode::inconclusive;
-}
-
 /// The summary of a finished study.
 summary::StudySummary summary_of(const std::filesystem::path& path) {
   std::error_code error;

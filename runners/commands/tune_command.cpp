@@ -1,5 +1,4 @@
 #include <charconv>
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -7,13 +6,18 @@
 #include <oneapi/tbb/global_control.h>
 
 #include "core/failure/failure.hpp"
+#include "core/trial/trial.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/results_file.hpp"
 #include "results/storage/output_lock.hpp"
+#include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
 #include "runners/commands/study_argument.hpp"
+#include "runners/plugins/hidden_state.hpp"
 #include "runners/standard_output/standard_output.hpp"
+#include "runners/status/status.hpp"
+#include "runners/study_run/engine_use.hpp"
 #include "runners/study_run/interruption.hpp"
 #include "runners/study_run/study_runner.hpp"
 #include "runners/tuning/tune_text.hpp"
@@ -21,8 +25,6 @@
 
 namespace zerocount::commands {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr const char* tune_help =
     "Finds values of the free parameters with which the axis meets its goal, and proves them on\n"
@@ -32,13 +34,14 @@ constexpr const char* tune_help =
     "    tune: {free: {controller.ki: {log: [5.0e+3, 3.0e+5]}, controller.kp: [0, 1000]},\n"
     "           minimise: band_settling_time.p95, margins: {gain: 6, phase: 30, delay: 0.5}}\n"
     "\n"
-    "Of the values that meet the goal and keep the margins (dB, degrees, samples of delay) at\n"
-    "every machine, the search seeks those with the smallest criterion. Candidates race on the\n"
-    "same machines; one that cannot win is dropped early. The bounds that are told are of the\n"
-    "proof alone. FILE is its results file, whose manifest has the tuned values.\n"
+    "Of the values that meet the goal and keep the margins (dB, degrees, samples of delay), the\n"
+    "search seeks those with the smallest criterion. Candidates race on the same machines; one\n"
+    "that cannot win is dropped early. The bounds are of the proof alone. FILE is its results\n"
+    "file, whose manifest has the tuned values.\n"
     "\n"
-    "--budget bounds the search: 500000 trials by default, or a time such as 60s or 5min. With a\n"
-    "number of trials the answer depends on the seed alone, not on the number of threads.\n"
+    "--budget bounds the search: 500000 trials by default, or a time such as 60s or 5min for all.\n"
+    "With a number of trials the answer depends on the seed alone, not on the number of threads.\n"
+    "Ctrl-C keeps the simulated points; the same command goes on with them.\n"
     "The exit code is 0 if the goal is met, 1 if no values in the ranges meet it, 3 if the proof\n"
     "does not decide it.\n"
     "\n"
@@ -48,27 +51,15 @@ constexpr const char* limits_help =
     "Tells what stands between a point and its goal: the rate of the goal with each cause of\n"
     "failures switched off alone, and with the best pair of causes: creep, the converter (16 times\n"
     "finer), the encoder (4 times finer), the sample rate (twice), delay and amplifier lag, noise.\n"
-    "All are simulated with the same random numbers. The study has one point.\n"
+    "All are simulated with the same random numbers. Of several points --point chooses one.\n"
     "\n"
     "Example: zerocount limits my-axis.yaml\n";
 
 constexpr const char* worst_help =
     "Finds the machine of a study that meets its goal in the fewest moves, and prints its inputs.\n"
-    "The study has one point.\n"
+    "Of several points --point chooses one.\n"
     "\n"
     "Example: zerocount worst my-axis.yaml\n";
-
-ExitCode exit_code_of(tuning::TuneStatus status) {
-  switch (status) {
-    case tuning::TuneStatus::met:
-      return ExitCode::success;
-    case tuning::TuneStatus::unreachable:
-      return ExitCode::regression;
-    case tuning::TuneStatus::undecided:
-      break;
-  }
-  return ExitCode::inconclusive;
-}
 
 /// "60s", "5min", or a number of trials.
 void read_budget(const command_line::Arguments& arguments, tuning::TuneSettings& settings) {
@@ -98,14 +89,17 @@ ExitCode tune(const command_line::Arguments& arguments) {
   settings.threads = static_cast<int>(arguments.whole_number("threads", 1, 4096).value_or(0));
   settings.quiet = arguments.has("quiet");
   read_budget(arguments, settings);
-  if (fs::exists(settings.output) && !arguments.has("force"))
-    arguments.refuse(fmt::format("{}: exists already; expected another FILE, or --force to replace it",
-                                 settings.output.string()));
+  settings.force = arguments.has("force");
   const oneapi::tbb::global_control limit(
       oneapi::tbb::global_control::max_allowed_parallelism,
       static_cast<std::size_t>(study_run::threads_to_use(settings.threads)));
+  print_warnings(study);
+  const std::string engine = study_run::engine_text(study_run::points_on_reference(study));
+  if (!engine.empty() && !settings.quiet) status::tell("{}\n", engine);
+  plugins::require_no_hidden_state(study);
   const study_run::InterruptionWatch interruption;
   const storage::OutputLock lock(settings.output);
+  print_fallback_lock(lock, settings.output);
   const tuning::TuneAnswer answer = tuning::tune(study, settings, interruption.token());
   if (arguments.choice("format") == "json") {
     standard_output::write(tuning::json_of(answer));
@@ -115,34 +109,60 @@ ExitCode tune(const command_line::Arguments& arguments) {
   return exit_code_of(answer.status);
 }
 
-/// The study of a manifest or a results file, with one point and a goal.
-study::Study study_to_examine(const command_line::Arguments& arguments) {
-  const std::string& path = arguments.operands()[0];
+/// A study with a goal, and the point of it that is asked for.
+struct PointToExamine {
   study::Study study;
+  std::int64_t point{0};
+};
+
+PointToExamine point_to_examine(const command_line::Arguments& arguments) {
+  const std::string& path = arguments.operands()[0];
+  PointToExamine examined;
   if (is_results_file(path)) {
+    if (arguments.has("set"))
+      arguments.refuse("option '--set': changes a manifest, not a results file; expected a manifest");
     const reading::ResultsFile file(path);
-    study = layout::recorded_study(file.header(), path);
+    if (file.header().plugin)
+      throw Failure(
+          ExitCode::bad_input,
+          fmt::format("{}: its controller is a plugin, which the file does not contain; expected its "
+                      "manifest",
+                      path));
+    examined.study = layout::recorded_study(file.header(), path);
   } else {
-    study = load_study(path, arguments);
+    examined.study = load_study(path, arguments);
   }
+  const study::Study& study = examined.study;
   if (!study.goal)
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: its manifest has no goal; expected one such as goal: {{band: 1, within: "
                               "0.05, moves: 0.99}}",
                               path));
-  if (study::point_count(study) > 1)
-    throw Failure(ExitCode::bad_input, fmt::format("{}: it has {} design points; expected a study of one",
+  const std::optional<std::int64_t> point = command_line::point_option(arguments, study.point_labels);
+  if (!point && study::point_count(study) > 1)
+    throw Failure(ExitCode::bad_input, fmt::format("{}: it has {} design points; expected one with --point",
                                                    path, study::point_count(study)));
-  if (!study.tuning)
-    study.tuning = study::Tuning{.free = {}, .minimise = "band_settling_time.p95", .margins = {}};
-  return study;
+  examined.point = point.value_or(0);
+  return examined;
+}
+
+/// @throws Failure (interrupted) where `work` throws Interrupted
+template <class Work>
+auto unless_interrupted(const Work& work) {
+  try {
+    return work();
+  } catch (const trial::Interrupted&) {
+    throw Failure(ExitCode::interrupted, "interrupted: nothing was written");
+  }
 }
 
 ExitCode limits(const command_line::Arguments& arguments) {
-  const study::Study study = study_to_examine(arguments);
+  const PointToExamine examined = point_to_examine(arguments);
+  const study::Study& study = examined.study;
   const study_run::InterruptionWatch interruption;
-  const std::vector<tuning::Limit> limits =
-      tuning::limits_of(study, tuning::units_of(study), interruption.token());
+  const std::vector<tuning::Limit> limits = unless_interrupted([&] {
+    return tuning::limits_of(study, tuning::units_of(study, examined.point), interruption.token());
+  });
   if (arguments.choice("format") == "json") {
     standard_output::write(tuning::limits_json(limits));
   } else {
@@ -152,10 +172,13 @@ ExitCode limits(const command_line::Arguments& arguments) {
 }
 
 ExitCode worst(const command_line::Arguments& arguments) {
-  const study::Study study = study_to_examine(arguments);
+  const PointToExamine examined = point_to_examine(arguments);
+  const study::Study& study = examined.study;
   const study_run::InterruptionWatch interruption;
-  const tuning::WorstMachine worst =
-      tuning::worst_machine(study, tuning::units_of(study), interruption.token());
+  const tuning::Units units = tuning::units_of(study, examined.point);
+  const std::vector<tuning::UnitResult> results = unless_interrupted(
+      [&] { return tuning::results_of(study, units, units.count, nullptr, interruption.token()); });
+  const tuning::WorstMachine worst = tuning::worst_machine(study, examined.point, results);
   if (arguments.choice("format") == "json") {
     standard_output::write(tuning::worst_json(worst));
   } else {
@@ -186,14 +209,22 @@ Command tune_command() {
 }
 
 Command limits_command() {
-  return {{"limits", "MANIFEST|FILE", {command_line::format_option({"text", "json"}), set_option()}},
+  return {{"limits",
+           "MANIFEST|FILE",
+           {command_line::format_option({"text", "json"}),
+            {"point", "P", "the design point, by label or number"},
+            set_option()}},
           "what stands between a point and its goal",
           limits_help,
           limits};
 }
 
 Command worst_command() {
-  return {{"worst", "MANIFEST|FILE", {command_line::format_option({"text", "json"}), set_option()}},
+  return {{"worst",
+           "MANIFEST|FILE",
+           {command_line::format_option({"text", "json"}),
+            {"point", "P", "the design point, by label or number"},
+            set_option()}},
           "the machine that a gain suits worst",
           worst_help,
           worst};

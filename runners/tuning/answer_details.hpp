@@ -3,36 +3,37 @@
 #include <optional>
 #include <span>
 #include <stop_token>
+#include <string>
 #include <vector>
 
-#include "runners/tuning/tuner.hpp"
+#include "runners/tuning/unit_runner.hpp"
 
-/// What stands beside the tuned values. All of it is by simulation of the units of the search, not proven.
+/// Properties of the tuned values, by simulation of the units of the search. None of them is proven.
 namespace zerocount::tuning {
 
-struct Details {
+/// The tuned study on the units of the search.
+struct TunedStudy {
   const study::Study& study;
   std::span<const study::FreeParameter> free;
   const Values& gains;
-  Aim aim;
   Units units;
   std::stop_token stop;
 };
 
-/// The results of all units of a study, which is made with overrides_for().
-/// @param change null: none
-std::vector<UnitResult> results_of(const study::Study& study, const Units& units, const Change* change,
-                                   const std::stop_token& stop);
+/// Range of a free parameter, the others as tuned, in which the goal seems to be met.
+struct Room {
+  std::string name;
+  double low{0.0};
+  double high{0.0};
+};
 
 /// controller.delay (samples) from which on the goal seems to be lost, to 0.05; nothing up to 5 samples more.
-std::optional<double> delay_lost(const Details& details, double delay);
+/// @param delay of the tuned study
+std::optional<double> delay_lost(const TunedStudy& tuned, double delay);
 
 /// Rate of the goal if its band were one count wider.
-double rate_in_wider_band(const Details& details);
+double rate_in_wider_band(const TunedStudy& tuned);
 
-std::vector<Room> room_of(const Details& details);
-
-/// Units for the limits: fewer than the search's.
-Units limit_units(const Details& details);
+std::vector<Room> room_of(const TunedStudy& tuned);
 
 }  // namespace zerocount::tuning

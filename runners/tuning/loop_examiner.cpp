@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
+#include <utility>
 
 #include <oneapi/tbb/parallel_for.h>
 
@@ -14,7 +16,7 @@
 namespace zerocount::tuning {
 namespace {
 
-constexpr std::int64_t most_machines = 100;
+constexpr std::int64_t most_unlike_machines = 100;
 constexpr int places_on_profile = 64;
 constexpr int stiffnesses = 4;  // from the softest to the stiffest
 constexpr double longest_delay = 10.0;
@@ -92,6 +94,7 @@ double delay_margin(const trial::TrialParameters& p, double softest, double stif
   const auto stable = [&](double more) { return all_stable(loops_of(p, softest, stiffest, more)); };
   double kept = 0.0;
   double lost = 0.25;
+  if (!stable(0.0)) return 0.0;
   while (stable(lost)) {
     kept = lost;
     lost += 0.25;
@@ -104,40 +107,42 @@ double delay_margin(const trial::TrialParameters& p, double softest, double stif
   return kept;
 }
 
-bool is_same_machine(const trial::TrialParameters& a, const trial::TrialParameters& b) {
-  const auto parts = [](const trial::TrialParameters& p) {
-    return std::vector<double>{p.plant.inertia,          p.plant.presliding_damping,
-                               p.plant.load.inertia,     p.plant.load.stiffness,
-                               p.plant.load.damping,     p.encoder.fine,
-                               p.dac.gain_error,         p.amplifier.bandwidth,
-                               p.controller.sample_rate, p.controller.delay,
-                               p.controller.kp,          p.controller.ki,
-                               p.controller.kd};
-  };
-  return parts(a) == parts(b);
+/// Whether the drawn quantities change nothing of the loop but the stiffness of the contact.
+bool differ_in_stiffness_alone(const study::Study& study) {
+  return std::ranges::all_of(study.input_columns, [](const study::InputColumn& column) {
+    const auto is_of = [&column](std::string_view section) { return column.name.starts_with(section); };
+    return is_of("friction.") || is_of("initial.") || is_of("command.");
+  });
+}
+
+/// The softest and the stiffest contact over the friction profile of a trial.
+std::pair<double, double> stiffness_range(const trial::TrialParameters& p, double period) {
+  double softest = std::numeric_limits<double>::infinity();
+  double stiffest = 0.0;
+  const int places = p.friction.profiled.empty() ? 1 : places_on_profile;
+  for (int place = 0; place < places; ++place) {
+    const friction::FrictionParameters contact =
+        friction::friction_at(p.friction, p.initial.position + period * place / places);
+    softest = std::min(softest, contact.k1);
+    stiffest = std::max(stiffest, contact.k1 + contact.k2);
+  }
+  return {softest, stiffest};
 }
 
 }  // namespace
 
-LoopExaminer::LoopExaminer(const study::Study& study) {
-  const std::int64_t count = std::min(study.trials, most_machines);
-  bool alike = true;
+LoopExaminer::LoopExaminer(const study::Study& study, std::int64_t machines) {
   const trial::TrialParameters first = study::study_trial(study, 0, 0).parameters;
   if (theory::has_no_linear_loop(first)) return;
-  for (std::int64_t i = 0; i < count; ++i) {
-    const trial::TrialParameters p = study::study_trial(study, 0, i).parameters;
-    alike = alike && is_same_machine(first, p);
-    Machine machine{i, std::numeric_limits<double>::infinity(), 0.0};
-    const int places = p.friction.profiled.empty() ? 1 : places_on_profile;
-    for (int place = 0; place < places; ++place) {
-      const double position = p.initial.position + study.period * place / places;
-      const friction::FrictionParameters contact = friction::friction_at(p.friction, position);
-      machine.softest = std::min(machine.softest, contact.k1);
-      machine.stiffest = std::max(machine.stiffest, contact.k1 + contact.k2);
-    }
-    machines_.push_back(machine);
-  }
-  if (alike && has_spring(first)) {
+  const bool alike = has_spring(first) && differ_in_stiffness_alone(study);
+  examined_ = alike ? machines : std::min(machines, most_unlike_machines);
+  machines_.resize(static_cast<std::size_t>(examined_));
+  oneapi::tbb::parallel_for(std::int64_t{0}, examined_, [&](std::int64_t i) {
+    const auto [softest, stiffest] =
+        stiffness_range(study::study_trial(study, 0, i).parameters, study.period);
+    machines_[static_cast<std::size_t>(i)] = {i, softest, stiffest};
+  });
+  if (alike) {
     Machine all = machines_.front();
     for (const Machine& one : machines_) {
       all.softest = std::min(all.softest, one.softest);
@@ -184,7 +189,7 @@ SmallestMargins LoopExaminer::margins_of(const study::Study& candidate) const {
     const Machine& one = machines_[i];
     const trial::TrialParameters p = study::study_trial(candidate, 0, one.trial).parameters;
     SmallestMargins& smallest = found[i];
-    smallest = {true, none, none, delay_margin(p, one.softest, one.stiffest)};
+    smallest = {true, none, none, delay_margin(p, one.softest, one.stiffest), 1};
     for (const theory::FrozenLoop& each : loops_of(p, one.softest, one.stiffest, 0.0)) {
       smallest.stable = smallest.stable && theory::stability_of(each) == theory::LoopStability::stable;
       const theory::StabilityMargins margins = theory::stability_margins(each);
@@ -192,7 +197,7 @@ SmallestMargins LoopExaminer::margins_of(const study::Study& candidate) const {
       smallest.phase = std::min(smallest.phase, degrees(margins.phase.value));
     }
   });
-  SmallestMargins all{true, none, none, longest_delay};
+  SmallestMargins all{true, none, none, longest_delay, examined_};
   for (const SmallestMargins& one : found) {
     all.stable = all.stable && one.stable;
     all.gain = std::min(all.gain, one.gain);

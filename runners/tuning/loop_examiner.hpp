@@ -15,14 +15,18 @@ struct SmallestMargins {
   double gain{0.0};   ///< dB
   double phase{0.0};  ///< degrees
   double delay{0.0};  ///< samples by which the delay may grow until a loop is unstable; 10 means 10 or more
+  std::int64_t machines{0};  ///< that were examined
 };
 
 /// Examines whether the linear loops of the machines keep margins at every stiffness of the contact before it
 /// slides, from k1 to k1 + k2, over the friction profile of the machine.
 class LoopExaminer {
  public:
+  /// Machines that differ in their stiffness alone are examined as one with the stiffness of all; of others
+  /// the first 100.
   /// @param study whose first trials are the machines; the friction must not depend on free parameters
-  explicit LoopExaminer(const study::Study& study);
+  /// @param machines number of these trials
+  LoopExaminer(const study::Study& study, std::int64_t machines);
 
   /// Whether the loops have no transfer function: a plugin. Then nothing is examined and all is kept.
   bool is_blind() const { return machines_.empty(); }
@@ -43,6 +47,7 @@ class LoopExaminer {
   };
 
   std::vector<Machine> machines_;
+  std::int64_t examined_{0};           ///< machines for which they stand
   std::vector<std::size_t> critical_;  ///< indices of machines
 };
 

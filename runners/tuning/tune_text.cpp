@@ -34,24 +34,20 @@ std::string values_text(const NamedValues& values) {
   return text;
 }
 
-std::string_view word_of(TuneStatus status) {
-  switch (status) {
-    case TuneStatus::met:
-      return "met";
-    case TuneStatus::unreachable:
-      return "unreachable";
-    case TuneStatus::undecided:
-      break;
-  }
-  return "undecided";
+std::string_view word_of(goal::Status status) {
+  return status == goal::Status::missed ? "unreachable" : goal::text_of(status);
 }
 
 std::string criterion_number(double value) {
   return std::isfinite(value) ? text::short_number(value) : "not within the hold";
 }
 
-std::string margin_limit(const std::optional<double>& limit, std::string_view unit) {
-  return limit ? fmt::format("at least {:g}{}", *limit, unit) : "off";
+std::string margin_limit(const std::optional<double>& limit) {
+  return limit ? fmt::format("wanted: {:g}", *limit) : "off";
+}
+
+std::string margin_number(double margin) {
+  return std::isfinite(margin) ? text::short_number(margin) : "without limit:";
 }
 
 std::string margins_text(const TuneAnswer& answer, const study::LoopMargins& wanted) {
@@ -59,11 +55,11 @@ std::string margins_text(const TuneAnswer& answer, const study::LoopMargins& wan
     return "margins: none, because the controller is a plugin, whose transfer function is not known\n";
   const SmallestMargins& m = answer.margins;
   return fmt::format(
-      "margins of the worst machine before it slides: {} dB (wanted: {}), {}° ({}), {} samples of delay "
-      "({})\n",
-      text::short_number(m.gain), margin_limit(wanted.gain, ""), text::short_number(m.phase),
-      margin_limit(wanted.phase, ""), m.delay >= 10.0 ? "10 or more" : text::short_number(m.delay),
-      margin_limit(wanted.delay, ""));
+      "smallest margins of {} machines before they slide: gain {} dB ({}), phase {}° ({}), delay {} samples "
+      "({})\n{}",
+      m.machines, margin_number(m.gain), margin_limit(wanted.gain), margin_number(m.phase),
+      margin_limit(wanted.phase), m.delay >= 10.0 ? "10 or more" : text::short_number(m.delay),
+      margin_limit(wanted.delay), m.stable ? "" : "  the linear loop of a machine is unstable\n");
 }
 
 /// kp, ki and kd in the other system of units, where they are free.
@@ -102,11 +98,11 @@ std::string gains_table(const TuneAnswer& answer) {
 
 std::string headline(const TuneAnswer& answer) {
   switch (answer.status) {
-    case TuneStatus::met:
+    case goal::Status::met:
       return "met: the goal is met by these values";
-    case TuneStatus::unreachable:
+    case goal::Status::missed:
       return "unreachable in these ranges: the best values found miss the goal";
-    case TuneStatus::undecided:
+    case goal::Status::undecided:
       break;
   }
   return "undecided: the trials of the proof do not decide whether the best values found meet the goal";
@@ -131,20 +127,19 @@ std::string proof_text(const TuneAnswer& answer, const study::Study& study) {
 
 std::string alternatives_text(const TuneAnswer& answer) {
   if (answer.alternatives.empty()) return "";
-  std::vector<text::TextColumn> columns{{"fixed", false, {}},
-                                        {"best values", false, {}},
-                                        {"moves that meet it", true, {}},
-                                        {"at least", true, {}},
-                                        {"criterion", true, {}}};
+  std::vector<text::TextColumn> columns{{"fixed", false, {}},   {"best values", false, {}},
+                                        {"goal", false, {}},    {"moves that meet it", true, {}},
+                                        {"at least", true, {}}, {"criterion", true, {}}};
   for (const Alternative& one : answer.alternatives) {
     columns[0].cells.push_back(values_text(one.fixed));
-    const bool found = !one.gains.empty();
-    columns[1].cells.push_back(found ? values_text(one.gains) : "none keeps the margins");
-    columns[2].cells.push_back(found ? fmt::format("{:.4g} %", 100.0 * one.moves.value) : "");
-    columns[3].cells.push_back(found ? fmt::format("{:.4g} %", 100.0 * one.moves.low) : "");
-    columns[4].cells.push_back(found ? criterion_number(one.criterion) : "");
+    columns[1].cells.push_back(one.verdict ? values_text(one.gains) : "none keeps the margins");
+    columns[2].cells.emplace_back(one.verdict ? goal::text_of(one.verdict->status) : "");
+    columns[3].cells.push_back(one.verdict ? fmt::format("{:.4g} %", 100.0 * one.verdict->moves.value) : "");
+    columns[4].cells.push_back(one.verdict ? fmt::format("{:.4g} %", 100.0 * one.verdict->moves.low) : "");
+    columns[5].cells.push_back(one.verdict ? criterion_number(one.criterion) : "");
   }
-  return "\nsimpler controls, each at its own best values:\n\n" + text::aligned_table(columns);
+  return "\nsimpler controls, each at its own best values, on other machines than its search:\n\n" +
+         text::aligned_table(columns);
 }
 
 Json list_of(const std::vector<Limit>& limits) {
@@ -178,7 +173,7 @@ std::string limits_text(const std::vector<Limit>& limits, bool of_machines) {
 }
 
 std::string worst_text(const WorstMachine& worst, bool on_rigs) {
-  return fmt::format("worst machine: {} {}, {:.4g} % of whose moves meet the goal: {}\n",
+  return fmt::format("worst machine: {} {}, {:.4g} % of its moves meet the goal; {}\n",
                      on_rigs ? "rig" : "trial", worst.rig, 100.0 * worst.met, values_text(worst.inputs));
 }
 
@@ -206,7 +201,9 @@ std::string json_of(const TuneAnswer& answer) {
       json["needed"] = {{"rigs", answer.proof->needs->rigs}, {"trials", answer.proof->needs->trials}};
     json["margins"] = {{"gain", finite_or_null(answer.margins.gain)},
                        {"phase", finite_or_null(answer.margins.phase)},
-                       {"delay", answer.margins.delay}};
+                       {"delay", answer.margins.delay},
+                       {"stable", answer.margins.stable},
+                       {"machines", answer.margins.machines}};
     if (answer.blind) json["margins"] = nullptr;
     json["delay_lost"] = answer.delay_lost ? Json(*answer.delay_lost) : Json();
   }
@@ -215,11 +212,19 @@ std::string json_of(const TuneAnswer& answer) {
   for (const Room& one : answer.room) json["room"][one.name] = {one.low, one.high};
   json["alternatives"] = Json::array();
   for (const Alternative& one : answer.alternatives) {
-    json["alternatives"].push_back({{"fixed", values_json(one.fixed)},
-                                    {"gains", values_json(one.gains)},
-                                    {"rate", finite_or_null(one.moves.value)},
-                                    {"rate_low", one.moves.low},
-                                    {"criterion", finite_or_null(one.criterion)}});
+    Json alternative{{"fixed", values_json(one.fixed)},
+                     {"gains", values_json(one.gains)},
+                     {"rate", nullptr},
+                     {"rate_low", nullptr},
+                     {"status", nullptr},
+                     {"criterion", nullptr}};
+    if (one.verdict) {
+      alternative["rate"] = one.verdict->moves.value;
+      alternative["rate_low"] = one.verdict->moves.low;
+      alternative["status"] = goal::text_of(one.verdict->status);
+      alternative["criterion"] = finite_or_null(one.criterion);
+    }
+    json["alternatives"].push_back(std::move(alternative));
   }
   json["limits"] = list_of(answer.limits);
   json["worst"] = answer.worst ? object_of(*answer.worst) : Json();
@@ -239,20 +244,22 @@ std::string text_of(const TuneAnswer& answer, const study::Study& study, const s
                                                             : "; the last generation still improved, "
                                                               "a larger --budget may find better values");
   if (!answer.proof) {
-    return text + "unreachable: no values in these ranges keep the margins at every machine\n" + searched +
-           "tune.margins: {gain: …, phase: …, delay: …} makes them smaller, or off\n";
+    return text +
+           fmt::format("unreachable: none of {} points that were tried keeps the margins\n",
+                       answer.examined) +
+           searched + "tune.margins: {gain: …, phase: …, delay: …} makes them smaller, or off\n";
   }
   text += headline(answer) + "\n\n" + gains_table(answer) + other_units(answer, study) + "\n" +
           proof_text(answer, study);
   text += fmt::format("{}: {} by the proof\n", study.tuning->minimise, criterion_number(answer.criterion));
-  if (answer.status != TuneStatus::met && study.tuning->minimise.starts_with("band_settling_time"))
+  if (answer.status != goal::Status::met && study.tuning->minimise.starts_with("band_settling_time"))
     text += fmt::format("  {:g} % of the moves would be within the band for good after {} s\n",
                         100.0 * study.goal->moves, criterion_number(answer.late_limit));
   if (answer.wider_band_rate)
     text += fmt::format("  within ±{} counts {:.4g} % of the {} would meet the goal\n", study.goal->band + 1,
                         100.0 * *answer.wider_band_rate, study.goal->machines ? "machines" : "moves");
   text += margins_text(answer, study.tuning->margins);
-  if (answer.status == TuneStatus::met) {
+  if (answer.status == goal::Status::met) {
     text +=
         answer.delay_lost
             ? fmt::format("the goal seems lost at controller.delay = {:.3g} samples; it is {:g} here\n",

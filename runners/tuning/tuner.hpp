@@ -9,10 +9,12 @@
 #include <vector>
 
 #include "analysis/goal/goal_verdict.hpp"
-#include "analysis/tuning/search.hpp"
+#include "analysis/tuning/candidate.hpp"
 #include "experiments/study/study.hpp"
+#include "runners/tuning/answer_details.hpp"
+#include "runners/tuning/limits.hpp"
 #include "runners/tuning/loop_examiner.hpp"
-#include "runners/tuning/unit_runner.hpp"
+#include "runners/tuning/worst_machine.hpp"
 
 namespace zerocount::tuning {
 
@@ -22,6 +24,7 @@ struct TuneSettings {
   std::optional<double> seconds{};   ///< of search and proof together; the search takes half of them
   int threads{0};
   bool quiet{false};
+  bool force{false};  ///< replace the output, and unfinished runs of other studies
 };
 
 /// Trials of the tuned study on machines that the search never saw.
@@ -32,43 +35,19 @@ struct Proof {
   int attempts{1};                     ///< candidates or sizes that were proven, this one included
 };
 
-/// Range of a free parameter, the others as tuned, in which the goal seems to be met.
-struct Room {
-  std::string name;
-  double low{0.0};
-  double high{0.0};
-};
-
-/// The best with some parameters fixed.
+/// A simpler or another control at its own best values.
 struct Alternative {
   std::vector<std::pair<std::string, double>> fixed;
-  std::vector<std::pair<std::string, double>> gains;
-  goal::BoundedProportion moves;  ///< on machines that the search for it never saw
-  double criterion{0.0};
-  goal::Status status{goal::Status::undecided};
+  std::vector<std::pair<std::string, double>> gains;  ///< empty if none keeps the margins
+  std::optional<goal::Verdict> verdict{};             ///< on machines that the search for it never saw
+  double criterion{0.0};                              ///< on these machines
 };
 
-/// Rate of the goal with a cause of failures switched off.
-struct Limit {
-  std::string cause;
-  double rate{0.0};
-};
-
-/// The machine of the proof that does worst.
-struct WorstMachine {
-  std::int64_t rig{0};  ///< or the trial, where no trials share a rig
-  double met{0.0};      ///< proportion of its moves that meet the goal
-  std::vector<std::pair<std::string, double>> inputs;
-};
-
-enum class TuneStatus { met, unreachable, undecided };
-
-/// What tuning found.
+/// The result of tuning.
 struct TuneAnswer {
-  TuneStatus status{TuneStatus::undecided};
+  goal::Status status{goal::Status::undecided};
   std::vector<study::FreeParameter> free;
   Values gains;             ///< empty if no candidate keeps the margins
-  Estimate estimate;        ///< of the search; the best of many, so too good
   SmallestMargins margins;  ///< of the gains
   bool blind{false};        ///< the loop has no transfer function: no margins
   std::optional<Proof> proof;
@@ -81,24 +60,16 @@ struct TuneAnswer {
   std::vector<Alternative> alternatives;
   std::vector<Limit> limits;
   std::optional<double> wider_band_rate;  ///< of the goal with a band one count wider, where it is not met
-  std::optional<WorstMachine> worst;
-  std::int64_t points{0};  ///< of the search
-  std::int64_t trials{0};  ///< of the search
+  std::optional<WorstMachine> worst;      ///< of the proof
+  std::int64_t examined{0};               ///< points whose margins were examined
+  std::int64_t points{0};                 ///< that were simulated
+  std::int64_t trials{0};                 ///< of the search
   bool converged{false};
   double seconds{0.0};
 };
 
-/// @throws Failure: bad_input if the study cannot be tuned, interrupted
+/// Tunes the study. An interrupted tuning goes on where it was when it is called again.
+/// @throws Failure: bad_input if the study cannot be tuned, or the output exists; interrupted
 TuneAnswer tune(const study::Study& study, const TuneSettings& settings, const std::stop_token& stop);
-
-/// Rates of the goal on the first units of the study, with each cause of failures switched off that the study
-/// has, and with the best pair of them. The first entry is "none".
-std::vector<Limit> limits_of(const study::Study& study, const Units& units, const std::stop_token& stop);
-
-/// The units of a study that is given: its rigs, or its trials.
-Units units_of(const study::Study& study);
-
-/// The machine with the fewest moves that meet the goal; of equal ones the one with the largest criterion.
-WorstMachine worst_machine(const study::Study& study, const Units& units, const std::stop_token& stop);
 
 }  // namespace zerocount::tuning

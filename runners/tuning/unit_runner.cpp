@@ -33,14 +33,32 @@ double value_of(const Criterion& criterion, const trial::MoveOutcome& move) {
   return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
 }
 
-void run_part(const Part& part, const Units& units, const Criterion& criterion, batch::BatchEngine& engine,
-              const std::stop_token& stop) {
+/// Adds the moves of a trial to the result of its unit.
+class TrialCounter {
+ public:
+  explicit TrialCounter(const study::Study& study)
+      : goal_(measures::counted_goal(study).value()), criterion_(criterion_of(study)) {}
+
+  void add(std::span<const trial::MoveOutcome> moves, UnitResult& result) const {
+    for (const trial::MoveOutcome& move : moves) {
+      ++result.moves;
+      result.met += measures::meets(goal_, move) ? 1 : 0;
+      result.values.push_back(value_of(criterion_, move));
+    }
+  }
+
+ private:
+  measures::CountedGoal goal_;
+  Criterion criterion_;
+};
+
+void run_part(const Part& part, const Units& units, batch::BatchEngine& engine, const std::stop_token& stop) {
   const study::Study& study = *part.entry->study;
-  const measures::CountedGoal goal = measures::counted_goal(study).value();
+  const TrialCounter counter(study);
   std::vector<trial::TrialParameters> trials;
   for (std::int64_t unit = part.from; unit < part.to; ++unit) {
     for (std::int64_t i = 0; i < units.trials_each; ++i) {
-      trials.push_back(study::study_trial(study, 0, i * units.count + unit).parameters);
+      trials.push_back(study::study_trial(study, units.point, i * units.count + unit).parameters);
       if (part.entry->change != nullptr) (*part.entry->change)(trials.back());
     }
   }
@@ -53,12 +71,7 @@ void run_part(const Part& part, const Units& units, const Criterion& criterion, 
   engine.run(parameters, outcomes, observers);
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const auto unit = static_cast<std::size_t>(part.from) + i / static_cast<std::size_t>(units.trials_each);
-    UnitResult& result = (*part.entry->results)[unit];
-    for (const trial::MoveOutcome& move : outcomes[i].moves) {
-      ++result.moves;
-      result.met += measures::meets(goal, move) ? 1 : 0;
-      result.values.push_back(value_of(criterion, move));
-    }
+    counter.add(outcomes[i].moves, (*part.entry->results)[unit]);
   }
 }
 
@@ -80,6 +93,11 @@ std::vector<std::string> overrides_of(std::span<const study::FreeParameter> free
   return overrides;
 }
 
+Units units_of(const study::Study& study, std::int64_t point) {
+  if (study.rigs == 0) return {study.trials, 1, point};
+  return {study.rigs, study.trials / study.rigs, point};
+}
+
 std::vector<std::string> overrides_for(const study::Study& study, const Units& units) {
   std::vector<std::string> overrides{fmt::format("trials={}", units.count * units.trials_each),
                                      "design=monte_carlo"};
@@ -89,7 +107,7 @@ std::vector<std::string> overrides_for(const study::Study& study, const Units& u
 }
 
 Criterion criterion_of(const study::Study& study) {
-  const std::string& text = study.tuning->minimise;
+  const std::string text = study.tuning ? study.tuning->minimise : study::Tuning{}.minimise;
   const auto dot = text.rfind('.');
   const std::string name = text.substr(0, dot);
   const std::string with_band = name.starts_with("band_") && !name.ends_with("]") && dot != std::string::npos
@@ -113,12 +131,11 @@ Criterion criterion_of(const study::Study& study) {
                             study.name, text));
 }
 
-Aim aim_of(const study::Study& study, const Criterion& criterion) {
-  return {study.goal->moves, study.goal->machines, criterion.quantile};
+Aim aim_of(const study::Study& study) {
+  return {study.goal->moves, study.goal->machines, criterion_of(study).quantile};
 }
 
-void run_units(std::span<const UnitsToRun> entries, const Units& units, const Criterion& criterion,
-               const std::stop_token& stop) {
+void run_units(std::span<const UnitsToRun> entries, const Units& units, const std::stop_token& stop) {
   std::vector<Part> parts;
   for (const UnitsToRun& entry : entries) {
     entry.results->resize(static_cast<std::size_t>(entry.to));
@@ -127,9 +144,26 @@ void run_units(std::span<const UnitsToRun> entries, const Units& units, const Cr
   }
   oneapi::tbb::enumerable_thread_specific<std::unique_ptr<batch::BatchEngine>> engines(
       [] { return std::make_unique<batch::BatchEngine>(); });
-  oneapi::tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
-    run_part(parts[i], units, criterion, *engines.local(), stop);
+  oneapi::tbb::parallel_for(std::size_t{0}, parts.size(),
+                            [&](std::size_t i) { run_part(parts[i], units, *engines.local(), stop); });
+}
+
+std::vector<UnitResult> results_of(const study::Study& study, const Units& units, std::int64_t count,
+                                   const Change* change, const std::stop_token& stop) {
+  std::vector<UnitResult> results;
+  const UnitsToRun all{&study, 0, std::min(count, units.count), &results, change};
+  run_units({&all, 1}, units, stop);
+  return results;
+}
+
+std::vector<UnitResult> results_in(const reading::StudyFile& file, const study::Study& study,
+                                   const Units& units) {
+  const TrialCounter counter(study);
+  std::vector<UnitResult> results(static_cast<std::size_t>(units.count));
+  measures::visit_trials(file, file.rows(), [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
+    counter.add(moves, results[static_cast<std::size_t>(row % units.count)]);
   });
+  return results;
 }
 
 }  // namespace zerocount::tuning

@@ -1,6 +1,9 @@
 // `tune`, `limits` and `worst`, from the manifest to the proof.
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -106,6 +109,47 @@ TEST_F(Tune, DoesNotDependOnTheNumberOfThreads) {
   EXPECT_EQ(one, two);
 }
 
+// The answer after interruptions in the search, and in what follows it, is that of a run without any.
+TEST_F(Tune, GoesOnAfterAnInterruption) {
+  write_axis("goal: {band: 1, within: 0.1, moves: 0.98}\n" + std::string(two_gains));
+  const std::vector<std::string> command{"tune",     "axis.yaml", "-o",       "tuned.h5",
+                                         "--format", "json",      "--budget", "20000"};
+  const auto answer_of = [](const std::string& text) {
+    Json json = Json::parse(text);
+    json["searched"].erase("seconds");
+    return json;
+  };
+  const ProgramResult whole = program(command);
+  ASSERT_EQ(whole.code, 0) << whole.err;
+  EXPECT_EQ(program(command).code, 2) << "the file is there";
+  std::filesystem::remove(folder_.path() / "tuned.h5");
+  int interruptions = 0;
+  for (const int milliseconds : {400, 500, 700, 1000}) {
+    RunningProgram running(command, folder_.path());
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+    running.send(milliseconds % 200 == 0 ? SIGINT : SIGKILL);
+    if (running.wait() == 0) break;
+    ++interruptions;
+  }
+  std::filesystem::remove(folder_.path() / "tuned.h5");
+  const ProgramResult result = program(command);
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_GT(interruptions, 0);
+  EXPECT_EQ(answer_of(result.out), answer_of(whole.out));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "tuned.h5.tuning"));
+}
+
+TEST_F(Tune, KeepsUnfinishedRunsAndTuningsOfOthers) {
+  write_axis("goal: {band: 1, within: 0.1, moves: 0.98}\n" + std::string(two_gains));
+  std::filesystem::create_directory(folder_.path() / "tuned.h5.shards");
+  const std::vector<std::string> command{"tune", "axis.yaml", "-o", "tuned.h5", "--budget", "5000"};
+  EXPECT_NE(program(command).err.find("has an unfinished run"), std::string::npos);
+  std::filesystem::remove(folder_.path() / "tuned.h5.shards");
+  folder_.write("tuned.h5.tuning", "{\"zerocount_tuning\":1,\"tuning\":\"of another study\"}\n");
+  EXPECT_NE(program(command).err.find("unfinished tuning of another study"), std::string::npos);
+  EXPECT_EQ(program({"tune", "axis.yaml", "-o", "tuned.h5", "--budget", "5000", "--force"}).code, 0);
+}
+
 TEST_F(Tune, OfAGoalBeyondReachSaysSo) {
   write_axis("goal: {band: 0, within: 0.004, moves: 0.98}\n" + std::string(two_gains));
   const ProgramResult result = tune();
@@ -174,12 +218,26 @@ TEST_F(Tune, LimitsSwitchCausesOffOneByOne) {
   }
 }
 
+TEST_F(Tune, LimitsAreOfThePointThatIsAskedFor) {
+  write_axis("goal: {band: 0, within: 0.05, moves: 0.98}\nsweep: {grid: {controller.delay: [0, 1]}}\n");
+  EXPECT_NE(program({"limits", "axis.yaml"}).err.find("expected one with --point"), std::string::npos);
+  const auto rate_of = [this](const std::vector<std::string>& words) {
+    return Json::parse(program(words).out)["limits"][0]["rate"].get<double>();
+  };
+  const double swept = rate_of({"limits", "axis.yaml", "--point", "1", "--format", "json"});
+  write_axis("goal: {band: 0, within: 0.05, moves: 0.98}\n");
+  EXPECT_EQ(rate_of({"limits", "axis.yaml", "--format", "json"}), swept);
+}
+
 TEST_F(Tune, WorstIsTheMachineWithTheFewestGoodMoves) {
   write_axis("goal: {band: 0, within: 0.05, moves: 0.98}\n");
   ASSERT_EQ(program({"run", "axis.yaml", "-o", "out.h5"}).code, 0);
   const Json of_manifest = Json::parse(program({"worst", "axis.yaml", "--format", "json"}).out);
   const Json of_file = Json::parse(program({"worst", "out.h5", "--format", "json"}).out);
   EXPECT_EQ(of_manifest, of_file);
+  const ProgramResult set = program({"worst", "out.h5", "--set", "controller.delay=0"});
+  EXPECT_EQ(set.code, 2);
+  EXPECT_NE(set.err.find("changes a manifest"), std::string::npos) << set.err;
   EXPECT_LT(of_manifest["rig"], 100);
   EXPECT_GT(of_manifest["inputs"]["friction.k1"], 0.0);
 }

@@ -1,0 +1,110 @@
+#include "runners/tuning/proof_runner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "analysis/goal/goal_verdict.hpp"
+#include "core/failure/failure.hpp"
+#include "core/random/random_numbers.hpp"
+#include "experiments/designs/random_key.hpp"
+#include "results/layout/header.hpp"
+#include "results/reading/study_file.hpp"
+#include "runners/study_run/file_run.hpp"
+#include "runners/tuning/tuned_study.hpp"
+
+namespace zerocount::tuning {
+namespace {
+
+constexpr std::int64_t least_units = 500;
+
+/// The fewest units that can meet the goal.
+std::int64_t least_units_of(const study::Study& study, std::int64_t each, std::size_t points) {
+  std::int64_t least = least_units;
+  if (study.rigs == 0) {
+    for (const goal::Needs& one : goal::smallest_studies(*study.goal, false, study.moves, points))
+      least = std::max(least, one.trials);
+    return least;
+  }
+  std::int64_t fewest = 0;
+  for (const goal::Needs& one : goal::smallest_studies(*study.goal, true, study.moves, points)) {
+    if (one.trials <= each * one.rigs && (fewest == 0 || one.rigs < fewest)) fewest = one.rigs;
+  }
+  return std::max(least, fewest);
+}
+
+bool holds_run(const std::filesystem::path& output, const study::Study& study) {
+  std::error_code error;
+  if (!std::filesystem::exists(output, error)) return false;
+  try {
+    const reading::ResultsFile file(output);
+    return file.header().study_sha256 == study.study_sha256 &&
+           layout::same_build(file.header().provenance, layout::current_provenance());
+  } catch (const Failure&) {
+    return false;  // no results file: it is made anew
+  }
+}
+
+}  // namespace
+
+std::uint64_t fresh_seed(std::uint64_t seed, std::string_view purpose) {
+  constexpr unsigned seed_bits = 52;  // readable as a double everywhere
+  return random::random_bits({designs::random_key(seed, purpose), 0}, 0, random::Draw::trial) >>
+         (64U - seed_bits);
+}
+
+measures::GoalCounts counts_of(const study::Study& study, const Units& units,
+                               std::span<const UnitResult> results) {
+  measures::GoalCounts counts;
+  for (const UnitResult& unit : results) {
+    counts.moves += unit.moves;
+    counts.met += unit.met;
+    if (study.rigs > 0) {
+      counts.rigs.push_back({units.trials_each, unit.moves, unit.met});
+    } else {
+      counts.of_trials.add(unit.met, unit.moves);
+    }
+  }
+  return counts;
+}
+
+measures::GoalCounts with_trials_each(measures::GoalCounts counts, std::int64_t each) {
+  for (statistics::RigMoves& rig : counts.rigs) {
+    const auto factor = static_cast<double>(each) / static_cast<double>(rig.trials);
+    counts.moves -= rig.moves;
+    counts.met -= rig.met;
+    rig.trials = each;
+    rig.moves = std::llround(static_cast<double>(rig.moves) * factor);
+    rig.met = std::llround(static_cast<double>(rig.met) * factor);
+    counts.moves += rig.moves;
+    counts.met += rig.met;
+  }
+  return counts;
+}
+
+std::int64_t proof_units(const study::Study& study, const measures::GoalCounts& counts, std::int64_t each,
+                         std::size_t points, std::int64_t most_trials) {
+  const std::int64_t most = std::max<std::int64_t>(most_trials / each, 2);
+  const goal::Needs needs = goal::needs_of(*study.goal, counts, points);
+  const std::int64_t wanted = needs.trials == 0 ? most / 8 : (study.rigs > 0 ? needs.rigs : needs.trials);
+  return std::clamp(wanted + wanted / 2, std::min(least_units_of(study, each, points), most), most);
+}
+
+ProofRun run_proof(const study::Study& study, std::vector<std::string> values, const Units& units,
+                   const std::filesystem::path& output, int threads, const std::stop_token& stop) {
+  for (const std::string& one : overrides_for(study, units)) values.push_back(one);
+  if (layout::has_sums(study.kept)) values.emplace_back("keep=trials");
+  ProofRun run{with_values_in_text(study, values), {}};
+  if (!holds_run(output, run.study)) {
+    study_run::run_to_file({run.study, output, layout::all_rows(run.study), threads, true,
+                            study_run::ForeignShards::remove, true},
+                           study_run::ExistingUse::none, stop);
+  }
+  run.results = results_in(reading::StudyFile(output), run.study, units);
+  return run;
+}
+
+}  // namespace zerocount::tuning

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "analysis/measures/goal_counts.hpp"
+#include "experiments/study/study.hpp"
+#include "runners/tuning/unit_runner.hpp"
+
+namespace zerocount::tuning {
+
+/// A seed that follows from the study's, for machines that nothing else uses.
+std::uint64_t fresh_seed(std::uint64_t seed, std::string_view purpose);
+
+/// The counts of the goal in these units.
+measures::GoalCounts counts_of(const study::Study& study, const Units& units,
+                               std::span<const UnitResult> results);
+
+/// The counts as they would be with `each` trials of every machine, at the same rates.
+measures::GoalCounts with_trials_each(measures::GoalCounts counts, std::int64_t each);
+
+/// Units with which the proof of a candidate with such counts is expected to be decided, and half as many
+/// more.
+/// @param each trials of a unit @param points from which the bounds have to allow for a choice
+/// @param most_trials limit of the proof
+std::int64_t proof_units(const study::Study& study, const measures::GoalCounts& counts, std::int64_t each,
+                         std::size_t points, std::int64_t most_trials);
+
+/// A finished run of some units.
+struct ProofRun {
+  study::Study study;
+  std::vector<UnitResult> results;
+};
+
+/// Runs the study with these values ("key=value") in its text on fresh units, into a results file that keeps
+/// its trials. A file with the same run is not made again.
+/// @throws Failure: interrupted; the finished trials are kept in shards.
+ProofRun run_proof(const study::Study& study, std::vector<std::string> values, const Units& units,
+                   const std::filesystem::path& output, int threads, const std::stop_token& stop);
+
+}  // namespace zerocount::tuning

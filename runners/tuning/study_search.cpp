@@ -1,0 +1,113 @@
+#include "runners/tuning/study_search.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include "core/failure/failure.hpp"
+#include "core/trial/trial.hpp"
+#include "experiments/study/plan.hpp"
+#include "experiments/study/study_table.hpp"
+
+namespace zerocount::tuning {
+namespace {
+
+constexpr std::int64_t max_search_trials_of_machine = 20;
+
+/// The values of the free parameters in the manifest, where they lie inside the ranges.
+std::vector<Values> starts_of(const study::Study& study, std::span<const study::FreeParameter> free) {
+  Values values;
+  for (const study::FreeParameter& one : free) {
+    const std::size_t slot = study::find_slots(one.name, study.plan->table).value().first;
+    values.push_back(study.plan->base[slot].number);
+    if (!(values.back() >= one.low && values.back() <= one.high)) return {};
+  }
+  return {values};
+}
+
+}  // namespace
+
+std::int64_t trials_of_machine(const study::Study& study) {
+  if (!study.goal->machines) return 1;
+  return std::max<std::int64_t>(study.trials / study.rigs, 10);
+}
+
+StudySearch::StudySearch(const study::Study& study, std::vector<study::FreeParameter> free,
+                         std::int64_t most_units, TuningJournal& journal, std::function<double()> elapsed,
+                         const std::stop_token& stop)
+    : study_(study),
+      free_(std::move(free)),
+      units_{most_units, std::min(trials_of_machine(study), max_search_trials_of_machine)},
+      base_(variant_of(study, overrides_for(study, units_))),
+      examiner_(base_, units_.count),
+      journal_(journal),
+      elapsed_(std::move(elapsed)),
+      stop_(stop) {}
+
+SearchResult StudySearch::run(const SearchSettings& settings) {
+  SearchProblem problem;
+  problem.free = free_;
+  problem.aim = aim_of(study_);
+  problem.starts = starts_of(study_, free_);
+  problem.max_units = units_.count;
+  problem.trials_of_unit = units_.trials_each;
+  problem.evaluate = [this](std::span<Candidate* const> candidates, std::int64_t to) {
+    evaluate(candidates, to);
+  };
+  problem.admissible = [this](std::span<const Values> values) { return admissible(values); };
+  problem.verified = [this](const Values& values) { return verified(values); };
+  return search(problem, settings);
+}
+
+study::Study StudySearch::candidate(const Values& values) const {
+  return variant_of(base_, overrides_of(free_, values));
+}
+
+void StudySearch::evaluate(std::span<Candidate* const> candidates, std::int64_t to) {
+  std::vector<Candidate*> unknown;
+  std::vector<std::int64_t> from;
+  for (Candidate* const one : candidates) {
+    const std::int64_t begin = std::ssize(one->units);
+    journal_.take(base_.study_sha256, one->values, begin, to, one->units);
+    if (std::ssize(one->units) >= to) continue;
+    from.push_back(std::ssize(one->units));
+    unknown.push_back(one);
+  }
+  std::vector<study::Study> studies(unknown.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, unknown.size(),
+                            [&](std::size_t i) { studies[i] = candidate(unknown[i]->values); });
+  std::vector<UnitsToRun> entries;
+  entries.reserve(unknown.size());
+  for (std::size_t i = 0; i < unknown.size(); ++i)
+    entries.push_back({&studies[i], from[i], to, &unknown[i]->units, nullptr});
+  run_units(entries, units_, stop_);
+  for (std::size_t i = 0; i < unknown.size(); ++i) {
+    journal_.add(base_.study_sha256, unknown[i]->values, from[i],
+                 std::span(unknown[i]->units).subspan(static_cast<std::size_t>(from[i])), elapsed_());
+  }
+}
+
+std::vector<bool> StudySearch::admissible(std::span<const Values> values) {
+  std::vector<char> kept(values.size(), 0);
+  oneapi::tbb::parallel_for(std::size_t{0}, values.size(), [&](std::size_t i) {
+    if (stop_.stop_requested()) return;
+    try {
+      kept[i] = examiner_.may_keep(candidate(values[i]), study_.tuning->margins);
+    } catch (const Failure& failure) {
+      if (failure.code() != ExitCode::bad_input) throw;  // such values together are not allowed
+    }
+  });
+  if (stop_.stop_requested()) throw trial::Interrupted{};
+  examined_ += std::ssize(values);
+  return {kept.begin(), kept.end()};
+}
+
+bool StudySearch::verified(const Values& values) {
+  if (kept_.contains(values)) return true;
+  if (!examiner_.keeps(candidate(values), study_.tuning->margins)) return false;
+  kept_.insert(values);
+  return true;
+}
+
+}  // namespace zerocount::tuning

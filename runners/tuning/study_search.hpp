@@ -1,0 +1,53 @@
+#pragma once
+
+#include <functional>
+#include <set>
+#include <stop_token>
+#include <vector>
+
+#include "analysis/tuning/search.hpp"
+#include "experiments/study/study.hpp"
+#include "runners/tuning/loop_examiner.hpp"
+#include "runners/tuning/tuning_journal.hpp"
+#include "runners/tuning/unit_runner.hpp"
+
+namespace zerocount::tuning {
+
+/// Trials of a machine that tell whether it meets the goal; 1 where the goal does not ask for machines.
+std::int64_t trials_of_machine(const study::Study& study);
+
+/// The search for the best values of `free`, with the other values of the study.
+class StudySearch {
+ public:
+  /// @param most_units machines of the search
+  /// @param elapsed s that the tuning took so far, for the journal
+  StudySearch(const study::Study& study, std::vector<study::FreeParameter> free, std::int64_t most_units,
+              TuningJournal& journal, std::function<double()> elapsed, const std::stop_token& stop);
+
+  /// @throws trial::Interrupted
+  SearchResult run(const SearchSettings& settings);
+
+  /// The study with these values, on the units of the search.
+  study::Study candidate(const Values& values) const;
+  const LoopExaminer& examiner() const { return examiner_; }
+  const Units& units() const { return units_; }
+  std::int64_t examined() const { return examined_; }  ///< points whose margins were examined
+
+ private:
+  void evaluate(std::span<Candidate* const> candidates, std::int64_t to);
+  std::vector<bool> admissible(std::span<const Values> values);
+  bool verified(const Values& values);
+
+  const study::Study& study_;
+  std::vector<study::FreeParameter> free_;
+  Units units_;
+  study::Study base_;
+  LoopExaminer examiner_;
+  TuningJournal& journal_;
+  std::function<double()> elapsed_;
+  std::set<Values> kept_;
+  std::int64_t examined_{0};
+  std::stop_token stop_;
+};
+
+}  // namespace zerocount::tuning

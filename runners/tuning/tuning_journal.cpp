@@ -1,0 +1,116 @@
+#include "runners/tuning/tuning_journal.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/failure/failure.hpp"
+
+namespace zerocount::tuning {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A unit as [moves, met, value, …]; null is infinite.
+Json json_of(const UnitResult& unit) {
+  Json json{unit.moves, unit.met};
+  for (const double value : unit.values) json.push_back(std::isfinite(value) ? Json(value) : Json());
+  return json;
+}
+
+UnitResult unit_of(const Json& json) {
+  UnitResult unit{json.at(0).get<std::int32_t>(), json.at(1).get<std::int32_t>(), {}};
+  for (std::size_t i = 2; i < json.size(); ++i)
+    unit.values.push_back(json[i].is_null() ? std::numeric_limits<double>::infinity()
+                                            : json[i].get<double>());
+  return unit;
+}
+
+std::string header_of(const std::string& tuning) {
+  return Json{{"zerocount_tuning", 1}, {"tuning", tuning}}.dump();
+}
+
+}  // namespace
+
+std::filesystem::path journal_path(const std::filesystem::path& output) {
+  return output.string() + ".tuning";
+}
+
+TuningJournal::TuningJournal(std::filesystem::path path, const std::string& tuning, bool replace)
+    : path_(std::move(path)) {
+  std::error_code error;
+  header_ = header_of(tuning);
+  if (std::filesystem::exists(path_, error)) {
+    std::ifstream file(path_);
+    std::string line;
+    resumed_ = std::getline(file, line) && line == header_;
+    if (!resumed_ && !replace) {
+      throw Failure(
+          ExitCode::bad_input,
+          fmt::format("{}: is the unfinished tuning of another study, or by another build; expected "
+                      "another FILE, or --force to replace it",
+                      path_.string()));
+    }
+    while (resumed_ && std::getline(file, line)) read_line(line);
+    torn_ = resumed_;
+  }
+  if (!resumed_) remove();
+}
+
+/// The last line of a run that was killed may be a part of one: its evaluation is made again.
+void TuningJournal::read_line(const std::string& line) {
+  const Json json = Json::parse(line, nullptr, false);
+  if (json.is_discarded()) return;
+  try {
+    std::vector<UnitResult>& known = known_[{json.at("search"), json.at("values").get<Values>()}];
+    if (json.at("from").get<std::size_t>() != known.size()) return;
+    for (const Json& unit : json.at("units")) known.push_back(unit_of(unit));
+    seconds_ = json.at("seconds");
+  } catch (const Json::exception&) {
+    return;
+  }
+}
+
+void TuningJournal::take(const std::string& search, const Values& values, std::int64_t from, std::int64_t to,
+                         std::vector<UnitResult>& units) {
+  const auto known = known_.find({search, values});
+  if (known == known_.end()) return;
+  for (std::int64_t i = from; i < std::min(to, std::ssize(known->second)); ++i)
+    units.push_back(std::move(known->second[static_cast<std::size_t>(i)]));
+}
+
+void TuningJournal::add(const std::string& search, const Values& values, std::int64_t from,
+                        std::span<const UnitResult> units, double seconds) {
+  Json list = Json::array();
+  for (const UnitResult& unit : units) list.push_back(json_of(unit));
+  append(Json{{"search", search}, {"values", values}, {"from", from}, {"units", list}, {"seconds", seconds}}
+             .dump());
+}
+
+void TuningJournal::append(const std::string& line) {
+  errno = 0;
+  std::ofstream file(path_, std::ios::app);
+  // A line break first ends the part of a line that a killed run may have left.
+  file << (std::exchange(torn_, false) ? "\n" : "");
+  if (!resumed_ && !begun_) file << header_ << '\n';
+  file << line << '\n' << std::flush;
+  begun_ = true;
+  if (file) return;
+  throw Failure(ExitCode::machine_failed,
+                fmt::format("{}: cannot be written: {}", path_.string(),
+                            std::error_code(errno, std::generic_category()).message()));
+}
+
+void TuningJournal::remove() {
+  std::error_code error;
+  std::filesystem::remove(path_, error);
+}
+
+}  // namespace zerocount::tuning

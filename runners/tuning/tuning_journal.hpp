@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "analysis/tuning/candidate.hpp"
+
+namespace zerocount::tuning {
+
+/// The file in which a tuning keeps its evaluations until it ends: FILE.tuning.
+std::filesystem::path journal_path(const std::filesystem::path& output);
+
+/// The evaluations of an unfinished tuning, so that it goes on where it was interrupted: a line of JSON that
+/// names the tuning, then one for each evaluation. The search is run anew, and finds its results here.
+class TuningJournal {
+ public:
+  /// Reads the evaluations of an earlier run, if there is one. The first evaluation begins a new file.
+  /// @param tuning hash of all that decides the results
+  /// @param replace a journal of another tuning instead of refusing it
+  /// @throws Failure: bad_input for a journal of another tuning, machine_failed
+  TuningJournal(std::filesystem::path path, const std::string& tuning, bool replace);
+
+  bool resumed() const { return resumed_; }
+  double seconds() const { return seconds_; }  ///< that the earlier runs took
+
+  /// Moves units [from, to) behind `units`, as far as they are known.
+  void take(const std::string& search, const Values& values, std::int64_t from, std::int64_t to,
+            std::vector<UnitResult>& units);
+
+  /// Writes units [from, …) of a candidate.
+  /// @param search hash of the searched study @param seconds that the tuning took so far
+  /// @throws Failure (machine_failed)
+  void add(const std::string& search, const Values& values, std::int64_t from,
+           std::span<const UnitResult> units, double seconds);
+
+  /// Removes the file.
+  void remove();
+
+ private:
+  void read_line(const std::string& line);
+  void append(const std::string& line);
+
+  std::filesystem::path path_;
+  std::string header_;
+  bool resumed_{false};
+  bool begun_{false};  ///< this run has written the header
+  bool torn_{false};   ///< the file may end within a line
+  double seconds_{0.0};
+  std::map<std::pair<std::string, Values>, std::vector<UnitResult>> known_;
+};
+
+}  // namespace zerocount::tuning

@@ -1,0 +1,32 @@
+#include "runners/tuning/worst_machine.hpp"
+
+#include <algorithm>
+
+namespace zerocount::tuning {
+namespace {
+
+double met_share(const UnitResult& unit) {
+  return unit.moves == 0 ? 0.0 : static_cast<double>(unit.met) / unit.moves;
+}
+
+double latest(const UnitResult& unit) {
+  return unit.values.empty() ? 0.0 : *std::ranges::max_element(unit.values);
+}
+
+}  // namespace
+
+WorstMachine worst_machine(const study::Study& study, std::int64_t point,
+                           std::span<const UnitResult> results) {
+  const auto worst = std::ranges::min_element(results, [](const UnitResult& a, const UnitResult& b) {
+    return met_share(a) != met_share(b) ? met_share(a) < met_share(b) : latest(a) > latest(b);
+  });
+  WorstMachine machine{worst - results.begin(), met_share(*worst), {}};
+  const bool of_rig = study.rigs > 0 && !study.rig_columns.empty();
+  const std::vector<study::InputColumn>& columns = of_rig ? study.rig_columns : study.input_columns;
+  const std::vector<double> inputs =
+      of_rig ? study::rig_inputs(study, machine.rig) : study::study_trial(study, point, machine.rig).inputs;
+  for (std::size_t i = 0; i < inputs.size(); ++i) machine.inputs.emplace_back(columns[i].name, inputs[i]);
+  return machine;
+}
+
+}  // namespace zerocount::tuning

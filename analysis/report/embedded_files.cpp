@@ -20,4 +20,8 @@ std::string_view embedded_file(std::string_view name) {
                   name));
 }
 
+void require_drawing_libraries() {
+  for (const std::string_view library : drawing_libraries) embedded_file(library);
+}
+
 }  // namespace zerocount::report

@@ -22,4 +22,7 @@ std::string_view embedded_file(std::string_view name);
 inline constexpr std::array<std::string_view, 3> drawing_libraries{"vega.min.js", "vega-lite.min.js",
                                                                    "vega-embed.min.js"};
 
+/// @throws Failure (machine_failed) if the program was built without one of them, so before work is lost.
+void require_drawing_libraries();
+
 }  // namespace zerocount::report

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "core/random/random_numbers.hpp"
@@ -152,11 +153,14 @@ class Search {
     problem_.evaluate(behind, units);
   }
 
-  void sort_by_merit(std::vector<Candidate>& candidates, std::int64_t units) const {
+  void sort_by_merit(std::vector<Candidate>& candidates, std::int64_t units) {
     std::vector<std::pair<Estimate, std::size_t>> order;
     order.reserve(candidates.size());
-    for (std::size_t i = 0; i < candidates.size(); ++i)
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
       order.emplace_back(estimate_of(problem_.aim, candidates[i], units), i);
+      Estimate& latest = estimates_[candidates[i].values];
+      if (order.back().first.units >= latest.units) latest = order.back().first;
+    }
     std::ranges::stable_sort(
         order, [this](const auto& a, const auto& b) { return is_better(problem_.aim, a.first, b.first); });
     std::vector<Candidate> sorted;
@@ -251,6 +255,8 @@ class Search {
     }
     for (const Candidate& one : result_.finalists)
       result_.estimates.push_back(estimate_of(problem_.aim, one, problem_.max_units));
+    result_.tried.reserve(estimates_.size());
+    for (const auto& [values, estimate] : estimates_) result_.tried.push_back({values, estimate});
     return std::move(result_);
   }
 
@@ -260,7 +266,8 @@ class Search {
   std::uint64_t drawn_{0};
   double step_;
   std::set<Values> tried_;
-  std::vector<Candidate> population_;  ///< the best first
+  std::map<Values, Estimate> estimates_;  ///< of all that were simulated
+  std::vector<Candidate> population_;     ///< the best first
   SearchResult result_;
 };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/tuning/candidate.hpp"
+#include "analysis/tuning/frontier.hpp"
 #include "experiments/study/tuning.hpp"
 
 /// Iterated racing (López-Ibáñez et al., "The irace package", Operations Research Perspectives 3, 2016): a
@@ -50,6 +51,7 @@ struct SearchSettings {
 struct SearchResult {
   std::vector<Candidate> finalists;  ///< the best first; none if no candidate is admissible
   std::vector<Estimate> estimates;   ///< [finalist] by all units
+  std::vector<TriedPoint> tried;     ///< all that were simulated
   std::int64_t points{0};            ///< candidates that were simulated
   std::int64_t trials{0};
   int generations{0};

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
 
+#include "analysis/report/embedded_files.hpp"
+#include "analysis/report/page.hpp"
 #include "core/failure/failure.hpp"
 #include "core/trial/trial.hpp"
 #include "results/layout/header.hpp"
@@ -13,6 +15,7 @@
 #include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
+#include "runners/commands/figure_picture.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/plugins/hidden_state.hpp"
 #include "runners/standard_output/standard_output.hpp"
@@ -22,6 +25,7 @@
 #include "runners/study_run/study_runner.hpp"
 #include "runners/tuning/tune_text.hpp"
 #include "runners/tuning/tuner.hpp"
+#include "runners/tuning/tuning_page.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -90,6 +94,14 @@ ExitCode tune(const command_line::Arguments& arguments) {
   settings.quiet = arguments.has("quiet");
   read_budget(arguments, settings);
   settings.force = arguments.has("force");
+  const std::optional<std::filesystem::path> page = command_line::text_place(arguments, "report");
+  if (page) {
+    command_line::require_places(arguments, {arguments.operands()[0], settings.output}, {*page});
+    if (drawing_kind(arguments, "report", *page) != DrawingKind::page)
+      arguments.refuse(fmt::format("option '--report': '{}' does not end in .html", page->string()));
+    report::require_drawing_libraries();
+  }
+  settings.maps = page.has_value();
   const oneapi::tbb::global_control limit(
       oneapi::tbb::global_control::max_allowed_parallelism,
       static_cast<std::size_t>(study_run::threads_to_use(settings.threads)));
@@ -101,6 +113,8 @@ ExitCode tune(const command_line::Arguments& arguments) {
   const storage::OutputLock lock(settings.output);
   print_fallback_lock(lock, settings.output);
   const tuning::TuneAnswer answer = tuning::tune(study, settings, interruption.token());
+  if (page && answer.proof)
+    command_line::write_text(*page, report::html_page(tuning::tuning_page(answer, study, settings.output)));
   if (arguments.choice("format") == "json") {
     standard_output::write(tuning::json_of(answer));
   } else {
@@ -199,6 +213,7 @@ Command tune_command() {
            {{"output,o", "FILE", "the results file of the proof (required)"},
             command_line::format_option({"text", "json"}),
             {"budget", "B", "of the search: a number of trials, or a time such as 60s or 5min"},
+            {"report", "PAGE", "write a page (*.html) with maps, what was tried, and the proof"},
             {"threads", "N", "threads to use; default: all cores"},
             set_option(),
             {"quiet,q", "", "print no progress"},

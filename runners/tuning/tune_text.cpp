@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/goal/goal_text.hpp"
+#include "analysis/statistics/spread_over.hpp"
 #include "analysis/text/report_json.hpp"
 #include "analysis/text/text.hpp"
 #include "core/loop/encoder.hpp"
@@ -96,35 +97,6 @@ std::string gains_table(const TuneAnswer& answer) {
   return text::aligned_table(columns);
 }
 
-std::string headline(const TuneAnswer& answer) {
-  switch (answer.status) {
-    case goal::Status::met:
-      return "met: the goal is met by these values";
-    case goal::Status::missed:
-      return "unreachable in these ranges: the best values found miss the goal";
-    case goal::Status::undecided:
-      break;
-  }
-  return "undecided: the trials of the proof do not decide whether the best values found meet the goal";
-}
-
-std::string proof_text(const TuneAnswer& answer, const study::Study& study) {
-  const Proof& proof = *answer.proof;
-  const bool on_rigs = study.rigs > 0;
-  std::string text = fmt::format(
-      "proof: {} moves{} that the search never saw, of which {:.5g} % meet the goal, at least {:.5g} %\n",
-      proof.study.trials * study.moves,
-      on_rigs ? fmt::format(" on {} machines", proof.study.rigs) : std::string(),
-      100.0 * proof.verdict.moves.value, 100.0 * proof.verdict.moves.low);
-  if (study.goal->machines)
-    text += fmt::format("  at least {:.5g} % of machines meet it in {:g} % of their moves\n",
-                        100.0 * proof.verdict.machines.low, 100.0 * study.goal->moves);
-  if (proof.attempts > 1)
-    text += fmt::format("  it is attempt {}: the bounds allow for all of them\n", proof.attempts);
-  if (proof.needs) text += "  " + goal::needs_sentence(*study.goal, *proof.needs, on_rigs) + "\n";
-  return text;
-}
-
 std::string alternatives_text(const TuneAnswer& answer) {
   if (answer.alternatives.empty()) return "";
   std::vector<text::TextColumn> columns{{"fixed", false, {}},   {"best values", false, {}},
@@ -142,6 +114,25 @@ std::string alternatives_text(const TuneAnswer& answer) {
          text::aligned_table(columns);
 }
 
+/// A few points of the frontier, evenly spread over it.
+std::string frontier_text(const TuneAnswer& answer) {
+  constexpr std::int64_t most = 6;
+  if (answer.frontier.size() < 2) return "";
+  std::vector<text::TextColumn> columns{
+      {"criterion", true, {}}, {"rate of the goal", true, {}}, {"values", false, {}}};
+  for (const std::int64_t i : statistics::spread_over(std::ssize(answer.frontier), most)) {
+    const TriedPoint& one = answer.frontier[static_cast<std::size_t>(i)];
+    NamedValues values;
+    for (std::size_t k = 0; k < one.values.size(); ++k)
+      values.emplace_back(answer.free[k].name, one.values[k]);
+    columns[0].cells.push_back(criterion_number(one.estimate.criterion));
+    columns[1].cells.push_back(fmt::format("{:.2f} %", 100.0 * one.estimate.rate));
+    columns[2].cells.push_back(values_text(values));
+  }
+  return "\nsuccess and speed, by the search (its rates are a little too good):\n\n" +
+         text::aligned_table(columns);
+}
+
 Json list_of(const std::vector<Limit>& limits) {
   Json json = Json::array();
   for (const Limit& one : limits) json.push_back({{"cause", one.cause}, {"rate", one.rate}});
@@ -153,6 +144,35 @@ Json object_of(const WorstMachine& worst) {
 }
 
 }  // namespace
+
+std::string headline(const TuneAnswer& answer) {
+  switch (answer.status) {
+    case goal::Status::met:
+      return "met: the goal is met by these values";
+    case goal::Status::missed:
+      return "unreachable in these ranges: the best values found miss the goal";
+    case goal::Status::undecided:
+      break;
+  }
+  return "undecided: the trials of the proof do not decide whether the best values found meet the goal";
+}
+
+std::vector<std::string> proof_lines(const TuneAnswer& answer, const study::Study& study) {
+  const Proof& proof = *answer.proof;
+  const bool on_rigs = study.rigs > 0;
+  std::vector<std::string> lines{fmt::format(
+      "proof: {} moves{} that the search never saw, of which {:.5g} % meet the goal, at least {:.5g} %",
+      proof.study.trials * study.moves,
+      on_rigs ? fmt::format(" on {} machines", proof.study.rigs) : std::string(),
+      100.0 * proof.verdict.moves.value, 100.0 * proof.verdict.moves.low)};
+  if (study.goal->machines)
+    lines.push_back(fmt::format("at least {:.5g} % of machines meet it in {:g} % of their moves",
+                                100.0 * proof.verdict.machines.low, 100.0 * study.goal->moves));
+  if (proof.attempts > 1)
+    lines.push_back(fmt::format("it is attempt {}: the bounds allow for all of them", proof.attempts));
+  if (proof.needs) lines.push_back(goal::needs_sentence(*study.goal, *proof.needs, on_rigs));
+  return lines;
+}
 
 std::string limits_text(const std::vector<Limit>& limits, bool of_machines) {
   std::vector<text::TextColumn> columns{
@@ -226,6 +246,14 @@ std::string json_of(const TuneAnswer& answer) {
     }
     json["alternatives"].push_back(std::move(alternative));
   }
+  json["frontier"] = Json::array();
+  for (const TriedPoint& one : answer.frontier) {
+    Json values = Json::object();
+    for (std::size_t i = 0; i < one.values.size(); ++i) values[answer.free[i].name] = one.values[i];
+    json["frontier"].push_back({{"gains", values},
+                                {"rate", one.estimate.rate},
+                                {"criterion", finite_or_null(one.estimate.criterion)}});
+  }
   json["limits"] = list_of(answer.limits);
   json["worst"] = answer.worst ? object_of(*answer.worst) : Json();
   json["wider_band_rate"] = answer.wider_band_rate ? Json(*answer.wider_band_rate) : Json();
@@ -249,8 +277,8 @@ std::string text_of(const TuneAnswer& answer, const study::Study& study, const s
                        answer.examined) +
            searched + "tune.margins: {gain: …, phase: …, delay: …} makes them smaller, or off\n";
   }
-  text += headline(answer) + "\n\n" + gains_table(answer) + other_units(answer, study) + "\n" +
-          proof_text(answer, study);
+  text += headline(answer) + "\n\n" + gains_table(answer) + other_units(answer, study) + "\n";
+  for (const std::string& line : proof_lines(answer, study)) text += line + "\n";
   text += fmt::format("{}: {} by the proof\n", study.tuning->minimise, criterion_number(answer.criterion));
   if (answer.status != goal::Status::met && study.tuning->minimise.starts_with("band_settling_time"))
     text += fmt::format("  {:g} % of the moves would be within the band for good after {} s\n",
@@ -273,6 +301,7 @@ std::string text_of(const TuneAnswer& answer, const study::Study& study, const s
     text += "\nwhat limits it, each by simulation on the machines of the search:\n\n" +
             limits_text(answer.limits, study.goal->machines.has_value());
   text += alternatives_text(answer);
+  text += frontier_text(answer);
   return text + "\n" + searched + fmt::format("wrote {}: the proof, with the tuned manifest\n", output);
 }
 

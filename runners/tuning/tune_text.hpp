@@ -1,12 +1,19 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "runners/tuning/tuner.hpp"
 
 namespace zerocount::tuning {
 
 std::string json_of(const TuneAnswer& answer);
+
+/// "met: the goal is met by these values"
+std::string headline(const TuneAnswer& answer);
+
+/// The statement of the proof, in sentences.
+std::vector<std::string> proof_lines(const TuneAnswer& answer, const study::Study& study);
 
 /// The answer in sentences and tables: what is proven first, then what it rests on.
 /// @param study that was tuned. @param output the results file of the proof

@@ -28,6 +28,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::int64_t max_units = 2048;
 constexpr std::int64_t max_proof_moves = 2'000'000;
 constexpr std::int64_t units_of_alternative = 1000;
+constexpr std::int64_t units_of_frontier = 512;
 
 void require_tunable(const study::Study& study) {
   if (!study.tuning) {
@@ -121,6 +122,8 @@ class Tuner {
     answer_.points = result_.points;
     answer_.trials = result_.trials;
     answer_.converged = result_.converged;
+    answer_.tried = result_.tried;
+    answer_.frontier = frontier_of(result_.tried, units_of_frontier);
     search_seconds_ = elapsed();
   }
 
@@ -198,6 +201,7 @@ class Tuner {
     if (!met && tell("a wider band")) answer_.wider_band_rate = rate_in_wider_band(details);
     if (tell("limits")) answer_.limits = limits_of(tuned, search_.units(), stop_);
     if (tell("alternatives")) add_alternatives();
+    if (settings_.maps && tell("maps")) answer_.maps = maps_of(details, search_.examiner());
   }
 
   void name_edges() {

@@ -9,11 +9,12 @@
 #include <vector>
 
 #include "analysis/goal/goal_verdict.hpp"
-#include "analysis/tuning/candidate.hpp"
+#include "analysis/tuning/frontier.hpp"
 #include "experiments/study/study.hpp"
 #include "runners/tuning/answer_details.hpp"
 #include "runners/tuning/limits.hpp"
 #include "runners/tuning/loop_examiner.hpp"
+#include "runners/tuning/tuning_map.hpp"
 #include "runners/tuning/worst_machine.hpp"
 
 namespace zerocount::tuning {
@@ -24,6 +25,7 @@ struct TuneSettings {
   std::optional<double> seconds{};   ///< of search and proof together; the search takes half of them
   int threads{0};
   bool quiet{false};
+  bool maps{false};   ///< simulate the maps too
   bool force{false};  ///< replace the output, and unfinished runs of other studies
 };
 
@@ -59,6 +61,9 @@ struct TuneAnswer {
   std::vector<Room> room;
   std::vector<Alternative> alternatives;
   std::vector<Limit> limits;
+  std::vector<TriedPoint> tried;     ///< by the search
+  std::vector<TriedPoint> frontier;  ///< between success and speed, by the search
+  std::vector<TuningMap> maps;
   std::optional<double> wider_band_rate;  ///< of the goal with a band one count wider, where it is not met
   std::optional<WorstMachine> worst;      ///< of the proof
   std::int64_t examined{0};               ///< points whose margins were examined

@@ -9,6 +9,11 @@ double met_share(const UnitResult& unit) {
   return unit.moves == 0 ? 0.0 : static_cast<double>(unit.met) / unit.moves;
 }
 
+/// Number of the move with the largest value.
+std::int64_t latest_move(const UnitResult& unit) {
+  return std::ranges::max_element(unit.values) - unit.values.begin();
+}
+
 double latest(const UnitResult& unit) {
   return unit.values.empty() ? 0.0 : *std::ranges::max_element(unit.values);
 }
@@ -20,7 +25,9 @@ WorstMachine worst_machine(const study::Study& study, std::int64_t point,
   const auto worst = std::ranges::min_element(results, [](const UnitResult& a, const UnitResult& b) {
     return met_share(a) != met_share(b) ? met_share(a) < met_share(b) : latest(a) > latest(b);
   });
-  WorstMachine machine{worst - results.begin(), met_share(*worst), {}};
+  WorstMachine machine{worst - results.begin(), 0, met_share(*worst), {}};
+  const auto machines = std::ssize(results);
+  machine.trial = machine.rig + latest_move(*worst) / study.moves * machines;
   const bool of_rig = study.rigs > 0 && !study.rig_columns.empty();
   const std::vector<study::InputColumn>& columns = of_rig ? study.rig_columns : study.input_columns;
   const std::vector<double> inputs =

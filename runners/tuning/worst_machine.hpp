@@ -13,8 +13,9 @@ namespace zerocount::tuning {
 
 /// The machine of a study that does worst.
 struct WorstMachine {
-  std::int64_t rig{0};  ///< or the trial, where no trials share a rig
-  double met{0.0};      ///< proportion of its moves that meet the goal
+  std::int64_t rig{0};    ///< or the trial, where no trials share a rig
+  std::int64_t trial{0};  ///< its worst trial
+  double met{0.0};        ///< proportion of its moves that meet the goal
   std::vector<std::pair<std::string, double>> inputs;
 };
 

@@ -101,6 +101,22 @@ TEST_F(Tune, NamesTheDelayAtWhichTheGoalIsLost) {
   EXPECT_GT(rate_at(lost - 0.3), 0.975);
 }
 
+TEST_F(Tune, WritesAPage) {
+  write_axis("goal: {band: 1, within: 0.1, moves: 0.95}\n" + std::string(two_gains));
+  EXPECT_EQ(tune({"--report", "page.txt"}).code, 2);
+  const ProgramResult result = tune({"--report", "page.html"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const std::string page = folder_.read("page.html");
+  for (const char* const part : {"tuning-map-1-2", "tuning-frontier", "tuning-room", "tuning-limits",
+                                 "worst-machine", "id=\"verdict\""})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  const Json frontier = Json::parse(result.out)["frontier"];
+  for (std::size_t i = 1; i < frontier.size(); ++i) {
+    EXPECT_GT(frontier[i]["rate"], frontier[i - 1]["rate"]);
+    EXPECT_GE(frontier[i]["criterion"], frontier[i - 1]["criterion"]);
+  }
+}
+
 TEST_F(Tune, DoesNotDependOnTheNumberOfThreads) {
   write_axis("goal: {band: 1, within: 0.1, moves: 0.98}\n" + std::string(two_gains));
   Json one = Json::parse(tune({"--threads", "1"}).out);

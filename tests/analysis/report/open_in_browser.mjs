@@ -57,6 +57,23 @@ function identification() {
   return join(folder, "fit.html");
 }
 
+/// The page of a tuning, of a study with a hostile name.
+function tuning() {
+  writeFileSync(join(folder, "axis.yaml"), `zerocount: 1
+name: ${JSON.stringify("tuned " + hostile)}
+seed: 7
+trials: 100
+rigs: 50
+command: {targets: [29], hold: 0.2}
+friction: {k1: {lognormal: {median: 130, cv: 0.2}, per: rig}}
+goal: {band: 1, within: 0.1, moves: 0.9}
+tune: {free: {controller.ki: {log: [5.0e-6, 1.0e-3]}, controller.kp: [0, 5.0e-3]}}
+`);
+  execFileSync(zerocount, ["tune", "axis.yaml", "-o", "tuned.h5", "--budget", "5000", "--report", "tuned.html"],
+    {cwd: folder, stdio: "pipe"});
+  return join(folder, "tuned.html");
+}
+
 const shipped = (name, trials) =>
   readFileSync(join(root, `experiments/manifests/${name}.yaml`), "utf8").replace(/^trials: \d+/m, `trials: ${trials}`);
 
@@ -184,6 +201,19 @@ try {
     if (width === 1000) {
       await checkTables(opened);
       await checkHover(opened, "record-2", "residual");
+    }
+    await opened.context.close();
+  }
+  const tuned = tuning();
+  for (const [scheme, width] of [["light", 1000], ["dark", 390]]) {
+    const opened = await open(browser, tuned, {scheme, width, phone: width < 500});
+    await checkPage(opened);
+    for (const name of ["tuning-map-1-2", "tuning-frontier", "tuning-room", "tuning-limits", "trace-worst-machine"])
+      expect(await opened.page.locator(`#figure-${name}`).count() === 1, `${opened.name}: ${name}`);
+    await opened.page.screenshot({path: join(screenshots, `tuned-${scheme}-${width}.png`), fullPage: true});
+    if (width === 1000) {
+      await checkTables(opened);
+      await checkHover(opened, "tuning-map-1-2", "margins");
     }
     await opened.context.close();
   }

@@ -1,0 +1,62 @@
+#include "runners/tuning/tuning_map.hpp"
+
+#include "core/failure/failure.hpp"
+
+namespace zerocount::tuning {
+namespace {
+
+constexpr int cells_of_side = 15;
+constexpr std::int64_t units_of_cell = 128;
+
+/// The values of the tuned study with two of them at other places of their ranges.
+Values values_of_cell(const TunedStudy& tuned, const TuningMap& map, double x, double y) {
+  Place place = place_of(tuned.free, tuned.gains);
+  place[map.x] = x;
+  place[map.y] = y;
+  const Values moved = values_at(tuned.free, place);
+  Values values = tuned.gains;
+  values[map.x] = moved[map.x];
+  values[map.y] = moved[map.y];
+  return values;
+}
+
+void simulate(const TunedStudy& tuned, const LoopExaminer& examiner, const Values& values, MapCell& cell) {
+  try {
+    const study::Study study = variant_of(tuned.study, overrides_of(tuned.free, values));
+    cell.keeps_margins = examiner.may_keep(study, study.tuning->margins);
+    const Candidate candidate{{}, values, results_of(study, tuned.units, units_of_cell, nullptr, tuned.stop)};
+    const Estimate estimate = estimate_of(aim_of(study), candidate, units_of_cell);
+    cell.rate = estimate.rate;
+    cell.criterion = estimate.criterion;
+  } catch (const Failure& failure) {
+    if (failure.code() != ExitCode::bad_input) throw;  // such values together are not allowed
+    cell.keeps_margins = false;
+  }
+}
+
+}  // namespace
+
+std::vector<TuningMap> maps_of(const TunedStudy& tuned, const LoopExaminer& examiner) {
+  std::vector<TuningMap> maps;
+  for (std::size_t y = 1; y < tuned.free.size(); ++y) {
+    for (std::size_t x = 0; x < y; ++x) maps.push_back({x, y, {}});
+  }
+  for (TuningMap& map : maps) {
+    for (int i = 0; i < cells_of_side * cells_of_side; ++i) {
+      const double column = i % cells_of_side;
+      const double row = i / cells_of_side;  // NOLINT(bugprone-integer-division): the number of the row
+      const auto at = [&](double x, double y) {
+        return values_of_cell(tuned, map, x / cells_of_side, y / cells_of_side);
+      };
+      const Values centre = at(column + 0.5, row + 0.5);
+      const Values from = at(column, row);
+      const Values to = at(column + 1.0, row + 1.0);
+      MapCell cell{centre[map.x], centre[map.y], from[map.x], to[map.x], from[map.y], to[map.y]};
+      simulate(tuned, examiner, centre, cell);
+      map.cells.push_back(cell);
+    }
+  }
+  return maps;
+}
+
+}  // namespace zerocount::tuning

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "runners/tuning/answer_details.hpp"
+#include "runners/tuning/loop_examiner.hpp"
+
+namespace zerocount::tuning {
+
+/// A cell of a map, around the values x and y.
+struct MapCell {
+  double x{0.0};
+  double y{0.0};
+  double x_from{0.0}, x_to{0.0};
+  double y_from{0.0}, y_to{0.0};
+  double rate{0.0};       ///< of the goal, by the first units of the search
+  double criterion{0.0};  ///< infinite for never
+  bool keeps_margins{true};
+};
+
+/// The rate of the goal over two free parameters, the others as tuned.
+struct TuningMap {
+  std::size_t x{0};  ///< number of the free parameter
+  std::size_t y{1};
+  std::vector<MapCell> cells;
+};
+
+/// Maps over all pairs of free parameters.
+/// @throws trial::Interrupted
+std::vector<TuningMap> maps_of(const TunedStudy& tuned, const LoopExaminer& examiner);
+
+}  // namespace zerocount::tuning

@@ -17,18 +17,21 @@ namespace zerocount::distributions {
 struct Uniform {
   double low{0.0};
   double high{1.0};
+  bool operator==(const Uniform&) const = default;
 };
 
 /// Uniform logarithm: density ∝ 1/x on [low, high), 0 < low.
 struct LogUniform {
   double low{1.0};
   double high{2.0};
+  bool operator==(const LogUniform&) const = default;
 };
 
 /// Gaussian with the given mean and standard deviation.
 struct Normal {
   double mean{0.0};
   double sd{1.0};
+  bool operator==(const Normal&) const = default;
 };
 
 /// A Gaussian of mean and standard deviation `mean`, `sd` (those of the parent) conditioned on [low, high).
@@ -37,6 +40,7 @@ struct TruncatedNormal {
   double sd{1.0};
   double low{-1.0};
   double high{1.0};
+  bool operator==(const TruncatedNormal&) const = default;
 };
 
 /// The logarithm is Gaussian: median exp(μ), coefficient of variation (sd/mean of the variable itself)
@@ -44,6 +48,7 @@ struct TruncatedNormal {
 struct Lognormal {
   double median{1.0};
   double cv{0.1};
+  bool operator==(const Lognormal&) const = default;
 };
 
 /// Density that rises linearly from `low` to `mode` and falls linearly to `high`.
@@ -51,17 +56,20 @@ struct Triangular {
   double low{0.0};
   double mode{0.5};
   double high{1.0};
+  bool operator==(const Triangular&) const = default;
 };
 
 /// Uniform on the whole numbers `low` … `high`.
 struct Integers {
   std::int64_t low{0};
   std::int64_t high{1};
+  bool operator==(const Integers&) const = default;
 };
 
 /// All values are equally likely.
 struct Choice {
   std::vector<double> values;
+  bool operator==(const Choice&) const = default;
 };
 
 using Distribution =

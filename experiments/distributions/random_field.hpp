@@ -18,6 +18,8 @@ struct ProfileDescription {
   double correlation_length{0.2};  ///< ℓ, rad or m
   friction::Marginal marginal{friction::Marginal::lognormal};
   double period{2.0 * std::numbers::pi};  ///< of the field: a revolution, rad, or the travel, m
+
+  bool operator==(const ProfileDescription&) const = default;
 };
 
 /// Limits of the correlation length for the period 2π; for other periods they scale with the period.

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
+#include "experiments/study/plan.hpp"
 
 namespace zerocount::manifest {
 
@@ -16,6 +17,14 @@ Companions known_companions(std::shared_ptr<const plugin::ControllerPlugin> plug
             throw Failure(ExitCode::bad_data,
                           fmt::format("{}: this table of samples was not recorded", path));
           }};
+}
+
+Companions companions_of(const study::Study& study) {
+  std::optional<std::string> samples;
+  if (study.samples) samples = study.samples->text;
+  Companions companions = known_companions(study.plugin, std::move(samples));
+  companions.rotors = study.plan->profiles;
+  return companions;
 }
 
 }  // namespace zerocount::manifest

@@ -4,8 +4,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "experiments/manifest/plugin_loader.hpp"
+#include "experiments/study/rotors.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::manifest {
 
@@ -17,10 +20,16 @@ using SamplesReader = std::function<std::string(const std::string& path)>;
 struct Companions {
   PluginLoader plugin{};
   SamplesReader samples{};
+  /// Profiles of a similar study. Equal ones are shared, because to realise those of thousands of rigs takes
+  /// longer than to read a manifest.
+  std::vector<std::shared_ptr<const study::Rotors>> rotors{};
 };
 
 /// For a study whose companions are known already.
 Companions known_companions(std::shared_ptr<const plugin::ControllerPlugin> plugin,
                             std::optional<std::string> samples);
+
+/// For a variant of the study.
+Companions companions_of(const study::Study& study);
 
 }  // namespace zerocount::manifest

@@ -82,8 +82,7 @@ study::Study parse_study(std::string text, std::string_view source, const std::v
   root = apply_overrides(root, overrides, override_sources, problems);
   std::optional<SamplesTable> samples;
   insert_samples(root, companions.samples, samples, problems);
-  study::Study study =
-      read_manifest(*root, version, companions.plugin, samples ? &*samples : nullptr, problems);
+  study::Study study = read_manifest(*root, version, companions, samples ? &*samples : nullptr, problems);
   problems.raise_if_any();
 
   study.manifest_sha256 = hash::sha256_hex(text);

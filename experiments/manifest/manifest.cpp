@@ -256,7 +256,7 @@ void read_observed(Manifest& m) {
 
 }  // namespace
 
-study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, const PluginLoader& load,
+study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, const Companions& companions,
                            const SamplesTable* samples, yaml::Problems& problems) {
   auto plan = std::make_shared<study::StudyPlan>();
   Manifest m{.root = {&root, ""}, .reading = {problems, *plan, version}};
@@ -271,7 +271,7 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, con
   read_numbers(m);
   read_design(m);
   read_study_units(m.root, m.reading);
-  read_plugin(m.root, load, m.reading);
+  read_plugin(m.root, companions.plugin, m.reading);
   read_sections(m.root, m.reading, m.places);
   read_axes(m);
   if (samples != nullptr) join_samples(*samples, m.axes, m.reading, m.study);
@@ -285,7 +285,7 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, con
   check_trial_count(m);
   check_rigs(m);
   read_observed(m);
-  realise_profiles(m.reading.profiles, m.study, *plan);
+  realise_profiles(m.reading.profiles, m.study, companions.rotors, *plan);
   check_profiles(m.reading);
   check_points(m.places, m.reading);
   check_travel(m.root, m.reading);

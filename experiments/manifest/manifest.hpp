@@ -1,6 +1,6 @@
 #pragma once
 
-#include "experiments/manifest/plugin_loader.hpp"
+#include "experiments/manifest/companions.hpp"
 #include "experiments/manifest/samples.hpp"
 #include "experiments/study/study.hpp"
 #include "experiments/yaml/yaml_tree.hpp"
@@ -18,9 +18,8 @@ constexpr std::int64_t max_rigs = std::int64_t{1} << 32;
 /// Converts the manifest `root` to a Study, without its text, overrides and hashes. Errors are added to
 /// `problems`; with errors the study must not be used.
 /// @param version of the results files whose defaults apply
-/// @param load finds the user's controller
 /// @param samples inserted in `root` before, or null
-study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, const PluginLoader& load,
+study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, const Companions& companions,
                            const SamplesTable* samples, yaml::Problems& problems);
 
 }  // namespace zerocount::manifest

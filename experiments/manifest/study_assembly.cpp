@@ -221,14 +221,17 @@ study::DrawnMean mean_of(const ProfileRequest& request, const parameters::Parame
 }  // namespace
 
 void realise_profiles(const std::vector<ProfileRequest>& requests, const study::Study& study,
+                      const std::vector<std::shared_ptr<const study::Rotors>>& known,
                       study::StudyPlan& plan) {
   for (const ProfileRequest& request : requests) {
     const parameters::Parameter& parameter = plan.table.rows[request.slot];
     std::optional<study::DrawnMean> mean;
     if (request.form.mean) mean = mean_of(request, parameter, study);
     const std::int64_t count = request.per == study::Per::rig ? std::max<std::int64_t>(study.rigs, 1) : 1;
-    plan.profiles.push_back(std::make_shared<const study::Rotors>(request.form.description, std::move(mean),
-                                                                  study.seed, parameter.name, count));
+    auto rotors = std::make_shared<const study::Rotors>(request.form.description, std::move(mean), study.seed,
+                                                        parameter.name, count);
+    const auto same = std::ranges::find_if(known, [&](const auto& one) { return one->is_same(*rotors); });
+    plan.profiles.push_back(same == known.end() ? std::move(rotors) : *same);
   }
 }
 

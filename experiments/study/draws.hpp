@@ -13,6 +13,8 @@ struct SlotRandomness {
   random::RandomKey key{};
   designs::SobolDirections directions{};  ///< used by the design `sobol`
   random::RandomKey contacts{};           ///< for contacts after the first, if values are drawn per contact
+
+  bool operator==(const SlotRandomness&) const = default;
 };
 
 /// Number `index` of the `count` uniform numbers in (0, 1) of a design. The designs monte_carlo and saltelli

@@ -25,6 +25,11 @@ Rotors::Rotors(distributions::ProfileDescription description, std::optional<Draw
       amplitudes_(distributions::field_amplitudes(description)),
       kept_(rotors_to_keep(amplitudes_.size(), count, max_kept_bytes)) {}
 
+bool Rotors::is_same(const Rotors& other) const {
+  return description_ == other.description_ && mean_ == other.mean_ && key_ == other.key_ &&
+         count_ == other.count_;
+}
+
 double Rotors::mean(std::int64_t rotor) const {
   if (!mean_) return description_.mean;
   const double u = design_uniform(mean_->design, mean_->randomness, 0, static_cast<std::uint64_t>(rotor),

@@ -20,6 +20,8 @@ struct DrawnMean {
   distributions::Distribution distribution;
   Design design{Design::monte_carlo};
   SlotRandomness randomness;
+
+  bool operator==(const DrawnMean&) const = default;
 };
 
 /// The profiles of one friction parameter: a single rotor, or one rotor per rig. A profile is a function of
@@ -30,6 +32,9 @@ class Rotors {
   /// @param count number of rotors @param name dotted path of the parameter
   Rotors(distributions::ProfileDescription description, std::optional<DrawnMean> mean, std::uint64_t seed,
          std::string_view name, std::int64_t count);
+
+  /// Whether all profiles are equal.
+  bool is_same(const Rotors& other) const;
 
   std::int64_t count() const { return count_; }
   std::size_t harmonics() const { return amplitudes_.size(); }

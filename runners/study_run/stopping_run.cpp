@@ -100,9 +100,8 @@ std::vector<layout::RowRange> missing(const study::Study& study, const std::vect
 study::Study decided_study(const study::Study& study, std::int64_t trials) {
   std::vector<std::string> overrides = study.overrides;
   overrides.push_back(fmt::format("{}{}", decided_key, trials));
-  const auto samples = study.samples ? std::optional(study.samples->text) : std::nullopt;
-  study::Study decided = manifest::parse_study(study.manifest_text, study.name, overrides,
-                                               manifest::known_companions(study.plugin, samples));
+  study::Study decided =
+      manifest::parse_study(study.manifest_text, study.name, overrides, manifest::companions_of(study));
   decided.engine = study.engine;
   return decided;
 }

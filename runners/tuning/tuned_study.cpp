@@ -42,10 +42,7 @@ study::Study with_values_in_text(const study::Study& study, const std::vector<st
       overrides.push_back(one);
     }
   }
-  std::optional<std::string> samples;
-  if (study.samples) samples = study.samples->text;
-  study::Study edited =
-      manifest::parse_study(text, study.name, overrides, manifest::known_companions(study.plugin, samples));
+  study::Study edited = manifest::parse_study(text, study.name, overrides, manifest::companions_of(study));
   edited.engine = study.engine;
   return edited;
 }

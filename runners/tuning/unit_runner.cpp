@@ -80,10 +80,7 @@ void run_part(const Part& part, const Units& units, batch::BatchEngine& engine, 
 study::Study variant_of(const study::Study& study, const std::vector<std::string>& overrides) {
   std::vector<std::string> all = study.overrides;
   all.insert(all.end(), overrides.begin(), overrides.end());
-  std::optional<std::string> samples;
-  if (study.samples) samples = study.samples->text;
-  return manifest::parse_study(study.manifest_text, study.name, all,
-                               manifest::known_companions(study.plugin, samples));
+  return manifest::parse_study(study.manifest_text, study.name, all, manifest::companions_of(study));
 }
 
 std::vector<std::string> overrides_of(std::span<const study::FreeParameter> free, const Values& values) {

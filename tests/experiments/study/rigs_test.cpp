@@ -7,8 +7,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "experiments/manifest/load_study.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/draws.hpp"
+#include "experiments/study/plan.hpp"
 #include "experiments/study/rotors.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
@@ -248,6 +250,24 @@ TEST(Rotors, NoneLeavesTheBoundsKnownBefore) {
       EXPECT_TRUE(numerics::contains(rotors.all_limits(), friction::value_at(*rotors.rotor(rig), 0.1)));
     }
   }
+}
+
+// The profiles of thousands of rigs are made once for all variants of a study, and only where they are equal.
+TEST(Rigs, OfAVariantHaveTheProfilesOfTheStudyIfTheyAreEqual) {
+  const std::string text = minimal_manifest(machines_and_moves);
+  const Study study = study_of(text, {"rigs=4", "trials=8"});
+  const auto shares = [&](const std::vector<std::string>& overrides) {
+    std::vector<std::string> all{"rigs=4", "trials=8"};
+    all.insert(all.end(), overrides.begin(), overrides.end());
+    const Study variant = manifest::parse_study(text, "m.yaml", all, manifest::companions_of(study));
+    return variant.plan->profiles.front() == study.plan->profiles.front();
+  };
+  EXPECT_TRUE(shares({"plant.inertia=1e-3"}));
+  EXPECT_FALSE(shares({"seed=99"}));
+  EXPECT_FALSE(shares({"rigs=8"}));
+  EXPECT_FALSE(shares({"friction.k1.profile.cv=0.2"}));
+  EXPECT_FALSE(shares({"friction.k1.profile.mean.lognormal.cv=0.2"}));
+  EXPECT_FALSE(shares({"design=latin_hypercube"}));
 }
 
 }  // namespace

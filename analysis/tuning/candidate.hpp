@@ -17,6 +17,11 @@ struct UnitResult {
   std::vector<double> values;  ///< of the moves that have the criterion's measure; infinite for never
 };
 
+/// Proportion of a unit's moves that meet the goal; 0 without moves.
+inline double met_share(const UnitResult& unit) {
+  return unit.moves == 0 ? 0.0 : static_cast<double>(unit.met) / unit.moves;
+}
+
 /// The requirements on the candidates.
 struct Aim {
   double moves{0.99};                ///< study::Goal::moves

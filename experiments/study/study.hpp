@@ -242,9 +242,17 @@ bool trials_stay_when_extended(Design design);
 /// of the study, safe to call from any thread.
 StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t index);
 
+/// Uniform numbers that stand for the drawn ones: slot of the plan → number in (0, 1).
+using GivenUniforms = std::map<std::uint32_t, double>;
+
+/// As study_trial, with these quantiles of some drawn values. Correlations do not apply to them.
+StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t index,
+                       const GivenUniforms& given);
+
 /// As study_trial, with all numbers in the manifest's units, and without targets if these are in SI units.
 /// The caller may change parameters and must then call complete_trial().
-StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int64_t index);
+StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int64_t index,
+                                const GivenUniforms& given = {});
 
 /// Completes the parameters of a trial after all numbers are set in the manifest's units: converts gains from
 /// SI units with the trial's sample time and encoder, and gives the coarse encoder of a linear axis the

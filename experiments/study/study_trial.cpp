@@ -22,17 +22,21 @@ struct TrialDraws {
   std::uint64_t place;   ///< index of its point in the design
   std::uint64_t rig;     ///< 0 without rigs
   std::uint32_t stream;  ///< of values drawn per trial, not per rig
+  const GivenUniforms& given;
 
   const StudyPlan& plan() const { return *study.plan; }
 };
 
-TrialDraws draws_of(const Study& study, std::int64_t point, std::int64_t index) {
+TrialDraws draws_of(const Study& study, std::int64_t point, std::int64_t index, const GivenUniforms& given) {
   const auto trial = static_cast<std::uint64_t>(index);
   const auto rigs = static_cast<std::uint64_t>(study.rigs);
   const bool shuffled = study.design == Design::sobol && rigs > 0;
-  return {study, trial, shuffled ? sobol_place(study.plan->sobol_places, trial, rigs) : trial,
+  return {study,
+          trial,
+          shuffled ? sobol_place(study.plan->sobol_places, trial, rigs) : trial,
           rigs > 0 ? static_cast<std::uint64_t>(rig_of(study, index)) : 0,
-          study.independent_points ? static_cast<std::uint32_t>(point) + 1 : 0};
+          study.independent_points ? static_cast<std::uint32_t>(point) + 1 : 0,
+          given};
 }
 
 // The trial from which this trial takes the number of a slot.
@@ -60,6 +64,8 @@ double drawn_uniform(const TrialDraws& draws, std::uint32_t slot, Per per) {
 
 /// The uniform number of a drawn value, with the copula of the study.
 double uniform_of(const TrialDraws& draws, std::uint32_t slot, Per per) {
+  const auto given = draws.given.find(slot);
+  if (given != draws.given.end()) return given->second;
   const std::optional<GaussianCopula>& copula = draws.plan().copula;
   if (!copula) return drawn_uniform(draws, slot, per);
   const auto member = std::find(copula->slots.begin(), copula->slots.end(), slot);
@@ -146,10 +152,11 @@ void check_exists(const Study& study, std::int64_t point, std::int64_t index) {
 
 }  // namespace
 
-StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int64_t index) {
+StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int64_t index,
+                                const GivenUniforms& given) {
   check_exists(study, point, index);
   const StudyPlan& plan = *study.plan;
-  const TrialDraws draws = draws_of(study, point, index);
+  const TrialDraws draws = draws_of(study, point, index, given);
   const std::vector<const Value*> values = values_at(plan, static_cast<std::size_t>(point));
   std::vector<double> numbers = plan.numbers;
 
@@ -192,7 +199,12 @@ StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int
 }
 
 StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t index) {
-  StudyTrial trial = study_trial_as_given(study, point, index);
+  return study_trial(study, point, index, {});
+}
+
+StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t index,
+                       const GivenUniforms& given) {
+  StudyTrial trial = study_trial_as_given(study, point, index, given);
   complete_trial(study.units, trial.parameters);
   round_targets(trial);
   return trial;
@@ -204,7 +216,8 @@ std::vector<double> rig_inputs(const Study& study, std::int64_t rig) {
                   fmt::format("study {} has no rig {}; expected 0 to {}", study.name, rig, study.rigs - 1));
   }
   const StudyPlan& plan = *study.plan;
-  const TrialDraws draws = draws_of(study, 0, rig);  // the first trial on it
+  const GivenUniforms none;
+  const TrialDraws draws = draws_of(study, 0, rig, none);  // the first trial on it
   std::vector<double> inputs;
   inputs.reserve(plan.rig_inputs.size());
   for (const InputSource& source : plan.rig_inputs) {

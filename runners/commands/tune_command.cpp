@@ -1,4 +1,5 @@
 #include <charconv>
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -26,6 +27,7 @@
 #include "runners/tuning/tune_text.hpp"
 #include "runners/tuning/tuner.hpp"
 #include "runners/tuning/tuning_page.hpp"
+#include "runners/tuning/worst_in_box.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -60,10 +62,12 @@ constexpr const char* limits_help =
     "Example: zerocount limits my-axis.yaml\n";
 
 constexpr const char* worst_help =
-    "Finds the machine of a study that meets its goal in the fewest moves, and prints its inputs.\n"
-    "Of several points --point chooses one.\n"
+    "Finds the machine that a gain suits worst: of the machines of the study, and in the box of the\n"
+    "central 99.9 % of each quantity that differs between machines, where it is sought from the\n"
+    "corners inwards. Its rate is of trials that the search has not used. -o writes a manifest in\n"
+    "which the machine's values are fixed. Of several points --point chooses one.\n"
     "\n"
-    "Example: zerocount worst my-axis.yaml\n";
+    "Example: zerocount worst my-axis.yaml -o worst.yaml\n";
 
 /// "60s", "5min", or a number of trials.
 void read_budget(const command_line::Arguments& arguments, tuning::TuneSettings& settings) {
@@ -185,7 +189,19 @@ ExitCode limits(const command_line::Arguments& arguments) {
   return ExitCode::success;
 }
 
+/// The command that shows the worst trial of the written manifest.
+std::string replay_text(const PointToExamine& examined, const tuning::WorstInBox& worst,
+                        const std::optional<std::filesystem::path>& output) {
+  if (!output) return "";
+  const bool several = study::point_count(examined.study) > 1;
+  return fmt::format("wrote {}; its worst trial: zerocount trace {}{} --trial {}\n", output->string(),
+                     output->string(), several ? fmt::format(" --point {}", examined.point) : std::string(),
+                     worst.trial);
+}
+
 ExitCode worst(const command_line::Arguments& arguments) {
+  const std::optional<std::filesystem::path> output = command_line::text_place(arguments, "output");
+  if (output) command_line::require_places(arguments, {arguments.operands()[0]}, {*output});
   const PointToExamine examined = point_to_examine(arguments);
   const study::Study& study = examined.study;
   const study_run::InterruptionWatch interruption;
@@ -193,10 +209,14 @@ ExitCode worst(const command_line::Arguments& arguments) {
   const std::vector<tuning::UnitResult> results = unless_interrupted(
       [&] { return tuning::results_of(study, units, units.count, nullptr, interruption.token()); });
   const tuning::WorstMachine worst = tuning::worst_machine(study, examined.point, results);
+  const tuning::WorstInBox in_box =
+      unless_interrupted([&] { return tuning::worst_in_box(study, units, results, interruption.token()); });
+  if (output) command_line::write_text(*output, tuning::replay_of(in_box).manifest_text);
   if (arguments.choice("format") == "json") {
-    standard_output::write(tuning::worst_json(worst));
+    standard_output::write(tuning::worst_json(worst, in_box));
   } else {
-    standard_output::write_fitted(tuning::worst_text(worst, study.rigs > 0));
+    standard_output::write_fitted(tuning::worst_text(worst, study.rigs > 0) + tuning::worst_text(in_box) +
+                                  replay_text(examined, in_box, output));
   }
   return ExitCode::success;
 }
@@ -238,8 +258,10 @@ Command worst_command() {
   return {{"worst",
            "MANIFEST|FILE",
            {command_line::format_option({"text", "json"}),
+            {"output,o", "MANIFEST", "write a manifest of the worst machine in the box"},
             {"point", "P", "the design point, by label or number"},
-            set_option()}},
+            set_option(),
+            command_line::force_option()}},
           "the machine that a gain suits worst",
           worst_help,
           worst};

@@ -140,7 +140,8 @@ Json list_of(const std::vector<Limit>& limits) {
 }
 
 Json object_of(const WorstMachine& worst) {
-  return {{"rig", worst.rig}, {"met", worst.met}, {"inputs", values_json(worst.inputs)}};
+  return {
+      {"rig", worst.rig}, {"trial", worst.trial}, {"met", worst.met}, {"inputs", values_json(worst.inputs)}};
 }
 
 }  // namespace
@@ -201,8 +202,30 @@ std::string limits_json(const std::vector<Limit>& limits) {
   return text::json_text({{"limits", list_of(limits)}});
 }
 
-std::string worst_json(const WorstMachine& worst) {
-  return text::json_text(object_of(worst));
+std::string worst_text(const WorstInBox& worst) {
+  std::string text =
+      fmt::format("worst in the box of the central 99.9 %: {:.4g} % of {} moves meet the goal, at\n",
+                  100.0 * worst.met, worst.moves);
+  std::vector<text::TextColumn> columns{{"input", false, {}}, {"value", true, {}}};
+  for (const auto& [name, value] : worst.inputs) {
+    columns[0].cells.push_back(name);
+    columns[1].cells.push_back(text::short_number(value));
+  }
+  return text + text::aligned_table(columns) +
+         (worst.searched.rigs > 0 && !worst.searched.profiles.empty()
+              ? fmt::format("with the profiles of rig {}\n", worst.rig)
+              : std::string());
+}
+
+std::string worst_json(const WorstMachine& worst, const WorstInBox& in_box) {
+  Json json = object_of(worst);
+  json["box"] = {{"rig", in_box.rig},
+                 {"trial", in_box.trial},
+                 {"moves", in_box.moves},
+                 {"met", in_box.met},
+                 {"inputs", values_json(in_box.inputs)},
+                 {"quantiles", in_box.quantiles}};
+  return text::json_text(json);
 }
 
 std::string json_of(const TuneAnswer& answer) {

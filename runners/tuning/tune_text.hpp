@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "runners/tuning/tuner.hpp"
+#include "runners/tuning/worst_in_box.hpp"
 
 namespace zerocount::tuning {
 
@@ -23,7 +24,8 @@ std::string limits_json(const std::vector<Limit>& limits);
 /// A table: each cause, the rate without it, and the part of the failures that it causes.
 std::string limits_text(const std::vector<Limit>& limits, bool of_machines);
 
-std::string worst_json(const WorstMachine& worst);
+std::string worst_json(const WorstMachine& worst, const WorstInBox& in_box);
+std::string worst_text(const WorstInBox& worst);
 std::string worst_text(const WorstMachine& worst, bool on_rigs);
 
 }  // namespace zerocount::tuning

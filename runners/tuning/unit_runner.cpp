@@ -52,6 +52,18 @@ class TrialCounter {
   Criterion criterion_;
 };
 
+std::vector<trial::TrialOutcome> outcomes_of(std::span<const trial::TrialParameters> trials,
+                                             batch::BatchEngine& engine, const std::stop_token& stop) {
+  std::vector<const trial::TrialParameters*> parameters;
+  parameters.reserve(trials.size());
+  for (const trial::TrialParameters& one : trials) parameters.push_back(&one);
+  std::vector<trial::TrialOutcome> outcomes(trials.size());
+  batch::BatchObservers observers;
+  observers.stop = stop;
+  engine.run(parameters, outcomes, observers);
+  return outcomes;
+}
+
 void run_part(const Part& part, const Units& units, batch::BatchEngine& engine, const std::stop_token& stop) {
   const study::Study& study = *part.entry->study;
   const TrialCounter counter(study);
@@ -62,13 +74,7 @@ void run_part(const Part& part, const Units& units, batch::BatchEngine& engine, 
       if (part.entry->change != nullptr) (*part.entry->change)(trials.back());
     }
   }
-  std::vector<const trial::TrialParameters*> parameters;
-  parameters.reserve(trials.size());
-  for (const trial::TrialParameters& one : trials) parameters.push_back(&one);
-  std::vector<trial::TrialOutcome> outcomes(trials.size());
-  batch::BatchObservers observers;
-  observers.stop = stop;
-  engine.run(parameters, outcomes, observers);
+  const std::vector<trial::TrialOutcome> outcomes = outcomes_of(trials, engine, stop);
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const auto unit = static_cast<std::size_t>(part.from) + i / static_cast<std::size_t>(units.trials_each);
     counter.add(outcomes[i].moves, (*part.entry->results)[unit]);
@@ -130,6 +136,15 @@ Criterion criterion_of(const study::Study& study) {
 
 Aim aim_of(const study::Study& study) {
   return {study.goal->moves, study.goal->machines, criterion_of(study).quantile};
+}
+
+UnitResult result_of(const study::Study& study, std::span<const trial::TrialParameters> trials,
+                     batch::BatchEngine& engine, const std::stop_token& stop) {
+  const TrialCounter counter(study);
+  UnitResult result;
+  for (const trial::TrialOutcome& outcome : outcomes_of(trials, engine, stop))
+    counter.add(outcome.moves, result);
+  return result;
 }
 
 void run_units(std::span<const UnitsToRun> entries, const Units& units, const std::stop_token& stop) {

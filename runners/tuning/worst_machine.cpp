@@ -5,10 +5,6 @@
 namespace zerocount::tuning {
 namespace {
 
-double met_share(const UnitResult& unit) {
-  return unit.moves == 0 ? 0.0 : static_cast<double>(unit.met) / unit.moves;
-}
-
 /// Number of the move with the largest value.
 std::int64_t latest_move(const UnitResult& unit) {
   return std::ranges::max_element(unit.values) - unit.values.begin();

@@ -9,7 +9,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "results/reading/results_file.hpp"
+#include "experiments/study/study.hpp"
+#include "results/layout/header.hpp"
+#include "results/reading/study_file.hpp"
 #include "tests/runners/program.hpp"
 
 namespace zerocount::testing {
@@ -234,6 +236,38 @@ TEST_F(Tune, LimitsSwitchCausesOffOneByOne) {
   }
 }
 
+// The manifest of the worst machine replays its trials: with all rigs alike, the rate of its moves.
+TEST_F(Tune, WorstWritesAManifestThatReplaysTheMachine) {
+  write_axis("goal: {band: 0, within: 0.05, moves: 0.98}\n");
+  const Json worst = Json::parse(program({"worst", "axis.yaml", "-o", "worst.yaml", "--format", "json"}).out);
+  const Json box = worst["box"];
+  ASSERT_EQ(program({"run", "worst.yaml", "-o", "worst.h5"}).code, 0);
+  const reading::StudyFile file(folder_.path() / "worst.h5");
+  const study::Study study = layout::recorded_study(file.header(), "worst.h5");
+  EXPECT_EQ(study::study_trial(study, 0, box["trial"]).parameters.friction.uniform.k1,
+            box["inputs"]["friction.k1"]);
+  const double met = Json::parse(program({"judge", "worst.h5", "--format", "json"}).out)["rate"];
+  EXPECT_NEAR(met, box["met"].get<double>(), 0.15);
+  EXPECT_EQ(program({"trace", "worst.yaml", "--trial", std::to_string(box["trial"].get<int>())}).code, 0);
+}
+
+// Stiffness alone decides, and more of it is worse: the worst machine is at the end of the box.
+TEST_F(Tune, WorstIsFoundAtTheEndOfTheBoxWhereItLies) {
+  folder_.write("soft.yaml", R"(zerocount: 1
+name: soft
+seed: 3
+trials: 40
+command: {targets: [20], hold: 0.2}
+friction: {model: spring, k1: {uniform: [100, 140]}, k2: 0}
+initial: {encoder_phase: {uniform: [0, 1]}}
+controller: {ki: 3.0e-5}
+goal: {band: 0, within: 0.06, moves: 0.9}
+)");
+  const Json box = Json::parse(program({"worst", "soft.yaml", "--format", "json"}).out)["box"];
+  const double quantile = box["quantiles"][0];
+  EXPECT_TRUE(quantile < 0.01 || quantile > 0.99) << quantile;
+}
+
 TEST_F(Tune, LimitsAreOfThePointThatIsAskedFor) {
   write_axis("goal: {band: 0, within: 0.05, moves: 0.98}\nsweep: {grid: {controller.delay: [0, 1]}}\n");
   EXPECT_NE(program({"limits", "axis.yaml"}).err.find("expected one with --point"), std::string::npos);
@@ -251,6 +285,12 @@ TEST_F(Tune, WorstIsTheMachineWithTheFewestGoodMoves) {
   const Json of_manifest = Json::parse(program({"worst", "axis.yaml", "--format", "json"}).out);
   const Json of_file = Json::parse(program({"worst", "out.h5", "--format", "json"}).out);
   EXPECT_EQ(of_manifest, of_file);
+  const Json box = of_manifest["box"];
+  EXPECT_LE(box["met"], of_manifest["met"].get<double>() + 0.1) << "the box has the sampled machines' ranges";
+  for (const double quantile : box["quantiles"]) {
+    EXPECT_GE(quantile, 0.0005);
+    EXPECT_LE(quantile, 0.9995);
+  }
   const ProgramResult set = program({"worst", "out.h5", "--set", "controller.delay=0"});
   EXPECT_EQ(set.code, 2);
   EXPECT_NE(set.err.find("changes a manifest"), std::string::npos) << set.err;

@@ -1,0 +1,61 @@
+#include "experiments/study/machine_inputs.hpp"
+
+#include <algorithm>
+
+#include "experiments/study/plan.hpp"
+
+namespace zerocount::study {
+namespace {
+
+bool is_of_the_move(std::string_view name) {
+  return name.starts_with("initial.") || name.starts_with("command.");
+}
+
+bool differs_between_machines(const Study& study, const Value& value, std::string_view name) {
+  if (value.kind != Value::Kind::distribution) return false;
+  switch (value.per) {
+    case Per::rig:
+      return true;
+    case Per::trial:
+      return study.rigs == 0 && !is_of_the_move(name);
+    case Per::study:
+    case Per::contact:
+      break;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<MachineInput> machine_inputs(const Study& study, std::int64_t point) {
+  const StudyPlan& plan = *study.plan;
+  const std::vector<const Value*> values = values_at(plan, static_cast<std::size_t>(point));
+  std::vector<MachineInput> inputs;
+  MachineInput joint;
+  for (const std::uint32_t slot : plan.input_slots) {
+    const std::string name(plan.table.rows[slot].name);
+    if (!differs_between_machines(study, *values[slot], name)) continue;
+    if (std::ranges::find(plan.sampled_slots, slot) == plan.sampled_slots.end()) {
+      inputs.push_back({name, {slot}});
+    } else {
+      joint.name += (joint.name.empty() ? "" : ", ") + name;
+      joint.slots.push_back(slot);
+    }
+  }
+  if (!joint.slots.empty()) inputs.push_back(std::move(joint));
+  return inputs;
+}
+
+std::vector<std::pair<std::string, double>> values_at_quantile(const Study& study, std::int64_t point,
+                                                               const MachineInput& input, double quantile) {
+  const StudyPlan& plan = *study.plan;
+  const std::vector<const Value*> values = values_at(plan, static_cast<std::size_t>(point));
+  std::vector<std::pair<std::string, double>> found;
+  for (const std::uint32_t slot : input.slots) {
+    found.emplace_back(plan.table.rows[slot].name,
+                       distributions::quantile(plan.distributions[values[slot]->index], quantile));
+  }
+  return found;
+}
+
+}  // namespace zerocount::study

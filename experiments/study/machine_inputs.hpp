@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "experiments/study/study.hpp"
+
+namespace zerocount::study {
+
+/// A drawn quantity of a machine.
+struct MachineInput {
+  std::string name;                  ///< dotted path; of joint samples the paths, joined by ", "
+  std::vector<std::uint32_t> slots;  ///< that share its random number
+};
+
+/// The drawn quantities in which the machines of a point differ: those drawn per rig; without rigs those
+/// drawn per trial that are not of the command or the initial conditions. Profiles are not among them.
+std::vector<MachineInput> machine_inputs(const Study& study, std::int64_t point);
+
+/// The values of an input's slots at this quantile, in the units of the manifest: (dotted path, value).
+std::vector<std::pair<std::string, double>> values_at_quantile(const Study& study, std::int64_t point,
+                                                               const MachineInput& input, double quantile);
+
+}  // namespace zerocount::study

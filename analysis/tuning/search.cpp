@@ -95,7 +95,7 @@ class Search {
 
   /// A place near an elite, moved along the difference of two others: their spread knows the direction of a
   /// narrow valley.
-  Place place_near_elites() {
+  Place place_near_elites(double step) {
     const std::size_t elites = population_.size();
     const double u = uniform();
     const Place& centre = population_[static_cast<std::size_t>(u * u * static_cast<double>(elites))].place;
@@ -104,18 +104,19 @@ class Search {
     const double along = uniform() < 0.7 ? 0.8 * uniform() : 0.0;
     Place place;
     for (std::size_t i = 0; i < centre.size(); ++i) {
-      const double moved = centre[i] + along * (to[i] - from[i]) + step_ * normal();
+      const double moved = centre[i] + along * (to[i] - from[i]) + step * normal();
       place.push_back(std::clamp(moved, 0.0, 1.0));
     }
     return place;
   }
 
+  /// Where few places are admissible, they are near those that are: each try takes shorter steps.
   void next_generation() {
     std::vector<Candidate> candidates;
     constexpr auto wanted = static_cast<std::size_t>(candidates_of_generation);
     for (int tries = 0; tries < tries_of_candidate && candidates.size() < wanted; ++tries) {
       std::vector<Place> places;
-      for (std::size_t i = candidates.size(); i < wanted; ++i) places.push_back(place_near_elites());
+      for (std::size_t i = candidates.size(); i < wanted; ++i) places.push_back(place_near_elites(step_ / (1.0 + 0.2 * tries)));
       add_admissible(places, wanted, candidates);
     }
     race(std::move(candidates));

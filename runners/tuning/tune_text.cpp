@@ -99,18 +99,19 @@ std::string gains_table(const TuneAnswer& answer) {
 
 std::string alternatives_text(const TuneAnswer& answer) {
   if (answer.alternatives.empty()) return "";
-  std::vector<text::TextColumn> columns{{"fixed", false, {}},   {"best values", false, {}},
+  std::vector<text::TextColumn> columns{{"control", false, {}}, {"best values", false, {}},
                                         {"goal", false, {}},    {"moves that meet it", true, {}},
                                         {"at least", true, {}}, {"criterion", true, {}}};
   for (const Alternative& one : answer.alternatives) {
-    columns[0].cells.push_back(values_text(one.fixed));
+    const bool added = one.gains.size() > answer.free.size();
+    columns[0].cells.push_back(added ? "observer added" : values_text(one.fixed));
     columns[1].cells.push_back(one.verdict ? values_text(one.gains) : "none keeps the margins");
     columns[2].cells.emplace_back(one.verdict ? goal::text_of(one.verdict->status) : "");
     columns[3].cells.push_back(one.verdict ? fmt::format("{:.4g} %", 100.0 * one.verdict->moves.value) : "");
     columns[4].cells.push_back(one.verdict ? fmt::format("{:.4g} %", 100.0 * one.verdict->moves.low) : "");
     columns[5].cells.push_back(one.verdict ? criterion_number(one.criterion) : "");
   }
-  return "\nsimpler controls, each at its own best values, on other machines than its search:\n\n" +
+  return "\nother controls, each at its own best values, on other machines than its search:\n\n" +
          text::aligned_table(columns);
 }
 

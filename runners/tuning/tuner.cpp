@@ -15,6 +15,7 @@
 #include "results/shards/pieces.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_run/progress.hpp"
+#include "runners/tuning/other_controls.hpp"
 #include "runners/tuning/proof_runner.hpp"
 #include "runners/tuning/study_search.hpp"
 #include "runners/tuning/tuning_journal.hpp"
@@ -214,37 +215,16 @@ class Tuner {
     }
   }
 
-  /// Searches anew with kp or kd fixed at 0, where the ranges allow it, and with both.
   void add_alternatives() {
-    std::vector<std::vector<std::string>> choices;
-    std::vector<std::string> zeros;
-    for (const study::FreeParameter& one : answer_.free) {
-      if (one.low == 0.0 && (one.name.ends_with(".kp") || one.name.ends_with(".kd")))
-        zeros.push_back(one.name);
-    }
-    choices.reserve(zeros.size() + 1);
-    for (const std::string& one : zeros) choices.push_back({one});
-    if (zeros.size() > 1) choices.push_back(zeros);
-    for (const std::vector<std::string>& fixed : choices) {
-      if (fixed.size() < answer_.free.size() && has_time(1.0)) add_alternative(fixed);
+    for (const OtherControl& one : other_controls(study_)) {
+      if (has_time(1.0)) add_alternative(one);
     }
   }
 
-  void add_alternative(const std::vector<std::string>& fixed) {
-    std::vector<study::FreeParameter> free;
-    std::vector<std::string> overrides;
-    Alternative alternative;
-    for (const study::FreeParameter& one : answer_.free) {
-      if (std::ranges::find(fixed, one.name) == fixed.end()) {
-        free.push_back(one);
-      } else {
-        overrides.push_back(fmt::format("{}=0", one.name));
-        alternative.fixed.emplace_back(one.name, 0.0);
-      }
-    }
-    const study::Study with_fixed = variant_of(study_, overrides);
+  void add_alternative(const OtherControl& control) {
+    const study::Study study = variant_of(study_, control.overrides);
     StudySearch search(
-        with_fixed, free, max_units / 2, journal_, [this] { return elapsed(); }, stop_);
+        study, control.free, max_units / 2, journal_, [this] { return elapsed(); }, stop_);
     SearchSettings limits;
     limits.seed = study_.seed;
     limits.max_trials = settings_.max_trials / 4;
@@ -253,8 +233,10 @@ class Tuner {
     answer_.points += found.points;
     answer_.trials += found.trials;
     answer_.examined += search.examined();
+    Alternative alternative;
+    for (const std::string& name : control.zero) alternative.fixed.emplace_back(name, 0.0);
     if (!found.finalists.empty())
-      judge_alternative(with_fixed, free, found.finalists.front().values, alternative);
+      judge_alternative(study, control.free, found.finalists.front().values, alternative);
     answer_.alternatives.push_back(std::move(alternative));
   }
 

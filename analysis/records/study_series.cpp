@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "analysis/records/raw_series.hpp"
@@ -64,6 +66,13 @@ RawSeries read_study_series(const std::filesystem::path& path, std::int64_t poin
   const bool counts = choice.angle.value_or("count") == "count";
   // Without a drive_torque column, the motor torque equals the commanded torque after the control delay.
   const bool commanded = choice.torque.value_or("drive_torque") == "torque" || !file.features().drive_torque;
+  const double delay = trial.controller.delay;
+  if (!commanded && delay != std::floor(delay)) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: its delay of {} samples ends within a sample, and drive_torque is the motor's "
+                              "torque at the samples alone; expected --torque torque",
+                              path.string(), delay));
+  }
   for (const layout::TraceRecord& record : records) {
     series.time.push_back(record.t);
     series.torque.push_back(commanded ? record.torque : record.drive_torque);

@@ -13,7 +13,8 @@ namespace zerocount::friction {
 
 /// Friction of one contact: constant within one pre-sliding range (paper, QN2). The paper gives k1 and k1 +
 /// k2 (section 4); the other defaults are assumed. β is inferred from the outcomes that the paper reports:
-/// only between about 7e4 and 1.4e5 /rad do its five gains all behave as it says (study beta-from-outcomes).
+/// in a loop without delay its five gains all behave as it says only between about 7e4 and 1.4e5 /rad (study
+/// beta-from-outcomes).
 struct FrictionParameters {
   double k1{110.0};                ///< lowest tangent stiffness of the spring, N m/rad
   double k2{750.0};                ///< highest tangent stiffness less k1, N m/rad

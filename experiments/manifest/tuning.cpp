@@ -43,19 +43,19 @@ void read_ends(const yaml::Field& field, const numerics::Interval& allowed, stud
     problems.add(field, "an end is not a whole number", "whole numbers");
 }
 
-void read_range(const yaml::Field& field, const parameters::Parameter& row, study::FreeParameter& parameter,
+void read_range(const yaml::Field& field, const numerics::Interval& allowed, study::FreeParameter& parameter,
                 yaml::Problems& problems) {
   if (field.node->kind == yaml::YamlNode::Kind::map) {
     parameters::check_keys(field, log_keys, problems);
     if (const auto ends = yaml::find_field(field, "log")) {
       parameter.logarithmic = true;
-      read_ends(*ends, row.range, parameter, problems);
+      read_ends(*ends, allowed, parameter, problems);
     } else {
       problems.add(field, "the map has no key log", expected_range);
     }
     return;
   }
-  read_ends(field, row.range, parameter, problems);
+  read_ends(field, allowed, parameter, problems);
 }
 
 /// Whether the value at the slot is one number at all points.
@@ -93,7 +93,7 @@ void read_free(const yaml::Field& map, const study::StudyPlan& plan, study::Tuni
     study::FreeParameter parameter{.name = std::string(row.name),
                                    .unit = parameters::unit_of(row, plan.units),
                                    .whole = row.kind == parameters::ParameterKind::whole_number};
-    read_range(field, row, parameter, problems);
+    read_range(field, parameters::range_of(row, plan.units), parameter, problems);
     tuning.free.push_back(parameter);
   }
 }

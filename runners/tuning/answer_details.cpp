@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "analysis/measures/goal_counts.hpp"
+#include "core/failure/failure.hpp"
 #include "runners/tuning/limits.hpp"
 
 namespace zerocount::tuning {
@@ -59,7 +60,12 @@ std::vector<Room> room_of(const TunedStudy& tuned) {
       return at;
     };
     const auto holds = [&](double share) {
-      return seems_met(tuned, variant_of(tuned.study, overrides_of(tuned.free, values(share))), nullptr);
+      try {
+        return seems_met(tuned, variant_of(tuned.study, overrides_of(tuned.free, values(share))), nullptr);
+      } catch (const Failure& failure) {
+        if (failure.code() != ExitCode::bad_input) throw;
+        return false;  // such values together are not allowed
+      }
     };
     // Outwards in steps, because the goal may be lost and met again farther off.
     const auto end = [&](double to) {

@@ -207,6 +207,27 @@ TEST_F(Tune, RefusesWrongSectionsWithTheirPlace) {
             std::string::npos);
 }
 
+// Gains in SI units of a linear axis are far larger than those per count.
+TEST_F(Tune, TakesTheRangesOfGainsInTheirUnits) {
+  folder_.write("stage.yaml", R"(zerocount: 1
+name: stage
+axis: linear
+travel: 0.2
+seed: 1
+trials: 20
+plant: {inertia: 5, presliding_damping: 1500, sliding_damping: 50}
+friction: {k1: 1.0e+5, k2: 2.0e+7, beta: 2.0e+6, lambda: 1.0e+8, breakaway: 12, stribeck_velocity: 1.0e-3}
+encoder: {resolution: 1.0e-9}
+dac: {bits: 20, resolution: 5.0e-5}
+controller: {units: si, sample_rate: 10000, kp: 2.0e+6, ki: 5.0e+8}
+command: {targets: [10], hold: 0.2}
+goal: {band: 1, within: 0.1, moves: 0.9}
+tune: {free: {controller.ki: {log: [1.0e+7, 5.0e+9]}, controller.kp: [0, 1.0e+7]}}
+)");
+  const ProgramResult result = program({"check", "stage.yaml"});
+  EXPECT_EQ(result.code, 0) << result.err;
+}
+
 TEST_F(Tune, RefusesACriterionThatIsNoQuantile) {
   write_axis("goal: {within: 0.1, moves: 0.98}\n" + std::string(two_gains) + "  minimise: ki\n");
   const ProgramResult result = tune();

@@ -10,9 +10,11 @@ namespace {
 
 constexpr std::int64_t beta_trials = 250;
 
-std::int64_t stable_moves_at(const std::string& gain, const std::string& beta) {
+std::int64_t stable_moves_at(const std::string& gain, const std::string& beta,
+                             const std::string& delay = "0") {
   const study::Study study = shipped_study("beta-from-outcomes");
-  return moves_with(outcomes_of(study, gain + ", friction.beta=" + beta, beta_trials),
+  const std::string point = gain + ", friction.beta=" + beta + ", controller.delay=" + delay;
+  return moves_with(outcomes_of(study, point, beta_trials),
                     [](const trial::MoveOutcome& move) { return move.stable; });
 }
 
@@ -36,6 +38,15 @@ TEST(BetaFromOutcomes, ASpringThatSoftensLaterIsTooStable) {
 TEST(BetaFromOutcomes, ASpringThatSoftensSoonerIsTooUnstable) {
   EXPECT_TRUE(share_below(0.92, stable_moves_at("b-with-kp", "200000"), beta_trials))
       << "the paper: stable in all the cases we tested";
+}
+
+// With half a sample of delay or more, no β makes gain b unstable in most moves and keeps the gain with kp.
+TEST(BetaFromOutcomes, NoBetaAgreesWithADelayOfASample) {
+  EXPECT_TRUE(share_below(0.95, stable_moves_at("b-with-kp", "50000", "1"), beta_trials));
+  EXPECT_TRUE(share_above(0.80, stable_moves_at("b", "25000", "1"), beta_trials))
+      << "a smaller β is no way out";
+  EXPECT_TRUE(share_above(0.97, stable_moves_at("b-with-kp", "70000", "0.3"), beta_trials));
+  EXPECT_TRUE(share_below(0.95, stable_moves_at("b-with-kp", "100000", "0.3"), beta_trials));
 }
 
 TEST(BetaFromOutcomes, TheDefaultIsTheInferredValue) {

@@ -68,10 +68,11 @@ RawSeries read_study_series(const std::filesystem::path& path, std::int64_t poin
   const bool commanded = choice.torque.value_or("drive_torque") == "torque" || !file.features().drive_torque;
   const double delay = trial.controller.delay;
   if (!commanded && delay != std::floor(delay)) {
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: its delay of {} samples ends within a sample, and drive_torque is the motor's "
-                              "torque at the samples alone; expected --torque torque",
-                              path.string(), delay));
+    throw Failure(
+        ExitCode::bad_input,
+        fmt::format("{}: its delay of {} samples ends within a sample, and drive_torque is the motor's "
+                    "torque at the samples alone; expected --torque torque",
+                    path.string(), delay));
   }
   for (const layout::TraceRecord& record : records) {
     series.time.push_back(record.t);

@@ -116,7 +116,8 @@ class Search {
     constexpr auto wanted = static_cast<std::size_t>(candidates_of_generation);
     for (int tries = 0; tries < tries_of_candidate && candidates.size() < wanted; ++tries) {
       std::vector<Place> places;
-      for (std::size_t i = candidates.size(); i < wanted; ++i) places.push_back(place_near_elites(step_ / (1.0 + 0.2 * tries)));
+      for (std::size_t i = candidates.size(); i < wanted; ++i)
+        places.push_back(place_near_elites(step_ / (1.0 + 0.2 * tries)));
       add_admissible(places, wanted, candidates);
     }
     race(std::move(candidates));

@@ -231,7 +231,7 @@ void realise_profiles(const std::vector<ProfileRequest>& requests, const study::
     auto rotors = std::make_shared<const study::Rotors>(request.form.description, std::move(mean), study.seed,
                                                         parameter.name, count);
     const auto same = std::ranges::find_if(known, [&](const auto& one) { return one->is_same(*rotors); });
-    plan.profiles.push_back(same == known.end() ? std::move(rotors) : *same);
+    plan.profiles.push_back(same == known.end() ? rotors : *same);
   }
 }
 

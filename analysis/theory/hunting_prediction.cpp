@@ -18,6 +18,11 @@ bool is_stable_while_sliding(const trial::TrialParameters& trial) {
   return sliding != loops.end() && stability_of(sliding->loop) == LoopStability::stable;
 }
 
+bool is_disturbed(const trial::TrialParameters& trial) {
+  const trial::DisturbanceParameters& d = trial.disturbance;
+  return d.torque != 0.0 || !d.ripple.empty() || !d.vibration.empty() || !d.spectra.empty();
+}
+
 }  // namespace
 
 std::optional<HuntingPrediction> predict_hunting(const trial::TrialParameters& trial) {
@@ -27,6 +32,7 @@ std::optional<HuntingPrediction> predict_hunting(const trial::TrialParameters& t
       loop::controller_in_phase(trial.controller, loop::ControlPhase::fine);
   HuntingPrediction prediction;
   prediction.left_out = left_out_of_hunting(trial.plant, controller);
+  if (prediction.left_out.empty() && is_disturbed(trial)) prediction.left_out = "the disturbance";
   if (!prediction.left_out.empty()) return prediction;
   const friction::FrictionParameters contact = friction::friction_at(trial.friction, trial.initial.position);
   prediction.count_angle = loop::fine_resolution(trial.encoder);

@@ -78,11 +78,18 @@ std::vector<FrozenContact> frozen_contacts(const trial::TrialParameters& p) {
 std::vector<TrialLoop> trial_loops(const trial::TrialParameters& parameters) {
   std::vector<TrialLoop> loops;
   if (has_no_linear_loop(parameters)) return loops;
+  const auto add_loop = [&](const FrozenContact& contact, const std::string& name,
+                            const loop::ControllerParameters& controller) {
+    loops.push_back({name, contact.slides, contact.stiffness,
+                     frozen_loop(contact.stiffness, contact.damping, parameters.plant, parameters.encoder,
+                                 controller, drive_of(parameters))});
+  };
   const auto add = [&](const FrozenContact& contact, const std::string& name, loop::ControlPhase phase) {
-    loops.push_back(
-        {name, contact.slides, contact.stiffness,
-         frozen_loop(contact.stiffness, contact.damping, parameters.plant, parameters.encoder,
-                     loop::controller_in_phase(parameters.controller, phase), drive_of(parameters))});
+    const loop::ControllerParameters controller = loop::controller_in_phase(parameters.controller, phase);
+    add_loop(contact, name, controller);
+    const auto at_standstill = loop::controller_at_standstill(controller);
+    if (at_standstill && !contact.slides)
+      add_loop(contact, name + ", with the gains at standstill", *at_standstill);
   };
   const std::string with_phases = loop::has_coarse_phase(parameters.controller) ? ", the fine phase" : "";
   for (const FrozenContact& contact : frozen_contacts(parameters)) {

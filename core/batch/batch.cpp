@@ -20,27 +20,6 @@ constexpr double max_delay = 64.0;
 // enumerators and each structured binding all members, so that the compiler demands a decision for one that
 // is added later.
 
-std::string_view lacking(loop::ReferenceShape shape) {
-  switch (shape) {
-    case loop::ReferenceShape::step:
-      return "";
-    case loop::ReferenceShape::trapezoidal:
-    case loop::ReferenceShape::s_curve:
-      break;
-  }
-  return "a reference with a profile";
-}
-
-std::string_view lacking(loop::EncoderChoice encoder) {
-  switch (encoder) {
-    case loop::EncoderChoice::fine:
-      return "";
-    case loop::EncoderChoice::coarse:
-      break;
-  }
-  return "control by the coarse encoder";
-}
-
 std::string_view lacking(const loop::AmplifierParameters& amplifier) {
   const auto& [bandwidth] = amplifier;
   return bandwidth == 0.0 ? "" : "an amplifier";
@@ -55,46 +34,47 @@ bool lanes_have(loop::ControlStructure structure) {
   return false;
 }
 
-/// Ignores the feed-forward, which is 0 for a step, the only reference of the lanes.
 std::string_view lacking(const loop::ControlBlocks& blocks) {
   [[maybe_unused]] const auto& [structure, cascade, deadband, zone, leak, cutoff, filters, feedforward,
-                                observer] = blocks;
-  if (filters.size() > max_lane_filters) return "more than four filters";
+                                observer, error_deadband, hold, standstill] = blocks;
   return lanes_have(structure) ? "" : "the controller's structure";
 }
 
 std::string_view lacking(const loop::ControllerParameters& controller) {
   static_assert(
-      std::is_same_v<loop::ControlChain, loop::BlockChain<loop::ControlLaw, loop::Filters, loop::Feedforward,
-                                                          loop::DisturbanceObserver>>,
-      "sample_kernel has these blocks: another one needs its law there, or a condition here");
-  const auto& [sample_rate, kp, ki, kd, delay, anti_windup, encoder, coarse, blocks, user] = controller;
-  if (user.plugin) return "a controller from a plugin";
+      std::is_same_v<loop::ControlBlockChain, loop::BlockChain<loop::ControlLaw, loop::Filters,
+                                                               loop::Feedforward, loop::DisturbanceObserver>>,
+      "sample_kernel has these blocks: another one needs its law there, or needs_lane_loop()");
+  [[maybe_unused]] const auto& [sample_rate, kp, ki, kd, delay, anti_windup, encoder, coarse, blocks, user,
+                                dither, missed, jitter] = controller;
+  if (jitter > 0.0) return "late samples (controller.jitter)";
   if (delay > max_delay) return "a delay above 64 samples";
-  if (loop::has_coarse_phase(controller)) return "two phases of control";
-  const std::string_view by_encoder = lacking(encoder);
-  return by_encoder.empty() ? lacking(blocks) : by_encoder;
+  return lacking(blocks);
+}
+
+std::string_view lacking(const trial::DisturbanceParameters& disturbance) {
+  [[maybe_unused]] const auto& [torque, ripple, vibration, spectra] = disturbance;
+  if (!ripple.empty()) return "disturbance.ripple";
+  return vibration.empty() && spectra.empty() ? "" : "disturbance.vibration";
 }
 
 std::string_view lacking(const trial::CommandParameters& command) {
-  const auto& [targets, hold, profile, torque] = command;
+  [[maybe_unused]] const auto& [targets, hold, profile, torque] = command;
   if (!torque.levels.empty()) return "torque levels";
-  return targets.empty() ? "no moves" : lacking(profile.shape);
+  return targets.empty() ? "no moves" : "";
 }
 
 }  // namespace
 
 std::string lacking_in_lanes(const trial::TrialParameters& p) {
-  const auto& [plant, friction, encoder, dac, amplifier, controller, command, initial, verdict, randomness] =
-      p;
+  [[maybe_unused]] const auto& [plant, friction, encoder, dac, amplifier, controller, command, initial,
+                                verdict, randomness, disturbance] = p;
   [[maybe_unused]] const auto& [inertia, presliding_damping, sliding_damping, load] = plant;
   if (!lane_motion(friction.model))
     return "friction.model " + std::string(friction::traits_of(friction.model).word);
   if (motion::has_load(plant)) return "a second mass";
-  if (loop::has_errors(encoder.fine_errors) || loop::has_errors(encoder.coarse_errors))
-    return "errors of an encoder";
-  if (loop::has_errors(dac)) return "errors of the DAC";
-  for (const std::string_view feature : {lacking(amplifier), lacking(controller), lacking(command)}) {
+  for (const std::string_view feature :
+       {lacking(amplifier), lacking(controller), lacking(command), lacking(disturbance)}) {
     if (!feature.empty()) return std::string(feature);
   }
   if (controller.delay != std::floor(controller.delay) && lane_motion(friction.model) == LaneMotion::free)

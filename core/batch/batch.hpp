@@ -41,9 +41,8 @@ struct BatchSettings {
 };
 
 /// The first feature of a trial that lanes lack, as a noun phrase; empty if lanes run the trial. The engine
-/// passes all others to run_trial: those with imperfect encoders or converters, an amplifier, a delay
-/// above 64 samples, two phases of control, a reference with a profile, more than four filters of the
-/// controller, a plugin, torque levels, the friction laws coulomb and gms, a second mass, or a delay of a
+/// passes all others to run_trial: those with an amplifier, late samples, a disturbance that varies, a delay
+/// above 64 samples, torque levels, the friction laws coulomb and gms, a second mass, or a delay of a
 /// fraction of a sample without friction.
 std::string lacking_in_lanes(const trial::TrialParameters& parameters);
 

@@ -101,15 +101,22 @@ struct alignas(64) LoopLanes {
   Lanes lowest_integral, highest_integral;  ///< N m
   Lanes dac_resolution;                     ///< Δu, N m
   Lanes lowest_code, highest_code;
-  Lanes target;    ///< counts
-  Lanes integral;  ///< I, N m
-  Lanes error;     ///< of the last sample, counts
-  Lanes count;     ///< of the last sample
-  Lanes counted;   ///< there has been a sample
-  Lanes decided;   ///< torque of the last sample, N m
-  Lanes code;      ///< of the last sample
-  Lanes steady;    ///< the torque will stay as long as the count does
-  Lanes delay;     ///< samples between deciding a torque and applying it
+  Lanes target;       ///< counts
+  Lanes integral;     ///< I, N m
+  Lanes error;        ///< of the last sample, counts
+  Lanes count;        ///< of the last sample
+  Lanes counted;      ///< there has been a sample
+  Lanes decided;      ///< torque of the last sample, N m
+  Lanes code;         ///< of the last sample
+  Lanes steady;       ///< the torque will stay as long as the count does
+  Lanes delay;        ///< samples between deciding a torque and applying it
+  Lanes disturbance;  ///< constant torque on the rotor beside the motor's, N m
+  // Of lanes with a LaneLoop, decided at this sample:
+  Lanes given_count;
+  Lanes given_code;
+  Lanes given_torque;   ///< of the converter, N m
+  Lanes given_clipped;  ///< the converter was out of range
+  Lanes given_may_stay;
 };
 
 inline constexpr int max_lane_filters = 4;
@@ -131,6 +138,17 @@ struct alignas(64) BlockLanes {
   loop::BiquadState<Lanes> observer_state;
   Lanes first_count;
   Lanes remembers;  ///< the torque may change while the error stays 0
+  loop::ErrorDeadbandConstants<Lanes> deadband;
+  Lanes last_acting_error;  ///< e′ of the last sample, counts
+  loop::StandstillConstants<Lanes> standstill;
+  Lanes standstill_run;
+  loop::HoldConstants<Lanes> hold;
+  loop::HoldState<Lanes> hold_state;
+  Lanes last_target;  ///< of the last sample, counts
+  Lanes dither_amplitude, dither_frequency;
+  Lanes sample;  ///< k, from the start of the trial
+  Lanes sigma_delta;
+  Lanes remainder;  ///< of the sigma-delta converter, N m
 };
 
 /// One error band of the lanes.
@@ -179,6 +197,13 @@ struct PassedSamples {
   double end;                          ///< fraction of the step that was taken
   double elongation[batch_order + 1];  ///< xs, rad, as a series in the fraction of the step
   double creep[batch_order + 1];       ///< xh·sgn(σ), rad, as a series in the fraction of the step
+};
+
+/// Which part of the program decides at a sample.
+enum class Decider {
+  pid,       ///< the sampling kernel, with the PID law alone
+  blocks,    ///< the sampling kernel, with the blocks of the controller
+  lane_loop  ///< LaneLoop, before the sampling kernel
 };
 
 /// All numbers of the lanes except those of blocks, as one array of Lanes.

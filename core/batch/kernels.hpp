@@ -9,6 +9,7 @@ struct Kernels {
   LaneSet (*lanes_at_stop)(const BatchState&);
   void (*sample)(BatchState&, const LaneSet&);         ///< with the PID law alone
   void (*sample_blocks)(BatchState&, const LaneSet&);  ///< with the blocks of the controller
+  void (*sample_given)(BatchState&, const LaneSet&);   ///< what LaneLoop has decided
   void (*stick_start)(BatchState&, const LaneSet&);
   void (*stick_step)(BatchState&, const LaneSet&);
   void (*stick_event)(BatchState&, const LaneSet&);  ///< a step that locates its events

@@ -11,10 +11,18 @@ namespace zerocount::batch {
 
 using Avx512 = Vectors<8, 2>;
 
-const Kernels avx512_kernels{
-    lanes_at_stop_kernel<Simd<8, 1>>, sample_kernel<Avx512, false>,     sample_kernel<Avx512, true>,
-    stick_start_kernel<Avx512>,       stick_step_kernel<Avx512, false>, stick_step_kernel<Avx512, true>,
-    slide_kernel<Avx512, true>,       slide_kernel<Avx512, false>,      bristle_rest_kernel<Simd<8, 1>>,
-    bristle_kernel<Avx512, true>,     bristle_kernel<Avx512, false>,    free_kernel<Avx512>};
+const Kernels avx512_kernels{lanes_at_stop_kernel<Simd<8, 1>>,
+                             sample_kernel<Avx512, Decider::pid>,
+                             sample_kernel<Avx512, Decider::blocks>,
+                             sample_kernel<Avx512, Decider::lane_loop>,
+                             stick_start_kernel<Avx512>,
+                             stick_step_kernel<Avx512, false>,
+                             stick_step_kernel<Avx512, true>,
+                             slide_kernel<Avx512, true>,
+                             slide_kernel<Avx512, false>,
+                             bristle_rest_kernel<Simd<8, 1>>,
+                             bristle_kernel<Avx512, true>,
+                             bristle_kernel<Avx512, false>,
+                             free_kernel<Avx512>};
 
 }  // namespace zerocount::batch

@@ -11,11 +11,18 @@ namespace zerocount::batch {
 
 using Portable = Vectors<2, 2>;
 
-const Kernels portable_kernels{lanes_at_stop_kernel<Simd<2, 1>>,   sample_kernel<Portable, false>,
-                               sample_kernel<Portable, true>,      stick_start_kernel<Portable>,
-                               stick_step_kernel<Portable, false>, stick_step_kernel<Vectors<2, 1>, true>,
-                               slide_kernel<Portable, true>,       slide_kernel<Portable, false>,
-                               bristle_rest_kernel<Simd<2, 1>>,    bristle_kernel<Portable, true>,
-                               bristle_kernel<Portable, false>,    free_kernel<Portable>};
+const Kernels portable_kernels{lanes_at_stop_kernel<Simd<2, 1>>,
+                               sample_kernel<Portable, Decider::pid>,
+                               sample_kernel<Portable, Decider::blocks>,
+                               sample_kernel<Portable, Decider::lane_loop>,
+                               stick_start_kernel<Portable>,
+                               stick_step_kernel<Portable, false>,
+                               stick_step_kernel<Vectors<2, 1>, true>,
+                               slide_kernel<Portable, true>,
+                               slide_kernel<Portable, false>,
+                               bristle_rest_kernel<Simd<2, 1>>,
+                               bristle_kernel<Portable, true>,
+                               bristle_kernel<Portable, false>,
+                               free_kernel<Portable>};
 
 }  // namespace zerocount::batch

@@ -115,7 +115,7 @@ bool rest(BatchState& batch, int lane, LaneTrial& trial, const PassedSample& pas
   bool same = true;
   while (same && i < max_samples) {
     double ahead = 1.0;
-    if (!edge_is_next)
+    if (!edge_is_next && max_samples - i > 1.0)
       ahead = std::clamp(samples_within_count(batch, lane, plant, to_next), 1.0, max_samples - i);
     // The edge may be nearer than estimated.
     for (double back = 1.0; ahead > 1.0 && !stays_within(ahead); back *= 2.0) {

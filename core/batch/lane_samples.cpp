@@ -14,8 +14,36 @@ void LaneScheduler::take_samples() {
   });
   const LaneSet due = at_stop.in_both(active_);
   const LaneSet with_blocks = due.in_both(with_blocks_);
-  sample(kernels_.sample, due.without(with_blocks));
+  const LaneSet with_loop = due.in_both(with_loop_);
+  sample(kernels_.sample, due.without(with_blocks).without(with_loop));
   sample(kernels_.sample_blocks, with_blocks);
+  sample_given(with_loop);
+}
+
+/// Lets the LaneLoop of each lane decide.
+void LaneScheduler::sample_given(const LaneSet& due) {
+  if (due.empty()) return;
+  LoopLanes& l = batch_.loop;
+  const MotionLanes& m = batch_.motion;
+  LaneSet decided = due;
+  for_each_lane(due, [&](int lane) {
+    const double theta = m.slide_direction[lane] != 0.0
+                             ? m.theta[lane]
+                             : m.hook[lane] + m.elongation[lane] + m.extension[lane];
+    const auto sample_of_move = static_cast<std::int64_t>(batch_.measures.samples[lane]);
+    const auto decision = trial_of(lane).loop->sample(sample_of_move, theta);
+    if (!decision) {
+      decided.erase(lane);
+      fall_back_to_scalar(lane);
+      return;
+    }
+    l.given_count[lane] = static_cast<double>(decision->count);
+    l.given_code[lane] = static_cast<double>(decision->dac.code);
+    l.given_torque[lane] = decision->torque;
+    l.given_clipped[lane] = decision->dac.clipped ? 1.0 : 0.0;
+    l.given_may_stay[lane] = decision->may_stay ? 1.0 : 0.0;
+  });
+  sample(kernels_.sample_given, decided);
 }
 
 /// Processes the sampling instant of the lanes `due`.

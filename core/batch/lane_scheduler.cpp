@@ -65,7 +65,11 @@ void LaneScheduler::refill(int lane) {
       outcomes_[number].moves.reserve(trials_[number]->command.targets.size());
       start_trial(batch_, lane, trial, number, *trials_[number], outcomes_[number]);
       active_.insert(lane);
-      if (has_blocks(*trials_[number])) with_blocks_.insert(lane);
+      if (trial.loop) {
+        with_loop_.insert(lane);
+      } else if (has_blocks(*trials_[number])) {
+        with_blocks_.insert(lane);
+      }
       set_moving(lane);
       return;
     }

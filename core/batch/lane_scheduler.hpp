@@ -36,6 +36,7 @@ class LaneScheduler {
   void take_samples();
   void note_gradual_slides(const LaneSet& due);
   void sample(void (*kernel)(BatchState&, const LaneSet&), const LaneSet& due);
+  void sample_given(const LaneSet& due);
   void record_sample(int lane, const LaneTrial& trial);
   void record_passed();
   void follow_last_half(int lane, LaneTrial& trial);
@@ -56,8 +57,9 @@ class LaneScheduler {
   void rerun_lost_lanes();
 
   void set_moving(int lane);
-  std::array<LaneSet*, 8> sets() {
-    return {&active_, &sticking_, &waiting_, &sliding_, &bristles_, &free_, &with_blocks_, &changing_};
+  std::array<LaneSet*, 9> sets() {
+    return {&active_, &sticking_,    &waiting_,   &sliding_, &bristles_,
+            &free_,   &with_blocks_, &with_loop_, &changing_};
   }
   bool is_idle(int lane) const { return !active_.contains(lane); }
   LaneTrial& trial_of(int lane) { return trials_in_work_[trial_index_[lane]]; }
@@ -76,6 +78,7 @@ class LaneScheduler {
   LaneSet free_;      ///< without friction
 
   LaneSet with_blocks_;  ///< active lanes whose controller has blocks
+  LaneSet with_loop_;    ///< active lanes with a LaneLoop
   LaneSet changing_;     ///< active lanes whose next stop is a change of the torque within the sample
 
   std::span<const trial::TrialParameters* const> trials_;

@@ -12,6 +12,7 @@
 #include "core/loop/controller.hpp"
 #include "core/loop/dac.hpp"
 #include "core/loop/encoder.hpp"
+#include "core/loop/pid.hpp"
 #include "core/trial/move_measures.hpp"
 #include "core/trial/rig.hpp"
 
@@ -42,6 +43,7 @@ void start_loop(LoopLanes& l, int lane, const trial::TrialParameters& p) {
   l.code[lane] = 0.0;
   l.steady[lane] = 0.0;
   l.delay[lane] = p.controller.delay;
+  l.disturbance[lane] = p.disturbance.torque;
 }
 
 /// Stores the values in the lane of the quantities `to`, in this order.
@@ -62,6 +64,30 @@ void start_filters(BlockLanes& b, int lane, const loop::ControllerParameters& co
     put(lane, {&c.b0, &c.b1, &c.b2, &c.a1, &c.a2}, filter.b0, filter.b1, filter.b2, filter.a1, filter.a2);
     put(lane, {&b.filter_states[i].s1, &b.filter_states[i].s2}, 0.0, 0.0);
   }
+}
+
+/// Whether the torque changes from sample to sample for ever, by a dither or a remainder.
+bool never_settles(const trial::TrialParameters& p) {
+  return p.controller.dither.amplitude != 0.0 || p.dac.sigma_delta;
+}
+
+void start_compensators(BlockLanes& b, int lane, const trial::TrialParameters& p) {
+  const loop::ControlBlocks& blocks = p.controller.blocks;
+  const double sample_rate = p.controller.sample_rate;
+  const loop::ErrorDeadbandConstants<double> deadband = loop::error_deadband_constants(blocks.error_deadband);
+  put(lane, {&b.deadband.band, &b.deadband.subtracted, &b.last_acting_error}, deadband.band,
+      deadband.subtracted, 0.0);
+  const loop::StandstillConstants<double> s = loop::standstill_constants(blocks.standstill, sample_rate);
+  loop::StandstillConstants<Lanes>& to = b.standstill;
+  put(lane, {&to.band, &to.dwell, &to.kp, &to.ki, &to.kd, &b.standstill_run}, s.band, s.dwell, s.kp, s.ki,
+      s.kd, 0.0);
+  const loop::HoldConstants<double> hold = loop::hold_constants(blocks.hold, sample_rate);
+  put(lane, {&b.hold.enter, &b.hold.leave, &b.hold.dwell}, hold.enter, hold.leave, hold.dwell);
+  put(lane, {&b.hold_state.run, &b.hold_state.holding, &b.hold_state.torque, &b.last_target}, 0.0, 0.0, 0.0,
+      0.0);
+  put(lane, {&b.dither_amplitude, &b.dither_frequency, &b.sample}, p.controller.dither.amplitude,
+      p.controller.dither.frequency, 0.0);
+  put(lane, {&b.sigma_delta, &b.remainder}, p.dac.sigma_delta ? 1.0 : 0.0, 0.0);
 }
 
 void start_blocks(BlockLanes& b, int lane, const trial::TrialParameters& p, double resolution) {
@@ -90,10 +116,8 @@ void start_blocks(BlockLanes& b, int lane, const trial::TrialParameters& p, doub
       observer.a2);
   put(lane, {&b.observes, &b.observer_state.s1, &b.observer_state.s2, &b.first_count}, observes ? 1.0 : 0.0,
       0.0, 0.0, 0.0);
-  // At zero error and without motion, only memory other than the integral can change the torque.
-  const bool remembers =
-      observes || !blocks.filters.empty() || b.pole[lane] != 0.0 || integral.retention != 1.0;
-  b.remembers[lane] = remembers ? 1.0 : 0.0;
+  start_compensators(b, lane, p);
+  b.remembers[lane] = remembers(p) ? 1.0 : 0.0;
 }
 
 void start_time(TimeLanes& time, int lane, const trial::TrialParameters& p, double resolution) {
@@ -191,11 +215,23 @@ std::optional<LaneMotion> lane_motion(friction::FrictionModel model) {
   return std::nullopt;
 }
 
+bool remembers(const loop::ControlBlocks& blocks) {
+  // At zero error and without motion, only memory other than the integral can change the torque.
+  return blocks.observer.bandwidth > 0.0 || !blocks.filters.empty() ||
+         std::isfinite(blocks.derivative_cutoff) || std::isfinite(blocks.integrator_leak);
+}
+
+bool remembers(const trial::TrialParameters& p) {
+  return remembers(p.controller.blocks) || never_settles(p);
+}
+
 bool has_blocks(const trial::TrialParameters& parameters) {
   const loop::ControlBlocks& b = parameters.controller.blocks;
   return b.structure != loop::ControlStructure::pid || b.deadband.enter >= 0.0 ||
          std::isfinite(b.integrator_zone) || std::isfinite(b.integrator_leak) ||
-         std::isfinite(b.derivative_cutoff) || !b.filters.empty() || b.observer.bandwidth > 0.0;
+         std::isfinite(b.derivative_cutoff) || !b.filters.empty() || b.observer.bandwidth > 0.0 ||
+         b.error_deadband.band > 0.0 || b.hold.enter >= 0.0 || b.standstill.band >= 0.0 ||
+         never_settles(parameters);
 }
 
 void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t number,
@@ -208,7 +244,7 @@ void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t numb
   trial.first_sample = 0;
   trial.reported_jerks = 0;
   trial.breakaway_spring_torque = 0.0;
-  trial.waiting.assign(static_cast<std::size_t>(std::ceil(p.controller.delay)), 0.0);
+  trial.waiting.assign(static_cast<std::size_t>(std::ceil(p.controller.delay)), p.disturbance.torque);
   trial.oldest_waiting = 0;
   trial.waiting_alike = static_cast<std::int64_t>(trial.waiting.size());
 
@@ -222,6 +258,8 @@ void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t numb
   batch.contact.damping[lane] = p.plant.presliding_damping;
   batch.contact.sliding_damping[lane] = p.plant.sliding_damping;
   start_motion(batch, lane, trial, resolution);
+  trial.loop.reset();
+  if (needs_lane_loop(p)) trial.loop.emplace(p);
   start_move(batch, lane, trial);
 }
 
@@ -245,6 +283,7 @@ void start_move(BatchState& batch, int lane, LaneTrial& trial) {
   for (Lanes* of : {&q.in_jerk, &q.change, &q.first_error, &q.theta, &q.extension, &q.slid})
     (*of)[lane] = 0.0;
   q.max_error[lane] = p.verdict.stop ? p.verdict.limit : infinity;
+  if (trial.loop) trial.loop->start_move(trial.move, trial.first_sample);
   trial.breakaways = 0;
   const bool has_contact = trial.motion == LaneMotion::contact;
   trial.slid_at_start = has_contact && batch.motion.slide_direction[lane] != 0.0;
@@ -271,6 +310,11 @@ trial::MoveOutcome end_of_move(const BatchState& batch, int lane, LaneTrial& tri
   trial::MoveOutcome outcome = trial::outcome_of_move(trial::move_timing(p, trial.move), measures_of(q, lane),
                                                       bands_of(q, lane), trial.jerks, trial.last_half, end);
   outcome.true_error = trial::true_error(end.last.target, end.last.theta, l.resolution[lane], l.phase[lane]);
+  if (trial.loop) {
+    outcome.travel_time = trial.loop->travel_time();
+    outcome.phase_changes = trial.loop->phase_changes();
+    outcome.encoder_disagreement = trial.loop->disagreements();
+  }
   return outcome;
 }
 

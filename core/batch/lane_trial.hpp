@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/batch/batch_state.hpp"
+#include "core/batch/lane_loop.hpp"
 #include "core/plant/plant.hpp"
 #include "core/trial/jerks.hpp"
 #include "core/trial/last_half.hpp"
@@ -46,6 +47,8 @@ struct LaneTrial {
   trial::Jerks jerks;              ///< of this move
   std::int64_t reported_jerks{0};  ///< of the trial
   trial::LastHalf last_half;       ///< of this move
+
+  std::optional<LaneLoop> loop;  ///< of a trial that needs one
 
   std::vector<double> waiting;  ///< decided torques on their way through the delay, N m
   std::size_t oldest_waiting{0};

@@ -34,7 +34,7 @@ ZEROCOUNT_ALWAYS_INLINE void measure_bands(MeasureLanes& q, const At& at, const 
 }
 
 /// One sampling instant of one vector; see sample_kernel.
-template <bool Blocks, class At>
+template <Decider decider, class At>
 __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
   using P = typename At::Vector;
   using Mask = typename P::Mask;
@@ -47,7 +47,12 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
   const P theta = select(hook_slides, at.load(m.theta), at.load(m.hook) + at.load(m.elongation) + extension);
   const P resolution = at.load(l.resolution);
   const Mask unreadable = ~(abs(theta / resolution) < P(0x1p50));
-  const P count = loop::ideal_count(theta, resolution, at.load(l.phase));
+  P count;
+  if constexpr (decider == Decider::lane_loop) {
+    count = at.load(l.given_count);
+  } else {
+    count = loop::ideal_count(theta, resolution, at.load(l.phase));
+  }
   const Mask counted = to_mask(at.load(l.counted));
   const P last_count = select(counted, at.load(l.count), count);
   const P last_error = at.load(l.error);
@@ -56,13 +61,25 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
 
   const ControlInput<P> input{error, last_error, count, change, counted};
   const P dac_resolution = at.load(l.dac_resolution);
-  P wanted;
-  if constexpr (Blocks) {
-    wanted = loop::wanted_code(block_torque(batch, at, input), dac_resolution);
+  P code, applied;
+  Mask clipped;
+  if constexpr (decider == Decider::lane_loop) {
+    code = at.load(l.given_code);
+    applied = at.load(l.given_torque);
+    clipped = to_mask(at.load(l.given_clipped));
   } else {
-    wanted = loop::wanted_code(pid_torque(batch, at, input, last_count), dac_resolution);
+    P wanted_torque;
+    if constexpr (decider == Decider::blocks) {
+      wanted_torque = block_torque(batch, at, input);
+    } else {
+      wanted_torque = pid_torque(batch, at, input, last_count);
+    }
+    const P wanted = loop::wanted_code(wanted_torque, dac_resolution);
+    code = loop::clipped_code(wanted, at.load(l.lowest_code), at.load(l.highest_code));
+    applied = code * dac_resolution;
+    clipped = code != wanted;
+    if constexpr (decider == Decider::blocks) keep_remainder(batch, at, wanted_torque, applied, clipped);
   }
-  const P code = loop::clipped_code(wanted, at.load(l.lowest_code), at.load(l.highest_code));
   const P torque = code * dac_resolution;
 
   at.store(l.error, error);
@@ -70,9 +87,10 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
   at.store(l.counted, P(1.0));
   at.store(l.decided, torque);
   at.store(l.code, code);
-  at.store(m.torque, torque);
+  at.store(m.torque, applied + at.load(l.disturbance));
   Mask steady = (error == P(0.0)) & (last_error == P(0.0)) & (change == P(0.0));
-  if constexpr (Blocks) steady = steady & ~to_mask(at.load(batch.blocks.remembers));
+  if constexpr (decider == Decider::blocks) steady = steady & ~has_memory<P>(batch, at);
+  if constexpr (decider == Decider::lane_loop) steady = steady & to_mask(at.load(l.given_may_stay));
   at.store(l.steady, to_number<P>(steady));
 
   const P zero(0.0);
@@ -87,7 +105,7 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
   const Mask error_diverges = size > at.load(q.max_error) + first_error;
   const Mask dwelt = to_mask(measures.arrived);
   trial::measure_error(measures, limits, error);
-  trial::measure_torque(measures, torque, code != wanted);
+  trial::measure_torque(measures, torque, clipped);
   trial::for_each_measure(StoreEach<At>{at}, q, measures);
   measure_bands(q, at, samples, size);
   at.store(q.first_error, first_error);
@@ -113,11 +131,10 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
 
 /// One sampling instant of each lane: encoder, control, converter, measures. Reports jerk_changes,
 /// count_changes, diverges and delayed, and beyond_kernel where the encoder cannot count θ.
-/// @tparam Blocks the lanes' controllers have blocks.
-template <class V, bool Blocks>
+template <class V, Decider decider>
 void sample_kernel(BatchState& batch, const LaneSet& lanes) {
   batch.event_count = 0;
-  for_each_stretch<V>(lanes, [&](const auto& at) { sample<Blocks>(batch, at); });
+  for_each_stretch<V>(lanes, [&](const auto& at) { sample<decider>(batch, at); });
 }
 
 }  // namespace zerocount::batch

@@ -58,7 +58,7 @@ Bristle::Bristle(const BristleParameters& parameters, double inertia, const moti
     : parameters_(parameters), inertia_(inertia), tolerance_(tolerance), omega_(start.velocity) {
   deflection_ = start.sliding
                     ? numerics::sign_of(omega_) * level_at(parameters.level, omega_) / parameters.stiffness
-                    : 0.0;
+                    : start.holding / parameters.stiffness;
 }
 
 bool Bristle::sliding() const {
@@ -74,7 +74,7 @@ double Bristle::direction_under(const motion::TorqueCourse& torque) const {
   if (omega_ != 0.0) return numerics::sign_of(omega_);
   const double excess = motion::torque_on_rotor(torque, omega_) - parameters_.stiffness * deflection_;
   if (excess != 0.0) return numerics::sign_of(excess);
-  return motion::motor_is_constant(torque) ? 0.0 : numerics::sign_of(torque.settled - torque.now);
+  return numerics::sign_of(motion::applied_torque_rate(torque, omega_));
 }
 
 /// Whether the bristle is saturated; sets z to its end if so.
@@ -93,7 +93,7 @@ bool Bristle::rests_under(double torque) const {
 }
 
 double Bristle::step(const motion::TorqueCourse& torque, double duration) {
-  const bool constant = motion::motor_is_constant(torque);
+  const bool constant = motion::is_steady(torque);
   if (constant && rest_torque_ == torque.now) return duration;
   rest_torque_.reset();
   const double direction = direction_under(torque);

@@ -144,6 +144,7 @@ GmsFriction::GmsFriction(const motion::PlantParameters& plant, const FrictionAlo
   }
   load_slowly(start.preload);
   load_slowly(0.0);
+  if (start.holding != 0.0) load_slowly(start.holding);
   for (const double torque : start.history) load_slowly(torque);
   if (!start.history.empty()) load_slowly(0.0);
 }
@@ -194,7 +195,7 @@ double GmsFriction::direction_under(const motion::TorqueCourse& torque) const {
   if (omega_ != 0.0) return numerics::sign_of(omega_);
   const double excess = motion::torque_on_rotor(torque, omega_) - this->torque();
   if (excess != 0.0) return numerics::sign_of(excess);
-  return motion::motor_is_constant(torque) ? 0.0 : numerics::sign_of(torque.settled - torque.now);
+  return numerics::sign_of(motion::applied_torque_rate(torque, omega_));
 }
 
 bool GmsFriction::come_to_rest(double torque) {
@@ -231,7 +232,7 @@ void GmsFriction::begin_to_slip(double direction) {
 }
 
 double GmsFriction::step(const motion::TorqueCourse& torque, double duration) {
-  const bool constant = motion::motor_is_constant(torque);
+  const bool constant = motion::is_steady(torque);
   if (constant && rest_torque_ == torque.now) return duration;
   rest_torque_.reset();
   if (constant && motion::load_is_quiet(torque, omega_, plant_.inertia, softest() * tolerance_.rest) &&

@@ -7,8 +7,8 @@
 
 namespace zerocount::friction {
 
-/// An air bearing: J·dω/dt = u − c·ω and nothing else, by free_motion() where there is no load. The
-/// rotor always slides, without a contact that could break away.
+/// An air bearing: J·dω/dt = u − c·ω and nothing else, by free_motion() where there is neither a load nor a
+/// varying disturbance. The rotor always slides, without a contact that could break away.
 class NoFriction : public WithoutCreepAndReversals {
  public:
   static constexpr std::string_view word = "none";
@@ -24,7 +24,7 @@ class NoFriction : public WithoutCreepAndReversals {
       : plant_(plant), tolerance_(tolerance.elongation), motion_{0.0, start.velocity} {}
 
   double step(const motion::TorqueCourse& torque, double duration) {
-    if (torque.load != nullptr) return step_with_load(torque, duration);
+    if (motion::has_company(torque)) return step_in_company(torque, duration);
     motion_ = free_motion(plant_, motion_, torque, duration);
     return duration;
   }
@@ -35,8 +35,8 @@ class NoFriction : public WithoutCreepAndReversals {
   static std::int64_t breakaways() { return 0; }
 
  private:
-  /// By Taylor series: J·dω/dt = u − Ts − c·ω.
-  double step_with_load(const motion::TorqueCourse& torque, double duration);
+  /// With a load or a varying disturbance d, by Taylor series: J·dω/dt = u + d − Ts − c·ω.
+  double step_in_company(const motion::TorqueCourse& torque, double duration);
 
   motion::PlantParameters plant_;
   double tolerance_;

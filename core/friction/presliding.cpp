@@ -36,6 +36,7 @@ PreslidingFriction::PreslidingFriction(const motion::PlantParameters& plant, Fri
   if (!sliding_) {
     creep_.hardening = start.hardening;
     spring_.start_preloaded(start.preload);
+    if (start.holding != 0.0) spring_.move_to_torque(start.holding);
     for (const double torque : start.history) spring_.move_to_torque(torque);
     if (!start.history.empty()) spring_.move_to_torque(0.0);
   }
@@ -97,7 +98,7 @@ void PreslidingFriction::re_stick() {
 }
 
 double PreslidingFriction::stick(const motion::TorqueCourse& torque, double duration) {
-  const bool constant = motion::motor_is_constant(torque);
+  const bool constant = motion::is_steady(torque);
   if (rest_ && constant && torque.now == rest_->torque) {
     go_on_at_rest(duration);
     motion::let_load_follow(torque, omega_);
@@ -116,7 +117,7 @@ double PreslidingFriction::stick(const motion::TorqueCourse& torque, double dura
       motion::let_load_follow(torque, omega_);
       return duration;
     }
-  } else if (torque.load == nullptr && at_rest(elongation)) {
+  } else if (!motion::has_company(torque) && at_rest(elongation)) {
     if (const double rest = time_at_rest(elongation, torque, duration); rest > 0.0) {
       hold_at_rest(rest);
       return rest;
@@ -127,7 +128,7 @@ double PreslidingFriction::stick(const motion::TorqueCourse& torque, double dura
     return 0.0;
   }
   // At rest, the motion starts in the direction in which the torque changes.
-  const double torque_change = constant ? 0.0 : torque.settled - torque.now;
+  const double torque_change = constant ? 0.0 : motion::applied_torque_rate(torque, omega_);
   for (const double heading : {elongation.rate, elongation.acceleration, torque_change}) {
     if (heading == 0.0) continue;
     spring_.set_direction(numerics::sign_of(heading));

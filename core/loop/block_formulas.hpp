@@ -39,6 +39,79 @@ ZEROCOUNT_ALWAYS_INLINE void integrate(const IntegralConstants<Number>& c, Integ
   state.inside = select(inside, Number(1.0), Number(0.0));
 }
 
+/// The dead zone of the error.
+template <class Number>
+struct ErrorDeadbandConstants {
+  Number band;        ///< counts; negative: none
+  Number subtracted;  ///< from |e| beyond the band, counts: 0 or the band
+};
+
+/// e′, counts.
+template <class Number>
+ZEROCOUNT_ALWAYS_INLINE Number acting_error(const ErrorDeadbandConstants<Number>& c, const Number& error) {
+  return select(abs(error) <= c.band, Number(0.0), error - c.subtracted * sign(error));
+}
+
+/// For how many samples |e| ≤ band has lasted, with this one. A new target begins anew.
+/// @param run that of the sample before. @param new_target 0 or 1.
+template <class Number>
+ZEROCOUNT_ALWAYS_INLINE Number samples_within(const Number& band, const Number& run, const Number& new_target,
+                                              const Number& error) {
+  const Number before = select(new_target != Number(0.0), Number(0.0), run);
+  return select(abs(error) <= band, before + Number(1.0), Number(0.0));
+}
+
+/// When the standstill gains act.
+template <class Number>
+struct StandstillConstants {
+  Number band;        ///< counts
+  Number dwell;       ///< samples
+  Number kp, ki, kd;  ///< N m/count
+};
+
+/// Takes this sample into `run` (samples_within). @returns a mask: the standstill gains act.
+template <class Number>
+ZEROCOUNT_ALWAYS_INLINE auto stands_still(const StandstillConstants<Number>& c, Number& run,
+                                          const Number& new_target, const Number& error) {
+  run = samples_within(c.band, run, new_target, error);
+  return (run >= c.dwell) & (new_target == Number(0.0));
+}
+
+/// When the wanted torque is held.
+template <class Number>
+struct HoldConstants {
+  Number enter, leave;  ///< counts
+  Number dwell;         ///< samples
+};
+
+template <class Number>
+struct HoldState {
+  Number run;      ///< samples_within(enter)
+  Number holding;  ///< 0 or 1
+  Number torque;   ///< wanted at the last sample, N m
+};
+
+/// Takes this sample into the state. @param fresh 1 at a new target and at the first sample, otherwise 0.
+/// @returns a mask: the torque is held.
+template <class Number>
+ZEROCOUNT_ALWAYS_INLINE auto holds_torque(const HoldConstants<Number>& c, HoldState<Number>& state,
+                                          const Number& fresh, const Number& error) {
+  state.run = samples_within(c.enter, state.run, fresh, error);
+  const auto goes_on = (state.holding != Number(0.0)) & (abs(error) <= c.leave);
+  const auto holds = ((state.run >= c.dwell) | goes_on) & (fresh == Number(0.0));
+  state.holding = select(holds, Number(1.0), Number(0.0));
+  return holds;
+}
+
+/// The dither at sample k: +amplitude where ⌊2·frequency·k/sample_rate⌋ is even, otherwise −amplitude, N m.
+template <class Number>
+ZEROCOUNT_ALWAYS_INLINE Number dither_torque(const Number& amplitude, const Number& frequency,
+                                             const Number& sample_rate, const Number& k) {
+  const Number half_periods = floor(Number(2.0) * frequency * k / sample_rate);
+  const Number half = Number(0.5) * half_periods;
+  return select(floor(half) == half, amplitude, -amplitude);
+}
+
 /// d_k = a·d_{k−1} + (1 − a)·(count_k − count_{k−1}), counts.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number filtered_difference(const Number& a, const Number& last,

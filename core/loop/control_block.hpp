@@ -27,6 +27,7 @@ struct Feedback {
   double count{0.0};            ///< counts
   double torque_in_force{0.0};  ///< decided at the last sample, N m; 0 before the first
   ReferenceMotion reference{};
+  bool new_target{false};  ///< the target is not that of the last sample
 };
 
 /// Range and resolution of the converter.
@@ -49,6 +50,7 @@ concept ControlBlock = std::constructible_from<Block, const ControllerParameters
     requires(Block block, const Block now, const Feedback& feedback, double torque) {
   { block.step(feedback, torque) } -> std::same_as<double>;  // the torque (N m) from that of the block before
   block.observe(feedback);  // updates the memory at a sample at which another chain decides
+  block.pause(feedback);    // at a sample at which the torque is held
   // The next step is to go on from this torque (N m). Gives the torque that it needs from the block before.
   { block.take_over(torque) } -> std::same_as<double>;
   { now.linear() } -> std::same_as<LinearChain>;  // its stages, away from its limits; none: it is transparent

@@ -8,6 +8,7 @@
 #include "core/loop/disturbance_observer.hpp"
 #include "core/loop/feedforward.hpp"
 #include "core/loop/filter.hpp"
+#include "core/loop/torque_hold.hpp"
 
 namespace zerocount::loop {
 
@@ -29,6 +30,10 @@ class BlockChain {
   /// A sample at which another chain decides.
   void observe(const Feedback& now) {
     for_each([&](auto& block) { block.observe(now); });
+  }
+  /// A sample at which the torque is held.
+  void pause(const Feedback& now) {
+    for_each([&](auto& block) { block.pause(now); });
   }
   /// The next sample continues from this torque in force (N m). From the last block to the first, each
   /// returns the torque that it needs from the one before.
@@ -64,6 +69,36 @@ class BlockChain {
 };
 
 /// The blocks of the controller, in order.
-using ControlChain = BlockChain<ControlLaw, Filters, Feedforward, DisturbanceObserver>;
+using ControlBlockChain = BlockChain<ControlLaw, Filters, Feedforward, DisturbanceObserver>;
+
+/// These blocks, with a hold of their torque.
+class ControlChain {
+ public:
+  ControlChain(const ControllerParameters& parameters, const ControlStart& start)
+      : blocks_(parameters, start), hold_(parameters, start) {}
+
+  /// The wanted torque (N m) at this sample.
+  double step(const Feedback& now) {
+    if (hold_.holds(now)) {
+      blocks_.pause(now);
+    } else {
+      hold_.remember(blocks_.step(now));
+    }
+    return hold_.torque();
+  }
+  /// A sample at which another chain decides.
+  void observe(const Feedback& now) {
+    blocks_.observe(now);
+    hold_.restart();
+  }
+  /// The next sample continues from this torque in force (N m).
+  void take_over(double torque) { blocks_.take_over(torque); }
+  LinearChain linear() const { return blocks_.linear(); }  ///< where the torque is not held
+  double integral() const { return blocks_.block<ControlLaw>().integral(); }  ///< I, N m
+
+ private:
+  ControlBlockChain blocks_;
+  TorqueHold hold_;
+};
 
 }  // namespace zerocount::loop

@@ -21,6 +21,9 @@ class ControlLaw {
   void observe(const Feedback& now) {
     std::visit([&](auto& law) { law.observe(now); }, law_);
   }
+  void pause(const Feedback& now) {
+    std::visit([&](auto& law) { law.pause(now); }, law_);
+  }
   double take_over(double torque) {
     return std::visit([&](auto& law) { return law.take_over(torque); }, law_);
   }

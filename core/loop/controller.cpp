@@ -21,6 +21,15 @@ ControllerParameters controller_in_phase(ControllerParameters controller, Contro
   return controller;
 }
 
+std::optional<ControllerParameters> controller_at_standstill(ControllerParameters controller) {
+  const Standstill standstill = std::exchange(controller.blocks.standstill, {});
+  if (standstill.band < 0.0 || controller.blocks.structure != ControlStructure::pid) return std::nullopt;
+  controller.kp = standstill.kp;
+  controller.ki = standstill.ki;
+  controller.kd = standstill.kd;
+  return controller;
+}
+
 LinearChain linear_chain(const ControllerParameters& parameters, double resolution) {
   return ControlChain(parameters, {.resolution = resolution}).linear();
 }
@@ -55,10 +64,10 @@ Controller::Controller(const ControllerParameters& parameters, const CountScale&
       switch_(parameters.coarse, parameters.sample_rate) {}
 
 double Controller::update(std::int64_t reference, const EncoderReading& reading, double torque_in_force,
-                          const ReferenceMotion& motion) {
+                          const ReferenceMotion& motion, bool new_target) {
   const auto feedback = [&](EncoderChoice encoder) -> Feedback {
     const double count = count_of(encoder, reading);
-    return {static_cast<double>(reference) - count, count, torque_in_force, motion};
+    return {static_cast<double>(reference) - count, count, torque_in_force, motion, new_target};
   };
   const Feedback fine = feedback(fine_encoder_);
   if (!two_phases_) return fine_.step(fine);
@@ -74,7 +83,7 @@ double Controller::update(std::int64_t reference, const EncoderReading& reading,
 }
 
 double Controller::integral() const {
-  return (phase() == ControlPhase::fine ? fine_ : coarse_).block<ControlLaw>().integral();
+  return (phase() == ControlPhase::fine ? fine_ : coarse_).integral();
 }
 
 double Controller::count_of(EncoderChoice encoder, const EncoderReading& reading) const {

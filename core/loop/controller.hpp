@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "core/loop/control_chain.hpp"
 #include "core/loop/encoder.hpp"
@@ -15,6 +16,9 @@ bool has_coarse_phase(const ControllerParameters& parameters);
 /// The gains and blocks of one phase of the control, as a control without phases. In the fine phase of a
 /// two-phase control kd counts as 0 (paper, practical issue 5).
 ControllerParameters controller_in_phase(ControllerParameters controller, ControlPhase phase);
+
+/// The controller whose gains are those at standstill; empty without them.
+std::optional<ControllerParameters> controller_at_standstill(ControllerParameters controller);
 
 /// The blocks of a control without phases, away from their limits. @param resolution Δx, rad per count.
 LinearChain linear_chain(const ControllerParameters& parameters, double resolution);
@@ -46,8 +50,9 @@ class Controller {
   /// @param reference in counts of the fine encoder; its motion is that before it is rounded to them.
   /// @param torque_in_force the torque decided at the last sample, N m; 0 before the first. A torque of the
   /// DAC, hence within its range.
+  /// @param new_target the target is not that of the last update.
   double update(std::int64_t reference, const EncoderReading& reading, double torque_in_force,
-                const ReferenceMotion& motion = {});
+                const ReferenceMotion& motion = {}, bool new_target = false);
 
   ControlPhase phase() const { return switch_.phase(); }            ///< of the last sample
   std::int64_t phase_changes() const { return switch_.changes(); }  ///< so far

@@ -33,6 +33,10 @@ class CountDifference {
     return difference_;
   }
 
+  /// A sample that leaves d as it is.
+  void pass(double count) { last_count_ = count; }
+  double value() const { return difference_; }  ///< d of the last step, counts
+
   /// `gain`·D(z).
   TransferFunction transfer(double gain) const {
     const double b = gain * (1.0 - pole_);

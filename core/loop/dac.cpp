@@ -26,7 +26,7 @@ DacOutput convert(const DacParameters& dac, double torque) {
 }
 
 bool has_errors(const DacParameters& dac) {
-  const auto& [bits, resolution, offset, gain_error, nonlinearity, noise] = dac;
+  [[maybe_unused]] const auto& [bits, resolution, offset, gain_error, nonlinearity, noise, sigma_delta] = dac;
   return offset != 0.0 || gain_error != 0.0 || nonlinearity != 0.0 || noise != 0.0;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "core/loop/formulas.hpp"
 #include "core/loop/parameters.hpp"
 
 namespace zerocount::loop {
@@ -22,6 +23,26 @@ struct DacOutput {
 /// code = round-half-even(torque/Δu), clipped to the converter's range.
 /// @param torque wanted, N m.
 DacOutput convert(const DacParameters& dac, double torque);
+
+/// A converter from sample to sample. With sigma-delta it converts v = u + r, u the wanted torque, and
+///
+///   r ← v − code·Δu, or 0 where the code was clipped,   r = 0 at first.
+class Converter {
+ public:
+  explicit Converter(const DacParameters& dac) : dac_(dac) {}
+
+  DacOutput convert(double torque) {
+    if (!dac_.sigma_delta) return loop::convert(dac_, torque);
+    const double with_remainder = torque + remainder_;
+    const DacOutput output = loop::convert(dac_, with_remainder);
+    remainder_ = rounding_remainder(with_remainder, output.torque, output.clipped);
+    return output;
+  }
+
+ private:
+  DacParameters dac_;
+  double remainder_{0.0};  ///< r, N m
+};
 
 /// Whether the output differs from code·Δu.
 bool has_errors(const DacParameters& dac);

@@ -48,6 +48,7 @@ class DisturbanceObserver {
     started_ = true;
     estimate_ = observer_step(constants_, state_, now.count - first_count_, now.torque_in_force);
   }
+  static void pause(const Feedback& /*now*/) {}
   double take_over(double torque) const { return torque + estimate_; }
 
   LinearChain linear() const {

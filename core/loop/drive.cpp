@@ -29,22 +29,42 @@ TorqueDelay::Leaving TorqueDelay::pass(double torque) {
 }
 
 Drive::Drive(const DacParameters& dac, const AmplifierParameters& amplifier, double delay, double sample_time,
-             const random::TrialRandomness& randomness)
-    : dac_(dac),
-      converter_errors_(has_errors(dac)),
-      noise_{randomness.dac_noise, randomness.stream},
-      trial_(randomness.trial),
+             const random::TrialRandomness& randomness, bool jitter)
+    : converter_(dac, randomness),
       delay_(delay),
       rate_(2.0 * std::numbers::pi * std::min(amplifier.bandwidth, highest_bandwidth)),
       sample_(part(sample_time)),
       before_(part(delay_.fraction() * sample_time)),
-      after_(part(sample_time - before_.duration)) {}
+      after_(part(sample_time - before_.duration)),
+      sample_time_(sample_time),
+      delay_time_(delay * sample_time),
+      jitters_(jitter) {}
 
 Drive::Part Drive::part(double duration) const {
   return {duration, numerics::exp(-rate_ * duration)};
 }
 
-void Drive::apply(double torque) {
+/// Between two samples, which are less than two sample times apart, at most three torques become due.
+void Drive::apply_late(double torque, const Lateness& late) {
+  changes_.push_back({delay_time_ + late.now, torque});
+  const double end = sample_time_ + late.next;
+  TorquePiece last = pieces_[count_ - 1];
+  count_ = 0;
+  const auto add = [&](double duration) { last = pieces_[count_++] = follow(input_, last, part(duration)); };
+  double from = late.now;
+  std::size_t due = 0;
+  for (; due < changes_.size() && changes_[due].due < end; ++due) {
+    if (changes_[due].due > from) add(changes_[due].due - from);
+    from = std::max(from, changes_[due].due);
+    input_ = changes_[due].torque;
+  }
+  add(end - from);
+  changes_.erase(changes_.begin(), changes_.begin() + static_cast<std::ptrdiff_t>(due));
+  for (Change& change : changes_) change.due -= sample_time_;
+}
+
+void Drive::apply(double torque, const Lateness& late) {
+  if (jitters_) return apply_late(torque, late);
   const TorqueDelay::Leaving input = delay_.pass(torque);
   const TorquePiece last = pieces_[count_ - 1];
   if (input.before == input.after) {
@@ -57,7 +77,13 @@ void Drive::apply(double torque) {
   }
 }
 
-double Drive::converted(std::int64_t k, std::int64_t code) const {
+ConverterErrors::ConverterErrors(const DacParameters& dac, const random::TrialRandomness& randomness)
+    : dac_(dac),
+      any_(has_errors(dac)),
+      noise_{randomness.dac_noise, randomness.stream},
+      trial_(randomness.trial) {}
+
+double ConverterErrors::with_errors(std::int64_t k, std::int64_t code) const {
   const double torque = torque_with_errors(dac_, code);
   if (dac_.noise == 0.0) return torque;
   return torque + dac_.noise * random::standard_normal(

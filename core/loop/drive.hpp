@@ -42,36 +42,64 @@ struct TorquePiece {
   double decay{0.0};     ///< exp(−course.rate·duration)
 };
 
+/// What the converter gives for a code: torque_with_errors(code) + noise·z_k, z_k standard normal, number k
+/// of its key; without errors code·Δu.
+class ConverterErrors {
+ public:
+  ConverterErrors(const DacParameters& dac, const random::TrialRandomness& randomness);
+
+  /// The torque of sample k, N m.
+  double torque(std::int64_t k, const DacOutput& decided) const {
+    return any_ ? with_errors(k, decided.code) : decided.torque;
+  }
+
+ private:
+  double with_errors(std::int64_t k, std::int64_t code) const;
+
+  DacParameters dac_;
+  bool any_;
+  random::RandomStream noise_;
+  std::uint64_t trial_;
+};
+
+/// How late this sample and the next one are, s.
+struct Lateness {
+  double now{0.0};
+  double next{0.0};
+};
+
 /// From the decided torque to the motor's: the converter with its errors, the delay, the amplifier.
 ///
-/// The converter gives torque_with_errors(code) + noise·z_k, z_k standard normal, number k of its key, for
-/// the code decided at sample k. What leaves the delay is the amplifier's input v: the torque decided at k
-/// acts over [t_k + delay·T, t_{k+1} + delay·T). Until the first decided torque has passed the delay, v is
-/// exactly 0, without offset and noise. The amplifier, of bandwidth f, follows from torque 0 at the start by
+/// The converter gives what ConverterErrors says for the code decided at sample k. What leaves the delay is
+/// the amplifier's input v: the torque decided at k acts over [t_k + delay·T, t_{k+1} + delay·T). Until the
+/// first decided torque has passed the delay, v is exactly 0, without offset and noise. The amplifier, of
+/// bandwidth f, follows from torque 0 at the start by
 ///
 ///   du/dt = 2πf·(v − u),   so u(t_k + t) = v + (u(t_k) − v)·exp(−2πf·t);
 ///
 /// with f = 0, u = v. Above 1e12 Hz, f counts as 1e12 Hz.
+///
+/// With jitter, sample k is at t_k + δ_k, and all these times are later by δ_k.
 ///
 /// Call one of the two send functions once at each sample, in order.
 class Drive {
  public:
   /// @param delay samples between deciding a torque and applying it, ≥ 0.
   /// @param sample_time T, s.
+  /// @param jitter whether samples may be late.
   Drive(const DacParameters& dac, const AmplifierParameters& amplifier, double delay, double sample_time,
-        const random::TrialRandomness& randomness);
+        const random::TrialRandomness& randomness, bool jitter = false);
 
   /// Sends the code of sample k through converter, delay and amplifier.
-  void send(std::int64_t k, const DacOutput& decided) {
-    apply(converter_errors_ ? converted(k, decided.code) : decided.torque);
+  void send(std::int64_t k, const DacOutput& decided, const Lateness& late = {}) {
+    apply(converter_.torque(k, decided), late);
   }
 
   /// Sends a torque (N m) past the converter, so without its rounding and errors, through delay and
   /// amplifier.
-  void send_exact(double torque) { apply(torque); }
+  void send_exact(double torque, const Lateness& late = {}) { apply(torque, late); }
 
-  /// The motor's torque over [t_k, t_{k+1}] of the last sample sent, in one or two pieces; valid until the
-  /// next is sent.
+  /// The motor's torque from the last sample sent to the next one; valid until that is sent.
   std::span<const TorquePiece> pieces() const { return {pieces_.data(), count_}; }
 
   /// The motor's torque at the last t_k, just after sending, N m: 0 before the first.
@@ -84,20 +112,28 @@ class Drive {
     double decay;
   };
 
-  void apply(double torque);
+  void apply(double torque, const Lateness& late);
+  void apply_late(double torque, const Lateness& late);
   TorquePiece follow(double input, const TorquePiece& last, const Part& part) const;
-  double converted(std::int64_t k, std::int64_t code) const;
   Part part(double duration) const;
 
-  DacParameters dac_;
-  bool converter_errors_;
-  random::RandomStream noise_;
-  std::uint64_t trial_;
+  ConverterErrors converter_;
   TorqueDelay delay_;
   double rate_;                          // 2πf
   Part sample_, before_, after_;         // the whole sample; before and after the input changes in it
-  std::array<TorquePiece, 2> pieces_{};  // of the last sample
+  std::array<TorquePiece, 4> pieces_{};  // of the last sample
   std::size_t count_{1};                 // of its pieces
+
+  /// A torque that becomes the amplifier's input.
+  struct Change {
+    double due;     ///< s, from t_k
+    double torque;  ///< N m
+  };
+  double sample_time_;
+  double delay_time_;            // s
+  std::vector<Change> changes_;  // with jitter, those to come, in order
+  double input_{0.0};            // with jitter, the amplifier's input, N m
+  bool jitters_;
 };
 
 }  // namespace zerocount::loop

@@ -24,6 +24,7 @@ class Feedforward {
     added_ = gains_.velocity * velocity + gains_.acceleration * acceleration +
              gains_.friction * numerics::sign_of(velocity);
   }
+  static void pause(const Feedback& /*now*/) {}
   double take_over(double torque) const { return torque - added_; }
 
   static LinearChain linear() { return {}; }

@@ -35,6 +35,7 @@ class Filters {
     return torque;
   }
   static void observe(const Feedback& /*now*/) {}
+  static void pause(const Feedback& /*now*/) {}
   /// Each filter continues from the steady state whose output the next one needs; one without a steady state,
   /// or without gain there, from past values of 0.
   double take_over(double torque);

@@ -64,4 +64,12 @@ ZEROCOUNT_ALWAYS_INLINE Number clipped_code(const Number& wanted, const Number& 
   return clamped(wanted, lowest, highest);
 }
 
+/// The rounding error that a sigma-delta converter adds to the next torque, N m.
+/// @param torque wanted, with the error of the sample before. @param converted code·Δu, N m.
+template <class Number, class Mask>
+ZEROCOUNT_ALWAYS_INLINE Number rounding_remainder(const Number& torque, const Number& converted,
+                                                  const Mask& clipped) {
+  return select(clipped, Number(0.0), torque - converted);
+}
+
 }  // namespace zerocount::loop

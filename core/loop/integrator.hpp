@@ -19,6 +19,11 @@ inline IntegralConstants<double> integral_constants(const ControlBlocks& blocks,
           range.highest};
 }
 
+inline ErrorDeadbandConstants<double> error_deadband_constants(const ErrorDeadband& deadband) {
+  const bool subtracts = deadband.form == DeadbandForm::subtract && deadband.band > 0.0;
+  return {deadband.band, subtracts ? deadband.band : 0.0};
+}
+
 /// The integral of a control law:
 ///
 ///   I ← clamp(ρ·I + increment) where |e_k| is outside the deadband and |e_k| ≤ zone; otherwise I stays,

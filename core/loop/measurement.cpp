@@ -18,7 +18,8 @@ constexpr double farthest_count = 0x1p52;
 }  // namespace
 
 bool has_errors(const EncoderErrors& errors) {
-  const auto& [eccentricity, eccentricity_angle, interpolation, interpolation_period, noise, missed] = errors;
+  [[maybe_unused]] const auto& [eccentricity, eccentricity_angle, interpolation, interpolation_period, noise,
+                                missed, bandwidth] = errors;
   return eccentricity != 0.0 || interpolation != 0.0 || noise != 0.0 || missed != 0.0;
 }
 
@@ -31,7 +32,7 @@ bool counts_agree(const Encoder& fine, const Encoder& coarse, const EncoderReadi
 }
 
 ImperfectEncoder::ImperfectEncoder(const Encoder& encoder, const EncoderErrors& errors, double position,
-                                   std::uint64_t trial, const random::RandomStream& noise,
+                                   double sample_time, std::uint64_t trial, const random::RandomStream& noise,
                                    const random::RandomStream& missed)
     : encoder_(encoder),
       errors_(errors),
@@ -40,7 +41,8 @@ ImperfectEncoder::ImperfectEncoder(const Encoder& encoder, const EncoderErrors& 
       noise_(noise),
       missed_(missed),
       start_eccentricity_(numerics::sin(position - errors.eccentricity_angle)),
-      start_count_(std::floor(position / encoder.resolution)) {
+      start_count_(std::floor(position / encoder.resolution)),
+      noise_retention_(numerics::exp(-2.0 * std::numbers::pi * errors.noise_bandwidth * sample_time)) {
   if (errors.interpolation != 0.0) start_interpolation_ = interpolation_error(encoder.phase);
 }
 
@@ -58,14 +60,20 @@ std::int64_t ImperfectEncoder::read(std::int64_t k, double theta) {
   }
   double x = theta / encoder_.resolution + encoder_.phase;
   if (errors_.interpolation != 0.0) x += interpolation_error(x) - start_interpolation_;
-  if (errors_.noise != 0.0)
-    x += errors_.noise *
-         random::standard_normal(random::random_bits_at(noise_, trial_, static_cast<std::uint64_t>(k)));
+  if (errors_.noise != 0.0) x += errors_.noise * next_noise(k);
   // fmin and fmax pass over what is not a number.
   const auto raw =
       static_cast<std::int64_t>(std::floor(std::fmin(std::fmax(x, -farthest_count), farthest_count)));
   if (errors_.missed != 0.0) miss_counts(k, raw);
   return raw - lost_;
+}
+
+double ImperfectEncoder::next_noise(std::int64_t k) {
+  const double fresh =
+      random::standard_normal(random::random_bits_at(noise_, trial_, static_cast<std::uint64_t>(k)));
+  const double a = k == 0 ? 0.0 : noise_retention_;
+  noise_state_ = a * noise_state_ + std::sqrt(1.0 - a * a) * fresh;
+  return noise_state_;
 }
 
 void ImperfectEncoder::miss_counts(std::int64_t k, std::int64_t raw) {
@@ -80,15 +88,15 @@ void ImperfectEncoder::miss_counts(std::int64_t k, std::int64_t raw) {
 }
 
 Measurement::Measurement(const EncoderParameters& encoders, double phase, double position,
-                         const random::TrialRandomness& randomness)
+                         const random::TrialRandomness& randomness, double sample_time)
     : fine_(fine_encoder(encoders, phase)),
       coarse_(coarse_encoder(encoders, phase)),
       fine_per_coarse_(loop::fine_per_coarse(encoders)),
       ideal_(!has_errors(encoders.fine_errors) && !has_errors(encoders.coarse_errors)),
-      imperfect_fine_(fine_, encoders.fine_errors, position, randomness.trial,
+      imperfect_fine_(fine_, encoders.fine_errors, position, sample_time, randomness.trial,
                       {randomness.fine_noise, randomness.stream},
                       {randomness.fine_missed, randomness.stream}),
-      imperfect_coarse_(coarse_, encoders.coarse_errors, position, randomness.trial,
+      imperfect_coarse_(coarse_, encoders.coarse_errors, position, sample_time, randomness.trial,
                         {randomness.coarse_noise, randomness.stream},
                         {randomness.coarse_missed, randomness.stream}) {}
 

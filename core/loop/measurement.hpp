@@ -23,7 +23,8 @@ bool counts_agree(const Encoder& fine, const Encoder& coarse, const EncoderReadi
 ///   eccentricity   θ′ = θ + a·[sin(p + θ − γ) − sin(p − γ)],   p the initial position on the rotor
 ///                  x = θ′/Δx + phase
 ///   interpolation  x′ = x + A·[s(x) − s(phase)],   s(x) = sin(2π·(m + x)/P),   m = ⌊p/Δx⌋
-///   noise          x″ = x′ + sd·z_k,   z_k standard normal, number k of its key
+///   noise          x″ = x′ + sd·w_k,   w_k = a·w_{k−1} + √(1 − a²)·z_k, w_0 = z_0,
+///                  a = exp(−2π·bandwidth·T), z_k standard normal, number k of its key
 ///   rounding       r_k = ⌊x″⌋
 ///   missed counts  count_k = r_k − lost_k,   lost_k = lost_{k−1} + sgn(r_k − r_{k−1})·b_k,
 ///                  b_k of |r_k − r_{k−1}| counts at the probability of one, number k of its key
@@ -34,14 +35,17 @@ bool counts_agree(const Encoder& fine, const Encoder& coarse, const EncoderReadi
 /// first sample.
 class ImperfectEncoder {
  public:
-  ImperfectEncoder(const Encoder& encoder, const EncoderErrors& errors, double position, std::uint64_t trial,
-                   const random::RandomStream& noise, const random::RandomStream& missed);
+  /// @param sample_time T, s.
+  ImperfectEncoder(const Encoder& encoder, const EncoderErrors& errors, double position, double sample_time,
+                   std::uint64_t trial, const random::RandomStream& noise,
+                   const random::RandomStream& missed);
 
   /// The count at sample k, the rotor being at θ (rad). Samples come in order.
   std::int64_t read(std::int64_t k, double theta);
 
  private:
   double interpolation_error(double x) const;
+  double next_noise(std::int64_t k);
   void miss_counts(std::int64_t k, std::int64_t raw);
 
   Encoder encoder_;
@@ -52,6 +56,8 @@ class ImperfectEncoder {
   random::RandomStream missed_;
   double start_eccentricity_;  // sin(p − γ)
   double start_count_;         // m
+  double noise_retention_;     // a
+  double noise_state_{0.0};    // w of the last sample
   double start_interpolation_{0.0};
   bool first_{true};
   std::int64_t last_raw_{0};  // r of the sample before
@@ -63,8 +69,9 @@ class Measurement {
  public:
   /// @param phase where in a count, of either encoder, θ = 0 lies, in [0, 1).
   /// @param position rotor angle (rad) of θ = 0.
+  /// @param sample_time T, s, for the bandwidth of the encoders' noise.
   Measurement(const EncoderParameters& encoders, double phase, double position,
-              const random::TrialRandomness& randomness);
+              const random::TrialRandomness& randomness, double sample_time = 1.0);
 
   /// The readings at sample k with the rotor at θ (rad). Call with ascending k.
   EncoderReading read(std::int64_t k, double theta) {

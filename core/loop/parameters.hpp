@@ -19,6 +19,8 @@ struct EncoderErrors {
   double noise{
       0.0};  ///< standard deviation of the reading before it is rounded to a count, counts of this encoder
   double missed{0.0};  ///< probability that a count that is passed is not counted, in [0, 1]
+  /// −3 dB bandwidth of the noise, a first-order process, Hz; infinite: white, drawn anew at each sample.
+  double noise_bandwidth{std::numeric_limits<double>::infinity()};
 };
 
 /// The two encoders: Δx = length/counts. On a rotary axis `fine` and `coarse` are the counts of a revolution,
@@ -40,7 +42,8 @@ struct DacParameters {
   double gain_error{0.0};     ///< relative error of Δu, dimensionless
   double nonlinearity{
       0.0};  ///< integral non-linearity: largest deviation from the straight line between the ends, codes
-  double noise{0.0};  ///< standard deviation of the torque, drawn anew at each sample, N m
+  double noise{0.0};        ///< standard deviation of the torque, drawn anew at each sample, N m
+  bool sigma_delta{false};  ///< the rounding error of a sample is added to the next torque (Converter)
 };
 
 /// The amplifier between converter and motor.
@@ -60,6 +63,39 @@ enum class ControlPhase { fine, coarse };
 struct Deadband {
   double enter{-1.0};  ///< counts
   double leave{-1.0};  ///< counts; below `enter` it counts as `enter`
+};
+
+enum class DeadbandForm {
+  zero,     ///< e′ = 0 where |e| ≤ band, else e
+  subtract  ///< e′ = 0 where |e| ≤ band, else e − band·sgn(e)
+};
+
+/// A dead zone of the error: e′ stands for e in the control law.
+struct ErrorDeadband {
+  double band{-1.0};  ///< counts; negative: none
+  DeadbandForm form{DeadbandForm::zero};
+};
+
+/// Holds the wanted torque at standstill (torque_hold.hpp).
+struct Hold {
+  double enter{-1.0};  ///< |error| that must have lasted for `dwell`, counts; negative: never
+  double leave{-1.0};  ///< |error| beyond which the hold ends, counts; below `enter` it counts as `enter`
+  double dwell{0.0};   ///< s, at least one sample
+};
+
+/// Gains of the PID law at standstill (pid.hpp).
+struct Standstill {
+  double band{-1.0};  ///< largest |error|, counts; negative: never
+  double dwell{0.0};  ///< for which it must have lasted, s, at least one sample
+  double kp{0.0};     ///< N m/count
+  double ki{0.0};     ///< of the trapezoidal rule, N m/count
+  double kd{0.0};     ///< on the difference of successive counts, N m/count
+};
+
+/// A square wave on the wanted torque (dither_torque).
+struct Dither {
+  double amplitude{0.0};    ///< N m
+  double frequency{500.0};  ///< Hz
 };
 
 enum class FilterKind { lowpass, notch, lead, biquad };
@@ -114,6 +150,9 @@ struct ControlBlocks {
   std::vector<Filter> filters{};  ///< in the order in which they act
   FeedforwardParameters feedforward{};
   ObserverParameters observer{};
+  ErrorDeadband error_deadband{};
+  Hold hold{};
+  Standstill standstill{};
 };
 
 /// Two-phase (dual mode) control (paper, end of section 2): the gains of the coarse phase, and when it is
@@ -150,6 +189,10 @@ struct ControllerParameters {
   CoarsePhaseParameters coarse{};
   ControlBlocks blocks{};  ///< with a coarse phase those of the fine one
   UserControl user{};
+  Dither dither{};
+  double missed{0.0};  ///< probability that the controller does not run at a sample, in [0, 1)
+  /// Each sample is late by a time drawn evenly from [0, jitter), s; below 1/sample_rate.
+  double jitter{0.0};
 };
 
 enum class ReferenceShape {

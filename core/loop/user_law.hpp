@@ -21,6 +21,7 @@ class UserLaw {
   /// The wanted torque, N m; not finite if the plugin fails.
   double step(const Feedback& now, double torque);
   void observe(const Feedback&) {}
+  void pause(const Feedback&) {}
   double take_over(double /*torque*/) { return 0.0; }
   LinearChain linear() const { return {}; }
   double integral() const { return 0.0; }

@@ -14,9 +14,12 @@ struct PlantStart {
   std::vector<double> history{};
   double velocity{0.0};  ///< ω, rad/s
   /// Arrival from sliding: if velocity ≠ 0 the hook slides, and the spring had the breakaway torque when the
-  /// slide began. Hardening, preload and history then have no effect. A Coulomb contact slides whenever
-  /// velocity ≠ 0, also without this.
+  /// slide began. Hardening, preload, history and holding then have no effect. A Coulomb contact slides
+  /// whenever velocity ≠ 0, also without this.
   bool sliding{false};
+  /// Torque (N m) to which the virgin contact has been loaded slowly and without creep, and which it carries
+  /// at t = 0; not beside a preload or a history.
+  double holding{0.0};
 };
 
 }  // namespace zerocount::motion

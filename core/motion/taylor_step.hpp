@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "core/motion/disturbance.hpp"
 #include "core/motion/load.hpp"
 #include "core/motion/torque_course.hpp"
 #include "core/numerics/power_series.hpp"
@@ -68,11 +69,19 @@ typename Motion::Expansion motion_series(const Motion& motion, double inertia, c
       series.omega[k + 1] = acceleration * numerics::reciprocal[k + 1];
     }
   };
-  if (torque.load == nullptr) {
-    add_orders([](std::size_t) { return 0.0; });
+  if (torque.load != nullptr) start_series(load_series, *torque.load);
+  const auto of_load = [&](std::size_t k) {
+    return expand(load_series, torque.load->parameters, series.omega, k);
+  };
+  if (torque.disturbance != nullptr) {
+    DisturbanceSeries disturbance(*torque.disturbance);
+    add_orders([&](std::size_t k) {
+      return (torque.load == nullptr ? 0.0 : of_load(k)) - disturbance.expand(series.omega, k);
+    });
+  } else if (torque.load != nullptr) {
+    add_orders(of_load);
   } else {
-    start_series(load_series, *torque.load);
-    add_orders([&](std::size_t k) { return expand(load_series, torque.load->parameters, series.omega, k); });
+    add_orders([](std::size_t) { return 0.0; });
   }
   if constexpr (requires { motion.complete(series); }) motion.complete(series);
   return series;

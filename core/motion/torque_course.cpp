@@ -3,13 +3,22 @@
 #include <cmath>
 #include <limits>
 
+#include "core/motion/disturbance.hpp"
 #include "core/motion/load.hpp"
 #include "core/numerics/elementary_functions.hpp"
 
 namespace zerocount::motion {
 
 double torque_on_rotor(const TorqueCourse& course, double omega) {
-  return course.load == nullptr ? course.now : course.now - coupling_torque(*course.load, omega);
+  double torque = course.now;
+  if (course.load != nullptr) torque -= coupling_torque(*course.load, omega);
+  if (course.disturbance != nullptr) torque += value(*course.disturbance);
+  return torque;
+}
+
+double applied_torque_rate(const TorqueCourse& course, double omega) {
+  const double of_motor = motor_is_constant(course) ? 0.0 : course.rate * (course.settled - course.now);
+  return course.disturbance == nullptr ? of_motor : of_motor + rate(*course.disturbance, omega);
 }
 
 bool load_is_quiet(const TorqueCourse& course, double omega, double inertia, double torque,
@@ -27,7 +36,7 @@ TorqueCourse course_after(const TorqueCourse& course, double t) {
   if (motor_is_constant(course)) return course;
   // Computed as a change of `now`, so that a small change keeps its digits.
   const double change = (course.now - course.settled) * numerics::expm1(-course.rate * t);
-  return {course.now + change, course.settled, course.rate, course.load};
+  return {course.now + change, course.settled, course.rate, course.load, course.disturbance};
 }
 
 double time_until(const TorqueCourse& course, double torque) {

@@ -7,15 +7,17 @@
 namespace zerocount::motion {
 
 struct Load;
+struct VaryingTorque;
 
-/// The torque on the rotor from now on: the motor's, u(t) = settled + (now − settled)·exp(−rate·t), minus
-/// that of a load's coupling, if any. The motor's torque is monotonic: constant if now equals settled,
-/// otherwise the response of a first-order amplifier.
+/// The torque on the rotor from now on: that of the motor and of a constant disturbance, u(t) = settled +
+/// (now − settled)·exp(−rate·t), minus that of a load's coupling, plus a varying disturbance, if any. u is
+/// monotonic: constant if now equals settled, otherwise the response of a first-order amplifier.
 struct TorqueCourse {
   double now{0.0};      ///< N m
   double settled{0.0};  ///< N m
   double rate{0.0};     ///< 1/s, not negative
   Load* load{nullptr};  ///< moves with the rotor
+  const VaryingTorque* disturbance{nullptr};
 };
 
 /// The course that stays at `torque` (N m).
@@ -28,13 +30,26 @@ inline bool motor_is_constant(const TorqueCourse& course) {
   return course.rate == 0.0 || course.now == course.settled;
 }
 
+/// Whether the applied torque, without that of a load, is `now` for ever.
+inline bool is_steady(const TorqueCourse& course) {
+  return course.disturbance == nullptr && motor_is_constant(course);
+}
+
 /// Whether the torque on the rotor is `now` for ever.
 inline bool is_constant(const TorqueCourse& course) {
-  return course.load == nullptr && motor_is_constant(course);
+  return course.load == nullptr && is_steady(course);
+}
+
+/// Whether the torque on the rotor depends on its motion, or does not only approach where u settles.
+inline bool has_company(const TorqueCourse& course) {
+  return course.load != nullptr || course.disturbance != nullptr;
 }
 
 /// The torque on the rotor at this instant, N m. @param omega ω of the rotor, rad/s.
 double torque_on_rotor(const TorqueCourse& course, double omega);
+
+/// The rate of change of the applied torque at this instant, N m/s. @param omega ω of the rotor, rad/s.
+double applied_torque_rate(const TorqueCourse& course, double omega);
 
 /// Whether any oscillation between load and rotor has a coupling torque below `torque` (N m); true without a
 /// load.

@@ -27,24 +27,40 @@ class PlantWith : public Law {
     if (motion::has_load(plant)) load_ = motion::Load{plant.load, 0.0, start.velocity};
   }
 
+  /// Adds a disturbance to the torque from now on, t = 0 of its vibration.
+  void disturb(const motion::Disturbance& disturbance) {
+    disturbance_ = disturbance;
+    time_ = 0.0;
+  }
+  /// Sets the time t (s) of the disturbance, which advance() moves on only to rounding.
+  void set_time(double time) { time_ = time; }
+
   /// Applies the torque for `duration` (s). The motion is lost if that takes more than `step_limit` steps.
   void advance(const motion::TorqueCourse& torque, double duration, int step_limit = max_steps) {
     motion::TorqueCourse ahead = torque;
+    ahead.now += disturbance_.torque;
+    ahead.settled += disturbance_.torque;
     ahead.load = load_ ? &*load_ : nullptr;
+    motion::VaryingTorque varying{disturbance_, time_, 0.0};
+    if (motion::varies(disturbance_)) ahead.disturbance = &varying;
     bool moves = !motion::motor_is_constant(ahead);
     double remaining = duration;
     for (int step = 0; remaining > 0.0 && finite_; ++step) {
       if (step == step_limit) finite_ = false;
+      varying.theta = this->theta();
       const double used = step_on(ahead, remaining);
+      varying.time += used;
       remaining = used < remaining ? remaining - used : 0.0;
       if (moves) {
         moves = duration - remaining < time_constants_to_settle / ahead.rate;
-        ahead = moves ? motion::course_after(ahead, used)
-                      : motion::TorqueCourse{ahead.settled, ahead.settled, 0.0, ahead.load};
+        ahead = moves
+                    ? motion::course_after(ahead, used)
+                    : motion::TorqueCourse{ahead.settled, ahead.settled, 0.0, ahead.load, ahead.disturbance};
       }
       finite_ = finite_ && std::isfinite(this->theta()) && std::isfinite(this->omega()) &&
                 (!load_ || std::isfinite(load_->omega));
     }
+    time_ += duration;
   }
 
   /// False once the motion is lost (non-finite, or too many steps); it stays false.
@@ -69,6 +85,8 @@ class PlantWith : public Law {
   double tolerance_;
   bool finite_{true};
   std::optional<motion::Load> load_;
+  motion::Disturbance disturbance_{};
+  double time_{0.0};  // of the disturbance, s
 };
 
 /// State of the plant at an instant.
@@ -94,6 +112,15 @@ class PlantOf {
   /// Applies the torque for `duration` (s). The motion is lost if that takes more than `step_limit` steps.
   void advance(const motion::TorqueCourse& torque, double duration, int step_limit = max_steps) {
     std::visit([&](auto& plant) { plant.advance(torque, duration, step_limit); }, plant_);
+  }
+
+  /// Adds a disturbance to the torque from now on, t = 0 of its vibration.
+  void disturb(const motion::Disturbance& disturbance) {
+    std::visit([&](auto& plant) { plant.disturb(disturbance); }, plant_);
+  }
+  /// Sets the time t (s) of the disturbance.
+  void set_time(double time) {
+    std::visit([&](auto& plant) { plant.set_time(time); }, plant_);
   }
 
   PlantReading read() const {

@@ -17,6 +17,9 @@ struct TrialRandomness {
   RandomKey coarse_noise{};
   RandomKey coarse_missed{};
   RandomKey dac_noise{};
+  RandomKey missed_samples{};
+  RandomKey jitter{};
+  RandomKey spectrum{};
 };
 
 }  // namespace zerocount::random

@@ -165,6 +165,9 @@ std::string_view left_out_of_hunting(const motion::PlantParameters& plant,
                                      const loop::ControllerParameters& controller) {
   if (motion::has_load(plant)) return "the second mass";
   if (controller.blocks.deadband.enter > 0.0) return "the deadband";
+  if (controller.blocks.error_deadband.band > 0.0) return "the dead zone of the error";
+  if (controller.blocks.hold.enter >= 0.0) return "the hold";
+  if (controller.blocks.standstill.band >= 0.0) return "the gains at standstill";
   return std::isfinite(controller.blocks.integrator_zone) ? "the integrator zone" : "";
 }
 

@@ -18,7 +18,8 @@ struct LimitCycle {
 };
 
 /// The part of the loop that invalidates both predictions, which assume a linear plant and control: "the
-/// second mass", "the deadband" or "the integrator zone"; empty if they hold.
+/// second mass", "the deadband", "the dead zone of the error", "the hold", "the gains at standstill" or "the
+/// integrator zone"; empty if they hold.
 std::string_view left_out_of_hunting(const motion::PlantParameters& plant,
                                      const loop::ControllerParameters& controller);
 

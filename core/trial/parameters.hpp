@@ -8,6 +8,7 @@
 #include "core/loop/parameters.hpp"
 #include "core/motion/parameters.hpp"
 #include "core/random/trial_randomness.hpp"
+#include "core/trial/disturbance.hpp"
 #include "core/trial/error_bands.hpp"
 
 namespace zerocount::trial {
@@ -55,6 +56,8 @@ struct InitialConditions {
   double velocity{0.0};  ///< ω, rad/s
   double integral{0.0};  ///< I of the controller before the first sample, N m
   InitialMode mode{InitialMode::stick};
+  /// The contact has been loaded slowly from virgin to the constant disturbance, and carries it at t = 0.
+  bool holding{false};
 };
 
 /// Criteria of the verdict on a move.
@@ -78,6 +81,7 @@ struct TrialParameters {
   InitialConditions initial;
   VerdictParameters verdict;
   random::TrialRandomness randomness{};
+  DisturbanceParameters disturbance{};
 };
 
 /// Number of whole samples in `duration` (s) at `sample_rate` (Hz): round(duration·sample_rate).

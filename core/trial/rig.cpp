@@ -15,9 +15,13 @@ constexpr double rest_in_counts = 1e-8;
 }  // namespace
 
 motion::PlantStart plant_start(const TrialParameters& p) {
-  return {p.initial.position, p.initial.hardening,
-          p.initial.preload,  draw_history(p.initial.history, p.randomness),
-          p.initial.velocity, p.initial.mode == InitialMode::slide};
+  return {p.initial.position,
+          p.initial.hardening,
+          p.initial.preload,
+          draw_history(p.initial.history, p.randomness),
+          p.initial.velocity,
+          p.initial.mode == InitialMode::slide,
+          p.initial.holding ? p.disturbance.torque : 0.0};
 }
 
 motion::MotionTolerance motion_tolerance(double resolution) {

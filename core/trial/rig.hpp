@@ -7,6 +7,7 @@
 #include "core/loop/dac.hpp"
 #include "core/loop/drive.hpp"
 #include "core/loop/measurement.hpp"
+#include "core/loop/sample_clock.hpp"
 #include "core/plant/plant.hpp"
 #include "core/trial/parameters.hpp"
 #include "core/trial/trial.hpp"
@@ -29,17 +30,24 @@ class Rig {
  public:
   explicit Rig(const TrialParameters& p)
       : sample_time_(1.0 / p.controller.sample_rate),
-        measurement_(p.encoder, p.initial.encoder_phase, p.initial.position, p.randomness),
-        dac_(p.dac),
-        drive_(p.dac, p.amplifier, p.controller.delay, sample_time_, p.randomness),
+        clock_(p.controller, p.randomness),
+        measurement_(p.encoder, p.initial.encoder_phase, p.initial.position, p.randomness, sample_time_),
+        converter_(p.dac),
+        drive_(p.dac, p.amplifier, p.controller.delay, sample_time_, p.randomness, p.controller.jitter > 0.0),
         encoder_place_(motion::has_load(p.plant) ? p.plant.load.encoder : motion::EncoderPlace::motor),
-        plant_(p.plant, p.friction, plant_start(p), motion_tolerance(measurement_.fine_resolution())) {}
+        plant_(p.plant, p.friction, plant_start(p), motion_tolerance(measurement_.fine_resolution())) {
+    plant_.disturb(disturbance_of(p.disturbance, p.initial.position, p.randomness));
+    if (p.controller.jitter > 0.0) plant_.advance(motion::constant_torque(0.0), clock_.lateness(0));
+  }
 
   /// Encoder readings and plant state at t_k. The caller fills in torque, target and reference.
   SampleRecord read(std::int64_t k) {
     SampleRecord record;
     record.k = k;
-    record.t = static_cast<double>(k) * sample_time_;
+    late_ = {late_.next, clock_.lateness(k + 1)};
+    if (k == 0) late_.now = clock_.lateness(0);
+    record.t = static_cast<double>(k) * sample_time_ + late_.now;
+    plant_.set_time(record.t);
     const plant::PlantReading plant = plant_.read();
     record.theta = plant.theta;
     record.omega = plant.omega;
@@ -61,11 +69,18 @@ class Rig {
 
   /// Applies the wanted torque (N m) at t_k through the converter; completes `record`.
   void drive(double torque, SampleRecord& record) {
-    const loop::DacOutput output = loop::convert(dac_, torque);
-    drive_.send(record.k, output);
-    clipped_ = output.clipped;
-    record.code = output.code;
-    record.torque = output.torque;
+    output_ = converter_.convert(torque);
+    drive_again(record);
+  }
+
+  /// Whether the controller runs at sample k.
+  bool controller_runs(std::int64_t k) const { return clock_.runs(k); }
+
+  /// drive() with the code of the sample before, 0 at the first.
+  void drive_again(SampleRecord& record) {
+    drive_.send(record.k, output_, late_);
+    record.code = output_.code;
+    record.torque = output_.torque;
     record.drive_torque = drive_.torque();
   }
 
@@ -77,12 +92,12 @@ class Rig {
 
   /// Applies the torque (N m) at t_k to the motor, past the converter; completes `record`.
   void drive_exactly(double torque, SampleRecord& record) {
-    drive_.send_exact(torque);
+    drive_.send_exact(torque, late_);
     record.torque = torque;
     record.drive_torque = drive_.torque();
   }
 
-  /// Lets the plant move until t_{k+1}.
+  /// Lets the plant move until the next sample.
   void hold() {
     for (const loop::TorquePiece& piece : drive_.pieces())
       plant_.advance(piece.course, piece.duration, plant::max_steps_of_sample);
@@ -96,19 +111,21 @@ class Rig {
   }
 
   bool controller_failed() const { return controller_failed_; }  ///< its torque was not finite
-  bool clipped() const { return clipped_; }  ///< the converter was out of range at this sample
+  bool clipped() const { return output_.clipped; }  ///< the converter was out of range at this sample
   const loop::Measurement& measurement() const { return measurement_; }
   AnyPlant& plant() { return plant_; }
 
  private:
   double sample_time_;
+  loop::SampleClock clock_;
+  loop::Lateness late_{};  // of this sample and the next
   loop::Measurement measurement_;
-  loop::DacParameters dac_;
+  loop::Converter converter_;
+  loop::DacOutput output_{};  // of the last sample
   loop::Drive drive_;
   motion::EncoderPlace encoder_place_;
   double last_measured_{0.0};
   AnyPlant plant_;
-  bool clipped_{false};
   bool controller_failed_{false};
 };
 

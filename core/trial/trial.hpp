@@ -15,7 +15,7 @@ enum class HookMode { stick, slide };
 /// One sampling instant t_k of a trial. Values are those at t_k; code and torque those decided at t_k.
 struct SampleRecord {
   std::int64_t k{0};             ///< sample number from the start of the trial
-  double t{0.0};                 ///< k·T, s
+  double t{0.0};                 ///< k·T and, with jitter, how late the sample is, s
   std::int64_t target{0};        ///< counts
   std::int64_t count{0};         ///< fine encoder, counts
   std::int64_t coarse_count{0};  ///< coarse encoder, counts

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "core/loop/controller.hpp"
 #include "core/loop/reference.hpp"
 #include "core/trial/divergence.hpp"
@@ -76,6 +78,8 @@ TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& obse
   std::int64_t first = 0;
   std::int64_t from = 0;
   double torque_in_force = 0.0;
+  const loop::Dither& dither = p.controller.dither;
+  std::optional<std::int64_t> last_target;  // at the last sample at which the controller ran
   bool stopped = false;
   for (std::size_t m = 0; m < p.command.targets.size() && !stopped; ++m) {
     const std::int64_t target = p.command.targets[m];
@@ -87,10 +91,18 @@ TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& obse
       record.error = target - record.count;
       const double t = static_cast<double>(i) * timing.sample_time;
       record.reference = reference.at(t);
+      record.phase = controller.phase();
+      if (!rig.controller_runs(record.k)) return rig.drive_again(record);
       const loop::EncoderReading reading{record.count, record.coarse_count};
       loop::ReferenceMotion motion = reference.motion_at(t);
       if (p.controller.user.plugin) motion.position = reference.exact_at(t);
-      rig.drive_wanted(controller.update(record.reference, reading, torque_in_force, motion), record);
+      const bool new_target = last_target && *last_target != target;
+      last_target = target;
+      const double wanted =
+          controller.update(record.reference, reading, torque_in_force, motion, new_target) +
+          loop::dither_torque(dither.amplitude, dither.frequency, p.controller.sample_rate,
+                              static_cast<double>(record.k));
+      rig.drive_wanted(wanted, record);
       record.phase = controller.phase();
       torque_in_force = record.torque;
     };

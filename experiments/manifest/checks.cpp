@@ -66,7 +66,8 @@ bool is_required(const study::StudyPlan& plan, const std::vector<rules::EffectRu
   if (parameters::has_default(parameter)) {
     return !parameters::default_holds(parameter, plan.units) && has_effect(plan, rules, parameter);
   }
-  if (!parameter.only_on) return false;  // required values of the command are checked with its form
+  // Required values of the command and of elements of lists are checked where these are read.
+  if (!parameter.only_on || parameter.element) return false;
   return parameter.name != "encoder.coarse_resolution" || uses_coarse_encoder(plan);
 }
 

@@ -174,15 +174,32 @@ Json elements_schema(const parameters::ElementList& list) {
   Json forms = Json::array();
   for (const parameters::ElementForm& form : list.forms) {
     Json properties = Json::object();
+    Json required = Json::array();
     for (const std::string_view key : form.keys) {
-      const auto row = parameters::find_parameter(fmt::format("{}.#.{}", list.path, key));
-      properties[std::string(key)] = key_schema(parameters::parameter_table()[row.value()]);
+      const auto found = parameters::find_parameter(fmt::format("{}.#.{}", list.path, key));
+      const parameters::Parameter& row = parameters::parameter_table()[found.value()];
+      properties[std::string(key)] = key_schema(row);
+      if (!parameters::has_default(row)) required.push_back(key);
     }
     const std::string name(form.name);
-    forms.push_back(object_of({{name, object_of(std::move(properties), Json(form.keys))}}, {name}));
+    Json keys = object_of(std::move(properties), std::move(required));
+    forms.push_back(name.empty() ? std::move(keys) : object_of({{name, std::move(keys)}}, {name}));
     forms.back()["description"] = form.meaning;
   }
   return {{"type", "array"}, {"items", {{"oneOf", std::move(forms)}}}, {"maxItems", list.max_elements}};
+}
+
+// Lines, and spectra from which lines are drawn.
+Json vibration_schema() {
+  Json schema = elements_schema(*parameters::find_element_list("disturbance.vibration"));
+  const Json pair = {{"type", "array"},
+                     {"prefixItems", {number_in(numerics::above(0)), number_in(numerics::at_least(0))}},
+                     {"minItems", 2},
+                     {"maxItems", 2}};
+  Json points{{"type", "array"}, {"items", pair}, {"minItems", 2}};
+  schema["items"]["oneOf"].push_back(object_of(
+      {{"spectrum", std::move(points)}, {"lines", {{"type", "integer"}, {"minimum", 1}}}}, {"spectrum"}));
+  return schema;
 }
 
 Json spacing_schema() {
@@ -325,6 +342,8 @@ Json general_schemas() {
         {"patternProperties", {{fmt::format("^{}$", plugin_name), value_schema(plugin_value())}}},
         {"additionalProperties", false}}},
       {"controller.filters", elements_schema(*parameters::find_element_list("controller.filters"))},
+      {"disturbance.ripple", elements_schema(*parameters::find_element_list("disturbance.ripple"))},
+      {"disturbance.vibration", vibration_schema()},
       {"controller.coarse.filters",
        elements_schema(*parameters::find_element_list("controller.coarse.filters"))},
       {"command.units",

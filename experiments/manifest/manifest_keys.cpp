@@ -34,7 +34,7 @@ std::vector<std::string_view> value_paths() {
 }  // namespace
 
 std::span<const GeneralKey> general_keys() {
-  static constexpr std::array<GeneralKey, 28> keys{{
+  static constexpr std::array<GeneralKey, 30> keys{{
       {"zerocount", "version of the manifest's format: 1", true},
       {"name", "name of the study", true},
       {"description", "what the study is for", false},
@@ -102,6 +102,15 @@ std::span<const GeneralKey> general_keys() {
        "b2], a: [a1, a2]}}; their values are the parameters controller.filters.0.frequency ...",
        false},
       {"controller.coarse.filters", "list of filters of the coarse phase, as controller.filters", false},
+      {"disturbance.ripple",
+       "list of torques that vary along the rotor: {amplitude, periods, phase}, amplitude*sin(periods*(theta "
+       "+ initial.position) + phase), periods per revolution; on a linear axis {amplitude, pitch, phase}",
+       false},
+      {"disturbance.vibration",
+       "list of torques that vary in time: {amplitude, frequency, phase}, amplitude*sin(2*pi*frequency*t + "
+       "phase); or {spectrum: [[frequency, density], ...], lines: 100}, a random vibration with this "
+       "one-sided power spectral density, (N m)^2/Hz, drawn anew in each trial",
+       false},
       {"command.units",
        "unit of targets and overrun: counts (default) of the fine encoder; or si: rad (m on a linear axis), "
        "of "

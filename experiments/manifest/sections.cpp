@@ -8,6 +8,7 @@
 #include "experiments/distributions/distribution_forms.hpp"
 #include "experiments/manifest/goal.hpp"
 #include "experiments/manifest/manifest_keys.hpp"
+#include "experiments/manifest/spectrum.hpp"
 #include "experiments/parameters/earlier_defaults.hpp"
 #include "experiments/parameters/unknown_key.hpp"
 #include "experiments/study/study_table.hpp"
@@ -72,9 +73,24 @@ std::string names_of(std::span<const parameters::ElementForm> forms) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+// The first form without a name that exists on this kind of axis.
+const parameters::ElementForm* find_form_by_keys(SectionReading& s, const yaml::Field& element,
+                                                 const parameters::ElementList& list) {
+  if (!yaml::check_map(element, "a map", s.problems())) return nullptr;
+  const auto exists = [&](std::string_view key) {
+    const auto row = parameters::find_parameter(fmt::format("{}.#.{}", list.path, key));
+    return parameters::exists_on(parameters::parameter_table()[row.value()], s.plan().units.axis);
+  };
+  const auto form = std::find_if(list.forms.begin(), list.forms.end(), [&](const auto& known) {
+    return std::all_of(known.keys.begin(), known.keys.end(), exists);
+  });
+  return &*form;
+}
+
 // The form that an element has. Reports anything else, and returns null.
 const parameters::ElementForm* find_form(SectionReading& s, const yaml::Field& element,
                                          const parameters::ElementList& list) {
+  if (list.forms.front().name.empty()) return find_form_by_keys(s, element, list);
   const std::string expected = fmt::format("a map with one of {}", names_of(list.forms));
   if (!yaml::check_map(element, expected, s.problems())) return nullptr;
   const auto& entries = element.node->entries;
@@ -92,9 +108,15 @@ const parameters::ElementForm* find_form(SectionReading& s, const yaml::Field& e
 
 void read_element(SectionReading& s, const yaml::Field& element, std::size_t index,
                   const parameters::ElementList& list) {
+  if (list.path == "disturbance.vibration" && is_spectrum(element)) {
+    list.add(s.plan().common, 0);  // a line of amplitude 0, so that places in the list and in the trial agree
+    if (const auto spectrum = read_spectrum(element, s.problems()))
+      s.plan().common.disturbance.spectra.push_back(spectrum);
+    return;
+  }
   const parameters::ElementForm* const form = find_form(s, element, list);
   if (form == nullptr) return;
-  const yaml::Field map = yaml::entry_of(element, element.node->entries[0]);
+  const yaml::Field map = form->name.empty() ? element : yaml::entry_of(element, element.node->entries[0]);
   const std::vector<std::string> keys(form->keys.begin(), form->keys.end());
   if (!yaml::check_map(map, fmt::format("a map with the keys {}", fmt::join(keys, ", ")), s.problems()))
     return;
@@ -103,8 +125,11 @@ void read_element(SectionReading& s, const yaml::Field& element, std::size_t ind
   list.add(s.plan().common, static_cast<std::size_t>(form - list.forms.data()));
   add_slots(s);
   for (std::size_t i = 0; i < keys.size(); ++i) {
+    const parameters::Parameter& row = s.plan().table.rows[rows.first + i];
     if (const auto value = yaml::find_field(map, keys[i])) {
       read_parameter(s, *value, rows.first + i);
+    } else if (parameters::has_default(row)) {
+      s.plan().base[rows.first + i].number = parameters::default_value(row);
     } else {
       s.problems().add(
           map.node->place, fmt::format("{}.{}", map.path, keys[i]), "the key is missing",

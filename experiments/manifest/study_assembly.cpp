@@ -89,7 +89,10 @@ random::TrialRandomness trial_randomness(std::uint64_t seed) {
           .fine_missed = designs::random_key(seed, "encoder.fine_errors.missed/samples"),
           .coarse_noise = designs::random_key(seed, "encoder.coarse_errors.noise/samples"),
           .coarse_missed = designs::random_key(seed, "encoder.coarse_errors.missed/samples"),
-          .dac_noise = designs::random_key(seed, "dac.noise/samples")};
+          .dac_noise = designs::random_key(seed, "dac.noise/samples"),
+          .missed_samples = designs::random_key(seed, "controller.missed/samples"),
+          .jitter = designs::random_key(seed, "controller.jitter/samples"),
+          .spectrum = designs::random_key(seed, "disturbance.vibration/spectrum")};
 }
 
 std::size_t gms_element_count(const study::StudyTable& table) {

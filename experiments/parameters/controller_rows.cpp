@@ -10,7 +10,10 @@ namespace {
 /// @param named one of the two names of a row. @param first its Sobol dimension is this number + i.
 template <class Blocks, class Named>
 std::vector<Parameter> block_rows(Blocks /*blocks*/, Named named, std::size_t first) {
-  const auto dimension = [first](std::size_t i) { return beyond_moves(first + i); };
+  // From 14 on, those of the coarse phase are apart.
+  const auto dimension = [first](std::size_t i) {
+    return beyond_moves(i < 14 || first < 64 ? first + i : 17 + (i - 14));
+  };
   const numerics::Interval gain = numerics::closed(0, 1e6);
   return {
       word_row(named("controller.structure", "controller.coarse.structure"), dimension(0),
@@ -69,6 +72,45 @@ std::vector<Parameter> block_rows(Blocks /*blocks*/, Named named, std::size_t fi
       real_row(named("controller.observer.inertia", "controller.coarse.observer.inertia"), dimension(13),
                "kg m^2", "inertia Jn in the model of the disturbance observer", "paper, section 4",
                numerics::above(0), [](auto& p) { return &Blocks{}(p).observer.inertia; }),
+      none_is(-1, real_row(named("controller.error_deadband.band", "controller.coarse.error_deadband.band"),
+                           dimension(14), "count",
+                           "largest |error| that counts as 0 in the control law; none (-1): no dead zone",
+                           assumed, numerics::closed(0, max_count),
+                           [](auto& p) { return &Blocks{}(p).error_deadband.band; })),
+      word_row(named("controller.error_deadband.form", "controller.coarse.error_deadband.form"),
+               dimension(15), "beyond the dead zone: the error itself, or less by the band", assumed,
+               {"zero", "subtract"}, [](auto& p) { return &Blocks{}(p).error_deadband.form; }),
+      none_is(-1,
+              real_row(named("controller.hold.enter", "controller.coarse.hold.enter"), dimension(16), "count",
+                       "|error| within which the wanted $torque is held; none (-1): never held", assumed,
+                       numerics::closed(0, max_count), [](auto& p) { return &Blocks{}(p).hold.enter; })),
+      none_is(-1,
+              real_row(named("controller.hold.leave", "controller.coarse.hold.leave"), dimension(17), "count",
+                       "|error| above which the hold ends; none (-1): the value of enter", assumed,
+                       numerics::closed(0, max_count), [](auto& p) { return &Blocks{}(p).hold.leave; })),
+      real_row(named("controller.hold.dwell", "controller.coarse.hold.dwell"), dimension(18), "s",
+               "time within `enter` after which the hold begins, at least one sample", assumed,
+               numerics::at_least(0), [](auto& p) { return &Blocks{}(p).hold.dwell; }),
+      none_is(
+          -1,
+          real_row(named("controller.standstill.band", "controller.coarse.standstill.band"), dimension(19),
+                   "count", "largest |error| at which the gains of standstill act; none (-1): never", assumed,
+                   numerics::closed(0, max_count), [](auto& p) { return &Blocks{}(p).standstill.band; })),
+      real_row(named("controller.standstill.dwell", "controller.coarse.standstill.dwell"), dimension(20), "s",
+               "time within the band after which they act, at least one sample", assumed,
+               numerics::at_least(0), [](auto& p) { return &Blocks{}(p).standstill.dwell; }),
+      in_si(real_row(named("controller.standstill.kp", "controller.coarse.standstill.kp"), dimension(21),
+                     "N m/count", "proportional gain at standstill", assumed, gain,
+                     [](auto& p) { return &Blocks{}(p).standstill.kp; }),
+            "N m/rad", "proportional gain at standstill"),
+      in_si(real_row(named("controller.standstill.ki", "controller.coarse.standstill.ki"), dimension(22),
+                     "N m/count", "integral gain at standstill", assumed, gain,
+                     [](auto& p) { return &Blocks{}(p).standstill.ki; }),
+            "N m/(rad s)", "integral gain at standstill"),
+      in_si(real_row(named("controller.standstill.kd", "controller.coarse.standstill.kd"), dimension(23),
+                     "N m/count", "gain on the difference of successive counts at standstill", assumed, gain,
+                     [](auto& p) { return &Blocks{}(p).standstill.kd; }),
+            "N m s/rad", "derivative gain at standstill"),
   };
 }
 
@@ -94,6 +136,17 @@ std::vector<Parameter> rows_of_the_law() {
       word_row("controller.encoder", beyond_moves(1),
                "encoder that closes the loop; with a coarse phase, in the fine phase", "paper, section 4",
                {"fine", "coarse"}, [](auto& p) { return &p.controller.encoder; }),
+      real_row("controller.dither.amplitude", beyond_moves(56), "N m",
+               "amplitude of a square wave on the wanted $torque", assumed, numerics::at_least(0),
+               [](auto& p) { return &p.controller.dither.amplitude; }),
+      real_row("controller.dither.frequency", beyond_moves(57), "Hz", "its frequency", assumed,
+               numerics::above(0), [](auto& p) { return &p.controller.dither.frequency; }),
+      real_row("controller.missed", beyond_moves(58), "1",
+               "probability that the controller does not run at a sample", assumed, numerics::half_open(0, 1),
+               [](auto& p) { return &p.controller.missed; }),
+      real_row("controller.jitter", beyond_moves(59), "s",
+               "each sample is late by a time drawn evenly between 0 and this", assumed,
+               numerics::at_least(0), [](auto& p) { return &p.controller.jitter; }),
   };
 }
 

@@ -10,11 +10,12 @@
 
 namespace zerocount::parameters {
 
-/// A form of the elements of a list: a map with one key, its name, whose value is a map of these keys.
+/// A form of the elements of a list: a map with one key, its name, whose value is a map of these keys, or,
+/// without a name, the map of these keys itself.
 struct ElementForm {
   std::string_view name;
-  std::vector<std::string_view>
-      keys;  ///< all required; each is a row "list.#.key" of the table of parameters
+  /// Each is a row "list.#.key" of the table of parameters, and required if that has no default.
+  std::vector<std::string_view> keys;
   std::string_view meaning;
 };
 

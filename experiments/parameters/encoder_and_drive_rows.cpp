@@ -12,6 +12,8 @@ constexpr std::string_view interpolation =
 constexpr std::string_view interpolation_period = "signal period, in counts of this encoder";
 constexpr std::string_view noise =
     "standard deviation of the reading before rounding, in counts of this encoder";
+constexpr std::string_view noise_bandwidth =
+    "bandwidth (-3 dB) of this noise; none: drawn anew at each sample";
 constexpr std::string_view missed = "probability that the encoder misses a count that it passes";
 
 }  // namespace
@@ -49,6 +51,9 @@ std::vector<Parameter> encoder_rows() {
                numerics::above(0), [](auto& p) { return &p.encoder.fine_errors.interpolation_period; }),
       real_row("encoder.fine_errors.noise", 33, "count", noise, assumed, numerics::at_least(0),
                [](auto& p) { return &p.encoder.fine_errors.noise; }),
+      or_none(real_row("encoder.fine_errors.noise_bandwidth", beyond_moves(28), "Hz", noise_bandwidth,
+                       assumed, numerics::Interval{.low = 0, .high = max_count, .high_included = true}),
+              [](auto& p) { return &p.encoder.fine_errors.noise_bandwidth; }),
       real_row("encoder.fine_errors.missed", 34, "1", missed, assumed, numerics::closed(0, 1),
                [](auto& p) { return &p.encoder.fine_errors.missed; }),
 
@@ -65,6 +70,9 @@ std::vector<Parameter> encoder_rows() {
                numerics::above(0), [](auto& p) { return &p.encoder.coarse_errors.interpolation_period; }),
       real_row("encoder.coarse_errors.noise", 39, "count", noise, assumed, numerics::at_least(0),
                [](auto& p) { return &p.encoder.coarse_errors.noise; }),
+      or_none(real_row("encoder.coarse_errors.noise_bandwidth", beyond_moves(29), "Hz", noise_bandwidth,
+                       assumed, numerics::Interval{.low = 0, .high = max_count, .high_included = true}),
+              [](auto& p) { return &p.encoder.coarse_errors.noise_bandwidth; }),
       real_row("encoder.coarse_errors.missed", 40, "1", missed, assumed, numerics::closed(0, 1),
                [](auto& p) { return &p.encoder.coarse_errors.missed; }),
   };
@@ -89,6 +97,9 @@ std::vector<Parameter> drive_rows() {
                numerics::all_numbers(), [](auto& p) { return &p.dac.nonlinearity; }),
       real_row("dac.noise", 44, "N m", "standard deviation of the $torque noise, drawn at each sample",
                assumed, numerics::at_least(0), [](auto& p) { return &p.dac.noise; }),
+      truth_row("dac.sigma_delta", beyond_moves(27),
+                "whether the rounding error of a sample is added to the next $torque", assumed,
+                [](auto& p) { return &p.dac.sigma_delta; }),
 
       real_row("amplifier.bandwidth", 45, "Hz",
                "bandwidth (-3 dB) of the amplifier's first-order response; 0: ideal amplifier", assumed,

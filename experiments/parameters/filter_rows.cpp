@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
 
-#include "experiments/parameters/element_lists.hpp"
+#include "experiments/parameters/disturbance_rows.hpp"
 #include "experiments/parameters/parameter_rows.hpp"
 
 namespace zerocount::parameters {
@@ -103,9 +103,11 @@ std::vector<Parameter> filter_rows() {
 }
 
 std::span<const ElementList> element_lists() {
-  static const std::array<ElementList, 2> lists{{
+  static const std::array<ElementList, 4> lists{{
       {Fine::path, "filter", max_filters, filter_forms(), add_filter<Fine>},
       {Coarse::path, "filter", max_filters, filter_forms(), add_filter<Coarse>},
+      ripple_list(),
+      vibration_list(),
   }};
   return lists;
 }

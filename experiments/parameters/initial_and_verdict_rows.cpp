@@ -26,6 +26,9 @@ std::vector<Parameter> initial_rows() {
                numerics::all_numbers(), [](auto& p) { return &p.initial.integral; }),
       word_row("initial.mode", beyond_moves(5), "state of the hook at the start", assumed, {"stick", "slide"},
                [](auto& p) { return &p.initial.mode; }),
+      truth_row("initial.holding", beyond_moves(31),
+                "whether the contact carries the constant disturbance at the start", assumed,
+                [](auto& p) { return &p.initial.holding; }),
   };
 }
 

@@ -12,9 +12,9 @@
 namespace zerocount::parameters {
 
 // The rows of the table of parameters, by section. Each has a Sobol dimension of its own, so that a new row
-// does not change the draws of the others. The next free one is beyond_moves(17); those from beyond_moves(32)
-// to beyond_moves(79) are for the blocks of the controller. Lists have dimensions from beyond_moves(80) on,
-// as many as they may have values; the next free one of these is beyond_moves(192). A plugin has the
+// does not change the draws of the others. The next free one is beyond_moves(60), and then beyond_moves(268);
+// beyond_moves(17) to (26) and (32) to (57) are those of the blocks of the controller. Lists have dimensions
+// from beyond_moves(80) on, as many as they may have values; the last is beyond_moves(263). A plugin has the
 // dimensions from beyond_moves(317) to beyond_moves(444).
 
 std::vector<Parameter> plant_rows();
@@ -23,6 +23,7 @@ std::vector<Parameter> encoder_rows();
 std::vector<Parameter> drive_rows();  ///< converter and amplifier
 std::vector<Parameter> controller_rows();
 std::vector<Parameter> filter_rows();
+std::vector<Parameter> disturbance_rows();
 std::vector<Parameter> command_rows();
 std::vector<Parameter> initial_rows();
 std::vector<Parameter> verdict_rows();

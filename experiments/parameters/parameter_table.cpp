@@ -29,6 +29,7 @@ std::vector<Parameter> make_table() {
   add(drive_rows(), true);
   add(controller_rows(), true);
   add(filter_rows(), true);
+  add(disturbance_rows(), false);
   add(command_rows(), false);
   add(initial_rows(), false);
   add(verdict_rows(), false);

@@ -40,11 +40,28 @@ constexpr const char* a_closed_loop = "command.targets or command.sequence, or t
 std::vector<EffectRule> rules_of_the_command(const study::StudyPlan& plan) {
   const bool open_loop = plan.open_loop;
   return {
-      {.keys = {"controller.kp", "controller.ki", "controller.kd", "controller.anti_windup",
-                "controller.encoder", "controller.coarse", "controller.filters", "controller.structure",
-                "controller.cascade", "controller.deadband", "controller.integrator_zone",
-                "controller.integrator_leak", "controller.derivative_cutoff", "controller.feedforward",
-                "controller.observer", "command.profile", "verdict"},
+      {.keys = {"controller.kp",
+                "controller.ki",
+                "controller.kd",
+                "controller.anti_windup",
+                "controller.encoder",
+                "controller.coarse",
+                "controller.filters",
+                "controller.structure",
+                "controller.cascade",
+                "controller.deadband",
+                "controller.integrator_zone",
+                "controller.integrator_leak",
+                "controller.derivative_cutoff",
+                "controller.feedforward",
+                "controller.observer",
+                "controller.error_deadband",
+                "controller.hold",
+                "controller.standstill",
+                "controller.dither",
+                "controller.missed",
+                "command.profile",
+                "verdict"},
        .has_effect = open_loop ? never : always,
        .what = the_loop_is_open,
        .expected = a_closed_loop},
@@ -81,13 +98,13 @@ std::vector<EffectRule> rules_of_the_command(const study::StudyPlan& plan) {
 
 EffectRule rule_of_the_plugin(const study::StudyPlan& plan) {
   const bool plugin = plan.plugin != nullptr;
-  return {
-      .keys = {"controller.kp", "controller.ki", "controller.kd", "controller.anti_windup",
-               "controller.structure", "controller.cascade", "controller.deadband",
-               "controller.integrator_zone", "controller.integrator_leak", "controller.derivative_cutoff"},
-      .has_effect = plugin ? never : always,
-      .what = "it has no effect: the controller is a plugin",
-      .expected = "controller.parameters, or the key left out"};
+  return {.keys = {"controller.kp", "controller.ki", "controller.kd", "controller.anti_windup",
+                   "controller.structure", "controller.cascade", "controller.deadband",
+                   "controller.integrator_zone", "controller.integrator_leak", "controller.derivative_cutoff",
+                   "controller.error_deadband", "controller.standstill"},
+          .has_effect = plugin ? never : always,
+          .what = "it has no effect: the controller is a plugin",
+          .expected = "controller.parameters, or the key left out"};
 }
 
 // The other parameters of an encoder error have an effect only if its amplitude is not 0.
@@ -107,13 +124,26 @@ std::vector<EffectRule> rules_of_the_loop() {
                 "controller.coarse.cascade", "controller.coarse.deadband",
                 "controller.coarse.integrator_zone", "controller.coarse.integrator_leak",
                 "controller.coarse.derivative_cutoff", "controller.coarse.feedforward",
-                "controller.coarse.observer"},
+                "controller.coarse.observer", "controller.coarse.error_deadband", "controller.coarse.hold",
+                "controller.coarse.standstill"},
        .depends_on = {"controller.coarse.coarse_beyond"},
        .has_effect = [](Limits l) { return study::can_have_coarse_phase(l[0]); },
        .what = "it has no effect: no point has a coarse phase",
        .expected = "controller.coarse.coarse_beyond below 1e12, or the key left out"},
       rule_of_an_error("encoder.fine_errors.eccentricity_angle", "encoder.fine_errors.eccentricity"),
       rule_of_an_error("encoder.fine_errors.interpolation_period", "encoder.fine_errors.interpolation"),
+      rule_of_an_error("encoder.fine_errors.noise_bandwidth", "encoder.fine_errors.noise"),
+      rule_of_an_error("encoder.coarse_errors.noise_bandwidth", "encoder.coarse_errors.noise"),
+      {.keys = {"controller.dither.frequency"},
+       .depends_on = {"controller.dither.amplitude"},
+       .has_effect = [](Limits l) { return can_be_positive(l[0]); },
+       .what = "it has no effect: no point has a dither",
+       .expected = "controller.dither.amplitude above 0, or the key left out"},
+      {.keys = {"initial.holding"},
+       .depends_on = {"disturbance.torque"},
+       .has_effect = [](Limits l) { return l[0].low != 0.0 || l[0].high != 0.0; },
+       .what = "it has no effect: disturbance.torque is 0 at every point",
+       .warn_only = true},
       rule_of_an_error("encoder.coarse_errors.eccentricity_angle", "encoder.coarse_errors.eccentricity"),
       rule_of_an_error("encoder.coarse_errors.interpolation_period", "encoder.coarse_errors.interpolation"),
   };
@@ -124,6 +154,8 @@ struct PhaseNames {
   std::string_view structure, kp, ki, kd, cascade, cascade_ki;
   std::string_view deadband, enter, leave, zone, leak, cutoff;
   std::string_view feedforward, bandwidth, inertia;
+  std::string_view form, band, leave_hold, hold_dwell, enter_hold, standstill, standstill_band,
+      standstill_dwell, standstill_kp, standstill_ki, standstill_kd;
 };
 
 constexpr PhaseNames one_phase{"controller.structure",
@@ -140,7 +172,18 @@ constexpr PhaseNames one_phase{"controller.structure",
                                "controller.derivative_cutoff",
                                "controller.feedforward",
                                "controller.observer.bandwidth",
-                               "controller.observer.inertia"};
+                               "controller.observer.inertia",
+                               "controller.error_deadband.form",
+                               "controller.error_deadband.band",
+                               "controller.hold.leave",
+                               "controller.hold.dwell",
+                               "controller.hold.enter",
+                               "controller.standstill",
+                               "controller.standstill.band",
+                               "controller.standstill.dwell",
+                               "controller.standstill.kp",
+                               "controller.standstill.ki",
+                               "controller.standstill.kd"};
 constexpr PhaseNames coarse_phase{"controller.coarse.structure",
                                   "controller.coarse.kp",
                                   "controller.coarse.ki",
@@ -155,7 +198,18 @@ constexpr PhaseNames coarse_phase{"controller.coarse.structure",
                                   "controller.coarse.derivative_cutoff",
                                   "controller.coarse.feedforward",
                                   "controller.coarse.observer.bandwidth",
-                                  "controller.coarse.observer.inertia"};
+                                  "controller.coarse.observer.inertia",
+                                  "controller.coarse.error_deadband.form",
+                                  "controller.coarse.error_deadband.band",
+                                  "controller.coarse.hold.leave",
+                                  "controller.coarse.hold.dwell",
+                                  "controller.coarse.hold.enter",
+                                  "controller.coarse.standstill",
+                                  "controller.coarse.standstill.band",
+                                  "controller.coarse.standstill.dwell",
+                                  "controller.coarse.standstill.kp",
+                                  "controller.coarse.standstill.ki",
+                                  "controller.coarse.standstill.kd"};
 
 // Rules of the blocks of one phase. If a gain may be 0 on purpose, as in a sweep, only warnings.
 std::vector<EffectRule> rules_of_the_blocks(const PhaseNames& of) {
@@ -165,7 +219,28 @@ std::vector<EffectRule> rules_of_the_blocks(const PhaseNames& of) {
   const auto has_integral = [is_cascade](Limits l) {
     return can_be_positive(is_cascade(l[0]) ? l[2] : l[1]);
   };
+  const auto is_given = [](Limits l) { return l[0].high >= 0.0; };
   return {
+      {.keys = {of.form},
+       .depends_on = {of.band},
+       .has_effect = is_given,
+       .what = "it has no effect: no point has a dead zone of the error",
+       .expected = fmt::format("{} too, or the key left out", of.band)},
+      {.keys = {of.leave_hold, of.hold_dwell},
+       .depends_on = {of.enter_hold},
+       .has_effect = is_given,
+       .what = "it has no effect: the torque is never held",
+       .expected = fmt::format("{} too, or the key left out", of.enter_hold)},
+      {.keys = {of.standstill_dwell, of.standstill_kp, of.standstill_ki, of.standstill_kd},
+       .depends_on = {of.standstill_band},
+       .has_effect = is_given,
+       .what = "it has no effect: no point has gains at standstill",
+       .expected = fmt::format("{} too, or the key left out", of.standstill_band)},
+      {.keys = {of.standstill},
+       .depends_on = {of.structure},
+       .has_effect = [is_cascade](Limits l) { return !is_cascade(l[0]); },
+       .what = "it has no effect: the control is a cascade at every point",
+       .expected = fmt::format("{}: pid, or the key left out", of.structure)},
       {.keys = {of.kp, of.ki, of.kd},
        .depends_on = {of.structure},
        .has_effect = [is_cascade](Limits l) { return !is_cascade(l[0]); },
@@ -324,9 +399,15 @@ std::vector<EffectRule> rules_of_vanished_terms() {
   };
 }
 
+bool has_ripple(const study::StudyPlan& plan) {
+  return std::any_of(plan.table.rows.begin(), plan.table.rows.end(), [](const auto& row) {
+    return parameters::has_value(row) && row.name.starts_with("disturbance.ripple.");
+  });
+}
+
 // The position on the rotor selects from friction profiles and from encoder errors fixed to the rotor.
 EffectRule rule_of_the_position(const study::StudyPlan& plan) {
-  const bool has_profile = !plan.profiles.empty();
+  const bool has_profile = !plan.profiles.empty() || has_ripple(plan);
   return {
       .keys = {"initial.position"},
       .depends_on = {"encoder.fine_errors.eccentricity", "encoder.fine_errors.interpolation",
@@ -334,8 +415,8 @@ EffectRule rule_of_the_position(const study::StudyPlan& plan) {
       .has_effect =
           [has_profile](Limits l) { return has_profile || std::any_of(l.begin(), l.end(), can_be_positive); },
       .what =
-          "it has no effect: nothing varies along the $track, neither a friction profile nor an eccentricity "
-          "or interpolation error of an encoder",
+          "it has no effect: nothing varies along the $track, neither a friction profile, a ripple nor an "
+          "eccentricity or interpolation error of an encoder",
       .off_at_zero = true,
       .warn_only = true};
 }

@@ -119,6 +119,61 @@ std::vector<ValueRule> rules_of_two_phases(const std::string& derivative_unit) {
   };
 }
 
+// The contact that carries the constant disturbance at the start.
+std::vector<ValueRule> rules_of_holding(const std::string& torque_unit) {
+  enum : std::size_t { holding, torque, breakaway, ratio, model, preload, reversals, integral };
+  return {
+      {{"initial.holding", "disturbance.torque", "friction.breakaway", "friction.coulomb_ratio",
+        "friction.model", "initial.preload", "initial.history.reversals", "initial.integral"},
+       false,
+       [torque_unit](Limits l, Limits) -> Faults {
+         if (l[holding].high == 0.0) return {};
+         const auto law = static_cast<friction::FrictionModel>(static_cast<int>(l[model].low));
+         if (law == friction::FrictionModel::none)
+           return {{"nothing holds an axis without friction", "another friction.model, or the key left out"}};
+         Faults faults;
+         const double largest = max_abs(l[torque]);
+         // The bristle of dahl yields at the Coulomb level.
+         const double level = l[breakaway].low * (law == friction::FrictionModel::dahl ? l[ratio].low : 1.0);
+         if (largest >= level && largest > 0.0)
+           faults.push_back({fmt::format("a disturbance of {} {} can reach the friction of {} {} that is to "
+                                         "hold it",
+                                         largest, torque_unit, level, torque_unit),
+                             "|disturbance.torque| below friction.breakaway"});
+         if (max_abs(l[preload]) > 0.0 || l[reversals].high > 0.0 || max_abs(l[integral]) > 0.0)
+           faults.push_back({"the contact has been loaded from virgin to the disturbance and nothing else",
+                             "initial.preload, initial.history and initial.integral of 0"});
+         return faults;
+       }},
+  };
+}
+
+std::vector<ValueRule> rules_of_the_clock() {
+  return {{{"controller.jitter", "controller.sample_rate"},
+           false,
+           [](Limits l, Limits) -> Faults {
+             if (l[0].high == 0.0 || l[0].high * l[1].high < 1.0) return {};
+             return {{fmt::format("a sample can be {} s late, a whole sample time at {} Hz", l[0].high,
+                                  l[1].high),
+                      "less than 1/controller.sample_rate"}};
+           }},
+          {{"controller.dither.frequency", "controller.sample_rate", "controller.dither.amplitude"},
+           false,
+           [](Limits l, Limits) -> Faults {
+             if (l[2].high == 0.0 || l[0].high <= 0.5 * l[1].low) return {};
+             return {{fmt::format("{} Hz can be more than half the sample rate, {} Hz", l[0].high, l[1].low),
+                      "at most half of controller.sample_rate"}};
+           }}};
+}
+
+ValueRule order_of_hold(std::string_view leave, std::string_view enter) {
+  return {{leave, enter}, false, [](Limits l, Limits) -> Faults {
+            if (l[0].high < 0.0 || l[0].low >= l[1].high) return {};
+            return {{fmt::format("the hold can end at {} counts and begin at {}", l[0].low, l[1].high),
+                     "at least the |error| with which it begins"}};
+          }};
+}
+
 /// Rules of the blocks of one phase, by the names of their parameters.
 std::vector<ValueRule> rules_of_blocks(std::string_view enter, std::string_view leave, std::string_view zone,
                                        std::string_view bandwidth) {
@@ -161,7 +216,11 @@ std::vector<ValueRule> value_rules(const study::StudyPlan& plan) {
   add(rules_of_the_start(parameters::unit_on(plan.units.axis, "N m")));
   static const parameters::Parameter& kd =
       parameters::parameter_table()[parameters::find_parameter("controller.kd").value()];
+  add(rules_of_holding(parameters::unit_on(plan.units.axis, "N m")));
+  add(rules_of_the_clock());
   if (!plan.open_loop) {
+    add({order_of_hold("controller.hold.leave", "controller.hold.enter"),
+         order_of_hold("controller.coarse.hold.leave", "controller.coarse.hold.enter")});
     add(rules_of_two_phases(parameters::unit_of(kd, plan.units)));
     add(rules_of_blocks("controller.deadband.enter", "controller.deadband.leave",
                         "controller.integrator_zone", "controller.observer.bandwidth"));

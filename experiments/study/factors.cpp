@@ -20,11 +20,16 @@ bool is_drawn_somewhere(const StudyPlan& plan, std::size_t slot) {
 // Whether trials use random numbers while they run; see core/random/trial_randomness.hpp.
 bool draws_within_trials(const StudyPlan& plan) {
   const auto above_zero = [](const ValueLimits& limits) { return limits.high > 0.0; };
-  constexpr std::array<std::string_view, 5> noises{"encoder.fine_errors.noise", "encoder.fine_errors.missed",
+  constexpr std::array<std::string_view, 7> noises{"encoder.fine_errors.noise",
+                                                   "encoder.fine_errors.missed",
                                                    "encoder.coarse_errors.noise",
-                                                   "encoder.coarse_errors.missed", "dac.noise"};
+                                                   "encoder.coarse_errors.missed",
+                                                   "dac.noise",
+                                                   "controller.missed",
+                                                   "controller.jitter"};
   constexpr std::array<std::string_view, 2> history{"initial.history.reversals", "initial.history.torque"};
-  return holds_somewhere(
+  return !plan.common.disturbance.spectra.empty() ||
+         holds_somewhere(
              plan, history,
              [&](std::span<const ValueLimits> l) { return std::all_of(l.begin(), l.end(), above_zero); }) ||
          std::any_of(noises.begin(), noises.end(),

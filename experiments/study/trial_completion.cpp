@@ -33,6 +33,8 @@ void complete_trial(const parameters::StudyUnits& units, trial::TrialParameters&
     case parameters::GainUnits::si:
       convert_gains(trial.controller, trial);
       convert_gains(trial.controller.coarse, trial);
+      convert_gains(trial.controller.blocks.standstill, trial);
+      convert_gains(trial.controller.coarse.blocks.standstill, trial);
       break;
   }
 }

@@ -36,7 +36,13 @@ void with_finer_encoder(trial::TrialParameters& p) {
   p.controller.kd /= ratio;
   p.controller.blocks.deadband.enter *= p.controller.blocks.deadband.enter > 0.0 ? ratio : 1.0;
   p.controller.blocks.deadband.leave *= p.controller.blocks.deadband.leave > 0.0 ? ratio : 1.0;
-  p.controller.blocks.integrator_zone *= ratio;
+  loop::ControlBlocks& blocks = p.controller.blocks;
+  blocks.integrator_zone *= ratio;
+  for (double* const band :
+       {&blocks.error_deadband.band, &blocks.hold.enter, &blocks.hold.leave, &blocks.standstill.band})
+    *band *= *band > 0.0 ? ratio : 1.0;
+  for (double* const gain : {&blocks.standstill.kp, &blocks.standstill.ki, &blocks.standstill.kd})
+    *gain /= ratio;
   for (std::int64_t& target : p.command.targets) target *= whole_ratio;
   for (std::size_t b = 0; b < p.verdict.bands.count; ++b)
     p.verdict.bands.limits[b] = whole_ratio * p.verdict.bands.limits[b] + whole_ratio / 2;
@@ -46,6 +52,8 @@ void with_twice_the_rate(trial::TrialParameters& p) {
   p.controller.sample_rate *= 2.0;
   p.controller.ki /= 2.0;
   p.controller.kd *= 2.0;
+  p.controller.blocks.standstill.ki /= 2.0;
+  p.controller.blocks.standstill.kd *= 2.0;
 }
 
 void without_delay(trial::TrialParameters& p) {
@@ -59,6 +67,23 @@ void without_noise(trial::TrialParameters& p) {
   p.dac.noise = 0.0;
 }
 
+void without_disturbance(trial::TrialParameters& p) {
+  p.disturbance = {};
+  p.initial.holding = false;
+}
+
+void with_a_regular_clock(trial::TrialParameters& p) {
+  p.controller.missed = 0.0;
+  p.controller.jitter = 0.0;
+}
+
+bool has_disturbance(const trial::TrialParameters& p) {
+  return p.disturbance.torque != 0.0 || !p.disturbance.ripple.empty() || !p.disturbance.vibration.empty() ||
+         !p.disturbance.spectra.empty();
+}
+bool has_irregular_clock(const trial::TrialParameters& p) {
+  return p.controller.missed > 0.0 || p.controller.jitter > 0.0;
+}
 bool has_delay(const trial::TrialParameters& p) {
   return p.controller.delay > 0.0 || p.amplifier.bandwidth > 0.0;
 }
@@ -92,6 +117,8 @@ constexpr Cause causes[] = {
     {"twice the sample rate", is_plain, with_twice_the_rate},
     {"no delay, no amplifier lag", has_delay, without_delay},
     {"no noise", has_noise, without_noise},
+    {"no disturbance", has_disturbance, without_disturbance},
+    {"no missed or late samples", has_irregular_clock, with_a_regular_clock},
 };
 
 }  // namespace

@@ -16,7 +16,9 @@ from controller_judge import codes_of  # noqa: E402
 PROGRAM = sys.argv[1]
 OFF = {"structure": "pid", "cascade": {"kv": 150, "kp": 0.4, "ki": 60}, "deadband": {"enter": None, "leave": None},
        "integrator_zone": None, "integrator_leak": None, "derivative_cutoff": None, "filters": [],
-       "feedforward": {"velocity": 0, "acceleration": 0, "friction": 0}, "observer": {"bandwidth": 0, "inertia": 5.54e-4}}
+       "feedforward": {"velocity": 0, "acceleration": 0, "friction": 0}, "observer": {"bandwidth": 0, "inertia": 5.54e-4},
+       "error_deadband": {"band": None, "form": "zero"}, "hold": {"enter": None, "leave": None, "dwell": 0},
+       "standstill": {"band": None, "dwell": 0, "kp": 0, "ki": 0, "kd": 0}}
 DEFAULTS = {
     "encoder": {"fine": 1620000, "coarse": 86400},
     "dac": {"bits": 12, "resolution": 2.4e-4},

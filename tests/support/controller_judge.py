@@ -113,6 +113,8 @@ class Chain:
         self.inside = False
         self.first = self.last_count = None
         self.last_e = self.last_w = self.d = self.added = self.estimate = 0.0
+        self.fresh = True  # the next sample is the chain's first
+        self.holding, self.hold_run, self.still_run, self.wanted = False, 0, 0, 0.0
         cutoff = phase["derivative_cutoff"]
         self.a = 0.0 if cutoff is None else math.exp(-2 * math.pi * cutoff * T)
         self.filters = [make_filter(element, T) for element in phase["filters"]]
@@ -143,6 +145,37 @@ class Chain:
         zone = self.p["integrator_zone"]
         return not self.inside and (zone is None or abs(e) <= zone)
 
+    def acting(self, e):
+        """The error with its dead zone."""
+        zone = self.p["error_deadband"]
+        if zone["band"] is None:
+            return e
+        if abs(e) <= zone["band"]:
+            return 0.0
+        return e - math.copysign(zone["band"], e) if zone["form"] == "subtract" else e
+
+    def dwell(self, seconds):
+        return max(1, math.floor(seconds / self.T + 0.5))
+
+    def stands_still(self, e, new_target):
+        rule = self.p["standstill"]
+        if rule["band"] is None:
+            return False
+        before = 0 if new_target else self.still_run
+        self.still_run = before + 1 if abs(e) <= rule["band"] else 0
+        return self.still_run >= self.dwell(rule["dwell"]) and not new_target
+
+    def holds(self, e, new_target):
+        rule = self.p["hold"]
+        fresh, self.fresh = new_target or self.fresh, False
+        if rule["enter"] is None:
+            return False
+        before = 0 if fresh else self.hold_run
+        self.hold_run = before + 1 if abs(e) <= rule["enter"] else 0
+        goes_on = self.holding and abs(e) <= max(rule["enter"], -1 if rule["leave"] is None else rule["leave"])
+        self.holding = not fresh and (goes_on or self.hold_run >= self.dwell(rule["dwell"]))
+        return self.holding
+
     def velocity_error(self, e):
         return self.p["cascade"]["kv"] * self.dx * e - self.d * self.dx / self.T
 
@@ -151,7 +184,8 @@ class Chain:
 
     def rest(self, count, e, in_force, velocity, acceleration):
         self.watch(count, e, in_force, velocity, acceleration)
-        self.remember(e)
+        self.remember(self.acting(e))
+        self.fresh, self.still_run = True, 0
 
     def take_over(self, torque):
         torque = torque + self.estimate - self.added
@@ -159,21 +193,30 @@ class Chain:
             torque = each.settle(torque)
         self.integral = torque
 
-    def decide(self, count, e, in_force, velocity, acceleration):
+    def decide(self, count, e, in_force, velocity, acceleration, new_target):
+        still = self.stands_still(e, new_target)
+        if self.holds(e, new_target):
+            self.last_count = count
+            self.remember(self.acting(e))
+            return self.wanted
         changes = self.watch(count, e, in_force, velocity, acceleration)
         p = self.p
+        e = self.acting(e)
+        gains = p["standstill"] if still else p
+        kp, ki, kd = gains["kp"], gains["ki"], gains["kd"]
         cascade = p["structure"] == "cascade"
         w = self.velocity_error(e)
-        increment = (p["cascade"]["ki"] * self.T / 2 * (w + self.last_w) if cascade else p["ki"] * (e + self.last_e))
+        increment = (p["cascade"]["ki"] * self.T / 2 * (w + self.last_w) if cascade else ki * (e + self.last_e))
         if changes:
             tau = p["integrator_leak"]
             left = 1.0 if tau is None else math.exp(-self.T / tau)
             self.integral = min(max(left * self.integral + increment, self.range[0]), self.range[1])
-        u = self.integral + (p["cascade"]["kp"] * w if cascade else p["kp"] * e - p["kd"] * self.d)
+        u = self.integral + (p["cascade"]["kp"] * w if cascade else kp * e - kd * self.d)
         self.remember(e)
         for each in self.filters:
             u = each(u)
-        return u + self.added - self.estimate
+        self.wanted = u + self.added - self.estimate
+        return self.wanted
 
 
 class Controller:
@@ -193,6 +236,7 @@ class Controller:
                        "coarse": Chain(c["coarse"], self.T, self.dx, integral, limits)}
         self.phase, self.settled, self.last_coarse, self.in_force = "fine", 0, None, 0.0
         self.started = False
+        self.last_target = None
 
     def change_phase(self, errors, counts):
         rule = self.p["controller"]["coarse"]
@@ -209,7 +253,7 @@ class Controller:
         changed, self.phase = new != self.phase and self.started, new
         return changed
 
-    def decide(self, reference, velocity, acceleration, fine_count, coarse_count):
+    def decide(self, reference, velocity, acceleration, fine_count, coarse_count, target):
         """The wanted torque."""
         c = self.p["controller"]
         of = {"fine": float(fine_count), "coarse": coarse_count * self.fine_per_coarse}
@@ -222,8 +266,10 @@ class Controller:
         for phase, chain in self.chains.items():
             if phase != self.phase:
                 chain.rest(counts[phase], errors[phase], self.in_force, velocity, acceleration)
+        new_target = self.last_target is not None and self.last_target != target
+        self.last_target = target
         return self.chains[self.phase].decide(counts[self.phase], errors[self.phase], self.in_force, velocity,
-                                              acceleration)
+                                              acceleration, new_target)
 
 
 def codes_of(parameters, samples):
@@ -245,7 +291,7 @@ def codes_of(parameters, samples):
         if abs(abs(position - math.floor(position)) - 0.5) < 1e-6:
             towards = start if t < motion.duration / 2 else target
             nearest = math.floor(position) if towards < position else math.ceil(position)
-        wanted = controller.decide(nearest, velocity, acceleration, count, coarse_count) / controller.du
+        wanted = controller.decide(nearest, velocity, acceleration, count, coarse_count, target) / controller.du
         code = int(min(max(np.rint(wanted), controller.low), controller.high))
         controller.in_force = code * controller.du
         margin = abs(wanted - math.floor(wanted) - 0.5) if controller.low < wanted < controller.high else 0.5

@@ -18,6 +18,12 @@ std::vector<trial::TrialParameters> trials_with(BlockKind kind, int count) {
     trials.push_back(trial_for_lanes(i % 4 == 0 ? TrialKind::ringing : TrialKind::calm, 83000 + number));
     trial::TrialParameters& p = trials.back();
     p.controller.blocks = draw.blocks(kind, p.controller.sample_rate);
+    if (kind == BlockKind::all && i % 3 == 0)
+      p.controller.dither = {draw.log_uniform(1e-5, 3e-3),
+                             p.controller.sample_rate * draw.uniform(0.05, 0.5)};
+    p.dac.sigma_delta = kind == BlockKind::all && i % 5 == 0;
+    if (i % 7 == 0) p.disturbance.torque = draw.uniform(-0.05, 0.05);
+    p.initial.holding = i % 14 == 0 && p.initial.preload == 0.0 && p.initial.history.reversals == 0;
     if (i % 3 == 0) p.command.targets.push_back(p.command.targets.back() + 7);
     // Such that some arrive and rest.
     if (i % 2 == 0) {

@@ -24,14 +24,17 @@ constexpr motion::MotionTolerance tolerance{1e-11 * count, 1e-8 * count};
 class Answers {
  public:
   template <class Law>
-  Json motion(friction::FrictionModel model, bool loaded) {
+  Json motion(friction::FrictionModel model, bool loaded, bool disturbed) {
     motion::PlantParameters rotor{.inertia = power_of_ten(-3.7, -2.7),
                                   .presliding_damping = power_of_ten(-2.0, 0.0),
                                   .sliding_damping = power_of_ten(-3.0, -1.0)};
     if (loaded) rotor.load = {power_of_ten(-4.0, -2.5), power_of_ten(2.5, 4.5), power_of_ten(-3.0, -0.5)};
     friction::FrictionAlongRotor friction = contact(model);
-    const motion::PlantStart start = beginning(friction);
+    motion::PlantStart start = beginning(friction);
+    const motion::Disturbance disturbance =
+        disturbed ? disturbance_of(friction, start) : motion::Disturbance{};
     plant::PlantWith<Law> plant(rotor, friction, start, tolerance);
+    plant.disturb(disturbance);
     Json samples = Json::array();
     motion::TorqueCourse course;
     const bool lags = random_() % 3 == 0;
@@ -75,10 +78,43 @@ class Answers {
             {"velocity", start.velocity},
             {"slides", start.sliding},
             {"sample_time", sample_time},
+            {"disturbance", waves_of(disturbance)},
+            {"holding", start.holding},
             {"samples", samples}};
   }
 
  private:
+  /// A constant torque, held from the start now and then, ripples and vibrations.
+  motion::Disturbance disturbance_of(const friction::FrictionAlongRotor& friction,
+                                     motion::PlantStart& start) {
+    const double breakaway = friction.uniform.breakaway;
+    motion::Disturbance disturbance;
+    if (random_() % 2 == 0) {
+      disturbance.torque = 0.4 * breakaway * uniform(-1.0, 1.0);
+      if (random_() % 2 == 0 && !start.sliding) {
+        start.holding = disturbance.torque;
+        start.preload = 0.0;
+        start.history.clear();
+      }
+    }
+    for (std::uint64_t i = random_() % 3; i > 0; --i)
+      disturbance.ripple.push_back(
+          {breakaway * power_of_ten(-3.0, -0.7), power_of_ten(0.0, 3.0), uniform(0.0, 6.0)});
+    for (std::uint64_t i = random_() % 3; i > 0; --i)
+      disturbance.vibration.push_back(
+          {breakaway * power_of_ten(-4.0, -0.7), power_of_ten(1.0, 4.0), uniform(0.0, 6.0)});
+    return disturbance;
+  }
+
+  static Json waves_of(const motion::Disturbance& disturbance) {
+    Json ripple = Json::array();
+    for (const motion::Ripple& r : disturbance.ripple) ripple.push_back({r.amplitude, r.per_angle, r.phase});
+    Json vibration = Json::array();
+    for (const motion::Vibration& v : disturbance.vibration)
+      vibration.push_back({v.amplitude, v.rate, v.phase});
+    return {{"torque", disturbance.torque}, {"ripple", ripple}, {"vibration", vibration}};
+  }
+
   friction::FrictionAlongRotor contact(friction::FrictionModel model) {
     friction::FrictionAlongRotor friction;
     friction.model = model;
@@ -119,7 +155,7 @@ class Answers {
   static std::vector<double> loads_of(const motion::PlantStart& start) {
     std::vector<double> loads{start.preload, 0.0};
     loads.insert(loads.end(), start.history.begin(), start.history.end());
-    loads.push_back(0.0);
+    loads.push_back(start.holding);
     return loads;
   }
 
@@ -142,13 +178,14 @@ int main(int, char** arguments) {
   const int motions = std::atoi(arguments[1]);
   for (int i = 0; i < motions; ++i) {
     const bool loaded = i % 2 == 1;
-    cases.push_back(answers.motion<friction::DahlFriction>(Model::dahl, loaded));
-    cases.push_back(answers.motion<friction::LuGreFriction>(Model::lugre, loaded));
-    cases.push_back(answers.motion<friction::GmsFriction>(Model::gms, loaded));
-    cases.push_back(answers.motion<friction::CoulombFriction>(Model::coulomb, loaded));
-    cases.push_back(answers.motion<friction::NoFriction>(Model::none, loaded));
-    cases.push_back(answers.motion<friction::PreslidingFriction>(Model::presliding, loaded));
-    cases.push_back(answers.motion<friction::SpringFriction>(Model::spring, loaded));
+    const bool disturbed = i % 4 >= 2;
+    cases.push_back(answers.motion<friction::DahlFriction>(Model::dahl, loaded, disturbed));
+    cases.push_back(answers.motion<friction::LuGreFriction>(Model::lugre, loaded, disturbed));
+    cases.push_back(answers.motion<friction::GmsFriction>(Model::gms, loaded, disturbed));
+    cases.push_back(answers.motion<friction::CoulombFriction>(Model::coulomb, loaded, disturbed));
+    cases.push_back(answers.motion<friction::NoFriction>(Model::none, loaded, disturbed));
+    cases.push_back(answers.motion<friction::PreslidingFriction>(Model::presliding, loaded, disturbed));
+    cases.push_back(answers.motion<friction::SpringFriction>(Model::spring, loaded, disturbed));
   }
   std::cout << cases.dump() << '\n';
 }

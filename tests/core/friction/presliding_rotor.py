@@ -87,7 +87,8 @@ class Presliding(Rotor):
             hardening = self.case["hardening"]
             for torque in self.case["loads"]:
                 x = self.spring.load(x, torque)
-            self.spring.side = 0  # the last of them was 0
+            if self.case["holding"] == 0:
+                self.spring.side = 0  # the last load was 0
             self.creeps = self.alpha > 0 and self.limit(x) >= hardening
         self.hook = -x
         return np.array([x, w, 0.0, hardening, 0.0, w])
@@ -144,11 +145,11 @@ class Presliding(Rotor):
         rate, acceleration = self.elongation_rate(y), self.elongation_acceleration(t, y)
         fastest = np.sqrt((self.spring.k1 + self.spring.k2) / self.case["inertia"])
         now, settled, torque_rate = self.course
-        steady = torque_rate == 0 or now == settled
+        steady = not self.varies and (torque_rate == 0 or now == settled)
         self.rests = steady and abs(rate) < QUIET * fastest and abs(acceleration) < QUIET * fastest**2
         if self.rests:
             return
-        heading = settled - now
+        heading = self.drive_heads(t, y) if self.varies else settled - now
         if abs(rate) > QUIET * fastest:
             heading = rate
         elif abs(acceleration) > 1e-3 * QUIET * fastest**2:

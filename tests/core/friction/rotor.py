@@ -8,6 +8,10 @@ from scipy.integrate import solve_ivp
 COUNT = 3.878509448876288e-06  # rad
 
 
+class Stuck(Exception):
+    """The judge restarts at kinks without end, where rounding decides the direction of a motion of no size."""
+
+
 class Rotor:
     """State y = [θ, ω, bristle or element torques ..., twist δ of the coupling, ωL]; s is the sign of ω from now on."""
 
@@ -17,6 +21,8 @@ class Rotor:
         self.Fc = case["coulomb_ratio"] * self.Fs
         self.stribeck = 0.0 if case["model"] == "dahl" else self.Fs - self.Fc
         self.course = (0.0, 0.0, 0.0)
+        self.time = 0.0
+        self.varies = bool(case["disturbance"]["ripple"] or case["disturbance"]["vibration"])
         self.s = 0
 
     def level(self, w):
@@ -31,9 +37,21 @@ class Rotor:
             return [0.0, 0.0]
         return [y[1] - y[-1], self.coupling(y) / self.case["load_inertia"]]
 
+    def disturbance(self, t, y):
+        waves = self.case["disturbance"]
+        along = sum(a * np.sin(q * self.theta(y) + phase) for a, q, phase in waves["ripple"])
+        return waves["torque"] + along + sum(a * np.sin(w * (self.time + t) + phase) for a, w, phase in waves["vibration"])
+
     def drive(self, t, y):
         now, settled, rate = self.course
-        return settled + (now - settled) * np.exp(-rate * t) - self.coupling(y)
+        return settled + (now - settled) * np.exp(-rate * t) + self.disturbance(t, y) - self.coupling(y)
+
+    def drive_heads(self, t, y):
+        """The sign of the rate of the drive, where it alone decides the direction."""
+        e = 1e-7
+        ahead = y.copy()
+        ahead[0] += e * y[1]
+        return np.sign(self.course[1] - self.course[0]) or np.sign(self.disturbance(t + e, ahead) - self.disturbance(t, y))
 
     def theta(self, y):
         return y[0]
@@ -51,7 +69,9 @@ class Rotor:
     def stands(self, y):
         """So little motion is left under a constant torque that the judge does not see it."""
         now, settled, rate = self.course
-        excess = abs(now - self.torque(y)) / self.stiffness()
+        if self.varies:
+            return False
+        excess = abs(now + self.case["disturbance"]["torque"] - self.torque(y)) / self.stiffness()
         inner = abs(y[1]) * np.sqrt(self.case["inertia"] / self.stiffness())
         if self.case["load_inertia"]:
             inner += abs(y[-2]) * self.case["load_stiffness"] / self.stiffness() + abs(y[-1]) / 100
@@ -59,17 +79,22 @@ class Rotor:
 
     def advance(self, y, duration):
         t = 0.0
+        restarts = 0
         while t < duration:
+            restarts += 1
+            if self.varies and restarts > 200:
+                raise Stuck
             if self.stands(y):
                 return y
             if y[1] != 0:
                 self.s = np.sign(y[1])
             else:
-                self.s = np.sign(self.drive(t, y) - self.torque(y)) or np.sign(self.course[1] - self.course[0])
+                self.s = np.sign(self.drive(t, y) - self.torque(y)) or self.drive_heads(t, y)
             self.begin(t, y)
             scale = [1e-6 * COUNT, 1e-4 * COUNT] + self.scales() + [1e-7 * COUNT, 1e-4 * COUNT]
             solution = solve_ivp(self.rate, (t, duration), y, method="DOP853", rtol=1e-12, atol=1e-6 * np.array(scale),
-                                 events=self.events(), max_step=duration / 10)
+                                 events=self.events(), max_step=duration / 10,
+                                 first_step=min(1e-9, duration - t) if self.varies else None)
             if not solution.success:
                 sys.exit(f"{solution.message}: {self.case['model']}")
             t, y = solution.t[-1], solution.y[:, -1]

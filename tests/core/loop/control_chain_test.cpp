@@ -146,7 +146,7 @@ struct EachBlock<std::tuple<Blocks...>> {
 };
 
 TEST(ControlChain, TheLinearFormOfEveryBlockIsWhatItDoes) {
-  EachBlock<ControlChain::List>::expect_linear_forms();
+  EachBlock<ControlBlockChain::List>::expect_linear_forms();
   EachBlock<std::tuple<Pid, Cascade, LowPass>>::expect_linear_forms();
 }
 

@@ -41,6 +41,15 @@ inline void add_blocks(nlohmann::ordered_json& to, const loop::ControlBlocks& b)
                        {"acceleration", b.feedforward.acceleration},
                        {"friction", b.feedforward.friction}};
   to["observer"] = {{"bandwidth", b.observer.bandwidth}, {"inertia", b.observer.inertia}};
+  to["error_deadband"] = {{"band", limit_json(b.error_deadband.band)},
+                          {"form", b.error_deadband.form == loop::DeadbandForm::zero ? "zero" : "subtract"}};
+  to["hold"] = {
+      {"enter", limit_json(b.hold.enter)}, {"leave", limit_json(b.hold.leave)}, {"dwell", b.hold.dwell}};
+  to["standstill"] = {{"band", limit_json(b.standstill.band)},
+                      {"dwell", b.standstill.dwell},
+                      {"kp", b.standstill.kp},
+                      {"ki", b.standstill.ki},
+                      {"kd", b.standstill.kd}};
 }
 
 /// The controller in the form of a manifest.

@@ -9,10 +9,25 @@
 namespace zerocount::testing {
 
 /// Which blocks of a controller are random: one kind of them, or all of them now and then.
-enum class BlockKind { none, deadband, zone, leak, derivative, filters, feedforward, observer, cascade, all };
-inline constexpr int block_kinds = 10;
+enum class BlockKind {
+  none,
+  deadband,
+  zone,
+  leak,
+  derivative,
+  filters,
+  feedforward,
+  observer,
+  cascade,
+  error_deadband,
+  hold,
+  standstill,
+  all
+};
+inline constexpr int block_kinds = 13;
 inline constexpr const char* block_kind_names[block_kinds] = {
-    "none", "deadband", "zone", "leak", "derivative", "filters", "feedforward", "observer", "cascade", "all"};
+    "none",     "deadband", "zone",           "leak", "derivative", "filters", "feedforward",
+    "observer", "cascade",  "error deadband", "hold", "standstill", "all"};
 
 /// Blocks with which a loop about the paper's rig often stays within the converter's range.
 class RandomBlocks {
@@ -62,7 +77,21 @@ class RandomBlocks {
       b.structure = loop::ControlStructure::cascade;
       b.cascade = {log_uniform(10.0, 200.0), log_uniform(0.02, 0.3), some(log_uniform(0.5, 20.0))};
     }
+    if (has(BlockKind::error_deadband))
+      b.error_deadband = {static_cast<double>(random_() % 4), static_cast<loop::DeadbandForm>(random_() % 2)};
+    if (has(BlockKind::hold)) {
+      const auto enter = static_cast<double>(random_() % 3);
+      b.hold = {enter, enter + static_cast<double>(random_() % 3), dwell(sample_rate)};
+    }
+    if (has(BlockKind::standstill))
+      b.standstill = {static_cast<double>(random_() % 3), dwell(sample_rate), some(log_uniform(1e-5, 5e-4)),
+                      some(log_uniform(1e-6, 1e-4)), some(log_uniform(1e-5, 1e-3))};
     return b;
+  }
+
+  /// A few samples, or one.
+  double dwell(double sample_rate) {
+    return chance(0.3) ? 0.0 : static_cast<double>(random_() % 20) / sample_rate;
   }
 
  private:

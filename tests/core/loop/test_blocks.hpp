@@ -17,6 +17,7 @@ class LowPass {
     return output_;
   }
   static void observe(const loop::Feedback&) {}
+  static void pause(const loop::Feedback&) {}
   double take_over(double torque) { return output_ = torque; }
   static loop::LinearChain linear() { return {{{loop::LoopSignal::torque, {{1.0 - decay}, {1.0, -decay}}}}}; }
 
@@ -31,6 +32,7 @@ class TorqueFeedback {
 
   static double step(const loop::Feedback& now, double torque) { return torque - 0.25 * now.torque_in_force; }
   static void observe(const loop::Feedback&) {}
+  static void pause(const loop::Feedback&) {}
   static double take_over(double torque) { return torque; }
   static loop::LinearChain linear() {
     return {{{loop::LoopSignal::torque, {{1.0}}}, {loop::LoopSignal::torque_in_force, {{-0.25}}}}};

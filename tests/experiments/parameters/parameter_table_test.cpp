@@ -20,7 +20,7 @@ TEST(ParameterTable, DefaultsAreThoseOfThisVersionOfResultsFiles) {
     if (!exists_on(parameter, AxisKind::rotary)) continue;
     defaults += std::string(parameter.name) + "=" + default_text(parameter) + "\n";
   }
-  EXPECT_EQ(hash::sha256_hex(defaults), "4464cb5f36eef4e552ba72e6ab1684500541271cb41d8b46109ced7cb8d2b2ef")
+  EXPECT_EQ(hash::sha256_hex(defaults), "40a0ce2fbd6997e1d6f86998b7d32a54ee7841fddc440a778b234889ca2ef33c")
       << defaults;
 }
 
@@ -69,7 +69,7 @@ TEST(ParameterTable, OnlyListsTheirElementsAndALinearEncoderHaveNoDefault) {
 TEST(ParameterTable, EachRowWritesItsOwnFieldAndNoOther) {
   const auto table = parameter_table();
   for (std::size_t row = 0; row < table.size(); ++row) {
-    if (!has_default(table[row])) continue;
+    if (!has_default(table[row]) || !has_value(table[row])) continue;
     if (table[row].name == "dac.range") {  // a trial has the resolution that follows
       EXPECT_EQ(table[row].set, nullptr);
       continue;
@@ -78,7 +78,7 @@ TEST(ParameterTable, EachRowWritesItsOwnFieldAndNoOther) {
     const double value = table[row].kind == ParameterKind::real ? 0.75 : 1.0;
     table[row].set(changed, value);
     for (std::size_t other = 0; other < table.size(); ++other) {
-      if (!has_default(table[other])) continue;
+      if (!has_default(table[other]) || !has_value(table[other])) continue;
       EXPECT_EQ(table[other].get(changed), other == row ? value : default_value(table[other]))
           << table[other].name;
     }

@@ -1,0 +1,75 @@
+#include "core/motion/disturbance.hpp"
+
+#include "core/numerics/elementary_functions.hpp"
+
+namespace zerocount::motion {
+namespace {
+
+double angle(const Ripple& ripple, double theta) {
+  return ripple.per_angle * theta + ripple.phase;
+}
+double angle(const Vibration& line, double time) {
+  return line.rate * time + line.phase;
+}
+
+}  // namespace
+
+double value(const VaryingTorque& torque) {
+  double sum = 0.0;
+  for (const Ripple& ripple : torque.of.ripple)
+    sum += ripple.amplitude * numerics::sin(angle(ripple, torque.theta));
+  for (const Vibration& line : torque.of.vibration)
+    sum += line.amplitude * numerics::sin(angle(line, torque.time));
+  return sum;
+}
+
+double rate(const VaryingTorque& torque, double omega) {
+  double sum = 0.0;
+  for (const Ripple& ripple : torque.of.ripple)
+    sum += ripple.amplitude * ripple.per_angle * omega * numerics::cos(angle(ripple, torque.theta));
+  for (const Vibration& line : torque.of.vibration)
+    sum += line.amplitude * line.rate * numerics::cos(angle(line, torque.time));
+  return sum;
+}
+
+DisturbanceSeries::DisturbanceSeries(const VaryingTorque& torque) {
+  for (const Vibration& line : torque.of.vibration) {
+    double sine = line.amplitude * numerics::sin(angle(line, torque.time));
+    double cosine = line.amplitude * numerics::cos(angle(line, torque.time));
+    vibration_[0] += sine;
+    for (std::size_t k = 1; k <= numerics::series_order; ++k) {
+      const double step = line.rate * numerics::reciprocal[k];
+      const double next = step * cosine;  // the derivatives of sin are cos, −sin, …
+      cosine = -step * sine;
+      sine = next;
+      vibration_[k] += sine;
+    }
+  }
+  ripple_.reserve(torque.of.ripple.size());
+  for (const Ripple& ripple : torque.of.ripple) {
+    Wave wave{ripple.amplitude, ripple.per_angle, {}, {}};
+    wave.sine[0] = numerics::sin(angle(ripple, torque.theta));
+    wave.cosine[0] = numerics::cos(angle(ripple, torque.theta));
+    ripple_.push_back(wave);
+  }
+}
+
+double DisturbanceSeries::expand(const numerics::Series& omega, std::size_t k) {
+  double torque = vibration_[k];
+  for (Wave& wave : ripple_) {
+    if (k > 0) {
+      double sine = 0.0;
+      double cosine = 0.0;
+      for (std::size_t j = 0; j < k; ++j) {
+        sine += omega[j] * wave.cosine[k - 1 - j];
+        cosine -= omega[j] * wave.sine[k - 1 - j];
+      }
+      wave.sine[k] = wave.per_angle * sine * numerics::reciprocal[k];
+      wave.cosine[k] = wave.per_angle * cosine * numerics::reciprocal[k];
+    }
+    torque += wave.amplitude * wave.sine[k];
+  }
+  return torque;
+}
+
+}  // namespace zerocount::motion

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <vector>
+
+#include "core/numerics/power_series.hpp"
+
+namespace zerocount::motion {
+
+/// A torque that varies along the rotor: amplitude·sin(per_angle·θ + phase).
+struct Ripple {
+  double amplitude{0.0};  ///< N m
+  double per_angle{0.0};  ///< rad/rad (rad/m on a linear axis)
+  double phase{0.0};      ///< at θ = 0, rad
+};
+
+/// A torque that varies in time: amplitude·sin(rate·t + phase).
+struct Vibration {
+  double amplitude{0.0};  ///< N m
+  double rate{0.0};       ///< 2π·frequency, rad/s
+  double phase{0.0};      ///< at t = 0, rad
+};
+
+/// A disturbance of the rotor: d = torque + Σ ripple + Σ vibration.
+struct Disturbance {
+  double torque{0.0};  ///< N m
+  std::vector<Ripple> ripple{};
+  std::vector<Vibration> vibration{};
+};
+
+/// Whether d is not constant.
+inline bool varies(const Disturbance& disturbance) {
+  return !disturbance.ripple.empty() || !disturbance.vibration.empty();
+}
+
+/// The varying part of a disturbance, at an instant.
+struct VaryingTorque {
+  const Disturbance& of;
+  double time;   ///< t, s
+  double theta;  ///< θ, rad
+};
+
+/// Σ ripple + Σ vibration, N m.
+double value(const VaryingTorque& torque);
+
+/// Its rate of change, N m/s. @param omega ω, rad/s.
+double rate(const VaryingTorque& torque, double omega);
+
+/// The Taylor series in time of the varying part, given that of ω. With s = sin(q·θ + φ) and c its cosine,
+///
+///   ds/dt = q·ω·c,   dc/dt = −q·ω·s.
+class DisturbanceSeries {
+ public:
+  explicit DisturbanceSeries(const VaryingTorque& torque);
+
+  /// Coefficient k, N m/sᵏ, from those of ω up to k − 1. Call with ascending k.
+  double expand(const numerics::Series& omega, std::size_t k);
+
+ private:
+  struct Wave {
+    double amplitude;
+    double per_angle;
+    numerics::Series sine;
+    numerics::Series cosine;
+  };
+
+  numerics::Series vibration_{};
+  std::vector<Wave> ripple_;
+};
+
+}  // namespace zerocount::motion

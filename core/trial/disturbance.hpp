@@ -1,0 +1,57 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/motion/disturbance.hpp"
+#include "core/random/trial_randomness.hpp"
+
+namespace zerocount::trial {
+
+/// A disturbance that varies along the rotor: amplitude·sin(a + phase), with a = periods·(θ + p) or, with a
+/// pitch, 2π·(θ + p)/pitch, p the initial position.
+struct RippleParameters {
+  double amplitude{0.0};  ///< N m
+  double periods{0.0};    ///< per revolution
+  double pitch{0.0};      ///< of one period, m; 0: by `periods`
+  double phase{0.0};      ///< rad
+};
+
+/// A disturbance that varies in time: amplitude·sin(2π·frequency·t + phase).
+struct VibrationParameters {
+  double amplitude{0.0};  ///< N m
+  double frequency{0.0};  ///< Hz
+  double phase{0.0};      ///< rad
+};
+
+/// A point of a power spectral density.
+struct SpectrumPoint {
+  double frequency;  ///< Hz, above 0
+  double density;    ///< one-sided, (N m)²/Hz, not negative
+};
+
+/// A random vibration with a given spectrum, drawn anew in each trial: a sum of lines, one in each of `lines`
+/// bands of equal ratio of their ends. A line has the mean square of its band, ∫S df, with S straight between
+/// the points on logarithmic axes (on linear ones at a zero), its frequency is drawn evenly in the logarithm
+/// from the band, its phase from [0, 2π).
+struct SpectrumParameters {
+  std::vector<SpectrumPoint> density;  ///< at least two, at ascending frequencies
+  int lines{100};
+};
+
+/// The disturbance of the rotor.
+struct DisturbanceParameters {
+  double torque{0.0};  ///< constant, N m
+  std::vector<RippleParameters> ripple{};
+  std::vector<VibrationParameters> vibration{};
+  std::vector<std::shared_ptr<const SpectrumParameters>> spectra{};
+};
+
+/// ∫S df from `low` to `high` (Hz), (N m)²: the mean square of the vibration in a band. 0 outside the points.
+double mean_square(const SpectrumParameters& spectrum, double low, double high);
+
+/// The disturbance of a trial, without the terms of amplitude 0. @param position p, rad.
+motion::Disturbance disturbance_of(const DisturbanceParameters& parameters, double position,
+                                   const random::TrialRandomness& randomness);
+
+}  // namespace zerocount::trial

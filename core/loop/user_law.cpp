@@ -89,7 +89,10 @@ double UserLaw::step(const Feedback& now, double /*torque*/) {
                                 .error = now.error,
                                 .count = now.count,
                                 .reference = now.reference.position,
-                                .torque = now.torque_in_force};
+                                .torque = now.torque_in_force,
+                                .velocity = now.reference.velocity,
+                                .acceleration = now.reference.acceleration,
+                                .new_target = now.new_target ? 1 : 0};
   ++running.k;
   const double torque = running.step(running.state.get(), &running.setup, &sample);
   running.mode.restore();

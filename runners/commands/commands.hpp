@@ -36,6 +36,7 @@ Command jerks_command();
 Command judge_command();
 Command tune_command();
 Command limits_command();
+Command controller_command();
 Command worst_command();
 Command plan_command();
 Command identify_command();

@@ -78,13 +78,9 @@ struct RunRequest {
   bool force{false};
 };
 
-/// The requested engine. A plugin computes one torque at a time.
-study::Engine engine_of(const command_line::Arguments& arguments, const study::Study& study) {
-  const bool batch = arguments.choice("engine") == "batch";
-  if (!study.plugin) return batch ? study::Engine::batch : study::Engine::reference;
-  if (batch && arguments.has("engine"))
-    arguments.refuse("option '--engine': a controller plugin runs only on the reference engine");
-  return study::Engine::reference;
+/// The requested engine.
+study::Engine engine_of(const command_line::Arguments& arguments) {
+  return arguments.choice("engine") == "batch" ? study::Engine::batch : study::Engine::reference;
 }
 
 /// @throws Failure (bad_input) if --study names another study.
@@ -103,7 +99,7 @@ RunRequest run_request(const command_line::Arguments& arguments) {
   request.output = command_line::output_place(arguments);
   request.study = load_study(arguments.operands()[0], arguments, {&request.output, 1});
   require_study_of_option(arguments, request.study);
-  request.study.engine = engine_of(arguments, request.study);
+  request.study.engine = engine_of(arguments);
   const std::optional<std::string> part = arguments.value("shard");
   request.wanted = part ? part_of(arguments, *part, request.study) : layout::all_rows(request.study);
   if (request.study.stop && part) {

@@ -89,6 +89,8 @@ class ControllerAlone {
   ControllerAlone(const ControllerAlone&) = delete;
   ControllerAlone& operator=(const ControllerAlone&) = delete;
 
+  bool new_target() const { return k_ > 0 && (*inputs_)[k_].target != (*inputs_)[k_ - 1].target; }
+
   /// The wanted torque at its next sample, N m.
   double step() {
     const trial::SampleRecord& record = (*inputs_)[k_];
@@ -97,7 +99,10 @@ class ControllerAlone {
                                   .error = static_cast<double>(record.reference - record.count),
                                   .count = static_cast<double>(record.count),
                                   .reference = static_cast<double>(record.reference),
-                                  .torque = k_ == 0 ? 0.0 : (*inputs_)[k_ - 1].torque};
+                                  .torque = k_ == 0 ? 0.0 : (*inputs_)[k_ - 1].torque,
+                                  .velocity = 0.0,
+                                  .acceleration = 0.0,
+                                  .new_target = new_target() ? 1 : 0};
     ++k_;
     const double torque = functions_.step(aligned(state_), &setup_, &sample);
     mode_.restore();

@@ -68,6 +68,9 @@ typedef struct zerocount_sample {
   double count;     /* of the encoder that closes the loop, counts of the fine one */
   double reference; /* before it is rounded, counts */
   double torque; /* decided at the sample before, in whole DAC steps within the range, N m; 0 at the first */
+  double velocity;     /* of the reference before it is rounded, rad/s */
+  double acceleration; /* of the reference before it is rounded, rad/s^2 */
+  int32_t new_target;  /* 1 at the first sample with another target, otherwise 0 */
 } zerocount_sample;
 
 /* The controller. */

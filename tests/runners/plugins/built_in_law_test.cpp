@@ -68,12 +68,9 @@ TEST(BuiltInLaw, WholeRunsAreEqualToTheBit) {
   EXPECT_EQ(
       zerocount_program({"run", "built-in.yaml", "-o", "a.h5", "--engine", "reference"}, folder.path()).code,
       0);
-  const ProgramResult run = zerocount_program({"run", "plugin.yaml", "-o", "b.h5"}, folder.path());
-  EXPECT_EQ(run.code, 0);
-  EXPECT_NE(
-      run.err.find(
-          "all trials run on the reference engine, which is slower, because of a controller from a plugin"),
-      std::string::npos);
+  EXPECT_EQ(
+      zerocount_program({"run", "plugin.yaml", "-o", "b.h5", "--engine", "reference"}, folder.path()).code,
+      0);
   const reading::StudyFile a(folder / "a.h5", reading::Require::complete);
   const reading::StudyFile b(folder / "b.h5", reading::Require::complete);
   EXPECT_EQ(b.header().engine, study::Engine::reference);

@@ -1,0 +1,81 @@
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/loop/encoder.hpp"
+#include "experiments/study/study.hpp"
+#include "runners/command_line/option_values.hpp"
+#include "runners/command_line/output_place.hpp"
+#include "runners/commands/commands.hpp"
+#include "runners/commands/study_argument.hpp"
+#include "runners/controller_code/c_code.hpp"
+#include "runners/status/status.hpp"
+
+namespace zerocount::commands {
+namespace {
+
+constexpr const char* controller_help =
+    "Writes the controller of a design point as one C99 file without dependencies: its state in a\n"
+    "struct, controller_start() and controller_step(). It computes the same bits as the simulation.\n"
+    "\n"
+    "With -DZEROCOUNT_PLUGIN the file is a plugin (docs/your-own-controller.md), so that the code\n"
+    "that goes to the machine can be simulated itself.\n"
+    "\n"
+    "Example: zerocount controller my-axis.yaml --point 2 -o controller.c\n";
+
+/// Refuses a controller with drawn values, which has no gains of its own.
+void require_values(const command_line::Arguments& arguments, const study::Study& study) {
+  constexpr std::array<std::string_view, 6> sections{"controller.", "dac.bits",     "dac.resolution",
+                                                     "dac.range",   "encoder.fine", "encoder.resolution"};
+  for (const study::InputColumn& column : study.input_columns) {
+    const bool counts = std::any_of(sections.begin(), sections.end(), [&](std::string_view section) {
+      return section.ends_with('.') ? column.name.starts_with(section) : column.name == section;
+    });
+    if (counts && column.per != study::Per::study)
+      arguments.refuse(
+          fmt::format("{} is drawn, so that every machine has another controller; expected a "
+                      "number (--set {}=…)",
+                      column.name, column.name));
+  }
+}
+
+ExitCode write_controller(const command_line::Arguments& arguments) {
+  const std::string input = arguments.operands()[0];
+  const std::filesystem::path output = command_line::text_place(arguments, "output").value_or("-");
+  const study::Study study = load_study(input, arguments, std::span(&output, 1));
+  const std::int64_t point = command_line::point_option(arguments, study.point_labels).value_or(0);
+  require_values(arguments, study);
+  const trial::TrialParameters p = study::study_trial(study, point, 0).parameters;
+  if (!p.command.torque.levels.empty())
+    arguments.refuse("the loop of this study is open: it has no controller");
+  if (const std::string_view why = controller_code::why_not_writable(p.controller); !why.empty())
+    arguments.refuse(std::string(why));
+  const std::string name =
+      study.point_labels.size() > 1
+          ? fmt::format("{}, {}", study.name, study.point_labels[static_cast<std::size_t>(point)])
+          : study.name;
+  command_line::write_text(output, controller_code::c_code({p.controller, loop::fine_resolution(p.encoder),
+                                                            p.dac, p.initial.integral, name}));
+  if (output != "-") status::tell("wrote {}\n", output.string());
+  return ExitCode::success;
+}
+
+}  // namespace
+
+Command controller_command() {
+  return {{"controller",
+           "MANIFEST",
+           {{"point", "P", "the design point, by label or number; default: the first"},
+            {"output,o", "FILE", "the file to write; default: standard output"},
+            {"set", "KEY=VALUE", "override a manifest key, e.g. controller.ki=3e-5; may be repeated", true},
+            command_line::force_option()}},
+          "write the controller of a point as C",
+          controller_help,
+          write_controller};
+}
+
+}  // namespace zerocount::commands

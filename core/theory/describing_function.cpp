@@ -86,6 +86,15 @@ bool has_describing_function(friction::FrictionModel model) {
   return false;
 }
 
+double describing_function(const loop::ErrorDeadband& deadband, double amplitude) {
+  if (deadband.band <= 0.0) return 1.0;
+  if (amplitude <= deadband.band) return 0.0;
+  const double sine = deadband.band / amplitude;
+  const double overlap = sine * std::sqrt(1.0 - sine * sine);
+  const double sign = deadband.form == loop::DeadbandForm::subtract ? 1.0 : -1.0;
+  return 1.0 - 2.0 / std::numbers::pi * (std::asin(sine) + sign * overlap);
+}
+
 Complex describing_function(friction::FrictionModel model, const friction::FrictionParameters& contact,
                             const motion::PlantParameters& plant, double amplitude, double frequency) {
   friction::StribeckCurve curve = friction::stribeck_curve(contact);

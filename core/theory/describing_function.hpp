@@ -3,6 +3,7 @@
 #include <complex>
 
 #include "core/friction/parameters.hpp"
+#include "core/loop/parameters.hpp"
 #include "core/motion/parameters.hpp"
 
 namespace zerocount::theory {
@@ -22,6 +23,13 @@ std::complex<double> describing_function(friction::FrictionModel model,
                                          const friction::FrictionParameters& contact,
                                          const motion::PlantParameters& plant, double amplitude,
                                          double frequency);
+
+/// The describing function of a dead zone of the error, dimensionless: with sin φ = band/A,
+///
+///   zero      1 − 2/π·(φ − sin φ·cos φ),      subtract   1 − 2/π·(φ + sin φ·cos φ),
+///
+/// and 0 for A ≤ band (Gelb and Vander Velde, appendix B). @param amplitude A of the error, counts.
+double describing_function(const loop::ErrorDeadband& deadband, double amplitude);
 
 /// Whether the model has a describing function here.
 bool has_describing_function(friction::FrictionModel model);

@@ -39,17 +39,20 @@ struct Balance {
   double sample_time;
   double delay;
   LinearDrive drive;
+  loop::ErrorDeadband deadband;
 
-  Complex control(double frequency) const {
+  Complex control(double amplitude, double frequency) const {
     const Complex z = std::polar(1.0, frequency * sample_time);
     const Complex hold = (1.0 - 1.0 / z) / Complex(0.0, frequency * sample_time);
     const double corner = 2.0 * std::numbers::pi * drive.bandwidth;
     const Complex lag = corner > 0.0 ? 1.0 / Complex(1.0, frequency / corner) : 1.0;
-    return controller_response(z, chain) * std::pow(z, -delay) * hold * lag * drive.gain / resolution;
+    const double error_gain = describing_function(deadband, amplitude / resolution);
+    return controller_response(z, chain, error_gain) * std::pow(z, -delay) * hold * lag * drive.gain /
+           resolution;
   }
   Complex at(double amplitude, double frequency) const {
     return -plant.inertia * frequency * frequency +
-           describing_function(model, contact, plant, amplitude, frequency) + control(frequency);
+           describing_function(model, contact, plant, amplitude, frequency) + control(amplitude, frequency);
   }
 };
 
@@ -134,7 +137,8 @@ std::vector<LimitCycle> harmonic_balance(friction::FrictionModel model,
                         resolution,
                         sample_time(controller),
                         controller.delay,
-                        drive};
+                        drive,
+                        controller.blocks.error_deadband};
   double low = 0.3 * resolution;
   std::vector<double> at_low = resonances(balance, low);
   for (double high = low * amplitude_step; high < 1e6 * resolution; high *= amplitude_step) {
@@ -165,7 +169,6 @@ std::string_view left_out_of_hunting(const motion::PlantParameters& plant,
                                      const loop::ControllerParameters& controller) {
   if (motion::has_load(plant)) return "the second mass";
   if (controller.blocks.deadband.enter > 0.0) return "the deadband";
-  if (controller.blocks.error_deadband.band > 0.0) return "the dead zone of the error";
   if (controller.blocks.hold.enter >= 0.0) return "the hold";
   if (controller.blocks.standstill.band >= 0.0) return "the gains at standstill";
   return std::isfinite(controller.blocks.integrator_zone) ? "the integrator zone" : "";
@@ -175,7 +178,7 @@ std::optional<LimitCycle> stick_slip_cycle(const friction::FrictionParameters& c
                                            const motion::PlantParameters& plant,
                                            const loop::EncoderParameters& encoder,
                                            const loop::ControllerParameters& controller) {
-  if (contact.coulomb_ratio == 1.0 || !(controller.ki > 0.0) ||
+  if (contact.coulomb_ratio == 1.0 || !(controller.ki > 0.0) || controller.blocks.error_deadband.band > 0.0 ||
       !left_out_of_criteria(plant, controller).empty())
     return std::nullopt;
   const AnalogueGains gains = analogue_gains(controller, encoder);

@@ -18,8 +18,8 @@ struct LimitCycle {
 };
 
 /// The part of the loop that invalidates both predictions, which assume a linear plant and control: "the
-/// second mass", "the deadband", "the dead zone of the error", "the hold", "the gains at standstill" or "the
-/// integrator zone"; empty if they hold.
+/// second mass", "the deadband", "the hold", "the gains at standstill" or "the integrator zone"; empty if
+/// they hold.
 std::string_view left_out_of_hunting(const motion::PlantParameters& plant,
                                      const loop::ControllerParameters& controller);
 
@@ -29,9 +29,10 @@ std::string_view left_out_of_hunting(const motion::PlantParameters& plant,
 ///   −J·Ω² + N(A, Ω) + K(Ω) = 0
 ///
 /// at which the net damping, its imaginary part, rises with A. K is the stiffness of the control, N m/rad:
-/// its response with all its blocks, hold, delay and amplifier. Sought between 0.3 and 1e6 counts and from
-/// 1e-4 to 0.9 of half the sample rate. A motion with standstill, far from a sinusoid, is not predicted.
-/// Empty for a model without a describing function. Source: as describing_function, section 3.
+/// its response with all its blocks, hold, delay and amplifier, the error times the describing function of
+/// its dead zone. Sought between 0.3 and 1e6 counts and from 1e-4 to 0.9 of half the sample rate. A motion
+/// with standstill, far from a sinusoid, is not predicted. Empty for a model without a describing function.
+/// Source: as describing_function, section 3.
 std::vector<LimitCycle> harmonic_balance(friction::FrictionModel model,
                                          const friction::FrictionParameters& contact,
                                          const motion::PlantParameters& plant,

@@ -145,10 +145,13 @@ Complex open_loop(Complex z, const HeldPlant& plant, const loop::LinearChain& co
   return controller_response(z, controller) * std::pow(z, -plant.delay) * response(0);
 }
 
-Complex controller_response(Complex z, const loop::LinearChain& controller) {
-  const auto pass = [z](const PathGroup& group, const auto& input) {
+Complex controller_response(Complex z, const loop::LinearChain& controller, double error_gain) {
+  const auto pass = [z, error_gain](const PathGroup& group, const auto& input) {
     Complex sum = 0.0;
-    for (const auto& [from, b] : group.numerators) sum += value_at(b, z) * input(from);
+    for (const auto& [from, b] : group.numerators) {
+      const double gain = from == loop::LoopSignal::error ? error_gain : 1.0;
+      sum += gain * value_at(b, z) * input(from);
+    }
     return sum / value_at(group.a, z);
   };
   // The torque in force is z⁻¹·U, so U = from_count·count + from_itself·z⁻¹·U.

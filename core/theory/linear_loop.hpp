@@ -25,7 +25,9 @@ double spectral_radius(const HeldPlant& plant, const loop::LinearChain& controll
 
 /// C(z): the torque decided per count of error, N m/count, the torque in force that blocks use being that of
 /// the controller itself.
-std::complex<double> controller_response(std::complex<double> z, const loop::LinearChain& controller);
+/// @param error_gain of the error before the chain, such as the describing function of its dead zone.
+std::complex<double> controller_response(std::complex<double> z, const loop::LinearChain& controller,
+                                         double error_gain = 1.0);
 
 /// L(z) = C(z)·G(z), G with the plant's delay: the open loop from error to count.
 std::complex<double> open_loop(std::complex<double> z, const HeldPlant& plant,

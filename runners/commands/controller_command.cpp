@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -23,7 +24,8 @@ constexpr const char* controller_help =
     "struct, controller_start() and controller_step(). It computes the same bits as the simulation.\n"
     "\n"
     "With -DZEROCOUNT_PLUGIN the file is a plugin (docs/your-own-controller.md), so that the code\n"
-    "that goes to the machine can be simulated itself.\n"
+    "that goes to the machine can be simulated itself. --language linuxcnc writes a component of\n"
+    "LinuxCNC's HAL, which halcompile installs; its name is that of the file.\n"
     "\n"
     "Example: zerocount controller my-axis.yaml --point 2 -o controller.c\n";
 
@@ -43,6 +45,20 @@ void require_values(const command_line::Arguments& arguments, const study::Study
   }
 }
 
+/// The stem of the file, which a component has as its name.
+std::string component_name(const command_line::Arguments& arguments, const std::filesystem::path& output) {
+  std::string stem = output == "-" ? "controller" : output.stem().string();
+  const bool fits =
+      !stem.empty() && std::isalpha(static_cast<unsigned char>(stem[0])) != 0 &&
+      std::all_of(stem.begin(), stem.end(), [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
+  if (!fits)
+    arguments.refuse(
+        fmt::format("option '--output': a component cannot have the name '{}'; expected a file "
+                    "whose name has letters, digits and _ alone, such as axis_x.comp",
+                    stem));
+  return stem;
+}
+
 ExitCode write_controller(const command_line::Arguments& arguments) {
   const std::string input = arguments.operands()[0];
   const std::filesystem::path output = command_line::text_place(arguments, "output").value_or("-");
@@ -58,8 +74,12 @@ ExitCode write_controller(const command_line::Arguments& arguments) {
       study.point_labels.size() > 1
           ? fmt::format("{}, {}", study.name, study.point_labels[static_cast<std::size_t>(point)])
           : study.name;
-  command_line::write_text(output, controller_code::c_code({p.controller, loop::fine_resolution(p.encoder),
-                                                            p.dac, p.initial.integral, name}));
+  const controller_code::ControllerToWrite chain{p.controller, loop::fine_resolution(p.encoder), p.dac,
+                                                 p.initial.integral, name};
+  const bool linuxcnc = arguments.choice("language") == "linuxcnc";
+  command_line::write_text(
+      output, linuxcnc ? controller_code::linuxcnc_component(chain, component_name(arguments, output))
+                       : controller_code::c_code(chain));
   if (output != "-") status::tell("wrote {}\n", output.string());
   return ExitCode::success;
 }
@@ -71,6 +91,7 @@ Command controller_command() {
            "MANIFEST",
            {{"point", "P", "the design point, by label or number; default: the first"},
             {"output,o", "FILE", "the file to write; default: standard output"},
+            command_line::choice_option("language", "LANGUAGE", {"c", "linuxcnc"}),
             {"set", "KEY=VALUE", "override a manifest key, e.g. controller.ki=3e-5; may be repeated", true},
             command_line::force_option()}},
           "write the controller of a point as C",

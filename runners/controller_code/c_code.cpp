@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include <boost/algorithm/string/replace.hpp>
 #include <fmt/format.h>
 
 #include "core/loop/cascade.hpp"
@@ -208,7 +209,8 @@ std::string heading(const Writing& w) {
       " * limits it; give `torque`, what it gave at the sample before, back to the next step.\n"
       " * The constants are exact, and the operations in the order of the simulation: compiled without\n"
       " * -ffast-math and with -ffp-contract=off it computes the same bits. */\n",
-      w.of.name, w.sample_rate, w.of.resolution, w.of.dac.resolution);
+      boost::algorithm::replace_all_copy(w.of.name, "*/", "* /"), w.sample_rate, w.of.resolution,
+      w.of.dac.resolution);
 }
 
 constexpr const char* helpers = R"(
@@ -251,15 +253,8 @@ const zerocount_controller* zerocount_controller_entry(void) { return &descripti
 #endif
 )";
 
-}  // namespace
-
-std::string_view why_not_writable(const loop::ControllerParameters& controller) {
-  if (controller.user.plugin) return "the controller is a plugin, whose code is its own";
-  if (loop::has_coarse_phase(controller)) return "a control with two phases cannot be written yet";
-  return {};
-}
-
-std::string c_code(const ControllerToWrite& chain) {
+/// The chain without the plugin.
+std::string chain_code(const ControllerToWrite& chain) {
   const loop::ControllerParameters& c = chain.controller;
   Writing w{chain, c.blocks, c.sample_rate, c.blocks.structure == loop::ControlStructure::cascade};
   write_error(w);
@@ -293,8 +288,73 @@ std::string c_code(const ControllerToWrite& chain) {
   code += dither_statement(c);
   if (dithers) code += "  s->sample += 1;\n";
   code += "  return u;\n}\n";
-  code += plugin;
   return code;
+}
+
+constexpr const char* linuxcnc_head = R"comp(component {} "Position controller, as zerocount simulates it";
+pin in bit enable "without it the torque is 0, and the controller starts anew";
+pin in float target-counts "end of the move, counts";
+pin in float command-counts "reference, which is rounded to counts";
+pin in float feedback-counts "of the encoder, counts";
+pin in float command-velocity "of the reference, rad/s (m/s)";
+pin in float command-acceleration "of the reference, rad/s2 (m/s2)";
+pin out float output-torque "wanted torque, N m (N)";
+function _ fp "one sample";
+option data component_data;
+license "GPL";
+;;
+)comp";
+
+constexpr const char* linuxcnc_function = R"comp(
+typedef struct {{
+  controller_state chain;
+  double given;  /* by the converter at the sample before, N m */
+  double target; /* at the sample before, counts */
+  int runs;
+}} component_data;
+
+static double nearest(double x) {{ return (x + 0x1.8p52) - 0x1.8p52; }}
+
+FUNCTION(_) {{
+  component_data* memory = &data;
+  if (!enable) {{
+    memory->runs = 0;
+    output_torque = 0.0;
+    return;
+  }}
+  if (!memory->runs) {{
+    controller_start(&memory->chain);
+    memory->given = 0.0;
+    memory->target = target_counts;
+    memory->runs = 1;
+  }}
+  const controller_input in = {{nearest(command_counts) - feedback_counts, feedback_counts, command_velocity,
+                               command_acceleration, memory->given, memory->target != target_counts}};
+  const double wanted = controller_step(&memory->chain, &in);
+  memory->target = target_counts;
+  memory->given = limited({resolution} * nearest(wanted / {resolution}), {lowest}, {highest});
+  output_torque = wanted;
+}}
+)comp";
+
+}  // namespace
+
+std::string_view why_not_writable(const loop::ControllerParameters& controller) {
+  if (controller.user.plugin) return "the controller is a plugin, whose code is its own";
+  if (loop::has_coarse_phase(controller)) return "a control with two phases cannot be written yet";
+  return {};
+}
+
+std::string c_code(const ControllerToWrite& chain) {
+  return chain_code(chain) + plugin;
+}
+
+std::string linuxcnc_component(const ControllerToWrite& chain, const std::string& component) {
+  const loop::DacParameters& dac = chain.dac;
+  return fmt::format(linuxcnc_head, component) + chain_code(chain) +
+         fmt::format(linuxcnc_function, fmt::arg("resolution", number(dac.resolution)),
+                     fmt::arg("lowest", number(loop::lowest_torque(dac))),
+                     fmt::arg("highest", number(loop::highest_torque(dac))));
 }
 
 }  // namespace zerocount::controller_code

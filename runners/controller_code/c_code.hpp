@@ -24,4 +24,8 @@ std::string_view why_not_writable(const loop::ControllerParameters& controller);
 /// ZEROCOUNT_PLUGIN defined it is a plugin for zerocount.
 std::string c_code(const ControllerToWrite& chain);
 
+/// The chain as a component of LinuxCNC's HAL, for halcompile. @param component its name, which is that of
+/// the file without `.comp`.
+std::string linuxcnc_component(const ControllerToWrite& chain, const std::string& component);
+
 }  // namespace zerocount::controller_code

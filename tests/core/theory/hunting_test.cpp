@@ -111,6 +111,28 @@ TEST(HarmonicBalance, OfABristleIsThatOfTrials) {
   }
 }
 
+// A dead zone of the error lowers the gain at small amplitudes, so that some of these loops rest.
+TEST(HarmonicBalance, WithADeadZoneOfTheErrorIsThatOfTrials) {
+  for (const loop::DeadbandForm form : {loop::DeadbandForm::zero, loop::DeadbandForm::subtract}) {
+    for (const double band : {1.0, 2.0, 4.0, 8.0}) {
+      trial::TrialParameters p;
+      p.friction.model = FrictionModel::lugre;
+      p.dac = {.bits = 20, .resolution = 1e-5};
+      p.controller.ki = 3.8e-4;
+      p.controller.blocks.error_deadband = {band, form};
+      p.command.targets = {20};
+      p.command.hold = 3.0;
+      const std::vector<LimitCycle> cycles =
+          harmonic_balance(p.friction.model, p.friction.uniform, p.plant, p.encoder, p.controller);
+      const trial::MoveOutcome move = trial::run_trial(p).moves.front();
+      ASSERT_EQ(move.outcome == trial::Outcome::oscillating, !cycles.empty()) << band;
+      if (cycles.empty()) continue;
+      EXPECT_NEAR(move.oscillation_amplitude, cycles[0].amplitude / loop::fine_resolution(p.encoder), 1.5);
+      EXPECT_NEAR(move.oscillation_period, cycles[0].period, 0.01 * cycles[0].period) << band;
+    }
+  }
+}
+
 // At a stable gain, and far above the bound, where no amplitude has damping enough.
 TEST(HarmonicBalance, IsNoneWhereNothingBalances) {
   loop::ControllerParameters controller;

@@ -56,7 +56,7 @@ TEST_F(ManyTunings, DISABLED_MakeClaimsThatHoldOnFreshMachines) {
   int false_claims = 0;
   int met = 0;
   for (int seed = 1; seed <= 20; ++seed) {
-    const std::string within = std::to_string(0.014 + 0.0005 * seed);
+    const std::string within = std::to_string(0.02 + 0.004 * seed);
     folder_.write("axis.yaml",
                   rig_with_delay(seed, "{band: 0, within: " + within + ", moves: 0.9}") +
                       "tune: {free: {controller.ki: {log: [5.0e-6, 1.0e-3]}, controller.kp: [0, 5.0e-3], "

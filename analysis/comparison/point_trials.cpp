@@ -15,7 +15,7 @@ void add_trials(PointTrials& trials, std::span<const trial::MoveOutcome> outcome
     std::int64_t index = trials.trials;
     for (auto move = outcomes.begin(); move != outcomes.end(); move += trials.moves) {
       const std::int64_t before = trials.goal_counts.met;
-      trials.goal_counts.add(*trials.counted, index++, trials.rigs, {move, move + trials.moves});
+      count_moves(trials.goal_counts, *trials.counted, index++, trials.rigs, {move, move + trials.moves});
       trials.moves_in_goal.push_back(static_cast<double>(trials.goal_counts.met - before));
     }
   }

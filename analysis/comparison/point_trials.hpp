@@ -29,7 +29,7 @@ struct PointTrials {
   std::vector<GateMeasure> bands{};                ///< measures of error bands that have values, too
   std::optional<study::Goal> goal{};               ///< that the trials are counted by
   std::optional<measures::CountedGoal> counted{};  ///< likewise
-  measures::GoalCounts goal_counts{};
+  measures::MoveCounts goal_counts{};
   std::vector<double> moves_in_goal{};  ///< [trial]
 
   const std::vector<double>& of(const GateMeasure& measure) const {

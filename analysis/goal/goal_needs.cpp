@@ -14,8 +14,8 @@ std::int64_t scaled(std::int64_t number, double factor) {
 }
 
 /// The counts of a study without rigs that is `factor` times as large, with the same proportions.
-measures::GoalCounts larger_study(const measures::GoalCounts& counts, double factor) {
-  measures::GoalCounts larger;
+measures::MoveCounts larger_study(const measures::MoveCounts& counts, double factor) {
+  measures::MoveCounts larger;
   larger.moves = scaled(counts.moves, factor);
   larger.met = scaled(counts.met, factor);
   const statistics::ClusterSums& sums = counts.of_trials;
@@ -30,8 +30,8 @@ measures::GoalCounts larger_study(const measures::GoalCounts& counts, double fac
 
 /// The counts of a study on so many rigs with the proportions of the observed ones: rig i stands for the
 /// quantile (i + ½)/rigs of the rigs in order of their moves that meet the goal.
-measures::GoalCounts rigs_like(std::vector<statistics::RigMoves> sorted, std::int64_t rigs) {
-  measures::GoalCounts counts;
+measures::MoveCounts rigs_like(std::vector<statistics::RigMoves> sorted, std::int64_t rigs) {
+  measures::MoveCounts counts;
   for (std::int64_t i = 0; i < rigs; ++i) {
     const double place = (static_cast<double>(i) + 0.5) / static_cast<double>(rigs);
     const auto index = static_cast<std::size_t>(place * static_cast<double>(sorted.size()));
@@ -66,8 +66,8 @@ std::int64_t smallest(std::int64_t low, std::int64_t high, const Decides& decide
 
 }  // namespace
 
-Needs needs_of(const study::Goal& goal, const measures::GoalCounts& counts, std::size_t points) {
-  const auto decided = [&](const measures::GoalCounts& larger) {
+Needs needs_of(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points) {
+  const auto decided = [&](const measures::MoveCounts& larger) {
     return judge_goal(goal, larger, points).status != Status::undecided;
   };
   if (counts.rigs.empty()) {
@@ -99,7 +99,7 @@ Needs needs_of(const study::Goal& goal, const measures::GoalCounts& counts, std:
 
 std::vector<Needs> smallest_studies(const study::Goal& goal, bool on_rigs, std::int64_t moves,
                                     std::size_t points) {
-  const auto met = [&](const measures::GoalCounts& counts) {
+  const auto met = [&](const measures::MoveCounts& counts) {
     return judge_goal(goal, counts, points).status == Status::met;
   };
   if (!on_rigs) {
@@ -109,7 +109,7 @@ std::vector<Needs> smallest_studies(const study::Goal& goal, bool on_rigs, std::
                                             .hits_squared = static_cast<double>(moves * moves),
                                             .hits_by_events = static_cast<double>(moves * moves),
                                             .events_squared = static_cast<double>(moves * moves)};
-    const measures::GoalCounts trial{moves, moves, of_one, {}};
+    const measures::MoveCounts trial{moves, moves, of_one, {}};
     const std::int64_t trials = smallest(
         2, max_trials, [&](std::int64_t n) { return met(larger_study(trial, static_cast<double>(n))); });
     return trials > 0 ? std::vector<Needs>{{0, trials}} : std::vector<Needs>{};

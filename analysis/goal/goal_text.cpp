@@ -27,7 +27,7 @@ std::string goal_sentence(const study::Goal& goal) {
                      goal.within, text::percent(goal.moves), machines, text::percent(goal.confidence));
 }
 
-std::string readings_text(const study::Goal& goal, const measures::GoalCounts& counts,
+std::string readings_text(const study::Goal& goal, const measures::MoveCounts& counts,
                           const Verdict& verdict) {
   std::string text = fmt::format("  of all moves of all machines, {} meet it: {} of {}, {}\n",
                                  text::percentage(counts.met, counts.moves), counts.met, counts.moves,

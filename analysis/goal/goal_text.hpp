@@ -12,7 +12,7 @@ std::string goal_sentence(const study::Goal& goal);
 
 /// The readings of the proportions, a line each: of all moves of all machines; with rigs, of machines that
 /// meet the goal in Goal::moves of their moves, and of rigs without a miss.
-std::string readings_text(const study::Goal& goal, const measures::GoalCounts& counts,
+std::string readings_text(const study::Goal& goal, const measures::MoveCounts& counts,
                           const Verdict& verdict);
 
 /// "300 rigs with 100 trials each are expected to decide it", or that no study is.

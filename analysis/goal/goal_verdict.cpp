@@ -27,7 +27,7 @@ std::string_view text_of(Status status) {
   return "undecided";
 }
 
-Verdict judge_goal(const study::Goal& goal, const measures::GoalCounts& counts, std::size_t points) {
+Verdict judge_goal(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points) {
   const double confidence = statistics::confidence_of_each(goal.confidence, points);
   const statistics::ClusterSums clusters = measures::clusters_of(counts);
   Verdict verdict;

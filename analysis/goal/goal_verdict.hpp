@@ -40,7 +40,7 @@ struct Verdict {
 /// The verdict by Goal::machines, or by Goal::moves where the goal does not ask for machines.
 /// @param points number of design points from which the point was chosen by its trials; 1 if it was chosen
 /// before. The bounds have the confidence 1 − (1 − γ)/points (Bonferroni).
-Verdict judge_goal(const study::Goal& goal, const measures::GoalCounts& counts, std::size_t points);
+Verdict judge_goal(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points);
 
 /// Study size that is expected to decide the goal.
 struct Needs {
@@ -52,7 +52,7 @@ struct Needs {
 /// The smallest study of which the verdict is expected to be decided, if the proportions, and the differences
 /// between rigs, are those observed. With rigs it has at most 10⁵ of them; they get more trials each where
 /// those that they have cannot tell rigs that meet the goal from others.
-Needs needs_of(const study::Goal& goal, const measures::GoalCounts& counts, std::size_t points);
+Needs needs_of(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points);
 
 /// The smallest studies that can meet the goal, if no move misses it: with rigs the fewest rigs for several
 /// numbers of trials on each, without them one study. Empty if none of up to 10⁹ trials, or 10⁵ rigs, can.

@@ -44,7 +44,7 @@ RunValue value_of(const comparison::GateMeasure& measure, const measures::PointS
 }
 
 /// The proportion of moves that meet the goal, with two-sided bounds as those of other proportions.
-RunValue goal_value(const measures::GoalCounts& goal, const std::string& label, double confidence) {
+RunValue goal_value(const measures::MoveCounts& goal, const std::string& label, double confidence) {
   RunValue value{label, "goal_rate", "1"};
   value.kind = statistics::MeasurementKind::proportion;
   value.value = statistics::rate(goal.met, goal.moves);

@@ -3,10 +3,8 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
 
-#include "analysis/statistics/clustered_proportion.hpp"
-#include "analysis/statistics/rig_proportion.hpp"
+#include "analysis/measures/move_counts.hpp"
 #include "core/trial/outcome.hpp"
 #include "experiments/study/study.hpp"
 
@@ -28,27 +26,9 @@ inline bool meets(const CountedGoal& goal, const trial::MoveOutcome& move) {
   return move.bands[goal.slot].settling_time <= goal.within * rounding;  // false for NaN
 }
 
-/// The moves of a design point that meet the goal.
-struct GoalCounts {
-  std::int64_t moves{0};
-  std::int64_t met{0};
-  statistics::ClusterSums of_trials;       ///< moves; each trial is a cluster. Empty with rigs
-  std::vector<statistics::RigMoves> rigs;  ///< [rig]; empty without rigs
-
-  /// @param rigs number of rigs; 0: no trials share a rig
-  void add(const CountedGoal& goal, std::int64_t trial, std::int64_t rigs,
-           std::span<const trial::MoveOutcome> moves);
-  GoalCounts& operator+=(const GoalCounts& other);
-  /// Whether the counts are possible for this number of trials.
-  bool is_valid(std::int64_t trials, std::int64_t moves_of_trial, std::int64_t rigs) const;
-
-  template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
-    archive(self.moves, self.met, self.of_trials, self.rigs);
-  }
-};
-
-/// The moves that meet the goal, in clusters: rigs, or trials where none share a rig.
-statistics::ClusterSums clusters_of(const GoalCounts& counts);
+/// Adds the moves of a trial to those that meet the goal. @param rigs number of rigs; 0: no trials share a
+/// rig
+void count_moves(MoveCounts& counts, const CountedGoal& goal, std::int64_t trial, std::int64_t rigs,
+               std::span<const trial::MoveOutcome> moves);
 
 }  // namespace zerocount::measures

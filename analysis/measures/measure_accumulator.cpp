@@ -54,6 +54,7 @@ MeasureAccumulator::MeasureAccumulator(const layout::Measure& measure,
       kind_(kind),
       in_clusters_(needs_every_value(measure, reported)),
       has_mean_bounds_(reports(reported, layout::Statistic::bootstrap_low)),
+      counts_moves_(reports(reported, layout::Statistic::moves_rate)),
       clusters_(kind.rigs) {}
 
 void MeasureAccumulator::add_quality(std::int64_t trial, std::span<const trial::MoveOutcome> moves) {
@@ -64,6 +65,10 @@ void MeasureAccumulator::add_quality(std::int64_t trial, std::span<const trial::
   const std::size_t rig = static_cast<std::size_t>(trial) % hits_.size();
   ++judged_[rig];
   hits_[rig] += value_of_trial(*measure_, moves) > 0.0;
+  if (counts_moves_) {
+    const auto has = [&](const trial::MoveOutcome& move) { return layout::has_quality(*measure_, move); };
+    of_moves_.add(trial, kind_.rigs, std::ssize(moves), std::count_if(moves.begin(), moves.end(), has));
+  }
 }
 
 /// Adds values_ to the clusters, with `size` − |values_| censored values: later than all others.
@@ -87,8 +92,9 @@ void MeasureAccumulator::add(std::int64_t trial, std::span<const trial::MoveOutc
     for (const trial::MoveOutcome& move : moves) {
       const double value = known ? counted_value(*measure_, move) + positive_zero : statistics::unknown;
       if (!in_clusters_ && trial::was_run(move)) moments_.add(value);
-      if (in_clusters_ && !std::isnan(value)) values_.push_back(value);
+      if ((in_clusters_ || has_mean_bounds_) && !std::isnan(value)) values_.push_back(value);
     }
+    if (!in_clusters_ && has_mean_bounds_) totals_.add(kind_.rigs > 0 ? trial % kind_.rigs : trial, values_);
     if (in_clusters_) add_clusters(trial, counted.nan_is_late ? std::ssize(moves) : std::ssize(values_));
   }
   ++trials_;
@@ -102,6 +108,7 @@ MeasureAccumulator& MeasureAccumulator::operator+=(const MeasureAccumulator& nex
   add_counts(by_move_, next.by_move_);
   add_counts(judged_, next.judged_);
   add_counts(hits_, next.hits_);
+  of_moves_ += next.of_moves_;
   return *this;
 }
 
@@ -120,7 +127,8 @@ bool MeasureAccumulator::has_valid_qualities(std::int64_t moves) const {
   if (std::ssize(by_move_) != moves || judged_.size() != rigs || hits_.size() != rigs) return false;
   for (std::size_t rig = 0; rig < rigs; ++rig)
     if (hits_[rig] < 0 || hits_[rig] > judged_[rig]) return false;
-  return is_sum_of(judged_, trials_) && statistics::are_counts(by_move_, trials_);
+  return is_sum_of(judged_, trials_) && statistics::are_counts(by_move_, trials_) &&
+         (!counts_moves_ || of_moves_.is_valid(trials_, moves, kind_.rigs));
 }
 
 bool MeasureAccumulator::has_valid_totals() const {
@@ -128,6 +136,21 @@ bool MeasureAccumulator::has_valid_totals() const {
   return totals_.sums.size() <= statistics::max_clusters && totals_.sums.size() == totals_.numbers.size() &&
          totals_.sums.size() == totals_.added.size() && is_sum_of(totals_.added, trials_) &&
          std::all_of(totals_.numbers.begin(), totals_.numbers.end(), [](std::int64_t n) { return n >= 0; });
+}
+
+RateWithBounds MeasureAccumulator::rate_of_moves(double confidence) const {
+  const statistics::ClusteredProportion proportion =
+      statistics::clustered_proportion(clusters_of(of_moves_), confidence);
+  return {proportion.value, proportion.korn_graubard, proportion.wilson};
+}
+
+statistics::ConfidenceInterval MeasureAccumulator::bootstrap_bounds(const StatisticsOptions& options) const {
+  const std::string name = fmt::format("bootstrap/{}.mean", measure_->field.column.name);
+  const random::RandomStream stream{designs::random_key(options.bootstrap->seed, name),
+                                    options.bootstrap->stream};
+  return measure_->of_trial == layout::OfTrial::sum
+             ? statistics::clustered_count_bounds(totals_, stream, options.confidence)
+             : statistics::clustered_mean_bounds(totals_, stream, options.confidence);
 }
 
 RateWithBounds MeasureAccumulator::rate(double confidence) const {
@@ -159,7 +182,11 @@ MeasureStatistics MeasureAccumulator::statistics(const StatisticsOptions& option
     result.trials = std::accumulate(hits_.begin(), hits_.end(), std::int64_t{0});
     result.by_move = by_move_;
     if (reports(*reported_, layout::Statistic::rate)) result.rate = rate(options.confidence);
+    if (counts_moves_ && trials_ > 0 && !kind_.open_loop)
+      result.moves_rate = rate_of_moves(options.confidence);
   }
+  if (has_mean_bounds_ && options.bootstrap && trials_ > 0 && !kind_.open_loop)
+    result.mean_bounds = bootstrap_bounds(options);
   if (!in_clusters_) return result;
 
   const statistics::ClusteredSample sample = clusters_.sample();
@@ -182,15 +209,6 @@ MeasureStatistics MeasureAccumulator::statistics(const StatisticsOptions& option
   result.median = quantile(layout::Statistic::median, 0.5);
   result.p75 = quantile(layout::Statistic::p75, 0.75);
   result.p95 = quantile(layout::Statistic::p95, 0.95);
-  if (options.bootstrap && trials_ > 0 && !kind_.open_loop &&
-      reports(*reported_, layout::Statistic::bootstrap_low)) {
-    const std::string name = fmt::format("bootstrap/{}.mean", measure_->field.column.name);
-    const random::RandomStream stream{designs::random_key(options.bootstrap->seed, name),
-                                      options.bootstrap->stream};
-    result.mean_bounds = measure_->of_trial == layout::OfTrial::sum
-                             ? statistics::clustered_count_bounds(totals_, stream, options.confidence)
-                             : statistics::clustered_mean_bounds(totals_, stream, options.confidence);
-  }
   return result;
 }
 

@@ -33,6 +33,7 @@ struct MeasureStatistics {
   std::int64_t total{0};              ///< sum of the values of the trials
   std::vector<std::int64_t> by_move;  ///< [move] of a quality: trials whose move has it
   RateWithBounds rate;                ///< of trials with the quality
+  RateWithBounds moves_rate;  ///< of moves with the quality; Korn–Graubard in place of Clopper–Pearson
   double mean{statistics::unknown};
   double sd{statistics::unknown};
   double rms{statistics::unknown};

@@ -168,7 +168,7 @@ void PointAccumulator::add_moves(std::span<const trial::MoveOutcome> moves) {
   ++(counted_.outcomes.*counter_of(trial::worst_outcome(moves)));
   if (kind_.open_loop) return;
   if (kind_.rigs > 0) add_to_rig(moves);
-  if (kind_.goal) goal_.add(*kind_.goal, first_trial_ + counted_.trials, kind_.rigs, moves);
+  if (kind_.goal) count_moves(goal_, *kind_.goal, first_trial_ + counted_.trials, kind_.rigs, moves);
   add_trial_settling_time(moves);
 }
 

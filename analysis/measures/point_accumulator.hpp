@@ -62,6 +62,7 @@ class MeasureAccumulator {
   static void transfer(Self& self, Archive& archive) {
     archive(self.trials_, self.moments_, self.clusters_, self.totals_, self.by_move_, self.judged_,
             self.hits_);
+    if (self.counts_moves_) archive(self.of_moves_);
   }
   /// Whether the restored sums are possible for this measure. @param moves number of moves of each trial
   bool is_valid(std::int64_t trials, std::int64_t moves) const;
@@ -72,12 +73,15 @@ class MeasureAccumulator {
   void add_quality(std::int64_t trial, std::span<const trial::MoveOutcome> moves);
   void add_clusters(std::int64_t trial, std::int64_t size);
   RateWithBounds rate(double confidence) const;
+  RateWithBounds rate_of_moves(double confidence) const;
+  statistics::ConfidenceInterval bootstrap_bounds(const StatisticsOptions& options) const;
 
   const layout::Measure* measure_;
   const layout::ReportedStatistics* reported_;
   MoveKind kind_;
   bool in_clusters_;      ///< whether values are kept in clusters; otherwise only their moments
   bool has_mean_bounds_;  ///< whether bootstrap bounds of the mean are reported
+  bool counts_moves_;     ///< whether the proportion of moves is reported
   std::int64_t trials_{0};
   statistics::MomentSums moments_;
   statistics::TrialClusters clusters_;
@@ -85,6 +89,7 @@ class MeasureAccumulator {
   std::vector<std::int64_t> by_move_;  ///< [move] trials whose move has the quality; empty without trials
   std::vector<std::int64_t> judged_;   ///< [rig], or one for all: trials; empty likewise
   std::vector<std::int64_t> hits_;     ///< [rig], or one for all: trials with the quality
+  MoveCounts of_moves_;                ///< with the quality, where they are counted
   std::vector<double> values_;         ///< of the current trial
 };
 
@@ -156,7 +161,7 @@ class PointAccumulator {
   std::vector<std::vector<MeasureAccumulator>> levels_;  ///< [move][row of the table]
   std::vector<std::int64_t> lost_in_levels_;             ///< [move] trials whose motion was lost
   std::vector<statistics::RigTrials> rigs_;              ///< [rig], of those that have trials
-  GoalCounts goal_;                                      ///< empty without a goal
+  MoveCounts goal_;                                      ///< empty without a goal
   statistics::TrialClusters trial_settling_times_;       ///< of each trial: of its slowest move
   std::int64_t jerks_{0};
   statistics::Histogram<double> jerk_intervals_;

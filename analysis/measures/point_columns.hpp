@@ -55,7 +55,8 @@ std::vector<StatisticField> statistic_fields(const study::StudyFeatures& feature
                                              const layout::MeasureTable& measures = layout::measure_table());
 
 /// The bounds of means, which are in summaries only: the results file does not hold them.
-std::vector<StatisticField> mean_bound_fields(const layout::MeasureTable& measures = layout::measure_table());
+std::vector<StatisticField> mean_bound_fields(const study::StudyFeatures& features,
+                                              const layout::MeasureTable& measures = layout::measure_table());
 
 /// The statistics reported of a torque level, in the order of the report.
 using LevelField = text::ReportField<LevelStatistics>;

@@ -103,7 +103,7 @@ struct PointSummary : StatisticsOfMeasures, PointCounts {
   double jerk_agreement{statistics::unknown};        ///< jerks_agreeing / jerks
   double jerk_one_count_share{statistics::unknown};  ///< jerks of magnitude 1 / jerks
   UndecidedMoves undecided;                          ///< only off_target is known without the study
-  std::optional<GoalCounts> goal;                    ///< of a study with a goal
+  std::optional<MoveCounts> goal;                    ///< of a study with a goal
   std::vector<LevelStatistics> levels;               ///< [move] in an open-loop study, otherwise empty
 
   /// The proportion of trials all of whose moves ended at zero error.

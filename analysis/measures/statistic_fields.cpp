@@ -141,10 +141,14 @@ std::vector<StatisticField> statistic_fields(const study::StudyFeatures& feature
   return fields;
 }
 
-std::vector<StatisticField> mean_bound_fields(const layout::MeasureTable& measures) {
+std::vector<StatisticField> mean_bound_fields(const study::StudyFeatures& features,
+                                              const layout::MeasureTable& measures) {
   std::vector<StatisticField> fields;
-  for (const layout::Measure& measure : measures)
-    add_measure(fields, measures, measure, measure.point, is_bootstrap);
+  for (const layout::Measure& measure : measures) {
+    const auto only_with = measure.file.only_with;
+    if (only_with == nullptr || features.*only_with)
+      add_measure(fields, measures, measure, measure.point, is_bootstrap);
+  }
   return fields;
 }
 

@@ -7,7 +7,7 @@
 namespace zerocount::summary {
 namespace {
 
-const measures::GoalCounts& counts_of(const StudySummary& summary, std::int64_t point) {
+const measures::MoveCounts& counts_of(const StudySummary& summary, std::int64_t point) {
   return summary.points[static_cast<std::size_t>(point)].goal.value();
 }
 
@@ -28,7 +28,7 @@ std::string_view verdict_words(goal::Status status) {
 JudgedPoint judge_point(const StudySummary& summary, const ChosenPoint& chosen) {
   JudgedPoint judged{chosen, {}, {}};
   const auto points = static_cast<std::size_t>(chosen.chosen_from);
-  const measures::GoalCounts& counts = counts_of(summary, chosen.point);
+  const measures::MoveCounts& counts = counts_of(summary, chosen.point);
   judged.verdict = goal::judge_goal(*summary.goal, counts, points);
   if (judged.verdict.status == goal::Status::undecided)
     judged.needs = goal::needs_of(*summary.goal, counts, points);

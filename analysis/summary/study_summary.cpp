@@ -77,7 +77,8 @@ void complete_points(StudySummary& summary, const study::Study& study,
 void add_claims(StudySummary& summary) {
   if (summary.goal) summary.sections.push_back(goal_section(summary));
   if (summary.features.open_loop || summary.features.dependent_trials) return;
-  summary.sections.push_back(tolerance_section(summary.points, short_labels(summary.labels, summary.axes)));
+  summary.sections.push_back(
+      tolerance_section(summary.points, short_labels(summary.labels, summary.axes), summary.features));
 }
 
 /// Leaves the first `points` points.

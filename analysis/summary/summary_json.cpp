@@ -58,7 +58,8 @@ nlohmann::ordered_json summary_json(const StudySummary& summary, const SummaryFo
   require_consistent(summary);
   const std::vector<measures::StatisticField> fields =
       measures::statistic_fields(summary.features, summary.table());
-  const std::vector<measures::StatisticField> bounds = measures::mean_bound_fields(summary.table());
+  const std::vector<measures::StatisticField> bounds =
+      measures::mean_bound_fields(summary.features, summary.table());
   nlohmann::ordered_json points = nlohmann::ordered_json::array();
   for (const std::int64_t index : points_shown(summary, form)) {
     const auto i = static_cast<std::size_t>(index);

@@ -132,6 +132,8 @@ std::string cell_text(layout::CellText text, const measures::PointSummary& point
   switch (text) {
     case layout::CellText::number:
       break;
+    case layout::CellText::percent:
+      return text::percentage(std::llround(value * text::to_double(point.moves)), point.moves);
     case layout::CellText::settling_time:
       return settling_text(point, value);
     case layout::CellText::proportion_of_trials:
@@ -145,9 +147,11 @@ std::string cell_text(layout::CellText text, const measures::PointSummary& point
 void add_measures(std::vector<text::TextColumn>& columns, const StudySummary& summary) {
   for (const layout::Measure* measure : shown_measures(summary)) {
     for (const layout::SummaryColumn& column : measure->summary.columns) {
-      columns.push_back(by_point(summary, column.head, [&](const measures::PointSummary& point) {
-        return cell_text(column.text, point, measures::value_of(column.statistic, point.of(*measure)));
-      }));
+      columns.push_back(by_point(summary, parameters::text_on(summary.features.axis, column.head),
+                                 [&](const measures::PointSummary& point) {
+                                   return cell_text(column.text, point,
+                                                    measures::value_of(column.statistic, point.of(*measure)));
+                                 }));
     }
   }
 }
@@ -156,7 +160,7 @@ void add_measures(std::vector<text::TextColumn>& columns, const StudySummary& su
 std::string legend_of(const StudySummary& summary, bool (*belongs)(const layout::Measure&)) {
   std::string legend;
   for (const layout::Measure* measure : shown_measures(summary)) {
-    if (belongs(*measure)) legend += measure->summary.legend;
+    if (belongs(*measure)) legend += parameters::text_on(summary.features.axis, measure->summary.legend);
   }
   return legend;
 }

@@ -118,6 +118,7 @@ measures::SummarySection goal_section(const StudySummary& summary);
 /// each point.
 /// @param labels [point]
 measures::SummarySection tolerance_section(std::span<const measures::PointSummary> points,
-                                           const std::vector<std::string>& labels);
+                                           const std::vector<std::string>& labels,
+                                           const study::StudyFeatures& features = {});
 
 }  // namespace zerocount::summary

@@ -56,7 +56,8 @@ bool on_rigs(std::span<const measures::PointSummary> points) {
                              [](const measures::PointSummary& point) { return point.claim.rigs > 0; });
 }
 
-std::vector<layout::PointColumn> columns_of(std::span<const measures::PointSummary> points) {
+std::vector<layout::PointColumn> columns_of(std::span<const measures::PointSummary> points,
+                                            const study::StudyFeatures& features) {
   std::vector<layout::PointColumn> columns{
       column_of(points, "success_at_least", "1",
                 "proportion of axes (with rigs: of trials) that succeed at least",
@@ -76,8 +77,8 @@ std::vector<layout::PointColumn> columns_of(std::span<const measures::PointSumma
                   "proportion of moves in which at least 90 % of rigs hold zero at least",
                   [](const measures::PointSummary& point) { return point.rigs.tolerance.zero_at_least; }));
   }
-  for (const measures::StatisticField& field :
-       measures::mean_bound_fields(points.empty() ? layout::measure_table() : *points.front().table))
+  for (const measures::StatisticField& field : measures::mean_bound_fields(
+           features, points.empty() ? layout::measure_table() : *points.front().table))
     columns.push_back(column_of(points, text::flat_name(field), field.unit, field.long_name, field.value));
   return columns;
 }
@@ -130,9 +131,10 @@ text::PointTable table_of(std::span<const measures::PointSummary> points,
 }  // namespace
 
 measures::SummarySection tolerance_section(std::span<const measures::PointSummary> points,
-                                           const std::vector<std::string>& labels) {
+                                           const std::vector<std::string>& labels,
+                                           const study::StudyFeatures& features) {
   measures::SummarySection section{
-      .key = "assurance", .json = {}, .columns = columns_of(points), .title = title_of(points)};
+      .key = "assurance", .json = {}, .columns = columns_of(points, features), .title = title_of(points)};
   section.tables.push_back(table_of(points, labels));
   section.note = fmt::format(
       "bounds of one side each (Wilks; {}). success: of trials{}; arrive by: all moves of a trial; a "

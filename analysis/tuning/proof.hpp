@@ -32,15 +32,15 @@ struct ProofProblem {
   /// Units that are expected to decide the goal with this correction, by the results of the search.
   std::function<std::int64_t(std::size_t finalist, std::size_t correction)> first_units;
   /// Units that are expected to decide it, by the results of an attempt.
-  std::function<std::int64_t(const measures::GoalCounts&, std::size_t correction)> more_units;
-  std::function<measures::GoalCounts(const Attempt&)> run;
+  std::function<std::int64_t(const measures::MoveCounts&, std::size_t correction)> more_units;
+  std::function<measures::MoveCounts(const Attempt&)> run;
   std::function<bool()> has_time;  ///< for another attempt
 };
 
 /// The last attempt and its verdict.
 struct ProvenFinalist {
   Attempt attempt;
-  measures::GoalCounts counts;
+  measures::MoveCounts counts;
   goal::Verdict verdict;
 };
 

@@ -9,17 +9,19 @@
 #include "core/loop/measurement.hpp"
 #include "core/loop/reference.hpp"
 #include "core/loop/sample_clock.hpp"
+#include "core/trial/motion_measures.hpp"
+#include "core/trial/outcome.hpp"
 #include "core/trial/parameters.hpp"
 
 namespace zerocount::batch {
 
 /// Whether the sampled loop of the trial has a feature that the sampling kernels lack: errors of an encoder
 /// or of the converter, missed samples, two phases, the coarse encoder, a reference with a profile, a plugin,
-/// or more filters than they have.
+/// measures of the true motion, or more filters than they have.
 bool needs_lane_loop(const trial::TrialParameters& parameters);
 
 /// The sampled loop of a lane by the classes of the reference, from the angle to the converter's torque. The
-/// kernels move the rotor and keep the measures.
+/// kernels move the rotor and keep the measures of the error.
 class LaneLoop {
  public:
   explicit LaneLoop(const trial::TrialParameters& parameters);
@@ -29,7 +31,8 @@ class LaneLoop {
 
   /// What is decided at a sample.
   struct Decision {
-    std::int64_t count;  ///< fine encoder
+    /// Fine encoder; less the way of the reference from the target, if it moves for ever.
+    std::int64_t count;
     loop::DacOutput dac;
     double torque;  ///< that the converter gives, N m
     bool may_stay;  ///< while count and error stay 0, so does the torque
@@ -38,10 +41,11 @@ class LaneLoop {
   /// controller gives no finite torque.
   std::optional<Decision> sample(std::int64_t i, double theta);
 
-  // Of the move so far.
-  double travel_time() const { return reference_->duration(); }  ///< s
-  std::int64_t phase_changes() const { return controller_.phase_changes() - phase_changes_before_; }
-  std::int64_t disagreements() const { return measurement_.disagreements() - disagreements_before_; }
+  /// The way of the reference from the target at the last sample, counts: 0 unless it moves for ever.
+  std::int64_t reference_offset() const { return reference_offset_; }
+
+  /// Ends the move: adds what is measured of it here to its outcome.
+  void finish(trial::MoveOutcome& outcome);
 
  private:
   const trial::TrialParameters& p_;
@@ -53,6 +57,8 @@ class LaneLoop {
   loop::ConverterErrors errors_;
   bool may_stay_;
   std::optional<loop::Reference> reference_{};
+  std::optional<trial::MotionMeasures> motion_{};
+  std::int64_t reference_offset_{0};
   std::int64_t first_sample_{0};  // of the move
   std::int64_t target_{0};
   std::optional<std::int64_t> last_target_{};  // at the last sample at which the controller ran

@@ -83,8 +83,9 @@ void LaneScheduler::note_gradual_slides(const LaneSet& due) {
 
 void LaneScheduler::record_sample(int lane, const LaneTrial& trial) {
   const auto k = static_cast<std::int64_t>(batch_.measures.samples[lane]) - 1;
+  const std::int64_t offset = trial.loop ? trial.loop->reference_offset() : 0;
   observers_->sample({trial.number, trial.first_sample + k,
-                      static_cast<std::int64_t>(batch_.loop.count[lane]),
+                      static_cast<std::int64_t>(batch_.loop.count[lane]) + offset,
                       static_cast<std::int64_t>(batch_.loop.code[lane]), batch_.measures.theta[lane],
                       batch_.measures.extension[lane], batch_.motion.hardening[lane]});
 }

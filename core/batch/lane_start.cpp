@@ -309,12 +309,9 @@ trial::MoveOutcome end_of_move(const BatchState& batch, int lane, LaneTrial& tri
   trial.last_half.finish(end.last.count);
   trial::MoveOutcome outcome = trial::outcome_of_move(trial::move_timing(p, trial.move), measures_of(q, lane),
                                                       bands_of(q, lane), trial.jerks, trial.last_half, end);
-  outcome.true_error = trial::true_error(end.last.target, end.last.theta, l.resolution[lane], l.phase[lane]);
-  if (trial.loop) {
-    outcome.travel_time = trial.loop->travel_time();
-    outcome.phase_changes = trial.loop->phase_changes();
-    outcome.encoder_disagreement = trial.loop->disagreements();
-  }
+  const std::int64_t reference = end.last.target + (trial.loop ? trial.loop->reference_offset() : 0);
+  outcome.true_error = trial::true_error(reference, end.last.theta, l.resolution[lane], l.phase[lane]);
+  if (trial.loop) trial.loop->finish(outcome);
   return outcome;
 }
 

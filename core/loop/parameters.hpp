@@ -198,15 +198,18 @@ struct ControllerParameters {
 enum class ReferenceShape {
   step,         ///< the reference is the target from the first sample of the move
   trapezoidal,  ///< velocity rises and falls linearly
-  s_curve       ///< so does the acceleration
+  s_curve,      ///< so does the acceleration
+  sine          ///< the reference oscillates about the target, from the first sample of the move
 };
 
-/// Path of the reference from one target to the next.
+/// Path of the reference from one target to the next, or about the target.
 struct ReferenceProfile {
   ReferenceShape shape{ReferenceShape::step};
   double velocity_limit{2.0};        ///< rad/s
   double acceleration_limit{100.0};  ///< rad/s²
   double jerk_limit{1.0e4};          ///< of an s_curve: limit of the rate of the acceleration, rad/s³
+  double amplitude{1.0e-3};          ///< of a sine, rad
+  double frequency{1.0};             ///< of a sine, Hz
 };
 
 }  // namespace zerocount::loop

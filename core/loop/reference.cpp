@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "core/numerics/elementary_functions.hpp"
 
@@ -13,6 +15,12 @@ Reference::Reference(const ReferenceProfile& profile, std::int64_t from, std::in
       resolution_(resolution),
       counts_(std::abs(static_cast<double>(to) - static_cast<double>(from))),
       travel_(counts_ * resolution) {
+  if (profile.shape == ReferenceShape::sine) {
+    amplitude_ = profile.amplitude;
+    angular_frequency_ = 2.0 * std::numbers::pi * profile.frequency;
+    duration_ = std::numeric_limits<double>::infinity();
+    return;
+  }
   if (profile.shape == ReferenceShape::step || travel_ == 0.0) return;
   if (profile.shape == ReferenceShape::trapezoidal) {
     plan_trapezoidal(profile);
@@ -51,6 +59,7 @@ void Reference::plan_s_curve(const ReferenceProfile& limits) {
 }
 
 std::int64_t Reference::at(double t) const {
+  if (is_sine()) return to_ + std::llround(amplitude_ / resolution_ * numerics::sin(angular_frequency_ * t));
   if (t >= duration_) return to_;
   if (t <= 0.0) return from_;
   const bool first_half = t < 0.5 * duration_;
@@ -61,12 +70,18 @@ std::int64_t Reference::at(double t) const {
 }
 
 double Reference::exact_at(double t) const {
+  if (is_sine())
+    return static_cast<double>(to_) + amplitude_ / resolution_ * numerics::sin(angular_frequency_ * t);
   if (t >= duration_) return static_cast<double>(to_);
   if (t <= 0.0) return static_cast<double>(from_);
   const bool first_half = t < 0.5 * duration_;
   const double counts = std::min(distance(first_half ? t : duration_ - t) / resolution_, 0.5 * counts_);
   const double forwards = to_ < from_ ? -counts : counts;
   return first_half ? static_cast<double>(from_) + forwards : static_cast<double>(to_) - forwards;
+}
+
+double Reference::travel_time() const {
+  return is_sine() ? std::numeric_limits<double>::quiet_NaN() : duration_;
 }
 
 /// The angle (rad) covered since the start at the time t (s), in the first half.
@@ -83,6 +98,11 @@ double Reference::distance(double t) const {
 }
 
 ReferenceMotion Reference::motion_at(double t) const {
+  if (is_sine()) {
+    const double velocity = amplitude_ * angular_frequency_;
+    return {velocity * numerics::cos(angular_frequency_ * t),
+            -velocity * angular_frequency_ * numerics::sin(angular_frequency_ * t)};
+  }
   const double rounding = 1e-12 * duration_;
   if (t < 0.0 || t >= duration_ - rounding) return {};
   const double direction = to_ < from_ ? -1.0 : 1.0;

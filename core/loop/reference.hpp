@@ -14,10 +14,11 @@ namespace zerocount::loop {
 /// - trapezoidal: acceleration at its limit, cruise at the velocity limit, deceleration; without the cruise
 ///   where the velocity limit is not reached;
 /// - s_curve: trapezoidal with limited jerk, up to seven segments of constant jerk. The acceleration
-///   rises and falls at the jerk limit, and stays at its own limit in between where it reaches it.
+///   rises and falls at the jerk limit, and stays at its own limit in between where it reaches it;
+/// - sine: amplitude·sin(2π·frequency·t) about the new target, without end.
 ///
-/// The second half of a move is the first one backwards. Source: Biagiotti & Melchiorri, "Trajectory Planning
-/// for Automatic Machines and Robots", Springer 2008, sections 3.2 and 3.4.
+/// The second half of a move between two targets is the first one backwards. Source: Biagiotti & Melchiorri,
+/// "Trajectory Planning for Automatic Machines and Robots", Springer 2008, sections 3.2 and 3.4.
 class Reference {
  public:
   /// @param profile limits above 0.
@@ -26,8 +27,8 @@ class Reference {
   Reference(const ReferenceProfile& profile, std::int64_t from, std::int64_t to, double resolution);
 
   /// The reference (counts) at the time t (s) from the move's start: the nearest whole count, and where two
-  /// are as near, the one towards that end of the move which is nearer in time. `from` before the start, `to`
-  /// from the end on.
+  /// are as near, the one towards that end of the move which is nearer in time, and of a sine the one away
+  /// from the target. `from` before the start, `to` from the end on.
   std::int64_t at(double t) const;
 
   /// ṙ and r̈ at the time t, before r is rounded to counts; from the end of the move on, and of a step, 0.
@@ -38,7 +39,10 @@ class Reference {
   /// The reference (counts) before it is rounded.
   double exact_at(double t) const;
 
-  double duration() const { return duration_; }  ///< s
+  double duration() const { return duration_; }  ///< s; infinite for a sine
+
+  double travel_time() const;  ///< s; NaN for a sine, which does not end
+  bool is_sine() const { return angular_frequency_ > 0.0; }
 
  private:
   void plan_trapezoidal(const ReferenceProfile& limits);
@@ -62,6 +66,9 @@ class Reference {
   double acceleration_time_{0.0};  ///< s
   double speed_up_time_{0.0};      ///< of all three, s
   double duration_{0.0};           ///< s
+
+  double amplitude_{0.0};          ///< of a sine, rad
+  double angular_frequency_{0.0};  ///< of a sine, rad/s; 0 for another shape
 };
 
 }  // namespace zerocount::loop

@@ -84,7 +84,7 @@ struct MoveOutcome {
   double oscillation_amplitude{std::numeric_limits<double>::quiet_NaN()};
   /// Mean time between upward crossings of (max + min)/2 in the same samples, s; NaN for fewer than two.
   double oscillation_period{std::numeric_limits<double>::quiet_NaN()};
-  double travel_time{0.0};    ///< until the reference, or the torque, is where it is held, s
+  double travel_time{0.0};    ///< until the reference, or the torque, is where it is held, s; NaN of a sine
   std::int64_t overshoot{0};  ///< largest excursion beyond the target, seen from the first count, counts
   /// e at sample ⌈N/2⌉ (of a single sample: that), counts; 0 where the move was cut, or has no target.
   std::int64_t midway_error{0};
@@ -105,6 +105,27 @@ struct MoveOutcome {
   double jerk_agreement{std::numeric_limits<double>::quiet_NaN()};  ///< proportion of jerks towards
                                                                     ///< sgn(holding_torque); NaN if none
   std::array<BandOutcome, max_error_bands> bands{};                 ///< [band] of VerdictParameters
+
+  // Measures of the true motion, where they are wanted (see MotionMeasures); NaN where there is none.
+  /// From the first sample of the dwell within the rest band to the end: rms and peak to peak of the true
+  /// error, counts.
+  double rest_error_rms{std::numeric_limits<double>::quiet_NaN()};
+  double rest_error_range{std::numeric_limits<double>::quiet_NaN()};
+  double rest_motion_rms{std::numeric_limits<double>::quiet_NaN()};    ///< rest_error_rms, rad
+  double rest_motion_range{std::numeric_limits<double>::quiet_NaN()};  ///< rest_error_range, rad
+  /// Over the same samples: mean square of the torque decided, and of its changes from one to the next,
+  /// (N m)².
+  double rest_torque_power{std::numeric_limits<double>::quiet_NaN()};
+  double rest_torque_noise{std::numeric_limits<double>::quiet_NaN()};
+  /// Reference before rounding minus the true position while a profile lasts, or from the second period of a
+  /// sine on, counts.
+  double following_error_rms{std::numeric_limits<double>::quiet_NaN()};
+  double following_error_peak{std::numeric_limits<double>::quiet_NaN()};
+  /// Largest |following error| in a quarter of a period after a reversal of the sine, counts.
+  double reversal_spike{std::numeric_limits<double>::quiet_NaN()};
+  /// Mean true position over the window minus that of the move before, counts.
+  double step_motion{std::numeric_limits<double>::quiet_NaN()};
+  bool step_made{false};  ///< step_motion is within half of the commanded step
 };
 
 /// One excursion of the error away from zero after arrival.

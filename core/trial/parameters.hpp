@@ -67,6 +67,8 @@ struct VerdictParameters {
   bool stop{false};      ///< a move that diverges is ended there, and the trial with it (see divergence.hpp)
   double limit{1000.0};  ///< |error| beyond that of the move's first sample that counts as diverged, counts
   ErrorBands bands{};
+  bool motion{false};     ///< the true motion is measured too (see MotionMeasures)
+  double rest_band{0.0};  ///< |e| within which a move is at rest, for these measures, counts
 };
 
 /// Everything that determines a trial: two equal sets give the same trial, bit for bit.

@@ -5,6 +5,7 @@
 #include "core/loop/controller.hpp"
 #include "core/loop/reference.hpp"
 #include "core/trial/divergence.hpp"
+#include "core/trial/motion_measures.hpp"
 #include "core/trial/move_measures.hpp"
 #include "core/trial/rig.hpp"
 #include "core/trial/torque_ramp.hpp"
@@ -30,9 +31,12 @@ inline bool slid_in_move(friction::Breakaway breakaway, bool at_start, bool at_i
 
 /// Runs the samples of one move, from number `first` on. `decide(i, record)` completes the record of its
 /// sample i: what is commanded, and the torque. A move that diverges is ended.
+/// @param target of the move, counts. A reference that moves for ever is measured as if it stood there, with
+/// the same errors.
 template <class AnyPlant, class Decide>
 MoveOutcome run_move(Rig<AnyPlant>& rig, const MoveTiming& timing, const VerdictParameters& verdict,
-                     std::int64_t move, std::int64_t first, const TrialObservers& observers, Decide decide) {
+                     std::int64_t move, std::int64_t first, std::int64_t target,
+                     const TrialObservers& observers, Decide decide) {
   MoveMeasures measures(timing, move);
   AnyPlant& plant = rig.plant();
   plant.forget_deepest();
@@ -48,7 +52,7 @@ MoveOutcome run_move(Rig<AnyPlant>& rig, const MoveTiming& timing, const Verdict
     sliding_at_instants = sliding_at_instants || record.mode == HookMode::slide;
     if (observers.sample) observers.sample(record);
     const bool jerk_ended =
-        measures.add({record.target, record.count, record.torque, rig.clipped(), record.theta, record.xp});
+        measures.add({target, target - record.error, record.torque, rig.clipped(), record.theta, record.xp});
     if (jerk_ended && observers.jerk) observers.jerk(measures.last_jerk());
     if (i == 0) first_error = record.error;
     if (timing.judged && diverged(verdict, first_error, record.error)) {
@@ -81,16 +85,19 @@ TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& obse
   const loop::Dither& dither = p.controller.dither;
   std::optional<std::int64_t> last_target;  // at the last sample at which the controller ran
   bool stopped = false;
+  std::optional<MotionMeasures> motion_measures;
+  if (p.verdict.motion) motion_measures.emplace(p, resolution);
   for (std::size_t m = 0; m < p.command.targets.size() && !stopped; ++m) {
     const std::int64_t target = p.command.targets[m];
     const loop::Reference reference(p.command.profile, from, target, resolution);
     const MoveTiming timing = move_timing(p, m);
     const std::int64_t changes_before = controller.phase_changes();
-    const auto decide = [&](std::int64_t i, SampleRecord& record) {
-      record.target = target;
-      record.error = target - record.count;
+    if (motion_measures) motion_measures->start_move(target, timing.samples);
+    const auto decide_torque = [&](std::int64_t i, SampleRecord& record) {
       const double t = static_cast<double>(i) * timing.sample_time;
       record.reference = reference.at(t);
+      record.target = reference.is_sine() ? record.reference : target;
+      record.error = record.target - record.count;
       record.phase = controller.phase();
       if (!rig.controller_runs(record.k)) return rig.drive_again(record);
       const loop::EncoderReading reading{record.count, record.coarse_count};
@@ -106,14 +113,22 @@ TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& obse
       record.phase = controller.phase();
       torque_in_force = record.torque;
     };
+    std::int64_t last_reference = target;
+    const auto decide = [&](std::int64_t i, SampleRecord& record) {
+      decide_torque(i, record);
+      last_reference = record.target;
+      if (motion_measures)
+        motion_measures->add({i, record.error, rig.last_measured(), record.torque}, reference);
+    };
     MoveOutcome move =
-        run_move(rig, timing, p.verdict, static_cast<std::int64_t>(m), first, observers, decide);
+        run_move(rig, timing, p.verdict, static_cast<std::int64_t>(m), first, target, observers, decide);
     move.phase_changes = controller.phase_changes() - changes_before;
-    move.travel_time = reference.duration();
+    move.travel_time = reference.travel_time();
     move.controller_failed = rig.controller_failed();
     if (move.outcome != Outcome::nonfinite) {
-      move.true_error = true_error(target, rig.last_measured(), resolution, p.initial.encoder_phase);
+      move.true_error = true_error(last_reference, rig.last_measured(), resolution, p.initial.encoder_phase);
     }
+    if (motion_measures) motion_measures->finish(move);
     outcome.moves.push_back(move);
     stopped = move.stopped;
     first += timing.samples;
@@ -144,7 +159,7 @@ TrialOutcome apply_torques(const TrialParameters& p, const TrialObservers& obser
       }
     };
     MoveOutcome move =
-        run_move(rig, timing, p.verdict, static_cast<std::int64_t>(m), first, observers, decide);
+        run_move(rig, timing, p.verdict, static_cast<std::int64_t>(m), first, 0, observers, decide);
     move.travel_time = static_cast<double>(ramp.samples) * timing.sample_time;
     outcome.moves.push_back(move);
     first += timing.samples;

@@ -46,8 +46,9 @@ std::vector<Parameter> command_rows() {
       real_row("command.hold", 26, "s",
                "time for which each target is held, or each $torque level after it is reached", assumed,
                numerics::above(0), [](auto& p) { return &p.command.hold; }),
-      word_row("command.profile.shape", beyond_moves(4), "shape of the reference between targets", assumed,
-               {"step", "trapezoidal", "s_curve"}, [](auto& p) { return &p.command.profile.shape; }),
+      word_row("command.profile.shape", beyond_moves(4),
+               "shape of the reference between targets, or a sine about the target", assumed,
+               {"step", "trapezoidal", "s_curve", "sine"}, [](auto& p) { return &p.command.profile.shape; }),
       real_row("command.profile.velocity_limit", 53, "rad/s", "maximum velocity of the reference", assumed,
                numerics::above(0), [](auto& p) { return &p.command.profile.velocity_limit; }),
       real_row("command.profile.acceleration_limit", 54, "rad/s^2", "maximum acceleration of the reference",
@@ -55,6 +56,10 @@ std::vector<Parameter> command_rows() {
       real_row("command.profile.jerk_limit", 55, "rad/s^3",
                "maximum rate of change of the reference's acceleration (s_curve only)", assumed,
                numerics::above(0), [](auto& p) { return &p.command.profile.jerk_limit; }),
+      real_row("command.profile.amplitude", beyond_moves(60), "rad", "amplitude of a sine reference", assumed,
+               numerics::above(0), [](auto& p) { return &p.command.profile.amplitude; }),
+      real_row("command.profile.frequency", beyond_moves(61), "Hz", "frequency of a sine reference", assumed,
+               numerics::above(0), [](auto& p) { return &p.command.profile.frequency; }),
   };
 }
 

@@ -44,6 +44,12 @@ std::vector<Parameter> verdict_rows() {
       real_row("verdict.limit", 62, "count",
                "a move has diverged when |error| exceeds its value at the first sample by more than this",
                assumed, numerics::above(1), [](auto& p) { return &p.verdict.limit; }),
+      truth_row("verdict.motion", beyond_moves(62),
+                "whether the true motion is measured too: at rest, while following, and from step to step",
+                assumed, [](auto& p) { return &p.verdict.motion; }),
+      real_row("verdict.rest_band", beyond_moves(63), "count",
+               "|error| within which a move is at rest, for the measures of the true motion", assumed,
+               numerics::closed(0, max_count), [](auto& p) { return &p.verdict.rest_band; }),
   };
 }
 

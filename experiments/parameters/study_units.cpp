@@ -14,9 +14,10 @@ struct Words {
 };
 
 // Longest first, because each is replaced wherever it occurs.
-constexpr std::array<Words, 5> unit_parts{{{"arcsec", {"arcsec", "µm"}},
+constexpr std::array<Words, 6> unit_parts{{{"arcsec", {"arcsec", "µm"}},
                                            {"kg m^2", {"kg m^2", "kg"}},
                                            {"(N m)^n", {"(N m)^n", "N^n"}},
+                                           {"(N m)^2", {"(N m)^2", "N^2"}},
                                            {"N m", {"N m", "N"}},
                                            {"rad", {"rad", "m"}}}};
 

@@ -231,17 +231,23 @@ ValueRule reach_of_positions(parameters::AxisKind axis, bool sequence) {
 
 ValueRule time_of_travel(const parameters::StudyUnits& units,
                          const std::optional<study::SequenceCycle>& sequence) {
-  enum : std::size_t { hold, window, shape, velocity, acceleration, jerk, fine, overrun };
-  ValueRule rule{
-      {"command.hold", "verdict.window", "command.profile.shape", "command.profile.velocity_limit",
-       "command.profile.acceleration_limit", "command.profile.jerk_limit", resolution_of(units.axis)},
-      true,
-      {}};
+  enum : std::size_t { hold, window, shape, velocity, acceleration, jerk, frequency, fine, overrun };
+  ValueRule rule{{"command.hold", "verdict.window", "command.profile.shape", "command.profile.velocity_limit",
+                  "command.profile.acceleration_limit", "command.profile.jerk_limit",
+                  "command.profile.frequency", resolution_of(units.axis)},
+                 true,
+                 {}};
   if (sequence) rule.between.emplace_back("command.sequence.overrun");
   rule.find_faults = [units, sequence](Limits l, Limits targets) -> Faults {
     loop::ReferenceProfile slowest;
     slowest.shape = static_cast<loop::ReferenceShape>(static_cast<int>(l[shape].low));
     if (slowest.shape == loop::ReferenceShape::step) return {};
+    if (slowest.shape == loop::ReferenceShape::sine) {
+      if (2.0 <= l[frequency].low * l[hold].low) return {};
+      return {{fmt::format("a hold of {} s is less than two periods of a sine reference of {} Hz",
+                           l[hold].low, l[frequency].low),
+               "at least 2/frequency: the first period is not measured"}};
+    }
     slowest.velocity_limit = l[velocity].low;
     slowest.acceleration_limit = l[acceleration].low;
     slowest.jerk_limit = l[jerk].low;

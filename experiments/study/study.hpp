@@ -96,7 +96,7 @@ struct SequenceMove {
 struct StudyFeatures {
   parameters::AxisKind axis{parameters::AxisKind::rotary};  ///< whose units the tables have
   bool open_loop{false};                                    ///< torque levels in place of targets
-  bool travel{false};                                       ///< the reference is not a step
+  bool travel{false};                                       ///< the reference takes time to its target
   bool phases{false};                                       ///< the control has two phases
   bool load{false};                                         ///< there is a second mass
   bool drive_torque{false};    ///< the motor torque is not the (delayed) code times the resolution
@@ -106,6 +106,10 @@ struct StudyFeatures {
   bool final_error{false};
   bool own_controller{false};  ///< the controller is a plugin
   bool stopping{false};        ///< a trial is ended where a move diverges
+  bool motion{false};          ///< the true motion is measured
+  bool steps{false};           ///< and the moves end at a target
+  bool following{false};       ///< and the reference is not a step
+  bool reversals{false};       ///< and it is a sine
   /// The design is saltelli: the trials of a row share most of their numbers, and bounds for independent
   /// trials are too narrow.
   bool dependent_trials{false};

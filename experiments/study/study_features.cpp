@@ -18,8 +18,17 @@ bool has_zero(const ValueLimits& limits) {
   return limits.can_be_zero;
 }
 
-bool is_no_step(const ValueLimits& shape) {
-  return shape.high > static_cast<double>(loop::ReferenceShape::step);
+bool is_shape(const ValueLimits& limits, loop::ReferenceShape shape) {
+  return limits.low == static_cast<double>(shape);
+}
+bool is_sine(const ValueLimits& shape) {
+  return is_shape(shape, loop::ReferenceShape::sine);
+}
+bool has_an_end(const ValueLimits& shape) {
+  return !is_sine(shape);
+}
+bool is_travel(const ValueLimits& shape) {
+  return is_shape(shape, loop::ReferenceShape::trapezoidal) || is_shape(shape, loop::ReferenceShape::s_curve);
 }
 
 bool any_holds(const StudyPlan& plan, std::initializer_list<std::string_view> names,
@@ -76,18 +85,23 @@ StudyFeatures find_features(const StudyPlan& plan, const Study& study) {
   StudyFeatures features;
   features.axis = plan.units.axis;
   features.open_loop = plan.open_loop;
-  features.travel = closed_loop && holds_somewhere(plan, "command.profile.shape", is_no_step);
+  features.travel = closed_loop && holds_somewhere(plan, "command.profile.shape", is_travel);
   features.phases =
       closed_loop && holds_somewhere(plan, "controller.coarse.coarse_beyond", can_have_coarse_phase);
   features.load = holds_somewhere(plan, "plant.load.inertia", can_be_positive);
   features.drive_torque = has_uneven_drive(plan);
   features.encoder_errors = has_encoder_errors(plan);
   features.own_controller = plan.plugin != nullptr;
-  features.final_error = features.own_controller || features.travel || features.phases ||
+  const bool has_sine = closed_loop && holds_somewhere(plan, "command.profile.shape", is_sine);
+  features.final_error = features.own_controller || features.travel || has_sine || features.phases ||
                          holds_somewhere(plan, "controller.ki", has_zero) ||
                          any_holds(plan, {"controller.deadband.enter"}, can_be_positive) ||
                          holds_somewhere(plan, "friction.model", causes_hunting);
   features.stopping = closed_loop && holds_somewhere(plan, "verdict.stop", can_be_positive);
+  features.motion = closed_loop && holds_somewhere(plan, "verdict.motion", can_be_positive);
+  features.following = features.motion && (features.travel || has_sine);
+  features.steps = features.motion && holds_somewhere(plan, "command.profile.shape", has_an_end);
+  features.reversals = features.motion && has_sine;
   features.dependent_trials = study.design == Design::saltelli;
   features.bands = plan.common.verdict.bands;
   features.rigs = study.rigs > 0 && closed_loop;

@@ -24,6 +24,15 @@ constexpr double margin_of_rates = 0.02;
 constexpr ValidValues a_count{"a count, not negative"};
 constexpr ValidValues a_fraction_or_nan{"a fraction, or NaN", 0.0, 1.0, true};
 constexpr ValidValues a_time_or_nan{.expected = "a finite time, not negative, or NaN", .nan = true};
+constexpr ValidValues an_error_or_nan{.expected = "a finite number, not negative, or NaN", .nan = true};
+
+/// The statistics of a measure of the true motion.
+ReportedStatistics mean_of_motion(std::string_view name) {
+  return {name,
+          {{{n}, "moves that have this measure, of which its statistics are"},
+           {{mean, max}, "{0} of this measure over the moves"},
+           {{bootstrap_low, bootstrap_high}, "{0} of this measure: Student and studentised bootstrap"}}};
+}
 
 MeasureTable all_measures() {
   return {
@@ -289,6 +298,106 @@ MeasureTable all_measures() {
             {{"controller failed", count, CellText::proportion_of_trials}},
             "controller failed: proportion of trials that the controller ended by giving no finite torque; "
             "they count as nonfinite\n"}},
+      {.field = field<M>("rest_error_rms", "count", "rms of the true error at rest, NaN if never at rest",
+                         &M::rest_error_rms, an_error_or_nan),
+       .file = {.only_with = &study::StudyFeatures::motion},
+       .of_trial = OfTrial::largest,
+       .point = mean_of_motion("rest_error_rms"),
+       .summary = {&study::StudyFeatures::motion,
+                   {{"rest rms", mean}},
+                   "rest rms, rest p-p: of the true error (counts) from the entry into the rest band to the "
+                   "end of the move, mean over moves\n"},
+       .output = {{"rest_error_rms", "rms of the true error at rest, the largest of the trial's moves"}}},
+      {.field = field<M>("rest_error_range", "count",
+                         "peak to peak of the true error at rest, NaN if never at rest", &M::rest_error_range,
+                         an_error_or_nan),
+       .file = {.only_with = &study::StudyFeatures::motion},
+       .of_trial = OfTrial::largest,
+       .point = mean_of_motion("rest_error_range"),
+       .summary = {&study::StudyFeatures::motion, {{"rest p-p", mean}}}},
+      {.field = field<M>("rest_motion_rms", "rad", "rms of the true error at rest, NaN if never at rest",
+                         &M::rest_motion_rms, an_error_or_nan),
+       .file = {.only_with = &study::StudyFeatures::motion},
+       .of_trial = OfTrial::largest,
+       .point = mean_of_motion("rest_motion_rms")},
+      {.field = field<M>("rest_motion_range", "rad",
+                         "peak to peak of the true error at rest, NaN if never at rest",
+                         &M::rest_motion_range, an_error_or_nan),
+       .file = {.only_with = &study::StudyFeatures::motion},
+       .of_trial = OfTrial::largest,
+       .point = mean_of_motion("rest_motion_range")},
+      {.field = field<M>("rest_torque_power", "(N m)^2",
+                         "mean square of the $torque at rest, NaN if never at rest", &M::rest_torque_power,
+                         an_error_or_nan),
+       .file = {.only_with = &study::StudyFeatures::motion},
+       .of_trial = OfTrial::largest,
+       .point = mean_of_motion("rest_torque_power"),
+       .summary =
+           {&study::StudyFeatures::motion,
+            {{"$torque power", mean}},
+            "$torque power, $torque noise: mean square of the $torque at rest, and of its changes from "
+            "sample to sample, mean over moves\n"},
+       .output = {{"rest_torque_power", "mean square of the $torque at rest, the largest of the moves"}}},
+      {.field =
+           field<M>("rest_torque_noise", "(N m)^2",
+                    "mean square of the changes of the $torque from sample to sample at rest, NaN if never "
+                    "at rest",
+                    &M::rest_torque_noise, an_error_or_nan),
+       .file = {.only_with = &study::StudyFeatures::motion},
+       .of_trial = OfTrial::largest,
+       .point = mean_of_motion("rest_torque_noise"),
+       .summary = {&study::StudyFeatures::motion, {{"$torque noise", mean}}}},
+      {.field = field<M>("step_motion", "count",
+                         "mean true position in the window minus that of the move before", &M::step_motion,
+                         {.expected = "a finite motion, or NaN",
+                          .low = std::numeric_limits<double>::lowest(),
+                          .nan = true}),
+       .file = {.only_with = &study::StudyFeatures::steps},
+       .values = {.needs_motion = true}},
+      {.field = field<M>("step_made", "1", "that motion is within half of the commanded step", &M::step_made),
+       .file = {.only_with = &study::StudyFeatures::steps},
+       .values = {.needs_target = true},
+       .of_trial = OfTrial::all,
+       .point = {"step_made",
+                 {{{moves_rate},
+                   "moves whose mean true motion is within half of the commanded step, as a "
+                   "proportion of the moves",
+                   "rate"},
+                  {{moves_rate_low}, "{1} of that proportion (Korn-Graubard)", "rate_low"},
+                  {{moves_rate_high}, "{1} of that proportion (Korn-Graubard)", "rate_high"}}},
+       .summary = {&study::StudyFeatures::steps,
+                   {{"steps made", moves_rate, CellText::percent}},
+                   "steps made: proportion of moves whose mean true motion is within half of the commanded "
+                   "step\n"},
+       .output = {{"step_made", "all moves went the commanded step, to half of it"}}},
+      {.field = field<M>("following_error_rms", "count", "rms of the true following error, NaN of a step",
+                         &M::following_error_rms, an_error_or_nan),
+       .file = {.only_with = &study::StudyFeatures::following},
+       .of_trial = OfTrial::largest,
+       .point = mean_of_motion("following_error_rms"),
+       .summary = {&study::StudyFeatures::following,
+                   {{"following rms", mean}},
+                   "following rms, peak: of the true following error (counts), mean over moves\n"},
+       .output = {{"following_error_rms", "rms of the true following error, the largest of the moves"}}},
+      {.field = field<M>("following_error_peak", "count", "largest |true following error|, NaN of a step",
+                         &M::following_error_peak, an_error_or_nan),
+       .file = {.only_with = &study::StudyFeatures::following},
+       .of_trial = OfTrial::largest,
+       .point = mean_of_motion("following_error_peak"),
+       .summary = {&study::StudyFeatures::following, {{"following peak", mean}}},
+       .output = {{"following_error_peak", "largest |true following error|"}}},
+      {.field = field<M>("reversal_spike", "count",
+                         "largest |true following error| in the quarter of a period after a reversal of the "
+                         "sine, NaN if none",
+                         &M::reversal_spike, an_error_or_nan),
+       .file = {.only_with = &study::StudyFeatures::reversals},
+       .of_trial = OfTrial::largest,
+       .point = mean_of_motion("reversal_spike"),
+       .summary =
+           {&study::StudyFeatures::reversals,
+            {{"reversal spike", mean}},
+            "reversal spike: largest |true following error| (counts) in the quarter of a period after a "
+            "reversal, mean over moves\n"}},
   };
 }
 

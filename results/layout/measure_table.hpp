@@ -49,6 +49,9 @@ enum class Statistic {
   rate_high,
   rate_wilson_low,
   rate_wilson_high,
+  moves_rate,  ///< moves with the quality, as a proportion of the moves
+  moves_rate_low,
+  moves_rate_high,
   n,       ///< values
   all,     ///< values, with those that are later than any
   trials,  ///< trials, or values, above 0
@@ -90,7 +93,9 @@ struct ReportedStatistics {
 };
 
 /// How the cell of a column is written.
-enum class CellText { number, settling_time, proportion_of_trials, proportion_of_moves };
+/// `percent`: a proportion; the proportions of trials and of moves are of the numbers of them that the
+/// statistic counts.
+enum class CellText { number, settling_time, percent, proportion_of_trials, proportion_of_moves };
 
 struct SummaryColumn {
   std::string head;

@@ -63,7 +63,8 @@ Confirmation counted_in(const study::Study& study, layout::RowRange rows) {
   if (goal) counts.goal.emplace();
   for (const shards::TrialResult& result : TrialRunner(study).run(rows)) {
     counts.successes += trial::succeeded(result.outcome.moves) ? 1 : 0;
-    if (goal) counts.goal->add(*goal, result.row % study.trials, study.rigs, result.outcome.moves);
+    if (goal)
+      measures::count_moves(*counts.goal, *goal, result.row % study.trials, study.rigs, result.outcome.moves);
   }
   return counts;
 }

@@ -18,7 +18,7 @@ struct Confirmation {
   std::int64_t trials{0};
   std::int64_t rigs{0};                        ///< 0: no trials share one that they were drawn for
   std::int64_t successes{0};                   ///< trials all of whose moves ended at zero error
-  std::optional<measures::GoalCounts> goal{};  ///< of a study with a goal
+  std::optional<measures::MoveCounts> goal{};  ///< of a study with a goal
 };
 
 /// Runs about `trials` new trials of a point of a results file, on all cores, and writes nothing. Everything

@@ -56,9 +56,9 @@ std::uint64_t fresh_seed(std::uint64_t seed, std::string_view purpose) {
          (64U - seed_bits);
 }
 
-measures::GoalCounts counts_of(const study::Study& study, const Units& units,
+measures::MoveCounts counts_of(const study::Study& study, const Units& units,
                                std::span<const UnitResult> results) {
-  measures::GoalCounts counts;
+  measures::MoveCounts counts;
   for (const UnitResult& unit : results) {
     counts.moves += unit.moves;
     counts.met += unit.met;
@@ -71,7 +71,7 @@ measures::GoalCounts counts_of(const study::Study& study, const Units& units,
   return counts;
 }
 
-measures::GoalCounts with_trials_each(measures::GoalCounts counts, std::int64_t each) {
+measures::MoveCounts with_trials_each(measures::MoveCounts counts, std::int64_t each) {
   for (statistics::RigMoves& rig : counts.rigs) {
     const auto factor = static_cast<double>(each) / static_cast<double>(rig.trials);
     counts.moves -= rig.moves;
@@ -85,7 +85,7 @@ measures::GoalCounts with_trials_each(measures::GoalCounts counts, std::int64_t 
   return counts;
 }
 
-std::int64_t proof_units(const study::Study& study, const measures::GoalCounts& counts, std::int64_t each,
+std::int64_t proof_units(const study::Study& study, const measures::MoveCounts& counts, std::int64_t each,
                          std::size_t points, std::int64_t most_trials) {
   const std::int64_t most = std::max<std::int64_t>(most_trials / each, 2);
   const goal::Needs needs = goal::needs_of(*study.goal, counts, points);

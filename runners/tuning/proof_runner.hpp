@@ -17,17 +17,17 @@ namespace zerocount::tuning {
 std::uint64_t fresh_seed(std::uint64_t seed, std::string_view purpose);
 
 /// The counts of the goal in these units.
-measures::GoalCounts counts_of(const study::Study& study, const Units& units,
+measures::MoveCounts counts_of(const study::Study& study, const Units& units,
                                std::span<const UnitResult> results);
 
 /// The counts as they would be with `each` trials of every machine, at the same rates.
-measures::GoalCounts with_trials_each(measures::GoalCounts counts, std::int64_t each);
+measures::MoveCounts with_trials_each(measures::MoveCounts counts, std::int64_t each);
 
 /// Units with which the proof of a candidate with such counts is expected to be decided, and half as many
 /// more.
 /// @param each trials of a unit @param points from which the bounds have to allow for a choice
 /// @param most_trials limit of the proof
-std::int64_t proof_units(const study::Study& study, const measures::GoalCounts& counts, std::int64_t each,
+std::int64_t proof_units(const study::Study& study, const measures::MoveCounts& counts, std::int64_t each,
                          std::size_t points, std::int64_t most_trials);
 
 /// A finished run of some units.

@@ -147,10 +147,10 @@ class Tuner {
       problem.promising.push_back(seems_to_meet(aim_of(study_), one));
     problem.first_units = [&](std::size_t finalist, std::size_t correction) {
       const std::vector<UnitResult>& found = result_.finalists[finalist].units;
-      const measures::GoalCounts counts = counts_of(study_, search_.units(), found);
+      const measures::MoveCounts counts = counts_of(study_, search_.units(), found);
       return proof_units(study_, with_trials_each(counts, each), each, correction, most);
     };
-    problem.more_units = [&](const measures::GoalCounts& counts, std::size_t correction) {
+    problem.more_units = [&](const measures::MoveCounts& counts, std::size_t correction) {
       return proof_units(study_, counts, each, correction, most);
     };
     problem.run = [&](const Attempt& attempt) {

@@ -72,6 +72,15 @@ trial::MoveOutcome sample_move(std::mt19937_64& random, std::int64_t move, std::
     outcome.jerk_agreement = 0.5;
   }
   outcome.stopped = small(random) < 3;
+  if (small(random) > 2) {
+    outcome.rest_error_rms = 0.1 * small(random);
+    outcome.rest_error_range = 0.3 * small(random);
+    outcome.rest_torque_power = 1e-4 * small(random);
+    outcome.rest_torque_noise = 1e-9 * small(random);
+    outcome.following_error_rms = outcome.following_error_peak = 2.0 * small(random);
+    outcome.step_motion = normal(random);
+    outcome.step_made = small(random) < 5;
+  }
   return outcome;
 }
 
@@ -115,7 +124,8 @@ study::Study sample_study(std::int64_t points, std::int64_t trials, std::int64_t
   study.profiles = {{"friction.k1", "N m/rad", profile}};
   study.retained_trials = {0};
   study.features.travel = study.features.phases = study.features.drive_torque = true;
-  study.features.stopping = true;
+  study.features.stopping = study.features.motion = study.features.steps = true;
+  study.features.following = true;
   return study;
 }
 

@@ -21,11 +21,11 @@ trial::MoveOutcome move_settled_at(double time) {
 }
 
 /// Trials of one move, on so many rigs; `met` of them meet the goal.
-measures::GoalCounts counts_of(std::int64_t met, std::int64_t trials, std::int64_t rigs = 0) {
-  measures::GoalCounts counts;
+measures::MoveCounts counts_of(std::int64_t met, std::int64_t trials, std::int64_t rigs = 0) {
+  measures::MoveCounts counts;
   for (std::int64_t i = 0; i < trials; ++i) {
     const trial::MoveOutcome move = move_settled_at(i < met ? 0.05 : 0.0505);
-    counts.add(within_50_ms, i, rigs, {&move, 1});
+    measures::count_moves(counts, within_50_ms, i, rigs, {&move, 1});
   }
   return counts;
 }
@@ -92,7 +92,7 @@ TEST(GoalNeeds, DecideIfTheProportionsAreThoseObserved) {
   EXPECT_EQ(judge_goal(moves, at(0.99, trials.trials / 2), 1).status, Status::undecided);
 
   const study::Goal machines{.within = 0.05, .moves = 0.9, .machines = 0.9};
-  const measures::GoalCounts few = counts_of(200, 200, 20);
+  const measures::MoveCounts few = counts_of(200, 200, 20);
   ASSERT_EQ(judge_goal(machines, few, 1).status, Status::undecided);
   const Needs rigs = needs_of(machines, few, 1);
   ASSERT_GT(rigs.rigs, 20);
@@ -108,7 +108,7 @@ TEST(GoalText, NamesTheGoalAndItsThreeReadings) {
   EXPECT_EQ(
       goal_sentence({.within = 0.02, .moves = 0.9, .confidence = 0.8}),
       "error 0 for good after 0.02 s in at least 90 % of all moves of all machines, with 80 % confidence");
-  const measures::GoalCounts counts = counts_of(990, 1000, 100);
+  const measures::MoveCounts counts = counts_of(990, 1000, 100);
   const std::string text = readings_text(goal, counts, judge_goal(goal, counts, 1));
   EXPECT_NE(text.find("of all moves of all machines, 99.0 % meet it: 990 of 1000"), std::string::npos)
       << text;
@@ -127,7 +127,7 @@ TEST(GoalPlan, IsTheSmallestStudyThatCanMeetTheGoal) {
     const std::int64_t moves = 1 + static_cast<std::int64_t>(random() % 3);
     const std::size_t points = 1 + random() % 9;
     const auto meets = [&](std::int64_t rigs, std::int64_t trials) {
-      measures::GoalCounts counts;
+      measures::MoveCounts counts;
       for (std::int64_t rig = 0; rig < rigs; ++rig)
         counts.rigs.push_back({trials, trials * moves, trials * moves});
       counts.moves = counts.met = rigs * trials * moves;

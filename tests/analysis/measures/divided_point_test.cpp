@@ -85,7 +85,7 @@ std::vector<std::uint64_t> all_statistics(const PointAccumulator& point) {
   std::vector<std::uint64_t> bits;
   for (const StatisticField& field : statistic_fields())
     bits.push_back(std::bit_cast<std::uint64_t>(field.value(summary)));
-  for (const StatisticField& field : mean_bound_fields())
+  for (const StatisticField& field : mean_bound_fields({}))
     bits.push_back(std::bit_cast<std::uint64_t>(field.value(summary)));
   for (const LevelStatistics& level : summary.levels)
     for (const LevelField& field : level_fields())

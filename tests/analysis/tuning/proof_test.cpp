@@ -9,9 +9,9 @@
 namespace zerocount::tuning {
 namespace {
 
-measures::GoalCounts counts_of(const MadeUpProblem& truth, const Values& at, std::uint64_t first,
+measures::MoveCounts counts_of(const MadeUpProblem& truth, const Values& at, std::uint64_t first,
                                std::int64_t units) {
-  measures::GoalCounts counts;
+  measures::MoveCounts counts;
   for (std::int64_t i = 0; i < units; ++i) {
     const UnitResult unit = truth.result(at, first + static_cast<std::uint64_t>(i));
     counts.moves += unit.moves;
@@ -39,7 +39,7 @@ TEST(Proof, ItsClaimsHoldAndThoseOfTheSearchDoNot) {
     for (const Estimate& one : found.estimates)
       problem.promising.push_back(seems_to_meet({.moves = truth.goal.moves}, one));
     problem.first_units = [](std::size_t, std::size_t) { return std::int64_t{2000}; };
-    problem.more_units = [](const measures::GoalCounts&, std::size_t) { return std::int64_t{6000}; };
+    problem.more_units = [](const measures::MoveCounts&, std::size_t) { return std::int64_t{6000}; };
     problem.run = [&](const Attempt& attempt) {
       const auto first = static_cast<std::uint64_t>(attempt.number) << 16U;
       return counts_of(truth, found.finalists[attempt.finalist].values, first, attempt.units);
@@ -76,12 +76,12 @@ TEST(Proof, GoesOnToTheNextFinalistAfterAMissAndToMoreUnitsWhenUndecided) {
   problem.goal = {.within = 1.0, .moves = 0.95};
   problem.promising = {true, true};
   problem.first_units = [](std::size_t, std::size_t) { return std::int64_t{1000}; };
-  problem.more_units = [](const measures::GoalCounts&, std::size_t) { return std::int64_t{4000}; };
+  problem.more_units = [](const measures::MoveCounts&, std::size_t) { return std::int64_t{4000}; };
   problem.has_time = [] { return true; };
   problem.run = [&](const Attempt& attempt) {
     attempts.push_back(attempt);
     const double rate = attempt.finalist == 0 ? 0.8 : attempt.units == 1000 ? 0.955 : 0.97;
-    measures::GoalCounts counts;
+    measures::MoveCounts counts;
     for (std::int64_t i = 0; i < attempt.units; ++i) {
       const bool met = static_cast<double>(i) < rate * static_cast<double>(attempt.units);
       ++counts.moves;

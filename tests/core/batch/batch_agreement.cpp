@@ -122,7 +122,7 @@ void Comparison::compare_after_slide(const trial::SampleRecord& a, const batch::
 /// depth, which has a rule of its own.
 void Comparison::compare_move(std::size_t number, const trial::MoveOutcome& a, const trial::MoveOutcome& b) {
   study::StudyFeatures features;
-  features.stopping = true;
+  features.stopping = features.motion = features.steps = features.following = features.reversals = true;
   std::string text;
   for (const layout::RecordField<trial::MoveOutcome>& field :
        layout::outcome_fields(layout::format_version, features)) {
@@ -130,7 +130,9 @@ void Comparison::compare_move(std::size_t number, const trial::MoveOutcome& a, c
     const double x = layout::value_of(field, a);
     const double y = layout::value_of(field, b);
     if (name == "reversal_depth" || x == y || (std::isnan(x) && std::isnan(y))) continue;
-    const bool is_position = field.column.unit == "rad" || name == "true_error";
+    const bool is_position = field.column.unit == "rad" || name == "true_error" || name == "step_motion" ||
+                             name == "reversal_spike" || name.starts_with("rest_error") ||
+                             name.starts_with("following_error");
     const double difference = std::abs(x - y) / (field.column.unit == "rad" ? resolution_ : 1.0);  // counts
     if (!is_position || !(difference < allowed())) text += fmt::format(" {} {} and {}", name, x, y);
     if (is_position && !slid_) result_.floating = std::max(result_.floating, difference);

@@ -62,6 +62,13 @@ void compare(Differences& d, const trial::MoveOutcome& a, const trial::MoveOutco
   d.expect_same("encoder_disagreement", a.encoder_disagreement, b.encoder_disagreement);
   d.expect_same("jerk_count", a.jerk_count, b.jerk_count);
   d.expect_same("jerk_agreement", a.jerk_agreement, b.jerk_agreement);
+  d.expect_same("rest_error_rms", a.rest_error_rms, b.rest_error_rms);
+  d.expect_same("rest_error_range", a.rest_error_range, b.rest_error_range);
+  d.expect_same("rest_torque_power", a.rest_torque_power, b.rest_torque_power);
+  d.expect_same("rest_torque_noise", a.rest_torque_noise, b.rest_torque_noise);
+  d.expect_same("following_error_rms", a.following_error_rms, b.following_error_rms);
+  d.expect_same("reversal_spike", a.reversal_spike, b.reversal_spike);
+  d.expect_same("step_motion", a.step_motion, b.step_motion);
 }
 
 void compare(Differences& d, const trial::Jerk& a, const trial::Jerk& b) {

@@ -1,5 +1,6 @@
 // Sampled loops beyond the sampling kernels in the lanes: errors of encoders and converter, missed samples,
-// two phases, profiles; and all together.
+// two phases, profiles, measures of the true motion; and all together.
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -11,10 +12,10 @@
 namespace zerocount::testing {
 namespace {
 
-enum class LoopKind { encoder, converter, missed, phases, profile, all };
-constexpr int loop_kinds = 6;
-constexpr const char* loop_kind_names[loop_kinds] = {"encoder", "converter", "missed samples",
-                                                     "phases",  "profile",   "all"};
+enum class LoopKind { encoder, converter, missed, phases, profile, motion, all };
+constexpr int loop_kinds = 7;
+constexpr const char* loop_kind_names[loop_kinds] = {
+    "encoder", "converter", "missed samples", "phases", "profile", "motion", "all"};
 
 loop::EncoderErrors random_errors(RandomBlocks& draw) {
   loop::EncoderErrors errors;
@@ -58,6 +59,15 @@ std::vector<trial::TrialParameters> trials_of(LoopKind kind, int count) {
       p.command.profile.velocity_limit = draw.log_uniform(1e-3, 1e-1);
       p.command.profile.acceleration_limit = draw.log_uniform(0.1, 10.0);
       p.controller.blocks.feedforward = draw.blocks(BlockKind::feedforward, 2000.0).feedforward;
+    }
+    if (has(LoopKind::motion)) {
+      p.verdict.motion = true;
+      p.verdict.rest_band = std::floor(draw.uniform(0.0, 4.0));
+      if (draw.chance(0.4)) {
+        p.command.profile.shape = loop::ReferenceShape::sine;
+        p.command.profile.amplitude = draw.log_uniform(1e-6, 1e-4);
+        p.command.profile.frequency = draw.uniform(2.01, 10.0) / p.command.hold;
+      }
     }
     if (kind == LoopKind::all) p.controller.blocks = draw.blocks(BlockKind::all, p.controller.sample_rate);
     if (draw.chance(0.3)) p.controller.delay = draw.uniform(0.0, 3.0);

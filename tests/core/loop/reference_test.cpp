@@ -120,6 +120,33 @@ TEST(Reference, NoTravelTakesNoTime) {
   }
 }
 
+TEST(Reference, SineOscillatesAboutTheTargetWithoutEnd) {
+  Sampler draw(8);
+  for (int i = 0; i < 100; ++i) {
+    const double amplitude = draw.power_of_ten(-5, -1);
+    const double frequency = draw.power_of_ten(-1, 2);
+    const std::int64_t target = draw.integer(-1000, 1000);
+    const Reference sine({.shape = ReferenceShape::sine, .amplitude = amplitude, .frequency = frequency}, 7,
+                         target, paper_resolution);
+    EXPECT_TRUE(std::isinf(sine.duration()));
+    EXPECT_TRUE(std::isnan(sine.travel_time()));
+    for (int k = 0; k < 50; ++k) {
+      const double t = draw.uniform(0.0, 10.0 / frequency);
+      const long double w = 2 * std::numbers::pi_v<long double> * frequency;
+      const long double counts = amplitude / paper_resolution * std::sin(w * t);
+      const double tolerance = 1e-10 * amplitude / paper_resolution;
+      EXPECT_NEAR(sine.exact_at(t), static_cast<double>(static_cast<long double>(target) + counts),
+                  tolerance + 1e-9);
+      EXPECT_LE(std::abs(static_cast<double>(sine.at(t)) - sine.exact_at(t)), 0.5 + tolerance);
+      const ReferenceMotion motion = sine.motion_at(t);
+      EXPECT_NEAR(motion.velocity, static_cast<double>(amplitude * w * std::cos(w * t)),
+                  1e-10 * amplitude * static_cast<double>(w));
+      EXPECT_NEAR(motion.acceleration, static_cast<double>(-amplitude * w * w * std::sin(w * t)),
+                  1e-10 * amplitude * static_cast<double>(w * w));
+    }
+  }
+}
+
 TEST(Reference, EveryCountIsTheNearestToTheSegmentsIntegratedOneByOne) {
   Sampler draw(1);
   std::int64_t compared = 0;

@@ -296,6 +296,10 @@ TEST(Sobol, TheDimensionsAreFixed) {
       {"controller.dither.frequency", 3121},
       {"controller.missed", 3122},
       {"controller.jitter", 3123},
+      {"command.profile.amplitude", 3124},
+      {"command.profile.frequency", 3125},
+      {"verdict.motion", 3126},
+      {"verdict.rest_band", 3127},
   };
   std::size_t checked = 0;
   for (const parameters::Parameter& parameter : parameters::parameter_table()) {

@@ -12,7 +12,7 @@ std::optional<CountedGoal> counted_goal(const study::Study& study) {
 }
 
 void count_moves(MoveCounts& counts, const CountedGoal& goal, std::int64_t trial, std::int64_t rigs,
-               std::span<const trial::MoveOutcome> moves) {
+                 std::span<const trial::MoveOutcome> moves) {
   const std::int64_t met = std::count_if(moves.begin(), moves.end(),
                                          [&](const trial::MoveOutcome& move) { return meets(goal, move); });
   counts.add(trial, rigs, std::ssize(moves), met);

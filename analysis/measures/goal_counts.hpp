@@ -29,6 +29,6 @@ inline bool meets(const CountedGoal& goal, const trial::MoveOutcome& move) {
 /// Adds the moves of a trial to those that meet the goal. @param rigs number of rigs; 0: no trials share a
 /// rig
 void count_moves(MoveCounts& counts, const CountedGoal& goal, std::int64_t trial, std::int64_t rigs,
-               std::span<const trial::MoveOutcome> moves);
+                 std::span<const trial::MoveOutcome> moves);
 
 }  // namespace zerocount::measures

@@ -379,25 +379,26 @@ MeasureTable all_measures() {
                    {{"following rms", mean}},
                    "following rms, peak: of the true following error (counts), mean over moves\n"},
        .output = {{"following_error_rms", "rms of the true following error, the largest of the moves"}}},
-      {.field = field<M>("following_error_peak", "count", "largest |true following error|, NaN of a step",
+      {.field = field<M>("following_error_peak", "count",
+                         "largest magnitude of the true following error, NaN of a step",
                          &M::following_error_peak, an_error_or_nan),
        .file = {.only_with = &study::StudyFeatures::following},
        .of_trial = OfTrial::largest,
        .point = mean_of_motion("following_error_peak"),
        .summary = {&study::StudyFeatures::following, {{"following peak", mean}}},
-       .output = {{"following_error_peak", "largest |true following error|"}}},
+       .output = {{"following_error_peak", "largest magnitude of the true following error"}}},
       {.field = field<M>("reversal_spike", "count",
-                         "largest |true following error| in the quarter of a period after a reversal of the "
-                         "sine, NaN if none",
+                         "largest magnitude of the true following error in the quarter of a period after a "
+                         "reversal of the sine, NaN if none",
                          &M::reversal_spike, an_error_or_nan),
        .file = {.only_with = &study::StudyFeatures::reversals},
        .of_trial = OfTrial::largest,
        .point = mean_of_motion("reversal_spike"),
-       .summary =
-           {&study::StudyFeatures::reversals,
-            {{"reversal spike", mean}},
-            "reversal spike: largest |true following error| (counts) in the quarter of a period after a "
-            "reversal, mean over moves\n"}},
+       .summary = {&study::StudyFeatures::reversals,
+                   {{"reversal spike", mean}},
+                   "reversal spike: largest magnitude of the true following error (counts) in the quarter of "
+                   "a period after a "
+                   "reversal, mean over moves\n"}},
   };
 }
 

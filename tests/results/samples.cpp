@@ -125,7 +125,7 @@ study::Study sample_study(std::int64_t points, std::int64_t trials, std::int64_t
   study.retained_trials = {0};
   study.features.travel = study.features.phases = study.features.drive_torque = true;
   study.features.stopping = study.features.motion = study.features.steps = true;
-  study.features.following = true;
+  study.features.following = study.features.reversals = true;
   return study;
 }
 

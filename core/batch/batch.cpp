@@ -1,6 +1,7 @@
 #include "core/batch/batch.hpp"
 
-#include <cmath>
+#include <algorithm>
+#include <optional>
 #include <type_traits>
 
 #include "core/batch/lane_scheduler.hpp"
@@ -14,16 +15,9 @@
 namespace zerocount::batch {
 namespace {
 
-constexpr double max_delay = 64.0;
-
 // Each overload returns the feature that the lanes lack, empty if they have all. Each switch lists all
 // enumerators and each structured binding all members, so that the compiler demands a decision for one that
 // is added later.
-
-std::string_view lacking(const loop::AmplifierParameters& amplifier) {
-  const auto& [bandwidth] = amplifier;
-  return bandwidth == 0.0 ? "" : "an amplifier";
-}
 
 bool lanes_have(loop::ControlStructure structure) {
   switch (structure) {
@@ -47,15 +41,25 @@ std::string_view lacking(const loop::ControllerParameters& controller) {
       "sample_kernel has these blocks: another one needs its law there, or needs_lane_loop()");
   [[maybe_unused]] const auto& [sample_rate, kp, ki, kd, delay, anti_windup, encoder, coarse, blocks, user,
                                 dither, missed, jitter] = controller;
-  if (jitter > 0.0) return "late samples (controller.jitter)";
-  if (delay > max_delay) return "a delay above 64 samples";
   return lacking(blocks);
 }
 
-std::string_view lacking(const trial::DisturbanceParameters& disturbance) {
+/// @param max_frequency of a vibration whose series over a sample is accurate, Hz.
+std::string_view lacking(const trial::DisturbanceParameters& disturbance, LaneMotion motion,
+                         double max_frequency) {
   [[maybe_unused]] const auto& [torque, ripple, vibration, spectra] = disturbance;
-  if (!ripple.empty()) return "disturbance.ripple";
-  return vibration.empty() && spectra.empty() ? "" : "disturbance.vibration";
+  if (motion == LaneMotion::free) {
+    if (!ripple.empty()) return "disturbance.ripple without friction";
+    return vibration.empty() && spectra.empty() ? "" : "disturbance.vibration without friction";
+  }
+  const auto is_fast = [&](double frequency) { return frequency > max_frequency; };
+  const bool fast_line = std::any_of(vibration.begin(), vibration.end(),
+                                     [&](const auto& line) { return is_fast(line.frequency); });
+  const bool fast_spectrum = std::any_of(spectra.begin(), spectra.end(), [&](const auto& spectrum) {
+    return is_fast(spectrum->density.back().frequency);
+  });
+  if (fast_line || fast_spectrum) return "a vibration above half the sample rate";
+  return ripple.size() > max_lane_ripples ? "more than eight ripples" : "";
 }
 
 std::string_view lacking(const trial::CommandParameters& command) {
@@ -70,15 +74,15 @@ std::string lacking_in_lanes(const trial::TrialParameters& p) {
   [[maybe_unused]] const auto& [plant, friction, encoder, dac, amplifier, controller, command, initial,
                                 verdict, randomness, disturbance] = p;
   [[maybe_unused]] const auto& [inertia, presliding_damping, sliding_damping, load] = plant;
-  if (!lane_motion(friction.model))
-    return "friction.model " + std::string(friction::traits_of(friction.model).word);
+  const std::optional<LaneMotion> motion = lane_motion(friction.model);
+  if (!motion) return "friction.model " + std::string(friction::traits_of(friction.model).word);
   if (motion::has_load(plant)) return "a second mass";
+  // After a late sample the series must reach up to the next one.
+  const double max_frequency = 0.5 / (1.0 / controller.sample_rate + controller.jitter);
   for (const std::string_view feature :
-       {lacking(amplifier), lacking(controller), lacking(command), lacking(disturbance)}) {
+       {lacking(controller), lacking(command), lacking(disturbance, *motion, max_frequency)}) {
     if (!feature.empty()) return std::string(feature);
   }
-  if (controller.delay != std::floor(controller.delay) && lane_motion(friction.model) == LaneMotion::free)
-    return "a delay of a fraction of a sample without friction";
   return trial::samples_of_move(p, 0) > 0 ? "" : "moves without a sample";
 }
 

@@ -109,7 +109,7 @@ struct alignas(64) LoopLanes {
   Lanes decided;      ///< torque of the last sample, N m
   Lanes code;         ///< of the last sample
   Lanes steady;       ///< the torque will stay as long as the count does
-  Lanes delay;        ///< samples between deciding a torque and applying it
+  Lanes driven;       ///< a LaneDrive lies between the decided torque and the rotor
   Lanes disturbance;  ///< constant torque on the rotor beside the motor's, N m
   // Of lanes with a LaneLoop, decided at this sample:
   Lanes given_count;
@@ -151,6 +151,34 @@ struct alignas(64) BlockLanes {
   Lanes remainder;  ///< of the sigma-delta converter, N m
 };
 
+inline constexpr int max_lane_ripples = 8;
+/// Of the Taylor series of a vibration over a sample. Up to half the sample rate, x = 2πf·T ≤ π, its
+/// truncation error is x²⁵/25! = 2e-13 of the amplitude.
+inline constexpr int vibration_order = 24;
+
+/// One ripple: amplitude·sin(per_angle·θ + phase).
+struct RippleLanes {
+  Lanes amplitude;     ///< N m; 0 in lanes without this ripple
+  Lanes per_angle;     ///< rad/rad
+  Lanes sine, cosine;  ///< at the present θ
+};
+
+/// The torque on the rotor where it varies: settled + lag·exp(−decay·t) + vibration + ripples. A lane whose
+/// torque does not vary keeps that of an earlier time, unused.
+struct alignas(64) CourseLanes {
+  Lanes settled;    ///< what the motor's torque approaches, and the constant disturbance, N m
+  Lanes lag;        ///< of the motor's torque at the start of the piece, N m
+  Lanes decay;      ///< 1/s
+  Lanes piece;      ///< duration of the piece, s
+  Lanes piece_end;  ///< from the nominal instant k·T of the last sample, s
+  Lanes tolerance;  ///< MotionTolerance::elongation, rad
+  Lanes vibrates;   ///< there is a vibration
+  Lanes vibration[vibration_order + 1];  ///< about k·T, coefficients in t/T, N m
+  Lanes ripple_count;
+  RippleLanes ripples[max_lane_ripples];
+  Lanes applied[batch_order];  ///< without ripples, about the present instant, coefficients ≥ 1 in t/T, N m
+};
+
 /// One error band of the lanes.
 struct BandLanes : trial::BandMeasures<Lanes> {
   Lanes limit;  ///< b, counts; infinite in lanes without this band
@@ -184,7 +212,7 @@ enum LaneEvent : int {
   jerk_changes = 1 << 8,
   diverges = 1 << 9,
   meets_event = 1 << 10,   ///< an event other than a reversal lies in the step
-  delayed = 1 << 11,       ///< the decided torque has to wait
+  driven = 1 << 11,        ///< the lane has a LaneDrive
   count_changes = 1 << 12  ///< in the last half of the move
 };
 
@@ -225,7 +253,9 @@ struct BatchState : LaneNumbers {
   PassedSamples* passed;  ///< null without an observer
   int passed_count;       ///< at most one a lane and kernel call
 
-  BlockLanes blocks;  ///< last and apart, since few studies use them
+  // Last and apart, since fewer studies use them.
+  BlockLanes blocks;
+  CourseLanes course;
 };
 
 }  // namespace zerocount::batch

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "core/batch/lane_group.hpp"
-#include "core/batch/series.hpp"
+#include "core/batch/applied_torque.hpp"
 #include "core/friction/bristle_formulas.hpp"
 
 namespace zerocount::batch {
@@ -43,7 +42,7 @@ LaneSet bristle_rest_kernel(BatchState& batch, const LaneSet& lanes) {
 }
 
 /// The step of one vector; see bristle_kernel.
-template <bool Fast, class At>
+template <bool Fast, bool Varies, class At>
 __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
   using P = typename At::Vector;
   using Mask = typename P::Mask;
@@ -65,14 +64,18 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
   const P per_velocity_squared = at.load(c.per_velocity_squared);
 
   const Mask from_zero = omega == zero;
-  const P direction = sign(select(from_zero, torque - stiffness * deflection_start, omega));
+  P direction = sign(select(from_zero, torque - stiffness * deflection_start, omega));
+  if constexpr (Varies) {
+    direction = select(direction == zero, sign(torque_rate(batch, at, omega)), direction);
+  }
   const P speed = abs(omega);
   const P stribeck_velocity = one / sqrt(per_velocity_squared);
   P stribeck_decay_start = zero;
   P h = min(at.load(time.next_step), time_to_stop);
   if constexpr (Fast) {
     const P above = speed - P(6.5) * stribeck_velocity;
-    const P max_torque = max(stiffness * abs(deflection_start), coulomb + excess) + abs(torque);
+    P max_torque = max(stiffness * abs(deflection_start), coulomb + excess) + abs(torque);
+    if constexpr (Varies) max_torque = max_torque + torque_range(batch, at, time_to_stop);
     const P slowing = (max_torque + (damping + P(2.0) * bristle_damping) * speed) * per_inertia;
     h = select((excess > zero) & (slowing * h > above), above / slowing, h);
   } else {
@@ -108,6 +111,8 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
   velocity[0] = omega * h;
   deflection[0] = Fast ? select(saturated, end_of_bristle, deflection_start) : deflection_start;
   stribeck_decay[0] = stribeck_decay_start;
+  [[maybe_unused]] VaryingTorque<P> applied;
+  if constexpr (Varies) load_torque(batch, at, h, one, one, applied);
 #pragma GCC unroll 1
   for (int k = 0; k < batch_order; ++k) {
     P product = velocity[0] * deflection[k];
@@ -127,7 +132,9 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
     P rate = velocity[k] - towards * ratio[k];
     if constexpr (Fast) rate = select(saturated, zero, rate);
     const P per_order = P(numerics::reciprocal.of[k + 1]);
-    const P force = (k == 0 ? torque : zero) - stiffness * deflection[k];
+    P torque_k = k == 0 ? torque : zero;
+    if constexpr (Varies) torque_k = applied.coefficient(k, velocity[k]);
+    const P force = torque_k - stiffness * deflection[k];
     travel[k + 1] = velocity[k] * per_order;
     deflection[k + 1] = rate * per_order;
     velocity[k + 1] =
@@ -148,6 +155,7 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
   signed_part[batch_order] = select(from_zero, zero, velocity[batch_order]);
   Mask unfit = ~halts & ~cannot_turn(signed_part[0], velocity_end, signed_part[1],
                                      curvature_bound(signed_part, batch_order));
+  if constexpr (Varies) unfit = unfit | (halts & ~crosses_once(signed_part, batch_order));
   if constexpr (!Fast) {
     P growth = max(exponent[batch_order - 1], zero);
 #pragma GCC unroll 1
@@ -186,10 +194,10 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
 ///
 /// `Fast` is for lanes whose level is that of Coulomb to the last bit: with Dahl's law, and far above the
 /// Stribeck velocity, where (ω/ωs)² > 64. Their steps end where (ω/ωs)² = 42: exp(−42) = 6e-19.
-template <class V, bool Fast>
+template <class V, bool Fast, bool Varies>
 void bristle_kernel(BatchState& batch, const LaneSet& lanes) {
   batch.event_count = 0;
-  for_each_vector<V>(lanes, [&](const auto& at) { bristle<Fast>(batch, at); });
+  for_each_vector<V>(lanes, [&](const auto& at) { bristle<Fast, Varies>(batch, at); });
 }
 
 }  // namespace zerocount::batch

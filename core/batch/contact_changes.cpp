@@ -151,17 +151,27 @@ void end_slide(BatchState& batch, int lane, LaneTrial& trial) {
   store_contact(batch, lane, trial);
 }
 
-bool advance_by_reference(BatchState& batch, int lane, LaneTrial& trial) {
+motion::TorqueCourse present_course(const BatchState& batch, int lane) {
+  const CourseLanes& c = batch.course;
+  const double elapsed = c.piece[lane] - batch.time.time_to_stop[lane];
+  const double lag = c.lag[lane] * numerics::exp(-c.decay[lane] * elapsed);
+  return {c.settled[lane] + lag, c.settled[lane], c.decay[lane]};
+}
+
+bool advance_by_reference(BatchState& batch, int lane, LaneTrial& trial, const motion::TorqueCourse& torque) {
   stop_at_next_sample(batch, lane);
   load_motion(batch, lane, trial);
   const std::int64_t before = trial.plant->breakaways();
   trial.plant->forget_deepest();
-  trial.plant->advance(motion::constant_torque(batch.motion.torque[lane]), batch.time.time_to_stop[lane],
-                       plant::max_steps_of_sample);
+  if (trial.drive) {
+    const double elapsed = batch.course.piece_end[lane] - batch.time.time_to_stop[lane];
+    trial.plant->set_time(trial.drive->sample_instant() + elapsed);
+  }
+  trial.plant->advance(torque, batch.time.time_to_stop[lane], plant::max_steps_of_sample);
   trial.breakaways += trial.plant->breakaways() - before;
   trial.deepest = std::max(trial.deepest, trial.plant->deepest());
   store_contact(batch, lane, trial);
-  if (trial.plant->rest()) batch.motion.rest_torque[lane] = batch.motion.torque[lane];
+  if (trial.plant->rest()) batch.motion.rest_torque[lane] = torque.now;
   batch.time.time_to_stop[lane] = 0.0;
   return trial.plant->finite();
 }

@@ -8,10 +8,14 @@ namespace zerocount::batch {
 
 void LaneScheduler::take_samples() {
   change_torques();
-  const LaneSet at_stop = kernels_.lanes_at_stop(batch_).in_both(active_);
-  for_each_lane(at_stop, [&](int lane) {
-    if (batch_.measures.samples[lane] == batch_.measures.limits.samples[lane]) end_move(lane, trial_of(lane));
+  bool ended = false;
+  LaneSet at_stop = kernels_.lanes_at_stop(batch_);
+  for_each_lane(at_stop.in_both(active_), [&](int lane) {
+    if (batch_.measures.samples[lane] != batch_.measures.limits.samples[lane]) return;
+    end_move(lane, trial_of(lane));
+    ended = true;
   });
+  if (ended) at_stop = kernels_.lanes_at_stop(batch_);  // the first sample of a new trial may be late
   const LaneSet due = at_stop.in_both(active_);
   const LaneSet with_blocks = due.in_both(with_blocks_);
   const LaneSet with_loop = due.in_both(with_loop_);
@@ -70,7 +74,7 @@ void LaneScheduler::sample(void (*kernel)(BatchState&, const LaneSet&), const La
     LaneTrial& trial = trial_of(lane);
     if ((events & jerk_changes) != 0) track_jerk(lane, trial);
     if ((events & count_changes) != 0) follow_last_half(lane, trial);
-    if ((events & delayed) != 0) delay_torque(lane, trial);
+    if ((events & driven) != 0) drive_torque(lane, trial);
     if ((events & diverges) != 0) stop_diverged(lane, trial);
   }
 }
@@ -133,39 +137,40 @@ void LaneScheduler::report_jerk(LaneTrial& trial) {
   if (observers_->jerk) observers_->jerk(trial.number, trial.jerks.last());
 }
 
-/// Exchanges the decided torque for the one that acts now. It stays until the next stop only if all waiting
-/// torques are equal; otherwise the next stop is the next sample, or before it the change that a delay's
-/// fraction of a sample brings.
-void LaneScheduler::delay_torque(int lane, LaneTrial& trial) {
-  const double decided = batch_.motion.torque[lane];
-  const std::size_t size = trial.waiting.size();
-  const double newest = trial.waiting[(trial.oldest_waiting + size - 1) % size];
-  trial.waiting_alike = decided == newest ? trial.waiting_alike + 1 : 1;
-  batch_.motion.torque[lane] = trial.waiting[trial.oldest_waiting];
-  trial.waiting[trial.oldest_waiting] = decided;
-  trial.oldest_waiting = (trial.oldest_waiting + 1) % size;
-  if (trial.waiting_alike > static_cast<std::int64_t>(size)) return;
-  TimeLanes& time = batch_.time;
-  time.samples_to_stop[lane] = 1.0;
-  time.time_to_stop[lane] = time.sample_time[lane];
-  const double fraction = batch_.loop.delay[lane] - std::floor(batch_.loop.delay[lane]);
-  if (fraction == 0.0) return;
-  trial.torque_to_come = trial.waiting[trial.oldest_waiting];
-  if (trial.torque_to_come == batch_.motion.torque[lane]) return;
-  time.time_to_stop[lane] *= fraction;
-  changing_.insert(lane);
+/// Lets the drive of the lane make the torque on the rotor of the decided one. Unless that stays, the next
+/// stop is the end of its first piece.
+void LaneScheduler::drive_torque(int lane, LaneTrial& trial) {
+  LaneDrive& drive = *trial.drive;
+  const std::int64_t k = trial.first_sample + static_cast<std::int64_t>(batch_.measures.samples[lane]) - 1;
+  drive.send(k, trial.loop ? batch_.loop.given_torque[lane] : batch_.loop.decided[lane]);
+  if (drive.stays()) {
+    varying_.erase(lane);
+    batch_.motion.torque[lane] = drive.piece().course.now + batch_.loop.disturbance[lane];
+    return;
+  }
+  if (batch_.course.vibrates[lane] != 0.0) store_vibration(batch_, lane, drive);
+  begin_piece(lane, trial);
 }
 
-/// Applies the next torque in the lanes that stand within a sample, where it changes.
+/// Starts the present piece of the lane's drive.
+void LaneScheduler::begin_piece(int lane, LaneTrial& trial) {
+  const LaneDrive& drive = *trial.drive;
+  start_piece(batch_, lane, trial);
+  const bool varies = drive.disturbance_varies() || !motion::motor_is_constant(drive.piece().course);
+  const bool whole = drive.piece().duration == batch_.time.sample_time[lane];
+  varying_.erase(lane);
+  changing_.erase(lane);
+  if (varies || (trial.motion == LaneMotion::free && !whole)) varying_.insert(lane);
+  if (!drive.is_last_piece()) changing_.insert(lane);
+}
+
+/// Goes on to the next piece of the torque in the lanes that stand within a sample.
 void LaneScheduler::change_torques() {
   if (changing_.empty()) return;
-  const LaneSet now = changing_.in_both(kernels_.lanes_at_stop(batch_));
-  changing_ = changing_.without(now);
-  for_each_lane(now, [&](int lane) {
-    const double sample_time = batch_.time.sample_time[lane];
-    const double fraction = batch_.loop.delay[lane] - std::floor(batch_.loop.delay[lane]);
-    batch_.motion.torque[lane] = trial_of(lane).torque_to_come;
-    batch_.time.time_to_stop[lane] = sample_time - fraction * sample_time;
+  for_each_lane(changing_.in_both(kernels_.lanes_at_stop(batch_)), [&](int lane) {
+    LaneTrial& trial = trial_of(lane);
+    trial.drive->next_piece();
+    begin_piece(lane, trial);
     batch_.time.steps[lane] = 0.0;
   });
 }

@@ -71,6 +71,7 @@ void LaneScheduler::refill(int lane) {
         with_blocks_.insert(lane);
       }
       set_moving(lane);
+      if (trial.drive && trial.drive->jitters()) begin_piece(lane, trial);
       return;
     }
     run_scalar(trial, 0, 0);
@@ -128,6 +129,7 @@ void copy_lane(Numbers& numbers, int from, int to) {
 void LaneScheduler::move_lane(int from, int to) {
   copy_lane(static_cast<LaneNumbers&>(batch_), from, to);
   if (with_blocks_.contains(from)) copy_lane(batch_.blocks, from, to);
+  if (batch_.loop.driven[from] != 0.0) copy_lane(batch_.course, from, to);
   std::swap(trial_index_[to], trial_index_[from]);
   for (LaneSet* of : sets()) {
     if (of->contains(from)) of->insert(to);

@@ -42,24 +42,31 @@ class LaneScheduler {
   void follow_last_half(int lane, LaneTrial& trial);
   void track_jerk(int lane, LaneTrial& trial);
   void report_jerk(LaneTrial& trial);
-  void delay_torque(int lane, LaneTrial& trial);
+  void drive_torque(int lane, LaneTrial& trial);
+  void begin_piece(int lane, LaneTrial& trial);
   void change_torques();
 
   // Motion between sampling instants (lane_steps.cpp).
+  void follow_torques(const LaneSet& lanes);
+  bool follow_reference(int lane, LaneTrial& trial);
   void move_sticking();
+  void move_sticking(LaneSet lanes, const MotionKernels& kernels);
+  void locate_events();
   void prepare_steps(LaneSet& lanes);
   bool come_to_rest(int lane);
   void end_sticking_steps();
   void move_sliding();
+  void move_sliding(const LaneSet& lanes, const MotionKernels& kernels);
   void end_sliding_steps();
   void move_bristles();
+  void move_bristles(const LaneSet& lanes, const MotionKernels& kernels);
   void move_free();
   void rerun_lost_lanes();
 
   void set_moving(int lane);
-  std::array<LaneSet*, 9> sets() {
-    return {&active_, &sticking_,    &waiting_,   &sliding_, &bristles_,
-            &free_,   &with_blocks_, &with_loop_, &changing_};
+  std::array<LaneSet*, 10> sets() {
+    return {&active_, &sticking_,    &waiting_,   &sliding_,  &bristles_,
+            &free_,   &with_blocks_, &with_loop_, &changing_, &varying_};
   }
   bool is_idle(int lane) const { return !active_.contains(lane); }
   LaneTrial& trial_of(int lane) { return trials_in_work_[trial_index_[lane]]; }
@@ -80,6 +87,9 @@ class LaneScheduler {
   LaneSet with_blocks_;  ///< active lanes whose controller has blocks
   LaneSet with_loop_;    ///< active lanes with a LaneLoop
   LaneSet changing_;     ///< active lanes whose next stop is a change of the torque within the sample
+  /// Active lanes whose torque varies until the next stop; of those without friction also the ones whose stop
+  /// is not one sample ahead.
+  LaneSet varying_;
 
   std::span<const trial::TrialParameters* const> trials_;
   std::span<trial::TrialOutcome> outcomes_;

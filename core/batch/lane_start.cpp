@@ -42,7 +42,7 @@ void start_loop(LoopLanes& l, int lane, const trial::TrialParameters& p) {
   l.decided[lane] = 0.0;
   l.code[lane] = 0.0;
   l.steady[lane] = 0.0;
-  l.delay[lane] = p.controller.delay;
+  l.driven[lane] = needs_lane_drive(p) ? 1.0 : 0.0;
   l.disturbance[lane] = p.disturbance.torque;
 }
 
@@ -196,7 +196,46 @@ void start_motion(BatchState& batch, int lane, LaneTrial& trial, double resoluti
   }
 }
 
+void start_drive(BatchState& batch, int lane, LaneTrial& trial) {
+  const trial::TrialParameters& p = *trial.parameters;
+  LaneDrive& drive = trial.drive.emplace(p);
+  CourseLanes& c = batch.course;
+  const motion::Disturbance& varying = drive.disturbance();
+  // Without a disturbance that varies the reference lets the rotor rest under a varying torque, too.
+  c.tolerance[lane] = drive.disturbance_varies() ? 0.0 : trial.elongation_tolerance;
+  c.vibrates[lane] = varying.vibration.empty() ? 0.0 : 1.0;
+  store_vibration(batch, lane, drive);
+  c.ripple_count[lane] = static_cast<double>(varying.ripple.size());
+  for (std::size_t i = 0; i < std::size(c.ripples); ++i) {
+    const motion::Ripple ripple = i < varying.ripple.size() ? varying.ripple[i] : motion::Ripple{};
+    RippleLanes& to = c.ripples[i];
+    put(lane, {&to.amplitude, &to.per_angle, &to.sine, &to.cosine}, ripple.amplitude, ripple.per_angle, 0.0,
+        0.0);
+  }
+  if (trial.motion == LaneMotion::contact) trial.plant->disturb(varying);
+}
+
 }  // namespace
+
+void store_vibration(BatchState& batch, int lane, LaneDrive& drive) {
+  const VibrationSeries::Coefficients vibration = drive.vibration();
+  for (std::size_t j = 0; j < vibration.size(); ++j) batch.course.vibration[j][lane] = vibration[j];
+}
+
+void start_piece(BatchState& batch, int lane, LaneTrial& trial) {
+  LaneDrive& drive = *trial.drive;
+  const loop::TorquePiece& piece = drive.piece();
+  CourseLanes& c = batch.course;
+  const double disturbance = batch.loop.disturbance[lane];
+  batch.motion.torque[lane] = piece.course.now + disturbance;
+  c.settled[lane] = piece.course.settled + disturbance;
+  c.lag[lane] = piece.course.now - piece.course.settled;
+  c.decay[lane] = piece.course.rate;
+  c.piece[lane] = piece.duration;
+  c.piece_end[lane] = drive.piece_end();
+  batch.time.samples_to_stop[lane] = 1.0;
+  batch.time.time_to_stop[lane] = piece.duration;
+}
 
 std::optional<LaneMotion> lane_motion(friction::FrictionModel model) {
   switch (model) {
@@ -244,9 +283,6 @@ void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t numb
   trial.first_sample = 0;
   trial.reported_jerks = 0;
   trial.breakaway_spring_torque = 0.0;
-  trial.waiting.assign(static_cast<std::size_t>(std::ceil(p.controller.delay)), p.disturbance.torque);
-  trial.oldest_waiting = 0;
-  trial.waiting_alike = static_cast<std::int64_t>(trial.waiting.size());
 
   start_loop(batch.loop, lane, p);
   const double resolution = batch.loop.resolution[lane];
@@ -260,6 +296,8 @@ void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t numb
   start_motion(batch, lane, trial, resolution);
   trial.loop.reset();
   if (needs_lane_loop(p)) trial.loop.emplace(p);
+  trial.drive.reset();
+  if (needs_lane_drive(p)) start_drive(batch, lane, trial);
   start_move(batch, lane, trial);
 }
 

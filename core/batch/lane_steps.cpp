@@ -5,6 +5,8 @@
 
 #include "core/batch/lane_rest.hpp"
 #include "core/batch/lane_scheduler.hpp"
+#include "core/friction/free_motion.hpp"
+#include "core/numerics/elementary_functions.hpp"
 
 namespace zerocount::batch {
 namespace {
@@ -20,21 +22,64 @@ LaneSet fast_lanes(const BatchState& batch, const LaneSet& lanes) {
 
 }  // namespace
 
+/// Computes the present torque of lanes in which it varies, and its series.
+void LaneScheduler::follow_torques(const LaneSet& lanes) {
+  CourseLanes& c = batch_.course;
+  const MotionLanes& m = batch_.motion;
+  for_each_lane(lanes, [&](int lane) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(c.ripple_count[lane]); ++i) {
+      const double theta = m.slide_direction[lane] != 0.0
+                               ? m.theta[lane]
+                               : m.hook[lane] + m.elongation[lane] + m.extension[lane];
+      const double angle =
+          c.ripples[i].per_angle[lane] * theta + trial_of(lane).drive->disturbance().ripple[i].phase;
+      c.ripples[i].sine[lane] = numerics::sin(angle);
+      c.ripples[i].cosine[lane] = numerics::cos(angle);
+    }
+  });
+  kernels_.course(batch_, lanes);
+}
+
 void LaneScheduler::move_sticking() {
-  LaneSet lanes = sticking_.without(kernels_.lanes_at_stop(batch_));
+  const LaneSet lanes = sticking_.without(kernels_.lanes_at_stop(batch_));
   if (lanes.empty() && waiting_.empty()) return;
-  kernels_.stick_start(batch_, lanes);
-  prepare_steps(lanes);
-  kernels_.stick_step(batch_, lanes);
-  end_sticking_steps();
+  const LaneSet varying = lanes.in_both(varying_);
+  move_sticking(lanes.without(varying), kernels_.constant);
+  if (!varying.empty()) {
+    follow_torques(varying);
+    move_sticking(varying, kernels_.varying);
+  }
   // Few lanes at a time meet an event: they wait until there are enough of them, or no others to move.
   constexpr int enough = 16;
   const int count = waiting_.count();
   if (count == 0 || (count < enough && lanes.count() > count)) return;
+  locate_events();
+}
+
+void LaneScheduler::move_sticking(LaneSet lanes, const MotionKernels& kernels) {
+  kernels.stick_start(batch_, lanes);
+  prepare_steps(lanes);
+  kernels.stick_step(batch_, lanes);
+  end_sticking_steps();
+}
+
+/// Takes the steps of the waiting lanes up to their events.
+void LaneScheduler::locate_events() {
   const LaneSet with_events = std::exchange(waiting_, {});
   for_each_lane(with_events, [&](int lane) { sticking_.insert(lane); });
-  kernels_.stick_event(batch_, with_events);
+  const LaneSet varying = with_events.in_both(varying_);
+  kernels_.constant.stick_event(batch_, with_events.without(varying));
   end_sticking_steps();
+  if (varying.empty()) return;
+  kernels_.varying.stick_event(batch_, varying);
+  end_sticking_steps();
+}
+
+/// Advances the lane to its next stop by the scalar plant. @returns whether the motion stayed finite.
+bool LaneScheduler::follow_reference(int lane, LaneTrial& trial) {
+  return advance_by_reference(batch_, lane, trial,
+                              varying_.contains(lane) ? present_course(batch_, lane)
+                                                      : motion::constant_torque(batch_.motion.torque[lane]));
 }
 
 /// Handles the events at the start of a step. Removes the lanes that do not take the step from `lanes`.
@@ -59,6 +104,11 @@ void LaneScheduler::prepare_steps(LaneSet& lanes) {
 /// @returns whether the lane was at rest; then it is at a sampling instant.
 bool LaneScheduler::come_to_rest(int lane) {
   LaneTrial& trial = trial_of(lane);
+  if (varying_.contains(lane)) {
+    if (!follow_reference(lane, trial)) fall_back_to_scalar(lane);
+    if (!is_idle(lane)) set_moving(lane);
+    return true;
+  }
   if (!observers_->sample) return rest(batch_, lane, trial, {});
   const auto samples = static_cast<std::int64_t>(batch_.measures.samples[lane]);
   return rest(batch_, lane, trial, [&](double passed, double theta, const friction::CreepState& creep) {
@@ -85,7 +135,7 @@ void LaneScheduler::end_sticking_steps() {
     if ((events & creep_on) != 0) batch_.motion.creeping[lane] = 1.0;
     if ((events & creep_off) != 0) end_creep(batch_, lane, trial);
     if ((events & breakaway) != 0) start_slide(batch_, lane, trial);
-    if ((events & beyond_kernel) != 0 && !advance_by_reference(batch_, lane, trial)) {
+    if ((events & beyond_kernel) != 0 && !follow_reference(lane, trial)) {
       fall_back_to_scalar(lane);
       continue;
     }
@@ -96,10 +146,18 @@ void LaneScheduler::end_sticking_steps() {
 void LaneScheduler::move_sliding() {
   const LaneSet lanes = sliding_.without(kernels_.lanes_at_stop(batch_));
   if (lanes.empty()) return;
+  const LaneSet varying = lanes.in_both(varying_);
+  move_sliding(lanes.without(varying), kernels_.constant);
+  if (varying.empty()) return;
+  follow_torques(varying);
+  move_sliding(varying, kernels_.varying);
+}
+
+void LaneScheduler::move_sliding(const LaneSet& lanes, const MotionKernels& kernels) {
   const LaneSet fast = fast_lanes(batch_, lanes);
-  kernels_.slide_fast(batch_, fast);
+  kernels.slide_fast(batch_, fast);
   end_sliding_steps();
-  kernels_.slide_slow(batch_, lanes.without(fast));
+  kernels.slide_slow(batch_, lanes.without(fast));
   end_sliding_steps();
 }
 
@@ -109,7 +167,7 @@ void LaneScheduler::end_sliding_steps() {
     const int events = batch_.events[lane];
     LaneTrial& trial = trial_of(lane);
     if ((events & velocity_zero) != 0) end_slide(batch_, lane, trial);
-    if ((events & beyond_kernel) != 0 && !advance_by_reference(batch_, lane, trial)) {
+    if ((events & beyond_kernel) != 0 && !follow_reference(lane, trial)) {
       fall_back_to_scalar(lane);
       continue;
     }
@@ -119,11 +177,19 @@ void LaneScheduler::end_sliding_steps() {
 
 void LaneScheduler::move_bristles() {
   if (bristles_.empty()) return;
-  const LaneSet lanes = kernels_.bristle_rest(batch_, bristles_.without(kernels_.lanes_at_stop(batch_)));
+  const LaneSet lanes = bristles_.without(kernels_.lanes_at_stop(batch_));
+  const LaneSet varying = lanes.in_both(varying_);
+  move_bristles(kernels_.bristle_rest(batch_, lanes.without(varying)), kernels_.constant);
+  if (varying.empty()) return;
+  follow_torques(varying);
+  move_bristles(varying, kernels_.varying);
+}
+
+void LaneScheduler::move_bristles(const LaneSet& lanes, const MotionKernels& kernels) {
   const LaneSet fast = fast_lanes(batch_, lanes);
-  kernels_.bristle_fast(batch_, fast);
+  kernels.bristle_fast(batch_, fast);
   rerun_lost_lanes();
-  kernels_.bristle_slow(batch_, lanes.without(fast));
+  kernels.bristle_slow(batch_, lanes.without(fast));
   rerun_lost_lanes();
 }
 
@@ -134,7 +200,18 @@ void LaneScheduler::rerun_lost_lanes() {
 
 void LaneScheduler::move_free() {
   if (free_.empty()) return;
-  kernels_.free(batch_, free_.without(kernels_.lanes_at_stop(batch_)));
+  const LaneSet lanes = free_.without(kernels_.lanes_at_stop(batch_));
+  const LaneSet varying = lanes.in_both(varying_);
+  kernels_.free(batch_, lanes.without(varying));
+  for_each_lane(varying, [&](int lane) {
+    MotionLanes& m = batch_.motion;
+    const friction::FreeMotion end =
+        friction::free_motion(trial_of(lane).parameters->plant, {m.theta[lane], m.omega[lane]},
+                              present_course(batch_, lane), batch_.time.time_to_stop[lane]);
+    m.theta[lane] = end.theta;
+    m.omega[lane] = end.omega;
+    batch_.time.time_to_stop[lane] = 0.0;
+  });
 }
 
 }  // namespace zerocount::batch

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "core/batch/batch_state.hpp"
+#include "core/batch/lane_drive.hpp"
 #include "core/batch/lane_loop.hpp"
 #include "core/plant/plant.hpp"
 #include "core/trial/jerks.hpp"
@@ -50,10 +50,7 @@ struct LaneTrial {
 
   std::optional<LaneLoop> loop;  ///< of a trial that needs one
 
-  std::vector<double> waiting;  ///< decided torques on their way through the delay, N m
-  std::size_t oldest_waiting{0};
-  double torque_to_come{0.0};     ///< within this sample, N m
-  std::int64_t waiting_alike{0};  ///< number of equal torques decided last
+  std::optional<LaneDrive> drive;  ///< of a trial that needs one
 };
 
 /// Copies the lane's motion from the batch state into its plant.
@@ -69,8 +66,16 @@ void close_loop(BatchState& batch, int lane, LaneTrial& trial);
 void end_creep(BatchState& batch, int lane, LaneTrial& trial);
 void start_slide(BatchState& batch, int lane, LaneTrial& trial);
 void end_slide(BatchState& batch, int lane, LaneTrial& trial);
-/// Advances to the next stop by LanePlant::advance. @returns whether the motion stayed finite.
-bool advance_by_reference(BatchState& batch, int lane, LaneTrial& trial);
+/// Advances to the next stop by LanePlant::advance. @param torque on the rotor, N m, without a disturbance
+/// that varies. @returns whether the motion stayed finite.
+bool advance_by_reference(BatchState& batch, int lane, LaneTrial& trial, const motion::TorqueCourse& torque);
+
+/// Sets the vibration of the lane's torque to its series about the last sample.
+void store_vibration(BatchState& batch, int lane, LaneDrive& drive);
+/// Sets the torque of the lane to the present piece of its drive, and its next stop to the end of that.
+void start_piece(BatchState& batch, int lane, LaneTrial& trial);
+/// The torque on the rotor from now on, without a disturbance that varies: of a lane whose torque varies.
+motion::TorqueCourse present_course(const BatchState& batch, int lane);
 
 /// The measures of one lane.
 inline trial::RunningMeasures<double> measures_of(const MeasureLanes& lanes, int lane) {

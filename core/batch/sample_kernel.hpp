@@ -126,11 +126,11 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
                  events_where<P>(~unreadable & (away | back), jerk_changes) +
                  events_where<P>(~unreadable & changes, count_changes) +
                  events_where<P>(error_diverges, diverges) +
-                 events_where<P>(to_mask(at.load(l.delay)), delayed));
+                 events_where<P>(to_mask(at.load(l.driven)), driven));
 }
 
 /// One sampling instant of each lane: encoder, control, converter, measures. Reports jerk_changes,
-/// count_changes, diverges and delayed, and beyond_kernel where the encoder cannot count θ.
+/// count_changes, diverges and driven, and beyond_kernel where the encoder cannot count θ.
 template <class V, Decider decider>
 void sample_kernel(BatchState& batch, const LaneSet& lanes) {
   batch.event_count = 0;

@@ -1,12 +1,11 @@
 #pragma once
 
-#include "core/batch/lane_group.hpp"
-#include "core/batch/series.hpp"
+#include "core/batch/applied_torque.hpp"
 
 namespace zerocount::batch {
 
 /// The step of one vector; see slide_kernel.
-template <bool Fast, class At>
+template <bool Fast, bool Varies, class At>
 __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
   using P = typename At::Vector;
   using Mask = typename P::Mask;
@@ -33,7 +32,9 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
   P h = time_to_stop;
   if constexpr (Fast) {
     const P above = speed - P(6.5) * stribeck_velocity;
-    const P slowing = max(breakaway_torque - direction * torque + damping * speed, zero) * per_inertia;
+    P resisting = breakaway_torque - direction * torque + damping * speed;
+    if constexpr (Varies) resisting = resisting + torque_range(batch, at, time_to_stop);
+    const P slowing = max(resisting, zero) * per_inertia;
     h = select(slowing * time_to_stop > above, above / slowing, time_to_stop);
   } else {
     stribeck_decay_start = exp(-per_velocity_squared * omega * omega);
@@ -57,10 +58,16 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
   P stribeck_decay[batch_order + 1];
   theta[0] = at.load(m.theta);
   velocity[0] = omega * h;
+  [[maybe_unused]] VaryingTorque<P> applied;
+  if constexpr (Varies) load_torque(batch, at, h, one, one, applied);
   stribeck_decay[0] = stribeck_decay_start;
 #pragma GCC unroll 1
   for (int k = 0; k < batch_order; ++k) {
     P force = k == 0 ? driving : zero;
+    if constexpr (Varies) {
+      const P torque_k = applied.coefficient(k, velocity[k]);
+      if (k > 0) force = torque_k;
+    }
     if constexpr (!Fast) {
       exponent[k] = -per_step_squared * numerics::square_coefficient(velocity, k);
       if (k > 0) {
@@ -87,6 +94,7 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
     const Mask grows = growth > max(P(6.0), P(-23.0) - exponent[0]);
     const P curvature = curvature_bound(velocity, batch_order);
     unfit = grows | (~halts & ~cannot_turn(velocity[0], velocity_end, velocity[1], curvature));
+    if constexpr (Varies) unfit = unfit | (halts & ~crosses_once(velocity, batch_order));
   }
   const Mask beyond = omega * direction <= zero;
   const Mask too_long = (inexact | unfit) & ~beyond;
@@ -116,10 +124,10 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
 ///
 /// `Fast` is for lanes far above the Stribeck velocity, where (ω/ωs)² > 64 and friction is that of Coulomb to
 /// the last bit. Their steps end where (ω/ωs)² = 42: exp(−42) = 6e-19.
-template <class V, bool Fast>
+template <class V, bool Fast, bool Varies>
 void slide_kernel(BatchState& batch, const LaneSet& lanes) {
   batch.event_count = 0;
-  for_each_vector<V>(lanes, [&](const auto& at) { slide<Fast>(batch, at); });
+  for_each_vector<V>(lanes, [&](const auto& at) { slide<Fast, Varies>(batch, at); });
 }
 
 }  // namespace zerocount::batch

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/batch/applied_torque.hpp"
 #include "core/batch/torque_power.hpp"
 
 namespace zerocount::batch {
@@ -55,9 +56,10 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask other_powers(const StickLaw<P>& law, co
 /// by memory accesses, so it stores only what cannot be derived, and it is not unrolled, because the code
 /// would not fit the instruction cache.
 /// @tparam AnyPower some lane creeps with an exponent other than 2.
-template <bool AnyPower, class P>
+/// @param applied ConstantTorque, or a VaryingTorque in the units of the series.
+template <bool AnyPower, class P, class Applied>
 ZEROCOUNT_ALWAYS_INLINE void expand_orders(const StickLaw<P>& law, const StickStart<P>& start,
-                                           StickSeries<P>& s) {
+                                           [[maybe_unused]] Applied& applied, StickSeries<P>& s) {
   static_assert(batch_order % 2 == 0);
   P softened[batch_order + 1];  // softening·exp(exponent)
   P power[batch_order + 1];     // |σ|ⁿ, where n is not 2
@@ -84,14 +86,14 @@ ZEROCOUNT_ALWAYS_INLINE void expand_orders(const StickLaw<P>& law, const StickSt
       return square;
     }
   };
-  const auto next_order = [&](int k, const P& square, const P& unbalanced) __attribute__((always_inline)) {
+  const auto next_order = [&](int k, const P& square, const P& excess) __attribute__((always_inline)) {
     const P per_order(numerics::reciprocal.of[k + 1]);
     const P creep = law.creep_limit * power_of(k, square) - law.creep_recovery * creep_travel;
     const P rate = k == 0 ? select(start.at_reversal, zero, velocity - creep) : velocity - creep;
     s.rate[k] = rate;
     elongation = rate * per_order;
     creep_travel = creep * per_order;
-    velocity = (unbalanced - law.damping * velocity) * per_order;
+    velocity = (excess - law.damping * velocity) * per_order;
     s.scaled_creep[k + 1] = creep_travel;
     elongation_change = elongation_change + elongation;
     creep_change = creep_change + creep_travel;
@@ -105,6 +107,15 @@ ZEROCOUNT_ALWAYS_INLINE void expand_orders(const StickLaw<P>& law, const StickSt
     scaled_torque_end = scaled_torque_end + torque;
     return torque;
   };
+  // The torque that the spring, with the torque `of_spring`, leaves of order k ≥ 1.
+  const auto unbalanced = [&]([[maybe_unused]] int k, const P& of_spring) __attribute__((always_inline)) {
+    if constexpr (Applied::varies) {
+      return applied.coefficient(k, velocity) - of_spring;
+    } else {
+      return -of_spring;
+    }
+  };
+  if constexpr (Applied::varies) applied.coefficient(0, velocity);
   next_order(0, start.scaled_torque * start.scaled_torque, law.applied - start.scaled_torque);
 #pragma GCC unroll 1
   for (int k = 1; k < batch_order; k += 2) {
@@ -135,14 +146,14 @@ ZEROCOUNT_ALWAYS_INLINE void expand_orders(const StickLaw<P>& law, const StickSt
       later = earlier;
     }
     last_terms = abs(elongation) + abs(velocity);
-    next_order(k, half + half, -torque);
+    next_order(k, half + half, unbalanced(k, torque));
     last_terms = last_terms + (abs(elongation) + abs(velocity));
     const P next =
         next_scaled_torque(k + 1, (next_product + s.rate[0] * softened[k]) + s.rate[k] * softened[0]);
     if (k + 1 == batch_order) break;
     const P middle = s.scaled_torque[(k + 1) / 2];
     next_half = next_half + s.scaled_torque[0] * next;
-    next_order(k + 1, (next_half + next_half) + middle * middle, -next);
+    next_order(k + 1, (next_half + next_half) + middle * middle, unbalanced(k + 1, next));
   }
   s.rate[batch_order] = velocity;
   s.elongation_change = elongation_change;
@@ -153,18 +164,19 @@ ZEROCOUNT_ALWAYS_INLINE void expand_orders(const StickLaw<P>& law, const StickSt
 }
 
 /// Not inlined, because it is rare and would take registers from the common case.
-template <class P>
+template <class P, class Applied>
 __attribute__((noinline)) void expand_any_power(const StickLaw<P>& law, const StickStart<P>& start,
-                                                StickSeries<P>& s) {
-  expand_orders<true>(law, start, s);
+                                                Applied& applied, StickSeries<P>& s) {
+  expand_orders<true>(law, start, applied, s);
 }
 
-template <class P>
-ZEROCOUNT_ALWAYS_INLINE void expand(const StickLaw<P>& law, const StickStart<P>& start, StickSeries<P>& s) {
+template <class P, class Applied>
+ZEROCOUNT_ALWAYS_INLINE void expand(const StickLaw<P>& law, const StickStart<P>& start, Applied& applied,
+                                    StickSeries<P>& s) {
   if (other_powers(law, start).any()) {
-    expand_any_power(law, start, s);
+    expand_any_power(law, start, applied, s);
   } else {
-    expand_orders<false>(law, start, s);
+    expand_orders<false>(law, start, applied, s);
   }
 }
 

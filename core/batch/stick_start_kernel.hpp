@@ -1,13 +1,13 @@
 #pragma once
 
-#include "core/batch/lane_group.hpp"
+#include "core/batch/applied_torque.hpp"
 #include "core/batch/torque_power.hpp"
 #include "core/friction/spring_branch.hpp"
 
 namespace zerocount::batch {
 
 /// The start of a step of one vector; see stick_start_kernel.
-template <class At>
+template <bool Varies, class At>
 __attribute__((noinline)) void start_step(BatchState& batch, const At& at) {
   using P = typename At::Vector;
   using Mask = typename P::Mask;
@@ -46,33 +46,46 @@ __attribute__((noinline)) void start_step(BatchState& batch, const At& at) {
   const P unbalanced = torque - damping * omega - spring_torque;
   const P acceleration = unbalanced * per_inertia + alpha * extension_rate;
 
-  // The rest rule is tried within twice the amplitude of rest, or of a residual oscillation at a reversal, by
-  // the leading terms of CreepAtRest.
-  const P balance = torque_sign * torque;
-  const P creep_limit = torque_power(torque, exponent) * per_lambda;
-  const P limit_rate = alpha * (creep_limit - hardening);
-  // α·d(|u|ⁿ/λ)/d|u|
-  const P limit_slope = select(exponent == P(2.0), P(2.0) * alpha * abs(torque) * per_lambda,
-                               alpha * exponent * creep_limit / max(abs(torque), P(1e-300)));
-  const P slow_rate = select(creeping & (balance > zero) & (limit_rate > zero), limit_rate, zero) /
-                      (P(1.0) + limit_slope * damping);
-  const P torque_excess = torque_sign * spring_torque - (balance - damping * slow_rate);
-  const P velocity_excess = torque_sign * omega - slow_rate * (P(1.0) + alpha * damping / stiffest);
-  const P acceleration_excess = (torque_excess + damping * velocity_excess) * per_inertia;
   const P per_time_squared = stiffest * per_inertia;
   const Mask at_reversal = elongation_rate == zero;
-  const P amplitude = select(at_reversal, at.load(c.max_oscillation), at.load(batch.time.rest));
-  const P limit = P(2.0) * amplitude * per_time_squared;
-  const Mask at_rest = torque == at.load(m.rest_torque);
-  const Mask rests = at_rest | (acceleration_excess * acceleration_excess +
-                                    per_time_squared * velocity_excess * velocity_excess <
-                                limit * limit);
+  Mask at_rest = zero < zero;
+  Mask rests = at_rest;
+  if constexpr (Varies) {
+    // PreslidingFriction::at_rest. A disturbance that varies allows no rest.
+    const P tolerance = at.load(batch.course.tolerance);
+    rests = (abs(elongation_rate) < tolerance * sqrt(per_time_squared)) &
+            (abs(acceleration) < tolerance * per_time_squared) & (tolerance > zero);
+  } else {
+    // The rest rule is tried within twice the amplitude of rest, or of a residual oscillation at a reversal,
+    // by the leading terms of CreepAtRest.
+    const P balance = torque_sign * torque;
+    const P creep_limit = torque_power(torque, exponent) * per_lambda;
+    const P limit_rate = alpha * (creep_limit - hardening);
+    // α·d(|u|ⁿ/λ)/d|u|
+    const P limit_slope = select(exponent == P(2.0), P(2.0) * alpha * abs(torque) * per_lambda,
+                                 alpha * exponent * creep_limit / max(abs(torque), P(1e-300)));
+    const P slow_rate = select(creeping & (balance > zero) & (limit_rate > zero), limit_rate, zero) /
+                        (P(1.0) + limit_slope * damping);
+    const P torque_excess = torque_sign * spring_torque - (balance - damping * slow_rate);
+    const P velocity_excess = torque_sign * omega - slow_rate * (P(1.0) + alpha * damping / stiffest);
+    const P acceleration_excess = (torque_excess + damping * velocity_excess) * per_inertia;
+    const P amplitude = select(at_reversal, at.load(c.max_oscillation), at.load(batch.time.rest));
+    const P limit = P(2.0) * amplitude * per_time_squared;
+    at_rest = torque == at.load(m.rest_torque);
+    rests = at_rest | (acceleration_excess * acceleration_excess +
+                           per_time_squared * velocity_excess * velocity_excess <
+                       limit * limit);
+  }
 
   const P hook_torque = spring_torque + damping * omega;
   const P motion = select(omega != zero, omega, torque - spring_torque);
   const Mask breaks_away =
       ~rests & (abs(hook_torque) >= at.load(c.breakaway)) & (hook_torque * motion > zero);
-  const P direction = sign(select(elongation_rate != zero, elongation_rate, acceleration));
+  P direction = sign(select(elongation_rate != zero, elongation_rate, acceleration));
+  if constexpr (Varies) {
+    direction = select(direction == zero, sign(torque_rate(batch, at, omega)), direction);
+    direction = select(direction == zero, at.load(m.direction), direction);
+  }
   const Mask held = ~rests & ~breaks_away;
 
   at.store(m.spring_torque, spring_torque);
@@ -90,10 +103,12 @@ __attribute__((noinline)) void start_step(BatchState& batch, const At& at) {
 
 /// Prepares the step of a lane whose hook sticks: evaluates the branch, and reports the events at its start:
 /// creep_off, and one of may_rest, breakaway and reversal. See PreslidingFriction::stick.
-template <class V>
+/// With `Varies` the torque is that of course_kernel, and may_rest is that of the reference under such a
+/// torque.
+template <class V, bool Varies>
 void stick_start_kernel(BatchState& batch, const LaneSet& lanes) {
   batch.event_count = 0;
-  for_each_stretch<V>(lanes, [&](const auto& at) { start_step(batch, at); });
+  for_each_stretch<V>(lanes, [&](const auto& at) { start_step<Varies>(batch, at); });
 }
 
 }  // namespace zerocount::batch

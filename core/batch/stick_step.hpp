@@ -33,6 +33,7 @@ struct StickStep {
   StickSeries<P> series;
 
   // Step control.
+  P forced_rate;      ///< bound of dxs/dt·h that a varying torque adds, by the softening length
   Mask reverses;      ///< dxs/dt changes its sign
   Mask reverses_too;  ///< the step ends at that reversal
   Mask too_long;
@@ -97,7 +98,7 @@ ZEROCOUNT_ALWAYS_INLINE void begin_step(const BatchState& batch, const At& at, S
   step.per_h = P(1.0) / step.h;
 }
 
-template <class P, class At>
+template <bool Varies, class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void expand_step(const BatchState& batch, const At& at, StickStep<P>& step) {
   const MotionLanes& m = batch.motion;
   const ContactLanes& c = batch.contact;
@@ -138,7 +139,15 @@ ZEROCOUNT_ALWAYS_INLINE void expand_step(const BatchState& batch, const At& at, 
   start.torque = torque;
   start.at_reversal = step.at_reversal;
   start.creeping = step.creeping & step.here;
-  expand(law, start, step.series);
+  if constexpr (Varies) {
+    VaryingTorque<P> applied;
+    load_torque(batch, at, h, per_torque, step.length, applied);
+    expand(law, start, applied, step.series);
+    step.forced_rate = P(4.0) * applied.change / law.stiffness;
+  } else {
+    ConstantTorque applied;
+    expand(law, start, applied, step.series);
+  }
 
   step.breakaway_torque = at.load(c.breakaway);
   step.per_step = damping * step.per_h;
@@ -177,26 +186,31 @@ ZEROCOUNT_ALWAYS_INLINE P allowed_error(const BatchState& batch, const At& at, c
   return min(at.load(time.tolerance), relative) * (step.h * at.load(time.sample_rate));
 }
 
-/// The lanes in which dxs/dt may have two zeros within the step, the signs at its ends being equal. Creep may
-/// cause them where dxs/dt is as small as the contribution of creep.
-template <class P, class At>
+/// The lanes in which dxs/dt may have more zeros within the step than the signs at its ends show. Creep may
+/// cause two where dxs/dt is as small as the contribution of creep, and a varying torque where it is as small
+/// as what that adds.
+template <bool Varies, class P, class At>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask may_turn_twice(const BatchState& batch, const At& at,
                                                         const StickStep<P>& step) {
   using Mask = typename P::Mask;
   const StickSeries<P>& s = step.series;
   // Order 1 of creep is order 0 of its rate.
-  const P creep_velocity = at.load(batch.contact.max_creep_ratio) * abs(s.scaled_creep[1]);
-  const Mask small = min(abs(step.rate_start), abs(step.rate_end)) <= creep_velocity;
-  const Mask unsure = step.here & ~step.reverses & small;
+  P added = at.load(batch.contact.max_creep_ratio) * abs(s.scaled_creep[1]);
+  if constexpr (Varies) added = added + step.forced_rate;
+  const Mask small = min(abs(step.rate_start), abs(step.rate_end)) <= added;
+  Mask unsure = step.here & small;
+  if constexpr (!Varies) unsure = unsure & ~step.reverses;
   if (!unsure.any()) return unsure;
   P g[batch_order + 1];
   for (int k = 0; k < batch_order; ++k) g[k] = select(step.at_reversal, s.rate[k + 1], s.rate[k]);
   g[batch_order] = select(step.at_reversal, P(0.0), s.rate[batch_order]);
-  return unsure & ~cannot_turn(g[0], step.rate_end, g[1], curvature_bound(g, batch_order));
+  const Mask turns = ~cannot_turn(g[0], step.rate_end, g[1], curvature_bound(g, batch_order));
+  if constexpr (!Varies) return unsure & turns;
+  return unsure & ((step.reverses & ~crosses_once(g, batch_order)) | (~step.reverses & turns));
 }
 
 /// Locates the reversal, if any, and decides whether the step is short enough.
-template <class P, class At>
+template <bool Varies, class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void find_reversal(const BatchState& batch, const At& at, StickStep<P>& step) {
   using Mask = typename P::Mask;
   const StickSeries<P>& s = step.series;
@@ -206,7 +220,7 @@ ZEROCOUNT_ALWAYS_INLINE void find_reversal(const BatchState& batch, const At& at
   step.reverses = step.rate_start * step.rate_end < P(0.0);
   step.last_terms = abs(step.length) * s.last_terms;
   step.allowed = allowed_error(batch, at, step);
-  step.too_long = grows_too_much(batch, at, step) | may_turn_twice(batch, at, step);
+  step.too_long = grows_too_much(batch, at, step) | may_turn_twice<Varies>(batch, at, step);
   const Mask seeks = step.here & step.reverses & ~step.too_long;
   step.x = P(1.0);
   // The series must be accurate only up to the reversal.

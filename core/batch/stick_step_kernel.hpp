@@ -28,8 +28,9 @@ ZEROCOUNT_ALWAYS_INLINE StepTiming<P> timing_of(const BatchState& batch, const A
   const Mask stops_here = (step.event == zero) & ~(step.h < step.time_to_stop);
   t.samples_to_stop = at.load(time.samples_to_stop);
   t.time_to_stop_then = select(stops_here, zero, step.time_to_stop - step.x * step.h);
-  t.samples_to_stop_then =
-      select(stops_here, one, max(-floor(P(1e-9) - t.time_to_stop_then * at.load(time.sample_rate)), one));
+  // At most those at the start: after a late sample the next one may be farther away than T.
+  const P ahead = max(-floor(P(1e-9) - t.time_to_stop_then * at.load(time.sample_rate)), one);
+  t.samples_to_stop_then = select(stops_here, one, min(ahead, t.samples_to_stop));
   t.passed = t.samples_to_stop - t.samples_to_stop_then;
   const P extension = at.load(batch.motion.extension);
   t.extension = extension + step.creep_change;
@@ -127,14 +128,14 @@ ZEROCOUNT_ALWAYS_INLINE void record_passed(BatchState& batch, const At& at, cons
 }
 
 /// The step of one vector; see stick_step_kernel. Not inlined: a function of its own for each kind of vector.
-template <bool Events, class At>
+template <bool Events, bool Varies, class At>
 __attribute__((noinline)) void step_of(BatchState& batch, const At& at) {
   using P = typename At::Vector;
   const P zero(0.0);
   StickStep<P> step;
   begin_step(batch, at, step);
-  expand_step(batch, at, step);
-  find_reversal(batch, at, step);
+  expand_step<Varies>(batch, at, step);
+  find_reversal<Varies>(batch, at, step);
   evaluate_end(step);
   step.event = events_where<P>(step.reverses, reversal);
   if constexpr (Events) {
@@ -158,12 +159,13 @@ __attribute__((noinline)) void step_of(BatchState& batch, const At& at) {
 /// One step of each lane whose hook sticks, after stick_start_kernel and its events: to the next stop, to the
 /// first event, or as far as the series converge. Where the step was too long, only TimeLanes::next_step
 /// changes. Reports events other than a reversal. With `Events` the step ends at the first of them; without,
-/// a step that has one is not made but reported as meets_event.
-template <class V, bool Events>
+/// a step that has one is not made but reported as meets_event. With `Varies` the torque is that of
+/// course_kernel.
+template <class V, bool Events, bool Varies>
 void stick_step_kernel(BatchState& batch, const LaneSet& lanes) {
   batch.event_count = 0;
   batch.passed_count = 0;
-  for_each_vector<V>(lanes, [&](const auto& at) { step_of<Events>(batch, at); });
+  for_each_vector<V>(lanes, [&](const auto& at) { step_of<Events, Varies>(batch, at); });
 }
 
 }  // namespace zerocount::batch

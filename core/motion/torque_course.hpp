@@ -30,6 +30,12 @@ inline bool motor_is_constant(const TorqueCourse& course) {
   return course.rate == 0.0 || course.now == course.settled;
 }
 
+/// The time (s) after which a torque that is not constant counts as settled: 37 time constants, because
+/// exp(−37) is below the rounding of 1.
+inline double time_to_settle(const TorqueCourse& course) {
+  return 37.0 / course.rate;
+}
+
 /// Whether the applied torque, without that of a load, is `now` for ever.
 inline bool is_steady(const TorqueCourse& course) {
   return course.disturbance == nullptr && motor_is_constant(course);

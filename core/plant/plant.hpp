@@ -52,7 +52,7 @@ class PlantWith : public Law {
       varying.time += used;
       remaining = used < remaining ? remaining - used : 0.0;
       if (moves) {
-        moves = duration - remaining < time_constants_to_settle / ahead.rate;
+        moves = duration - remaining < motion::time_to_settle(ahead);
         ahead = moves
                     ? motion::course_after(ahead, used)
                     : motion::TorqueCourse{ahead.settled, ahead.settled, 0.0, ahead.load, ahead.disturbance};
@@ -69,9 +69,6 @@ class PlantWith : public Law {
   const std::optional<motion::Load>& load() const { return load_; }
 
  private:
-  /// A torque has settled when this many time constants have passed: exp(−37) is below the rounding of 1.
-  static constexpr double time_constants_to_settle = 37.0;
-
   /// @returns the time used, at most `duration`.
   double step_on(const motion::TorqueCourse& torque, double duration) {
     if constexpr (motion::SmoothMotion<Law>) {

@@ -66,6 +66,17 @@ TEST(RunsInLanes, IsTrueOfAPlainTrialWithAnyPlainParameters) {
       {"noise of the converter", [](trial::TrialParameters& p) { p.dac.noise = 1e-4; }},
       {"five filters", [](trial::TrialParameters& p) { p.controller.blocks.filters.resize(5); }},
       {"missed samples", [](trial::TrialParameters& p) { p.controller.missed = 0.1; }},
+      {"a long delay", [](trial::TrialParameters& p) { p.controller.delay = 1000; }},
+      {"amplifier", [](trial::TrialParameters& p) { p.amplifier.bandwidth = 500.0; }},
+      {"jitter", [](trial::TrialParameters& p) { p.controller.jitter = 1e-5; }},
+      {"a ripple",
+       [](trial::TrialParameters& p) {
+         p.disturbance.ripple = {{1e-3, 10.0, 0.0, 0.0}};
+       }},
+      {"a vibration",
+       [](trial::TrialParameters& p) {
+         p.disturbance.vibration = {{1e-3, 50.0, 0.0}};
+       }},
       {"a constant disturbance", [](trial::TrialParameters& p) { p.disturbance.torque = 0.01; }},
       {"a cascade",
        [](trial::TrialParameters& p) { p.controller.blocks.structure = loop::ControlStructure::cascade; }},
@@ -88,16 +99,14 @@ TEST(RunsInLanes, IsFalseOfWhatLanesDoNotKnowWhichThenIsTheReferences) {
        [](trial::TrialParameters& p) { p.command.targets = {}, p.command.torque.levels = {0.1}; }},
       {"no moves", [](trial::TrialParameters& p) { p.command.targets = {}; }},
       {"no samples", [](trial::TrialParameters& p) { p.command.hold = 1e-5; }},
-      {"a long delay", [](trial::TrialParameters& p) { p.controller.delay = 1000; }},
-      {"amplifier", [](trial::TrialParameters& p) { p.amplifier.bandwidth = 500.0; }},
-      {"jitter", [](trial::TrialParameters& p) { p.controller.jitter = 1e-5; }},
-      {"a ripple",
+      {"a fast vibration",
        [](trial::TrialParameters& p) {
-         p.disturbance.ripple = {{1e-3, 10.0, 0.0, 0.0}};
+         p.disturbance.vibration = {{1e-3, 1100.0, 0.0}};
        }},
-      {"a vibration",
+      {"a ripple without friction",
        [](trial::TrialParameters& p) {
-         p.disturbance.vibration = {{1e-3, 50.0, 0.0}};
+         p.friction.model = friction::FrictionModel::none;
+         p.disturbance.ripple = {{1e-3, 10.0, 0.0, 0.0}};
        }},
       {"coulomb", [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::coulomb; }},
       {"gms", [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::gms; }},

@@ -14,9 +14,10 @@ namespace zerocount::batch {
 
 template <class V, class E, bool Varies>
 inline constexpr MotionKernels motion_kernels_with{
-    stick_start_kernel<V, Varies>,   stick_step_kernel<V, false, Varies>, stick_step_kernel<E, true, Varies>,
-    slide_kernel<V, true, Varies>,   slide_kernel<V, false, Varies>,      bristle_kernel<V, true, Varies>,
-    bristle_kernel<V, false, Varies>};
+    stick_start_kernel<V, Varies>,      stick_step_kernel<V, false, Varies>,
+    stick_step_kernel<E, true, Varies>, slide_kernel<V, true, Varies>,
+    slide_kernel<V, false, Varies>,     bristle_kernel<V, true, Varies>,
+    bristle_kernel<V, false, Varies>,   free_kernel<V, Varies>};
 
 /// All kernels. @tparam V their vectors. @tparam E those of steps that locate events. @tparam P the vector of
 /// those that go over all lanes.
@@ -28,7 +29,6 @@ inline constexpr Kernels kernels_with{lanes_at_stop_kernel<P>,
                                       motion_kernels_with<V, E, false>,
                                       motion_kernels_with<V, E, true>,
                                       course_kernel<V>,
-                                      bristle_rest_kernel<P>,
-                                      free_kernel<V>};
+                                      bristle_rest_kernel<P>};
 
 }  // namespace zerocount::batch

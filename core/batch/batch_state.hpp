@@ -71,12 +71,15 @@ struct alignas(64) ContactLanes {
   Lanes bristle_damping;       ///< σ1, N m s/rad
 };
 
-/// The motion without friction over one sample: θ ← θ + travel·ω + push·u, ω ← decay·ω + gain·u.
+/// The motion without friction over one sample under the torque u + l·exp(−rt): θ ← θ + travel·ω + push·u +
+/// lag_push·l, ω ← decay·ω + gain·u + lag_gain·l.
 struct alignas(64) FreeLanes {
   Lanes travel;  ///< s
   Lanes push;    ///< rad/(N m)
   Lanes decay;   ///< dimensionless
   Lanes gain;    ///< rad/(N m s)
+  Lanes lag_push;
+  Lanes lag_gain;
 };
 
 /// Time and step control of a lane.

@@ -75,7 +75,7 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
   if constexpr (Fast) {
     const P above = speed - P(6.5) * stribeck_velocity;
     P max_torque = max(stiffness * abs(deflection_start), coulomb + excess) + abs(torque);
-    if constexpr (Varies) max_torque = max_torque + torque_range(batch, at, time_to_stop);
+    if constexpr (Varies) max_torque = max_torque + torque_range(batch, at, h);
     const P slowing = (max_torque + (damping + P(2.0) * bristle_damping) * speed) * per_inertia;
     h = select((excess > zero) & (slowing * h > above), above / slowing, h);
   } else {

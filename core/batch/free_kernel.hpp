@@ -5,17 +5,24 @@
 namespace zerocount::batch {
 
 /// Moves each lane without friction to its next stop, one sample ahead, by the linear map of
-/// friction::free_motion.
-template <class V>
+/// friction::free_motion. With `Varies` the torque is CourseLanes::settled and a lag.
+template <class V, bool Varies>
 void free_kernel(BatchState& batch, const LaneSet& lanes) {
   for_each_stretch<V>(lanes, [&]<class At>(const At& at) {
     using P = typename At::Vector;
     MotionLanes& m = batch.motion;
     const FreeLanes& f = batch.free;
     const P omega = at.load(m.omega);
-    const P torque = at.load(m.torque);
-    at.store(m.theta, at.load(m.theta) + (omega * at.load(f.travel) + torque * at.load(f.push)));
-    at.store(m.omega, omega * at.load(f.decay) + torque * at.load(f.gain));
+    const P torque = at.load(Varies ? batch.course.settled : m.torque);
+    P theta = at.load(m.theta) + (omega * at.load(f.travel) + torque * at.load(f.push));
+    P velocity = omega * at.load(f.decay) + torque * at.load(f.gain);
+    if constexpr (Varies) {
+      const P lag = at.load(batch.course.lag);
+      theta = theta + lag * at.load(f.lag_push);
+      velocity = velocity + lag * at.load(f.lag_gain);
+    }
+    at.store(m.theta, theta);
+    at.store(m.omega, velocity);
     at.store(batch.time.time_to_stop, P(0.0));
   });
 }

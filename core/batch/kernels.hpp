@@ -13,6 +13,7 @@ struct MotionKernels {
   void (*slide_slow)(BatchState&, const LaneSet&);
   void (*bristle_fast)(BatchState&, const LaneSet&);
   void (*bristle_slow)(BatchState&, const LaneSet&);
+  void (*free)(BatchState&, const LaneSet&);
 };
 
 /// The kernels, compiled for one instruction set.
@@ -25,7 +26,6 @@ struct Kernels {
   MotionKernels varying;                               ///< of lanes whose torque varies
   void (*course)(BatchState&, const LaneSet&);
   LaneSet (*bristle_rest)(BatchState&, const LaneSet&);
-  void (*free)(BatchState&, const LaneSet&);
 };
 
 extern const Kernels portable_kernels;

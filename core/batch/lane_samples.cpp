@@ -145,6 +145,7 @@ void LaneScheduler::drive_torque(int lane, LaneTrial& trial) {
   drive.send(k, trial.loop ? batch_.loop.given_torque[lane] : batch_.loop.decided[lane]);
   if (drive.stays()) {
     varying_.erase(lane);
+    part_.erase(lane);
     batch_.motion.torque[lane] = drive.piece().course.now + batch_.loop.disturbance[lane];
     return;
   }
@@ -158,9 +159,9 @@ void LaneScheduler::begin_piece(int lane, LaneTrial& trial) {
   start_piece(batch_, lane, trial);
   const bool varies = drive.disturbance_varies() || !motion::motor_is_constant(drive.piece().course);
   const bool whole = drive.piece().duration == batch_.time.sample_time[lane];
-  varying_.erase(lane);
-  changing_.erase(lane);
-  if (varies || (trial.motion == LaneMotion::free && !whole)) varying_.insert(lane);
+  for (LaneSet* set : {&varying_, &changing_, &part_}) set->erase(lane);
+  if (varies) varying_.insert(lane);
+  if (!whole) part_.insert(lane);
   if (!drive.is_last_piece()) changing_.insert(lane);
 }
 

@@ -64,9 +64,9 @@ class LaneScheduler {
   void rerun_lost_lanes();
 
   void set_moving(int lane);
-  std::array<LaneSet*, 10> sets() {
-    return {&active_, &sticking_,    &waiting_,   &sliding_,  &bristles_,
-            &free_,   &with_blocks_, &with_loop_, &changing_, &varying_};
+  std::array<LaneSet*, 11> sets() {
+    return {&active_,      &sticking_,  &waiting_,  &sliding_, &bristles_, &free_,
+            &with_blocks_, &with_loop_, &changing_, &varying_, &part_};
   }
   bool is_idle(int lane) const { return !active_.contains(lane); }
   LaneTrial& trial_of(int lane) { return trials_in_work_[trial_index_[lane]]; }
@@ -87,9 +87,8 @@ class LaneScheduler {
   LaneSet with_blocks_;  ///< active lanes whose controller has blocks
   LaneSet with_loop_;    ///< active lanes with a LaneLoop
   LaneSet changing_;     ///< active lanes whose next stop is a change of the torque within the sample
-  /// Active lanes whose torque varies until the next stop; of those without friction also the ones whose stop
-  /// is not one sample ahead.
-  LaneSet varying_;
+  LaneSet varying_;      ///< active lanes whose torque varies until the next stop
+  LaneSet part_;         ///< active lanes whose next stop ends a part of a sample
 
   std::span<const trial::TrialParameters* const> trials_;
   std::span<trial::TrialOutcome> outcomes_;

@@ -11,6 +11,7 @@
 #include "core/friction/lugre.hpp"
 #include "core/loop/controller.hpp"
 #include "core/loop/dac.hpp"
+#include "core/loop/drive.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/loop/pid.hpp"
 #include "core/trial/move_measures.hpp"
@@ -168,6 +169,10 @@ void start_free(BatchState& batch, int lane, const trial::TrialParameters& p, do
   batch.free.decay[lane] = by_velocity.omega;
   batch.free.push[lane] = by_torque.theta;
   batch.free.gain[lane] = by_torque.omega;
+  const friction::FreeMotion by_lag =
+      friction::free_motion(p.plant, {}, {1.0, 0.0, loop::lag_rate(p.amplifier)}, sample_time);
+  batch.free.lag_push[lane] = by_lag.theta;
+  batch.free.lag_gain[lane] = by_lag.omega;
 }
 
 void start_motion(BatchState& batch, int lane, LaneTrial& trial, double resolution) {

@@ -201,9 +201,11 @@ void LaneScheduler::rerun_lost_lanes() {
 void LaneScheduler::move_free() {
   if (free_.empty()) return;
   const LaneSet lanes = free_.without(kernels_.lanes_at_stop(batch_));
-  const LaneSet varying = lanes.in_both(varying_);
-  kernels_.free(batch_, lanes.without(varying));
-  for_each_lane(varying, [&](int lane) {
+  const LaneSet part = lanes.in_both(part_);
+  const LaneSet varying = lanes.in_both(varying_).without(part);
+  kernels_.constant.free(batch_, lanes.without(part).without(varying));
+  if (!varying.empty()) kernels_.varying.free(batch_, varying);
+  for_each_lane(part, [&](int lane) {
     MotionLanes& m = batch_.motion;
     const friction::FreeMotion end =
         friction::free_motion(trial_of(lane).parameters->plant, {m.theta[lane], m.omega[lane]},

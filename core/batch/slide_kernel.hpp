@@ -33,9 +33,12 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
   if constexpr (Fast) {
     const P above = speed - P(6.5) * stribeck_velocity;
     P resisting = breakaway_torque - direction * torque + damping * speed;
-    if constexpr (Varies) resisting = resisting + torque_range(batch, at, time_to_stop);
+    if constexpr (Varies) {
+      h = min(at.load(time.next_step), time_to_stop);
+      resisting = resisting + torque_range(batch, at, h);
+    }
     const P slowing = max(resisting, zero) * per_inertia;
-    h = select(slowing * time_to_stop > above, above / slowing, time_to_stop);
+    h = select(slowing * h > above, above / slowing, h);
   } else {
     stribeck_decay_start = exp(-per_velocity_squared * omega * omega);
     // (ω/ωs)² may change by about 4 per step, and by more far above the Stribeck velocity, where its

@@ -18,6 +18,10 @@ constexpr double highest_bandwidth = 1e12;
 
 }  // namespace
 
+double lag_rate(const AmplifierParameters& amplifier) {
+  return 2.0 * std::numbers::pi * std::min(amplifier.bandwidth, highest_bandwidth);
+}
+
 TorqueDelay::TorqueDelay(double samples)
     : waiting_(static_cast<std::size_t>(std::ceil(samples)), 0.0), fraction_(samples - std::floor(samples)) {}
 
@@ -32,7 +36,7 @@ Drive::Drive(const DacParameters& dac, const AmplifierParameters& amplifier, dou
              const random::TrialRandomness& randomness, bool jitter)
     : converter_(dac, randomness),
       delay_(delay),
-      rate_(2.0 * std::numbers::pi * std::min(amplifier.bandwidth, highest_bandwidth)),
+      rate_(lag_rate(amplifier)),
       sample_(part(sample_time)),
       before_(part(delay_.fraction() * sample_time)),
       after_(part(sample_time - before_.duration)),

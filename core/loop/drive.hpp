@@ -62,6 +62,9 @@ class ConverterErrors {
   std::uint64_t trial_;
 };
 
+/// 2πf, 1/s: the rate at which the amplifier's torque approaches its input; 0 without an amplifier.
+double lag_rate(const AmplifierParameters& amplifier);
+
 /// How late this sample and the next one are, s.
 struct Lateness {
   double now{0.0};

@@ -1,6 +1,7 @@
 #include "core/batch/lane_rest.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/loop/formulas.hpp"
@@ -78,7 +79,106 @@ bool is_unmoved(const BatchState& batch, int lane, const LanePlant& plant) {
          motion.creep.extension == batch.motion.extension[lane] && !motion.sliding;
 }
 
+/// Samples that are evaluated one by one before their motion is described ahead.
+constexpr int samples_one_by_one = 4;
+constexpr double max_span = 256.0;  // samples
+constexpr double min_span = 8.0;    // fewer are not worth the description
+
+/// The cubic through values at 0, 1/3, 2/3 and 1.
+std::array<double, 4> cubic_through(double a, double b, double c, double d) {
+  const double first = b - a;
+  const double second = (c - b) - first;
+  const double third = ((d - c) - (c - b)) - second;
+  // Newton's form in 3x, expanded.
+  return {a, 3.0 * (first - 0.5 * second + third / 3.0), 4.5 * (second - third), 4.5 * third};
+}
+
+double value_of(const std::array<double, 4>& c, double x) {
+  return c[0] + x * (c[1] + x * (c[2] + x * c[3]));
+}
+
+/// The motion at rest without its residual oscillation.
+struct SlowMotion {
+  double elongation;  ///< xs, rad
+  double extension;   ///< xp, rad
+  double hardening;   ///< xh, rad
+};
+
+SlowMotion slow_motion(const LanePlant& plant) {
+  const friction::PlantMotion motion = plant.motion();
+  const LanePlant::Rest& rest = *plant.rest();
+  const friction::ResidualOscillation::State oscillation =
+      friction::oscillation_at(rest.oscillation, rest.time);
+  return {motion.elongation - oscillation.elongation, motion.creep.extension - oscillation.extension,
+          motion.creep.hardening - rest.creep.sign * oscillation.extension};
+}
+
+/// Describes the slow motion at rest over the next samples. @returns whether cubics do so to 1e-9 count.
+bool describe_ahead(const BatchState& batch, int lane, LaneTrial& trial, double torque) {
+  CreepAhead& ahead = trial.ahead;
+  if (ahead.span < min_span) return false;
+  const double duration = ahead.span * batch.time.sample_time[lane];
+  LanePlant probe = *trial.plant;
+  SlowMotion at[5];  // at 0, 1/3, 1/2, 2/3, 1
+  at[0] = slow_motion(probe);
+  constexpr double parts[] = {1.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0, 1.0 / 3.0};
+  for (std::size_t i = 0; i < 4; ++i) {
+    probe.advance(motion::constant_torque(torque), parts[i] * duration);
+    at[i + 1] = slow_motion(probe);
+  }
+  const auto cubic = [&](double SlowMotion::*of) {
+    return cubic_through(at[0].*of, at[1].*of, at[3].*of, at[4].*of);
+  };
+  ahead.elongation = cubic(&SlowMotion::elongation);
+  ahead.extension = cubic(&SlowMotion::extension);
+  ahead.hardening = cubic(&SlowMotion::hardening);
+  const double missed = std::abs(value_of(ahead.elongation, 0.5) - at[2].elongation) +
+                        std::abs(value_of(ahead.extension, 0.5) - at[2].extension);
+  // The error of a cubic grows with the fourth power of its span.
+  const double allowed = 1e-9 * batch.loop.resolution[lane];
+  const double factor = std::min(2.0, 0.9 * std::sqrt(std::sqrt(allowed / missed)));
+  ahead.span = std::min(max_span, std::floor(ahead.span * factor));
+  if (!(missed < allowed)) return false;
+  ahead.duration = duration;
+  return true;
+}
+
+/// Goes on at rest to the next stop, one sample ahead, by the description of the motion. @returns whether
+/// there is one.
+bool follow_creep(BatchState& batch, int lane, LaneTrial& trial, double torque) {
+  CreepAhead& ahead = trial.ahead;
+  const double step = batch.time.time_to_stop[lane];
+  if (ahead.elapsed + step > ahead.duration) {
+    bring_up_to_date(batch, lane, trial);
+    if (ahead.samples++ < samples_one_by_one || !describe_ahead(batch, lane, trial, torque)) return false;
+    if (step > ahead.duration) return false;
+  }
+  ahead.elapsed += step;
+  const double x = ahead.elapsed / ahead.duration;
+  MotionLanes& m = batch.motion;
+  const LanePlant::Rest& rest = *trial.plant->rest();
+  const friction::ResidualOscillation::State oscillation =
+      friction::oscillation_at(rest.oscillation, rest.time + ahead.elapsed);
+  m.elongation[lane] = value_of(ahead.elongation, x) + oscillation.elongation;
+  m.extension[lane] = value_of(ahead.extension, x) + oscillation.extension;
+  m.hardening[lane] = value_of(ahead.hardening, x) + rest.creep.sign * oscillation.extension;
+  m.rest_torque[lane] = torque;
+  batch.time.time_to_stop[lane] = 0.0;
+  return true;
+}
+
 }  // namespace
+
+void bring_up_to_date(BatchState& batch, int lane, LaneTrial& trial) {
+  CreepAhead& ahead = trial.ahead;
+  if (ahead.elapsed > 0.0) {
+    const double torque = trial.plant->rest()->torque;
+    trial.plant->advance(motion::constant_torque(torque), ahead.elapsed);
+    store_motion(batch, lane, trial);
+    batch.motion.rest_torque[lane] = torque;
+  }
+  ahead.elapsed = ahead.duration = 0.0;
+}
 
 void pass_samples(BatchState& batch, int lane, double samples) {
   MeasureLanes& q = batch.measures;
@@ -97,6 +197,12 @@ bool rest(BatchState& batch, int lane, LaneTrial& trial, const PassedSample& pas
     plant.forget_deepest();
     if (!plant.come_to_rest(torque, batch.motion.at_reversal[lane] != 0.0)) return false;
     trial.deepest = std::max(trial.deepest, plant.deepest());
+    trial.ahead = {};
+  }
+  if (time.samples_to_stop[lane] > 1.0) {
+    bring_up_to_date(batch, lane, trial);
+  } else if (follow_creep(batch, lane, trial, torque)) {
+    return true;
   }
   std::optional<LanePlant> before;
   if (passed) before = plant;

@@ -15,6 +15,9 @@ using PassedSample = std::function<void(double passed, double theta, const frict
 /// @returns whether the lane was at rest; then it is at a stop.
 bool rest(BatchState& batch, int lane, LaneTrial& trial, const PassedSample& passed);
 
+/// Advances the plant of a lane at rest to where the lane is.
+void bring_up_to_date(BatchState& batch, int lane, LaneTrial& trial);
+
 /// Accounts for `samples` samples with zero error and an unchanged torque.
 void pass_samples(BatchState& batch, int lane, double samples);
 

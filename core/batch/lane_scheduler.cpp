@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/batch/lane_rest.hpp"
 #include "core/trial/divergence.hpp"
 #include "core/trial/trial.hpp"
 
@@ -167,6 +168,8 @@ void LaneScheduler::fall_back_to_scalar(int lane) {
 }
 
 void LaneScheduler::add_outcome(int lane, LaneTrial& trial, bool stopped) {
+  if (ahead_.contains(lane)) bring_up_to_date(batch_, lane, trial);
+  ahead_.erase(lane);
   if (trial.jerks.end(static_cast<std::int64_t>(batch_.measures.samples[lane]))) report_jerk(trial);
   trial.outcome->moves.push_back(end_of_move(batch_, lane, trial, stopped));
 }

@@ -51,6 +51,7 @@ class LaneScheduler {
   bool follow_reference(int lane, LaneTrial& trial);
   void move_sticking();
   void move_sticking(LaneSet lanes, const MotionKernels& kernels);
+  void wake_ahead(const LaneSet& lanes);
   void locate_events();
   void prepare_steps(LaneSet& lanes);
   bool come_to_rest(int lane);
@@ -64,9 +65,9 @@ class LaneScheduler {
   void rerun_lost_lanes();
 
   void set_moving(int lane);
-  std::array<LaneSet*, 11> sets() {
+  std::array<LaneSet*, 12> sets() {
     return {&active_,      &sticking_,  &waiting_,  &sliding_, &bristles_, &free_,
-            &with_blocks_, &with_loop_, &changing_, &varying_, &part_};
+            &with_blocks_, &with_loop_, &changing_, &varying_, &part_,     &ahead_};
   }
   bool is_idle(int lane) const { return !active_.contains(lane); }
   LaneTrial& trial_of(int lane) { return trials_in_work_[trial_index_[lane]]; }
@@ -88,6 +89,7 @@ class LaneScheduler {
   LaneSet with_loop_;    ///< active lanes with a LaneLoop
   LaneSet changing_;     ///< active lanes whose next stop is a change of the torque within the sample
   LaneSet varying_;      ///< active lanes whose torque varies until the next stop
+  LaneSet ahead_;        ///< active lanes whose plant is behind (CreepAhead)
   LaneSet part_;         ///< active lanes whose next stop ends a part of a sample
 
   std::span<const trial::TrialParameters* const> trials_;

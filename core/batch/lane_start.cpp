@@ -288,6 +288,7 @@ void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t numb
   trial.first_sample = 0;
   trial.reported_jerks = 0;
   trial.breakaway_spring_torque = 0.0;
+  trial.ahead = {};
 
   start_loop(batch.loop, lane, p);
   const double resolution = batch.loop.resolution[lane];

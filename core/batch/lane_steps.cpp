@@ -43,6 +43,7 @@ void LaneScheduler::follow_torques(const LaneSet& lanes) {
 void LaneScheduler::move_sticking() {
   const LaneSet lanes = sticking_.without(kernels_.lanes_at_stop(batch_));
   if (lanes.empty() && waiting_.empty()) return;
+  wake_ahead(lanes);
   const LaneSet varying = lanes.in_both(varying_);
   move_sticking(lanes.without(varying), kernels_.constant);
   if (!varying.empty()) {
@@ -54,6 +55,16 @@ void LaneScheduler::move_sticking() {
   const int count = waiting_.count();
   if (count == 0 || (count < enough && lanes.count() > count)) return;
   locate_events();
+}
+
+/// Brings the plants of lanes up to date whose rest ends because the torque has changed.
+void LaneScheduler::wake_ahead(const LaneSet& lanes) {
+  if (ahead_.empty()) return;
+  for_each_lane(lanes.in_both(ahead_), [&](int lane) {
+    if (!varying_.contains(lane) && batch_.motion.torque[lane] == batch_.motion.rest_torque[lane]) return;
+    bring_up_to_date(batch_, lane, trial_of(lane));
+    ahead_.erase(lane);
+  });
 }
 
 void LaneScheduler::move_sticking(LaneSet lanes, const MotionKernels& kernels) {
@@ -109,14 +120,20 @@ bool LaneScheduler::come_to_rest(int lane) {
     if (!is_idle(lane)) set_moving(lane);
     return true;
   }
-  if (!observers_->sample) return rest(batch_, lane, trial, {});
-  const auto samples = static_cast<std::int64_t>(batch_.measures.samples[lane]);
-  return rest(batch_, lane, trial, [&](double passed, double theta, const friction::CreepState& creep) {
-    const std::int64_t k = trial.first_sample + samples - 1 + static_cast<std::int64_t>(passed);
-    observers_->sample({trial.number, k, static_cast<std::int64_t>(batch_.loop.count[lane]),
-                        static_cast<std::int64_t>(batch_.loop.code[lane]), theta, creep.extension,
-                        creep.hardening});
-  });
+  PassedSample passed;
+  if (observers_->sample) {
+    passed = [&, samples = static_cast<std::int64_t>(batch_.measures.samples[lane])](
+                 double number, double theta, const friction::CreepState& creep) {
+      const std::int64_t k = trial.first_sample + samples - 1 + static_cast<std::int64_t>(number);
+      observers_->sample({trial.number, k, static_cast<std::int64_t>(batch_.loop.count[lane]),
+                          static_cast<std::int64_t>(batch_.loop.code[lane]), theta, creep.extension,
+                          creep.hardening});
+    };
+  }
+  const bool rests = rest(batch_, lane, trial, passed);
+  ahead_.erase(lane);
+  if (rests && trial.ahead.elapsed > 0.0) ahead_.insert(lane);
+  return rests;
 }
 
 /// Handles the events at the end of a step.

@@ -25,6 +25,18 @@ enum class LaneMotion { contact, bristle, free };
 /// Empty for a law that the kernels lack.
 std::optional<LaneMotion> lane_motion(friction::FrictionModel model);
 
+/// The motion of a lane that creeps at rest and is sampled all the time, over some samples ahead and without
+/// its residual oscillation. Its plant stands where they begin.
+struct CreepAhead {
+  double elapsed{0.0};                 ///< of it, s: the plant is behind by that
+  double duration{0.0};                ///< s; 0: none
+  std::array<double, 4> elongation{};  ///< coefficients in elapsed/duration, rad; so the others
+  std::array<double, 4> extension{};
+  std::array<double, 4> hardening{};
+  int samples{0};     ///< taken one by one since the lane came to rest
+  double span{16.0};  ///< samples to describe next time
+};
+
 /// State of a lane that the kernels do not use: its trial, the memory of the spring, measures per jerk.
 struct LaneTrial {
   const trial::TrialParameters* parameters{nullptr};
@@ -37,6 +49,7 @@ struct LaneTrial {
   /// The contact, in lanes with LaneMotion::contact. Only its spring is always current; call load_motion()
   /// before reading anything else.
   std::optional<LanePlant> plant;
+  CreepAhead ahead;
   double elongation_tolerance{0.0};     ///< MotionTolerance::elongation, rad
   double breakaway_spring_torque{0.0};  ///< σb of the slide, N m
 

@@ -63,8 +63,7 @@ TEST_P(BatchEquality, TrialsThatDoNotRunInLanesAreTheReferencesToTheLastBit) {
     ++others;
     EXPECT_EQ(difference_in_bits(batched[i], run_by_reference(trials[i])), "") << GetParam().name << i;
   }
-  const bool never_in_lanes =
-      GetParam().kind == TrialKind::coulomb || GetParam().kind == TrialKind::amplified;
+  const bool never_in_lanes = GetParam().kind == TrialKind::coulomb;
   EXPECT_GT(others, never_in_lanes ? 40 : -1);
 }
 

@@ -144,13 +144,25 @@ std::string cell_text(layout::CellText text, const measures::PointSummary& point
   return text::short_number(value);
 }
 
+/// " [low, high]", with percent signs only in the cell before; nothing without bounds.
+std::string bounds_text(const layout::SummaryColumn& column, const measures::MeasureStatistics& statistics) {
+  if (!column.bounds) return "";
+  const double low = measures::value_of(column.bounds->low, statistics);
+  const double high = measures::value_of(column.bounds->high, statistics);
+  if (std::isnan(low) || std::isnan(high)) return "";
+  if (column.text == layout::CellText::percent) return fmt::format(" [{}]", text::percent_bounds(low, high));
+  return fmt::format(" [{}, {}]", text::short_number(low), text::short_number(high));
+}
+
 void add_measures(std::vector<text::TextColumn>& columns, const StudySummary& summary) {
   for (const layout::Measure* measure : shown_measures(summary)) {
     for (const layout::SummaryColumn& column : measure->summary.columns) {
       columns.push_back(by_point(summary, parameters::text_on(summary.features.axis, column.head),
                                  [&](const measures::PointSummary& point) {
+                                   const measures::MeasureStatistics& of = point.of(*measure);
                                    return cell_text(column.text, point,
-                                                    measures::value_of(column.statistic, point.of(*measure)));
+                                                    measures::value_of(column.statistic, of)) +
+                                          bounds_text(column, of);
                                  }));
     }
   }

@@ -196,7 +196,8 @@ Json vibration_schema() {
                      {"prefixItems", {number_in(numerics::above(0)), number_in(numerics::at_least(0))}},
                      {"minItems", 2},
                      {"maxItems", 2}};
-  Json points{{"type", "array"}, {"items", pair}, {"minItems", 2}};
+  Json points{
+      {"anyOf", {Json{{"type", "array"}, {"items", pair}, {"minItems", 2}}, Json{{"type", "string"}}}}};
   schema["items"]["oneOf"].push_back(object_of(
       {{"spectrum", std::move(points)}, {"lines", {{"type", "integer"}, {"minimum", 1}}}}, {"spectrum"}));
   return schema;

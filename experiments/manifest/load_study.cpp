@@ -11,6 +11,7 @@
 #include "experiments/manifest/manifest.hpp"
 #include "experiments/manifest/overrides.hpp"
 #include "experiments/manifest/samples.hpp"
+#include "experiments/manifest/spectrum_file.hpp"
 #include "experiments/parameters/earlier_defaults.hpp"
 #include "experiments/yaml/text_file.hpp"
 
@@ -67,8 +68,9 @@ study::Study parse_study(std::string text, std::string_view source, const std::v
   return parse_study(std::move(text), source, overrides, parameters::newest_version, companions);
 }
 
-study::Study parse_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
-                         std::int64_t version, const Companions& companions) {
+study::Study parse_study(std::string text, std::string_view source,
+                         const std::vector<std::string>& given_overrides, std::int64_t version,
+                         const Companions& companions) {
   if (text.size() > yaml::max_manifest_size) refuse_size(source);
   yaml::Problems problems;
   yaml::YamlPointer root = yaml::parse_yaml(text, source, false, problems);
@@ -79,7 +81,13 @@ study::Study parse_study(std::string text, std::string_view source, const std::v
   if (!root) problems.raise_if_any();
 
   std::deque<std::string> override_sources;
-  root = apply_overrides(root, overrides, override_sources, problems);
+  root = apply_overrides(root, given_overrides, override_sources, problems);
+  std::vector<std::string> overrides = given_overrides;
+  if (root) {
+    const std::vector<std::string> spectra = spectrum_overrides(*root, companions.samples, problems);
+    root = apply_overrides(root, spectra, override_sources, problems);
+    overrides.insert(overrides.end(), spectra.begin(), spectra.end());
+  }
   std::optional<SamplesTable> samples;
   insert_samples(root, companions.samples, samples, problems);
   study::Study study = read_manifest(*root, version, companions, samples ? &*samples : nullptr, problems);
@@ -88,7 +96,7 @@ study::Study parse_study(std::string text, std::string_view source, const std::v
   study.manifest_sha256 = hash::sha256_hex(text);
   study.study_sha256 = hash::sha256_hex(joined(text, overrides, study));
   study.manifest_text = std::move(text);
-  study.overrides = overrides;
+  study.overrides = std::move(overrides);
   return study;
 }
 

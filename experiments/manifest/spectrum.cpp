@@ -13,9 +13,11 @@ namespace zerocount::manifest {
 namespace {
 
 constexpr const char* pairs =
-    "a list of at least two pairs [frequency in Hz, density], by ascending frequency";
+    "a list of at least two pairs [frequency in Hz, density], by ascending frequency, or a file of them";
 constexpr std::size_t max_spectrum_points = 10000;
 constexpr int max_lines = 1000;
+constexpr double max_frequency = 1e9;  // Hz
+constexpr double max_density = 1e12;
 
 /// The point of a pair, if it is one and its frequency is above `last` (Hz).
 std::optional<trial::SpectrumPoint> read_point(const yaml::Field& pair, double last,
@@ -29,6 +31,11 @@ std::optional<trial::SpectrumPoint> read_point(const yaml::Field& pair, double l
   const auto frequency = yaml::read_real(yaml::item_of(pair, 0), numerics::above(last), problems);
   const auto density = yaml::read_real(yaml::item_of(pair, 1), numerics::at_least(0), problems);
   if (!frequency || !density) return std::nullopt;
+  if (*frequency > max_frequency || *density > max_density) {
+    problems.add(pair, fmt::format("found [{}, {}]", *frequency, *density),
+                 "a frequency of at most 1e9 Hz, and a density of at most 1e12");
+    return std::nullopt;
+  }
   return trial::SpectrumPoint{*frequency, *density};
 }
 

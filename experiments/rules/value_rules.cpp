@@ -121,10 +121,11 @@ std::vector<ValueRule> rules_of_two_phases(const std::string& derivative_unit) {
 
 // The contact that carries the constant disturbance at the start.
 std::vector<ValueRule> rules_of_holding(const std::string& torque_unit) {
-  enum : std::size_t { holding, torque, breakaway, ratio, model, preload, reversals, integral };
+  enum : std::size_t { holding, torque, breakaway, ratio, model, preload, reversals, integral, velocity };
   return {
       {{"initial.holding", "disturbance.torque", "friction.breakaway", "friction.coulomb_ratio",
-        "friction.model", "initial.preload", "initial.history.reversals", "initial.integral"},
+        "friction.model", "initial.preload", "initial.history.reversals", "initial.integral",
+        "initial.velocity"},
        false,
        [torque_unit](Limits l, Limits) -> Faults {
          if (l[holding].high == 0.0) return {};
@@ -140,6 +141,8 @@ std::vector<ValueRule> rules_of_holding(const std::string& torque_unit) {
                                          "hold it",
                                          largest, torque_unit, level, torque_unit),
                              "|disturbance.torque| below friction.breakaway"});
+         if (max_abs(l[velocity]) > 0.0)
+           faults.push_back({"an axis that holds a disturbance stands still", "initial.velocity of 0"});
          if (max_abs(l[preload]) > 0.0 || l[reversals].high > 0.0 || max_abs(l[integral]) > 0.0)
            faults.push_back({"the contact has been loaded from virgin to the disturbance and nothing else",
                              "initial.preload, initial.history and initial.integral of 0"});

@@ -34,6 +34,10 @@ ReportedStatistics mean_of_motion(std::string_view name) {
            {{bootstrap_low, bootstrap_high}, "{0} of this measure: Student and studentised bootstrap"}}};
 }
 
+SummaryColumn bounded_mean(std::string head) {
+  return {std::move(head), mean, CellText::number, BoundStatistics{bootstrap_low, bootstrap_high}};
+}
+
 MeasureTable all_measures() {
   return {
       {.field = field<M>("outcome", "1", "verdict on the last window of the move", &M::outcome,
@@ -304,7 +308,7 @@ MeasureTable all_measures() {
        .of_trial = OfTrial::largest,
        .point = mean_of_motion("rest_error_rms"),
        .summary = {&study::StudyFeatures::motion,
-                   {{"rest rms", mean}},
+                   {bounded_mean("rest rms")},
                    "rest rms, rest p-p: of the true error (counts) from the entry into the rest band to the "
                    "end of the move, mean over moves\n"},
        .output = {{"rest_error_rms", "rms of the true error at rest, the largest of the trial's moves"}}},
@@ -314,7 +318,7 @@ MeasureTable all_measures() {
        .file = {.only_with = &study::StudyFeatures::motion},
        .of_trial = OfTrial::largest,
        .point = mean_of_motion("rest_error_range"),
-       .summary = {&study::StudyFeatures::motion, {{"rest p-p", mean}}}},
+       .summary = {&study::StudyFeatures::motion, {bounded_mean("rest p-p")}}},
       {.field = field<M>("rest_motion_rms", "rad", "rms of the true error at rest, NaN if never at rest",
                          &M::rest_motion_rms, an_error_or_nan),
        .file = {.only_with = &study::StudyFeatures::motion},
@@ -334,7 +338,7 @@ MeasureTable all_measures() {
        .point = mean_of_motion("rest_torque_power"),
        .summary =
            {&study::StudyFeatures::motion,
-            {{"$torque power", mean}},
+            {bounded_mean("$torque power")},
             "$torque power, $torque noise: mean square of the $torque at rest, and of its changes from "
             "sample to sample, mean over moves\n"},
        .output = {{"rest_torque_power", "mean square of the $torque at rest, the largest of the moves"}}},
@@ -346,14 +350,15 @@ MeasureTable all_measures() {
        .file = {.only_with = &study::StudyFeatures::motion},
        .of_trial = OfTrial::largest,
        .point = mean_of_motion("rest_torque_noise"),
-       .summary = {&study::StudyFeatures::motion, {{"$torque noise", mean}}}},
+       .summary = {&study::StudyFeatures::motion, {bounded_mean("$torque noise")}}},
       {.field = field<M>("step_motion", "count",
                          "mean true position in the window minus that of the move before", &M::step_motion,
                          {.expected = "a finite motion, or NaN",
                           .low = std::numeric_limits<double>::lowest(),
                           .nan = true}),
        .file = {.only_with = &study::StudyFeatures::steps},
-       .values = {.needs_motion = true}},
+       .values = {.needs_motion = true},
+       .point = mean_of_motion("step_motion")},
       {.field = field<M>("step_made", "1", "that motion is within half of the commanded step", &M::step_made),
        .file = {.only_with = &study::StudyFeatures::steps},
        .values = {.needs_target = true},
@@ -366,7 +371,8 @@ MeasureTable all_measures() {
                   {{moves_rate_low}, "{1} of that proportion (Korn-Graubard)", "rate_low"},
                   {{moves_rate_high}, "{1} of that proportion (Korn-Graubard)", "rate_high"}}},
        .summary = {&study::StudyFeatures::steps,
-                   {{"steps made", moves_rate, CellText::percent}},
+                   {{"steps made", moves_rate, CellText::percent,
+                     BoundStatistics{moves_rate_low, moves_rate_high}}},
                    "steps made: proportion of moves whose mean true motion is within half of the commanded "
                    "step\n"},
        .output = {{"step_made", "all moves went the commanded step, to half of it"}}},
@@ -376,7 +382,7 @@ MeasureTable all_measures() {
        .of_trial = OfTrial::largest,
        .point = mean_of_motion("following_error_rms"),
        .summary = {&study::StudyFeatures::following,
-                   {{"following rms", mean}},
+                   {bounded_mean("following rms")},
                    "following rms, peak: of the true following error (counts), mean over moves\n"},
        .output = {{"following_error_rms", "rms of the true following error, the largest of the moves"}}},
       {.field = field<M>("following_error_peak", "count",
@@ -385,7 +391,7 @@ MeasureTable all_measures() {
        .file = {.only_with = &study::StudyFeatures::following},
        .of_trial = OfTrial::largest,
        .point = mean_of_motion("following_error_peak"),
-       .summary = {&study::StudyFeatures::following, {{"following peak", mean}}},
+       .summary = {&study::StudyFeatures::following, {bounded_mean("following peak")}},
        .output = {{"following_error_peak", "largest magnitude of the true following error"}}},
       {.field = field<M>("reversal_spike", "count",
                          "largest magnitude of the true following error in the quarter of a period after a "
@@ -395,7 +401,7 @@ MeasureTable all_measures() {
        .of_trial = OfTrial::largest,
        .point = mean_of_motion("reversal_spike"),
        .summary = {&study::StudyFeatures::reversals,
-                   {{"reversal spike", mean}},
+                   {bounded_mean("reversal spike")},
                    "reversal spike: largest magnitude of the true following error (counts) in the quarter of "
                    "a period after a "
                    "reversal, mean over moves\n"}},

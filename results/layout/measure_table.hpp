@@ -97,10 +97,17 @@ struct ReportedStatistics {
 /// statistic counts.
 enum class CellText { number, settling_time, percent, proportion_of_trials, proportion_of_moves };
 
+/// Bounds of a statistic, written behind it.
+struct BoundStatistics {
+  Statistic low;
+  Statistic high;
+};
+
 struct SummaryColumn {
   std::string head;
   Statistic statistic;
   CellText text{CellText::number};
+  std::optional<BoundStatistics> bounds{};
 };
 
 /// The columns of a measure in the summary's table.

@@ -25,7 +25,8 @@ constexpr const char* controller_help =
     "\n"
     "With -DZEROCOUNT_PLUGIN the file is a plugin (docs/your-own-controller.md), so that the code\n"
     "that goes to the machine can be simulated itself. --language linuxcnc writes a component of\n"
-    "LinuxCNC's HAL, which halcompile installs; its name is that of the file.\n"
+    "LinuxCNC's HAL, which halcompile installs; its name is that of the file. The converter, its\n"
+    "noise shaping among it, is not part of the file.\n"
     "\n"
     "Example: zerocount controller my-axis.yaml --point 2 -o controller.c\n";
 
@@ -80,6 +81,8 @@ ExitCode write_controller(const command_line::Arguments& arguments) {
   command_line::write_text(
       output, linuxcnc ? controller_code::linuxcnc_component(chain, component_name(arguments, output))
                        : controller_code::c_code(chain));
+  if (p.dac.sigma_delta)
+    status::tell("the noise shaping of the converter (dac.sigma_delta) is not part of the controller\n");
   if (output != "-") status::tell("wrote {}\n", output.string());
   return ExitCode::success;
 }

@@ -61,13 +61,6 @@ bool is_there(const fs::path& path) {
   return fs::exists(path, error);
 }
 
-/// Whether the table of the file has columns of means with bounds: those of the true motion.
-bool shows_means(const fs::path& path) {
-  if (!is_there(path)) return false;
-  const study::StudyFeatures& features = reading::ResultsFile(path).study().features;
-  return features.motion || features.following;
-}
-
 /// The summary of the file, or of the unfinished run that writes it.
 summary::StudySummary summary_of(const fs::path& path, double confidence, bool with_means) {
   if (!is_there(path) && shards::has_begun(path)) {
@@ -167,8 +160,10 @@ ExitCode summarise_file(const command_line::Arguments& arguments) {
   const std::string format = arguments.choice("format");
   const double confidence =
       command_line::probability_option(arguments, "confidence").value_or(statistics::summary_confidence);
-  const bool with_means = format != "table" || shows_means(arguments.operands()[0]);
-  const summary::StudySummary summary = summary_of(arguments.operands()[0], confidence, with_means);
+  summary::StudySummary summary = summary_of(arguments.operands()[0], confidence, format != "table");
+  // Bounds of means take their time: in tables only those of the true motion are shown.
+  if (format == "table" && (summary.features.motion || summary.features.following))
+    summary = summary_of(arguments.operands()[0], confidence, true);
   if (format == "csv" && arguments.has("confirm"))
     arguments.refuse("option '--confirm' goes with the formats table and json");
   const summary::SummaryForm form{points_asked_for(arguments, summary),

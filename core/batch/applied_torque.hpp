@@ -6,7 +6,7 @@
 /// The torque on the rotor as a series in the fraction of a step.
 namespace zerocount::batch {
 
-/// A torque that stays. Its only coefficient is MotionLanes::torque.
+/// A constant torque. Its only coefficient is MotionLanes::torque.
 struct ConstantTorque {
   static constexpr bool varies = false;
 };
@@ -96,7 +96,7 @@ ZEROCOUNT_ALWAYS_INLINE P torque_range(const BatchState& batch, const At& at, co
   return sum;
 }
 
-/// The rate of the torque's change at this instant by T, N m.
+/// du/dt·T at this instant, N m.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE P torque_rate(const BatchState& batch, const At& at, const P& omega) {
   const CourseLanes& c = batch.course;

@@ -26,7 +26,7 @@ struct alignas(64) MotionLanes {
   Lanes omega;       ///< ω, rad/s
   Lanes extension;   ///< xp, rad
   Lanes hardening;   ///< xh, rad
-  Lanes torque;      ///< u of the motor, N m
+  Lanes torque;      ///< on the rotor, without friction, N m
   Lanes hook;        ///< rad
   Lanes theta;       ///< θ while the hook slides, and of laws without a hook, rad
 
@@ -74,12 +74,12 @@ struct alignas(64) ContactLanes {
 /// The motion without friction over one sample under the torque u + l·exp(−rt): θ ← θ + travel·ω + push·u +
 /// lag_push·l, ω ← decay·ω + gain·u + lag_gain·l.
 struct alignas(64) FreeLanes {
-  Lanes travel;  ///< s
-  Lanes push;    ///< rad/(N m)
-  Lanes decay;   ///< dimensionless
-  Lanes gain;    ///< rad/(N m s)
-  Lanes lag_push;
-  Lanes lag_gain;
+  Lanes travel;    ///< s
+  Lanes push;      ///< rad/(N m)
+  Lanes decay;     ///< dimensionless
+  Lanes gain;      ///< rad/(N m s)
+  Lanes lag_push;  ///< rad/(N m)
+  Lanes lag_gain;  ///< rad/(N m s)
 };
 
 /// Time and step control of a lane.

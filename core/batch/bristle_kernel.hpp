@@ -155,7 +155,11 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
   signed_part[batch_order] = select(from_zero, zero, velocity[batch_order]);
   Mask unfit = ~halts & ~cannot_turn(signed_part[0], velocity_end, signed_part[1],
                                      curvature_bound(signed_part, batch_order));
-  if constexpr (Varies) unfit = unfit | (halts & ~crosses_once(signed_part, batch_order));
+  if constexpr (Varies) {
+    unfit = unfit | (halts & ~crosses_once(signed_part, batch_order));
+    // A rotor that nothing moves keeps still.
+    unfit = unfit & ((curvature_bound(signed_part, batch_order) > zero) | (signed_part[1] != zero));
+  }
   if constexpr (!Fast) {
     P growth = max(exponent[batch_order - 1], zero);
 #pragma GCC unroll 1

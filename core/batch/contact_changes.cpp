@@ -171,7 +171,11 @@ bool advance_by_reference(BatchState& batch, int lane, LaneTrial& trial, const m
   trial.breakaways += trial.plant->breakaways() - before;
   trial.deepest = std::max(trial.deepest, trial.plant->deepest());
   store_contact(batch, lane, trial);
-  if (trial.plant->rest()) batch.motion.rest_torque[lane] = torque.now;
+  if (trial.plant->rest()) {
+    batch.motion.rest_torque[lane] = trial.plant->rest()->torque;
+    trial.ahead = {};
+  }
+  batch.time.next_step[lane] = batch.time.sample_time[lane];
   batch.time.time_to_stop[lane] = 0.0;
   return trial.plant->finite();
 }

@@ -151,7 +151,6 @@ bool follow_creep(BatchState& batch, int lane, LaneTrial& trial, double torque) 
   if (ahead.elapsed + step > ahead.duration) {
     bring_up_to_date(batch, lane, trial);
     if (ahead.samples++ < samples_one_by_one || !describe_ahead(batch, lane, trial, torque)) return false;
-    if (step > ahead.duration) return false;
   }
   ahead.elapsed += step;
   const double x = ahead.elapsed / ahead.duration;

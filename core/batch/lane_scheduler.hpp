@@ -50,7 +50,7 @@ class LaneScheduler {
   void follow_torques(const LaneSet& lanes);
   bool follow_reference(int lane, LaneTrial& trial);
   void move_sticking();
-  void move_sticking(LaneSet lanes, const MotionKernels& kernels);
+  int move_sticking(LaneSet lanes, const MotionKernels& kernels);
   void wake_ahead(const LaneSet& lanes);
   void locate_events();
   void prepare_steps(LaneSet& lanes);

@@ -45,15 +45,15 @@ void LaneScheduler::move_sticking() {
   if (lanes.empty() && waiting_.empty()) return;
   wake_ahead(lanes);
   const LaneSet varying = lanes.in_both(varying_);
-  move_sticking(lanes.without(varying), kernels_.constant);
+  int stepped = move_sticking(lanes.without(varying), kernels_.constant);
   if (!varying.empty()) {
     follow_torques(varying);
-    move_sticking(varying, kernels_.varying);
+    stepped += move_sticking(varying, kernels_.varying);
   }
   // Few lanes at a time meet an event: they wait until there are enough of them, or no others to move.
   constexpr int enough = 16;
   const int count = waiting_.count();
-  if (count == 0 || (count < enough && lanes.count() > count)) return;
+  if (count == 0 || (count < enough && stepped > count)) return;
   locate_events();
 }
 
@@ -67,11 +67,13 @@ void LaneScheduler::wake_ahead(const LaneSet& lanes) {
   });
 }
 
-void LaneScheduler::move_sticking(LaneSet lanes, const MotionKernels& kernels) {
+/// @returns the number of lanes that took a step.
+int LaneScheduler::move_sticking(LaneSet lanes, const MotionKernels& kernels) {
   kernels.stick_start(batch_, lanes);
   prepare_steps(lanes);
   kernels.stick_step(batch_, lanes);
   end_sticking_steps();
+  return lanes.count();
 }
 
 /// Takes the steps of the waiting lanes up to their events.

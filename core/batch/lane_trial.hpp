@@ -28,7 +28,7 @@ std::optional<LaneMotion> lane_motion(friction::FrictionModel model);
 /// The motion of a lane that creeps at rest and is sampled all the time, over some samples ahead and without
 /// its residual oscillation. Its plant stands where they begin.
 struct CreepAhead {
-  double elapsed{0.0};                 ///< of it, s: the plant is behind by that
+  double elapsed{0.0};                 ///< time since its begin, by which the plant lags behind the lane, s
   double duration{0.0};                ///< s; 0: none
   std::array<double, 4> elongation{};  ///< coefficients in elapsed/duration, rad; so the others
   std::array<double, 4> extension{};

@@ -197,7 +197,8 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask may_turn_twice(const BatchState& batch,
   // Order 1 of creep is order 0 of its rate.
   P added = at.load(batch.contact.max_creep_ratio) * abs(s.scaled_creep[1]);
   if constexpr (Varies) added = added + step.forced_rate;
-  const Mask small = min(abs(step.rate_start), abs(step.rate_end)) <= added;
+  Mask small = min(abs(step.rate_start), abs(step.rate_end)) <= added;
+  if constexpr (Varies) small = small & (added > P(0.0));  // not in a rotor that nothing moves
   Mask unsure = step.here & small;
   if constexpr (!Varies) unsure = unsure & ~step.reverses;
   if (!unsure.any()) return unsure;

@@ -42,7 +42,7 @@ std::optional<std::string> list_of(const std::string& text, const std::string& s
     if (first == std::string::npos || line[first] == '#') continue;
     if (const auto point = numbers_of(line.substr(first))) {
       list += fmt::format("{}[{}, {}]", list.empty() ? "" : ", ", (*point)[0], (*point)[1]);
-    } else if (!list.empty() || named) {
+    } else if (!list.empty() || named || std::strchr("+-.0123456789", line[first]) != nullptr) {
       problems.add({source, number, 1}, path, "this is not a point of a spectrum", table_form);
       return std::nullopt;
     }

@@ -9,8 +9,6 @@
 
 namespace zerocount::manifest {
 
-constexpr std::size_t max_spectrum_file = std::size_t{1} << 20;  ///< bytes
-
 /// Overrides that put the tables in place of the files that spectra of disturbance.vibration name, such as
 /// "disturbance.vibration.0.spectrum=[[1, 1e-10], [100, 1e-12]]". With them a study is whole without these
 /// files. A table has a line "frequency, density" for each point; a first line of names, empty lines and

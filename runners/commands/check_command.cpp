@@ -20,6 +20,7 @@
 #include "runners/study_run/engine_use.hpp"
 #include "runners/study_run/progress.hpp"
 #include "runners/study_run/study_size.hpp"
+#include "runners/tuning/unit_runner.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -149,6 +150,7 @@ ExitCode check(const command_line::Arguments& arguments) {
   const std::string& manifest = arguments.operands()[0];
   const study::Study study = load_study(manifest, arguments);
   plugins::require_no_hidden_state(study);
+  if (study.tuning && study.goal) tuning::criterion_of(study);  // a wrong one is an error
   print_warnings(study);
   print_plan(study);
   print_theory_heading(study);

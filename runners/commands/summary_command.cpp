@@ -163,7 +163,8 @@ ExitCode summarise_file(const command_line::Arguments& arguments) {
   summary::StudySummary summary = summary_of(arguments.operands()[0], confidence, format != "table");
   // Bounds of means take their time: in tables only those of the true motion are shown.
   if (format == "table" && (summary.features.motion || summary.features.following))
-    summary = summary_of(arguments.operands()[0], confidence, true);
+    summary = summary.unfinished ? summary::summarise_unfinished(arguments.operands()[0], confidence, true)
+                                 : summary::summarise_file(arguments.operands()[0], confidence, true);
   if (format == "csv" && arguments.has("confirm"))
     arguments.refuse("option '--confirm' goes with the formats table and json");
   const summary::SummaryForm form{points_asked_for(arguments, summary),

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
@@ -109,8 +111,36 @@ std::vector<std::string> overrides_for(const study::Study& study, const Units& u
   return overrides;
 }
 
+namespace {
+
+/// The probability of a quantile by its name.
+std::optional<double> quantile_of(std::string_view name) {
+  if (name == "median") return 0.5;
+  if (name == "p95") return 0.95;
+  return name == "p99" ? std::optional(0.99) : std::nullopt;
+}
+
+/// A quantile of a measure of the true motion, such as rest_torque_noise.p95.
+std::optional<Criterion> motion_criterion(const study::Study& study, std::string_view text) {
+  const auto dot = text.rfind('.');
+  if (dot == std::string_view::npos) return std::nullopt;
+  const std::optional<double> quantile = quantile_of(text.substr(dot + 1));
+  if (!quantile) return std::nullopt;
+  for (const layout::Measure& measure : layout::measure_table(study.features.bands)) {
+    bool study::StudyFeatures::*const use = measure.file.only_with;
+    const bool is_motion = use == &study::StudyFeatures::motion || use == &study::StudyFeatures::following ||
+                           use == &study::StudyFeatures::reversals;
+    if (measure.field.column.name == text.substr(0, dot) && is_motion && study.features.*use)
+      return Criterion{&measure, *quantile};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 Criterion criterion_of(const study::Study& study) {
   const std::string text = study.tuning ? study.tuning->minimise : study::Tuning{}.minimise;
+  if (const std::optional<Criterion> criterion = motion_criterion(study, text)) return *criterion;
   const auto dot = text.rfind('.');
   const std::string name = text.substr(0, dot);
   const std::string with_band = name.starts_with("band_") && !name.ends_with("]") && dot != std::string::npos
@@ -120,7 +150,8 @@ Criterion criterion_of(const study::Study& study) {
   if (!quantity || quantity->kind != comparison::RequirementKind::quantile) {
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: tune.minimise: '{}' is no quantile of a measure; expected one such as "
-                              "band_settling_time.p95 or settling_time.median",
+                              "band_settling_time.p95, settling_time.median or, with verdict.motion, "
+                              "rest_torque_noise.p95",
                               study.name, text));
   }
   const layout::Measure& wanted = *quantity->measure.measure;

@@ -230,9 +230,24 @@ tune: {free: {controller.ki: {log: [1.0e+7, 5.0e+9]}, controller.kp: [0, 1.0e+7]
 
 TEST_F(Tune, RefusesACriterionThatIsNoQuantile) {
   write_axis("goal: {within: 0.1, moves: 0.98}\n" + std::string(two_gains) + "  minimise: ki\n");
-  const ProgramResult result = tune();
-  EXPECT_EQ(result.code, 2);
-  EXPECT_NE(result.err.find("tune.minimise: 'ki' is no quantile"), std::string::npos) << result.err;
+  for (const ProgramResult& result : {tune(), program({"check", "axis.yaml"})}) {
+    EXPECT_EQ(result.code, 2);
+    EXPECT_NE(result.err.find("tune.minimise: 'ki' is no quantile"), std::string::npos) << result.err;
+  }
+}
+
+// The quietest gains that meet the goal are lower than the fastest ones.
+TEST_F(Tune, MinimisesTheTorqueNoiseAtRest) {
+  const std::string goal = "verdict: {motion: true}\ngoal: {band: 1, within: 0.1, moves: 0.95}\n";
+  std::vector<double> noise;
+  for (const char* criterion : {"band_settling_time.p95", "rest_torque_noise.p95"}) {
+    write_axis(goal + std::string(two_gains) + "  minimise: " + criterion + "\n");
+    const ProgramResult result = tune();
+    ASSERT_EQ(result.code, 0) << result.err;
+    const Json summary = Json::parse(program({"summary", "tuned.h5", "--format", "json"}).out);
+    noise.push_back(summary["points"][0]["rest_torque_noise"]["mean"].get<double>());
+  }
+  EXPECT_LT(noise[1], noise[0]);
 }
 
 TEST_F(Tune, LimitsSwitchCausesOffOneByOne) {

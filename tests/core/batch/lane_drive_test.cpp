@@ -96,8 +96,34 @@ void expect_agreement_in_motion(const std::vector<trial::TrialParameters>& trial
 }
 
 TEST(LaneDrive, MovesTheRotorAsTheReferenceDoes) {
-  for (std::size_t i = 0; i < std::size(drive_kinds); ++i)
-    expect_agreement_in_motion(trials_of(drive_kinds[i], 100), drive_kind_names[i]);
+  for (std::size_t i = 0; i < std::size(drive_kinds); ++i) {
+    const std::vector<trial::TrialParameters> trials = trials_of(drive_kinds[i], 100);
+    if (drive_kinds[i] <= DriveKind::jitter) {
+      expect_agreement_in_lanes(trials, drive_kind_names[i]);
+    } else {
+      expect_agreement_in_motion(trials, drive_kind_names[i]);
+    }
+  }
+}
+
+// In exact equilibrium under a ripple nothing moves the rotor until the first delayed torque arrives.
+TEST(LaneDrive, LeavesARotorInEquilibriumAlone) {
+  for (const friction::FrictionModel model :
+       {friction::FrictionModel::presliding, friction::FrictionModel::lugre, friction::FrictionModel::dahl}) {
+    trial::TrialParameters p;
+    p.friction.model = model;
+    p.controller.delay = 4.0;
+    p.disturbance.ripple = {{1e-3, 36.0, 0.0, 0.0}};
+    p.command.targets = {5};
+    p.command.hold = 0.05;
+    const BatchedTrial batched = run_batch({p}, {.lanes = 1}).front();
+    const BatchedTrial reference = run_by_reference(p);
+    ASSERT_EQ(batched.samples.size(), reference.samples.size());
+    for (std::size_t k = 0; k < reference.samples.size(); ++k) {
+      EXPECT_EQ(batched.samples[k].code, reference.samples[k].code) << k;
+      EXPECT_NEAR(batched.samples[k].theta, reference.samples[k].theta, 4e-12) << k;
+    }
+  }
 }
 
 TEST(LaneDrive, DependsOnNoOtherTrialAndOnNoInstructionSet) {

@@ -68,7 +68,7 @@ TEST(Spectrum, OfABadFileIsAnErrorWithItsLine) {
 TEST(Spectrum, OfAbsurdSizeIsAnError) {
   EXPECT_NE(error_with("[[1, 1.0e+300], [2, 1]]").find("floor.yaml:9"), std::string::npos);
   EXPECT_NE(error_with("[[1, 1], [1.0e+300, 1]]").find("floor.yaml:9"), std::string::npos);
-  EXPECT_NE(error_with("[[2, 1], [1, 1]]").find("above 2"), std::string::npos);
+  EXPECT_NE(error_with("[[2, 1], [1, 1]]").find("greater than 2"), std::string::npos);
 }
 
 }  // namespace

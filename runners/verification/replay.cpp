@@ -22,8 +22,8 @@ bool same(double a, double b, Equality equality, double allowed = 0.0) {
 }
 
 /// Absolute tolerance of a column. A position in counts is the difference of large numbers and has the
-/// accuracy of θ. After a breakaway θ is accurate to 1e-3 count, which is more than this for encoders of up to
-/// 60 million counts per revolution.
+/// accuracy of θ. After a breakaway θ is accurate to 1e-3 count, which is more than this for encoders of up
+/// to 60 million counts per revolution.
 double allowed_in(const layout::Column& column) {
   if (column.unit == "rad") return 1e-10;
   return column.unit == "count" ? 1e-3 : 0.0;

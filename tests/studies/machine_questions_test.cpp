@@ -10,9 +10,8 @@ namespace {
 constexpr std::int64_t machine_trials = 100;
 
 std::int64_t moves_at_zero(const std::string& study, const std::string& point) {
-  return moves_with(outcomes_of(shipped_study(study), point, machine_trials), [](const auto& move) {
-    return move.outcome == trial::Outcome::zero_count;
-  });
+  return moves_with(outcomes_of(shipped_study(study), point, machine_trials),
+                    [](const auto& move) { return move.outcome == trial::Outcome::zero_count; });
 }
 
 TEST(EncoderNoise, HidesZeroCountsWhateverTheGains) {

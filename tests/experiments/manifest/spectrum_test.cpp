@@ -61,8 +61,9 @@ TEST(Spectrum, OfABadFileIsAnErrorWithItsLine) {
   EXPECT_NE(error_with("floor.csv", {{"floor.csv", "f, S\n1, 1e-10\n2; x\n"}}).find("floor.csv:3:1"),
             std::string::npos);
   EXPECT_NE(error_with("floor.csv", {{"floor.csv", "# nothing\n"}}).find("floor.csv:1:1"), std::string::npos);
-  EXPECT_NE(error_with("floor.csv", {{"floor.csv", "10, 1\n1, 1\n"}}).find("disturbance.vibration.1.spectrum"),
-            std::string::npos);
+  EXPECT_NE(
+      error_with("floor.csv", {{"floor.csv", "10, 1\n1, 1\n"}}).find("disturbance.vibration.1.spectrum"),
+      std::string::npos);
 }
 
 TEST(Spectrum, OfAbsurdSizeIsAnError) {

@@ -17,9 +17,9 @@ struct ConstantTorque {
 template <class P>
 struct VaryingTorque {
   static constexpr bool varies = true;
-  P fixed[batch_order];  ///< without the ripples; [0] is the whole torque
-  P velocity[batch_order];
-  P change;  ///< Σ k·|coefficient k|: bound of the torque's rate
+  P fixed[batch_order];     ///< without the ripples; [0] is the whole torque
+  P velocity[batch_order];  ///< coefficients of ω·h, in the unit of the motion's series
+  P change;  ///< Σ k·|coefficient k|: bound of the rate of the torque, in its unit by the step
   int ripples;
   P amplitude[max_lane_ripples];
   P per_travel[max_lane_ripples];  ///< q by the unit of `velocity`

@@ -13,8 +13,8 @@
 namespace zerocount::identification {
 namespace {
 
-/// Unit (rad) of angles that are not counts.
-constexpr double angle_unit = 1e-6;
+/// Unit of angles that are not counts, of the record's travel.
+constexpr double travel_per_unit = 1e-3;
 
 /// A record is cut where it begins to slide. What is left is then checked like any other.
 constexpr std::size_t min_samples_before_sliding = 100;
@@ -47,8 +47,8 @@ std::optional<double> step_of(const std::vector<double>& angles) {
 }
 
 void set_readings(const RawSeries& series, TestRecord& record) {
-  if (series.counts_per_revolution > 0.0) {
-    record.unit = 2.0 * std::numbers::pi / series.counts_per_revolution;
+  if (series.count_size > 0.0) {
+    record.unit = series.count_size;
     record.counted = true;
     for (std::size_t k = 0; k < series.angle.size(); ++k) {
       if (series.angle[k] != std::round(series.angle[k])) {
@@ -61,7 +61,9 @@ void set_readings(const RawSeries& series, TestRecord& record) {
   }
   const std::optional<double> step = step_of(series.angle);
   record.counted = step.has_value();
-  record.unit = step.value_or(angle_unit);
+  const auto [low, high] = std::minmax_element(series.angle.begin(), series.angle.end());
+  const double travel = *high > *low ? *high - *low : 1.0;
+  record.unit = step.value_or(travel_per_unit * travel);
   for (const double angle : series.angle) {
     const double reading = (angle - series.angle.front()) / record.unit;
     record.reading.push_back(step ? std::round(reading) : reading);
@@ -102,20 +104,19 @@ std::optional<SlidingCut> sliding_in(const RawSeries& series) {
     if (slides == series.sliding.end()) return std::nullopt;
     const auto sample = static_cast<std::size_t>(slides - series.sliding.begin());
     return SlidingCut{
-        sample, fmt::format("cut at {:.6g} s, where the rotor breaks away and slides", series.time[sample])};
+        sample, fmt::format("cut at {:.6g} s, where the axis breaks away and slides", series.time[sample])};
   }
   const std::optional<GrossSliding> found = find_gross_sliding(series);
   if (!found) return std::nullopt;
-  const double unit =
-      series.counts_per_revolution > 0.0 ? 2.0 * std::numbers::pi / series.counts_per_revolution : 1.0;
+  const double unit = series.count_size > 0.0 ? series.count_size : 1.0;
   return SlidingCut{
       found->first,
-      fmt::format(
-          "ends at sample {} ({:.6g} s), where the rotor begins to slide: it travels {:.3g} rad until "
-          "{:.6g} s, after {:.3g} rad in all before. The rest is not used, because the contact that "
-          "forms after a slide is another one",
-          found->first, series.time[found->first], found->travel * unit, series.time[found->seen],
-          found->travel_before * unit)};
+      fmt::format("ends at sample {} ({:.6g} s), where the axis begins to slide: it travels {:.3g} {} until "
+                  "{:.6g} s, after {:.3g} {} in all before. The rest is not used, because the contact that "
+                  "forms after a slide is another one",
+                  found->first, series.time[found->first], found->travel * unit,
+                  parameters::unit_on(axis_of(series), "rad"), series.time[found->seen],
+                  found->travel_before * unit, parameters::unit_on(axis_of(series), "rad"))};
 }
 
 /// The first samples of the series.
@@ -134,21 +135,10 @@ RawSeries first_samples(RawSeries part, std::size_t samples) {
 void check_cut(const RawSeries& series, const SlidingCut& cut) {
   if (cut.sample >= min_samples_before_sliding) return;
   throw Failure(ExitCode::bad_data,
-                fmt::format("{}: the rotor breaks away and slides at {:.6g} s, after {} samples; expected {} "
-                            "before it at least. Test with less torque, or take --sliding for the slides",
+                fmt::format("{}: the axis breaks away and slides at {:.6g} s, after {} samples; expected {} "
+                            "before it at least. Test with less {}, or take --sliding for the slides",
                             place_of(series, cut.sample), series.time[cut.sample], cut.sample,
-                            min_samples_before_sliding));
-}
-
-/// @throws Failure (bad_input) if the series is of a linear axis.
-void check_rotary(const RawSeries& series) {
-  if (!series.linear) return;
-  throw Failure(
-      ExitCode::bad_input,
-      fmt::format("{}: is of a linear axis; expected a rotary one, or the lever that makes torque and "
-                  "angle from force and position: --column 'torque=F[N]*0.01' --column "
-                  "'angle=x[m]/0.01'",
-                  series.name));
+                            min_samples_before_sliding, parameters::text_on(axis_of(series), "$torque")));
 }
 
 }  // namespace
@@ -176,12 +166,12 @@ std::vector<motion::TorqueCourse> courses_of(const RawSeries& series, const Test
 }
 
 TestRecord checked_record(const RawSeries& whole, bool any_magnitude) {
-  check_rotary(whole);
   const std::optional<SlidingCut> cut = sliding_in(whole);
   if (cut) check_cut(whole, *cut);
   const RawSeries series = cut ? first_samples(whole, cut->sample) : whole;
   TestRecord record;
   record.name = series.name;
+  record.axis = axis_of(series);
   if (cut) record.note = cut->note;
   record.start = series.start;
   record.sample_time = checked_sample_time(series);
@@ -193,8 +183,7 @@ TestRecord checked_record(const RawSeries& whole, bool any_magnitude) {
   record.excluded = series.excluded;
   bridge_masked(record);
   check_change(series, record);
-  record.units_believed = any_magnitude || series.units_known;
-  if (!record.units_believed) check_magnitudes(series, record);
+  if (!any_magnitude && !series.units_known) check_magnitudes(series, record);
   check_motion(series, record);
   check_glitches(series, record);
   check_clipping(series, record);

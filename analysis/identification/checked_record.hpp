@@ -11,6 +11,11 @@ using records::place_of;
 using records::RawSeries;
 using records::TorqueKind;
 
+/// Kind of the axis of a series.
+inline parameters::AxisKind axis_of(const RawSeries& series) {
+  return series.linear ? parameters::AxisKind::linear : parameters::AxisKind::rotary;
+}
+
 /// Checks the series and converts it to a record for the fit. The record ends where the hook begins to slide,
 /// and its note says so: where the series flags it, or, in a series without flags, where find_gross_sliding()
 /// finds it.
@@ -36,15 +41,15 @@ double checked_sample_time(const RawSeries& series);
 /// of its clock.
 std::vector<double> uneven_intervals(const RawSeries& series);
 
-/// Requires magnitudes that are plausible for a rotor on its bearing's friction, in SI units. Values wrong by
+/// Requires magnitudes that are plausible for an axis on its bearing's friction, in SI units. Values wrong by
 /// a factor of a thousand suggest another unit.
 ///
-/// | quantity | accepted |
-/// | --- | --- |
-/// | sampling interval | 1 µs … 20 ms |
-/// | largest torque | 1e-3 … 20 N m |
-/// | travel (maximum − minimum angle) | 4e-6 … 0.05 rad |
-/// | range of the torque over travel | 1 … 2e4 N m/rad |
+/// | quantity | rotary axis | linear axis |
+/// | --- | --- | --- |
+/// | sampling interval | 1 µs … 20 ms | 1 µs … 20 ms |
+/// | largest torque or force | 1e-3 … 20 N m | 1e-3 … 2e4 N |
+/// | travel (maximum − minimum) | 4e-6 … 0.05 rad | 5e-9 … 0.01 m |
+/// | range of the torque or force over travel | 1 … 2e4 N m/rad | 100 … 1e10 N/m |
 void check_magnitudes(const RawSeries& series, const TestRecord& record);
 
 /// Requires a torque that is not always 0, and an angle that changes.

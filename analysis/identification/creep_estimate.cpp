@@ -10,14 +10,12 @@ namespace {
 constexpr std::array exponents{1.0, 1.5, 2.0, 2.5, 3.0, 4.0};
 constexpr int rates = 14;  // number of values of α tried, by factors of 2 from the smallest
 
-/// Time (s) at the beginning of a hold in which the rotor may oscillate; at most a quarter of the hold.
-constexpr double oscillation_time = 0.05;
-constexpr double oscillation_samples = 100.0;  // at least
+/// Samples at the beginning of a hold in which the rotor may oscillate; at most a quarter of the hold.
+constexpr std::size_t oscillation_samples = 100;
 
 /// Samples at the beginning of a hold that may be those of an oscillation.
-std::size_t oscillating_samples(const TorqueHold& hold, double sample_time) {
-  const double samples = std::max(oscillation_time / sample_time, oscillation_samples);
-  return std::min((hold.last - hold.first + 1) / 4, static_cast<std::size_t>(samples));
+std::size_t oscillating_samples(const TorqueHold& hold) {
+  return std::min((hold.last - hold.first + 1) / 4, oscillation_samples);
 }
 
 /// The longest such time of all holds, s. Creep is told from an oscillation only if it is slower, and where
@@ -26,7 +24,7 @@ double longest_oscillation(std::span<const TestRecord> records) {
   double longest = 0.0;
   for (const TestRecord& record : records) {
     for (const TorqueHold& hold : record.parts.holds) {
-      const auto samples = static_cast<double>(oscillating_samples(hold, record.sample_time));
+      const auto samples = static_cast<double>(oscillating_samples(hold));
       longest = std::max(longest, samples * record.sample_time);
     }
   }
@@ -41,10 +39,10 @@ struct HoldSums {
   double yy{0.0};
 };
 
-void add_hold(const TorqueHold& hold, double sample_time, const Eigen::VectorXd& law,
-              const Eigen::VectorXd& angle, HoldSums& sums) {
+void add_hold(const TorqueHold& hold, const Eigen::VectorXd& law, const Eigen::VectorXd& angle,
+              HoldSums& sums) {
   const auto samples = static_cast<Eigen::Index>(hold.last - hold.first + 1);
-  const auto skipped = static_cast<Eigen::Index>(oscillating_samples(hold, sample_time));
+  const auto skipped = static_cast<Eigen::Index>(oscillating_samples(hold));
   const auto x = law.segment(static_cast<Eigen::Index>(hold.first) + skipped, samples - skipped).array();
   const auto y = angle.segment(static_cast<Eigen::Index>(hold.first) + skipped, samples - skipped).array();
   const double x_mean = x.mean();
@@ -91,10 +89,9 @@ CreepEstimate estimate_creep(std::span<const TestRecord> records, double creep_t
   const double oscillation = longest_oscillation(records);
   const auto is_long = [&](const TestRecord& record, const TorqueHold& hold) {
     constexpr double nearly = 0.9;
-    return static_cast<double>(oscillating_samples(hold, record.sample_time)) * record.sample_time >=
-           nearly * oscillation;
+    return static_cast<double>(oscillating_samples(hold)) * record.sample_time >= nearly * oscillation;
   };
-  CreepEstimate best;
+  CreepEstimate best{3.0 / longest, 2.0, 0.0};
   double explained = 0.0;
   for (int i = 0; i < rates && 0.2 / longest * std::pow(2.0, i) * oscillation <= 1.0; ++i) {
     for (const double exponent : exponents) {
@@ -103,7 +100,7 @@ CreepEstimate estimate_creep(std::span<const TestRecord> records, double creep_t
       for (std::size_t r = 0; r < records.size(); ++r) {
         const Eigen::VectorXd law = creep_extension(records[r], tried, creep_torque);
         for (const TorqueHold& hold : records[r].parts.holds) {
-          if (is_long(records[r], hold)) add_hold(hold, records[r].sample_time, law, angles[r], sums);
+          if (is_long(records[r], hold)) add_hold(hold, law, angles[r], sums);
         }
       }
       if (!(sums.xx > 0.0) || sums.xy <= 0.0 || sums.xy * sums.xy / sums.xx <= explained) continue;

@@ -68,7 +68,7 @@ Course course_of(const records::RawSeries& series) {
   course.angle = used_angles(series);
   course.travel = growing_ranges(course.angle, course.angle.front());
   course.torque_range = growing_ranges(series.torque, series.torque.front());
-  course.min_travel = series.counts_per_revolution > 0.0 ? min_counts_before : 0.0;
+  course.min_travel = series.count_size > 0.0 ? min_counts_before : 0.0;
   course.lag = lag_of(series);
   return course;
 }

@@ -39,8 +39,9 @@ void check_reversals(std::span<const TestRecord> records, const IdentificationOp
   for (const TestRecord& record : records) reversals += record.parts.reversals();
   if (reversals >= min_reversals) return;
   throw Failure(ExitCode::bad_data,
-                fmt::format("too few reversals: the torque turns {} (swings below 2 % of its range do not "
+                fmt::format("too few reversals: the {} turns {} (swings below 2 % of its range do not "
                             "count); expected {} times at least, a loading, an unloading and a reloading",
+                            parameters::text_on(records.front().axis, "$torque"),
                             reversals == 0 ? "never" : "once", min_reversals));
 }
 
@@ -51,6 +52,7 @@ bool is_same(const motion::TorqueCourse& one, const motion::TorqueCourse& other)
 RecordSummary summary_of(const TestRecord& record, const ContactFit& fit, std::size_t number) {
   RecordSummary summary;
   summary.name = record.name;
+  summary.axis = record.axis;
   summary.samples = sample_count(record);
   summary.duration = static_cast<double>(summary.samples) * record.sample_time;
   summary.counted = record.counted;
@@ -257,6 +259,14 @@ CheckedFit explained_fit(std::span<const TestRecord> records, const Identificati
 }  // namespace
 
 void check_different(std::span<const TestRecord> records) {
+  for (const TestRecord& record : records) {
+    if (record.axis == records.front().axis) continue;
+    throw Failure(
+        ExitCode::bad_input,
+        fmt::format("{}: is of another kind of axis than {}; expected records of one axis, rotary or "
+                    "linear",
+                    record.name, records.front().name));
+  }
   for (std::size_t i = 0; i < records.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const TestRecord& one = records[j];
@@ -295,9 +305,8 @@ Identification identify(std::vector<TestRecord> records, const IdentificationOpt
     enter(fmt::format("interval of {}", quantity.name));
     result.parameters.push_back(estimation.estimate(quantity, estimated));
   }
-  const auto value = [&](std::size_t quantity) { return result.parameters[quantity].value; };
-  constexpr std::size_t of_k1 = 0, of_inertia = 5;  // among the fitted quantities
-  refuse_implausible_frequency(records, value(of_k1), value(of_inertia));
+  result.axis = records.front().axis;
+  for (ParameterEstimate& one : result.parameters) one.unit = parameters::unit_on(result.axis, one.unit);
   result.sample_time = records.front().sample_time;
   result.errors = joint_errors(estimated, replicates.errors, checks.widening);
   result.correlations = strong_correlations(result.errors);

@@ -34,10 +34,11 @@ struct ParameterEstimate : QuantityEstimate {
 /// The detected parts of a record, and the quality of the fit.
 struct RecordSummary {
   std::string name;
+  parameters::AxisKind axis{parameters::AxisKind::rotary};
   std::size_t samples{0};
   double duration{0.0};  ///< s
   bool counted{false};
-  double unit{0.0};  ///< of the readings, rad
+  double unit{0.0};  ///< of the readings, rad or m
   std::size_t branches{0};
   std::size_t reversals{0};
   std::size_t holds{0};
@@ -49,6 +50,7 @@ struct RecordSummary {
 };
 
 struct Identification {
+  parameters::AxisKind axis{parameters::AxisKind::rotary};
   std::vector<ParameterEstimate> parameters;  ///< in the order of the names above
   double sample_time{0.0};                    ///< of the time offset, s: of the first record
   std::vector<RecordSummary> records;
@@ -73,7 +75,7 @@ struct IdentificationOptions {
 };
 
 /// Refuses a record that is given twice: it would have twice its weight.
-/// @throws Failure (bad_data)
+/// @throws Failure: bad_data; bad_input if the records are of a rotary and a linear axis
 void check_different(std::span<const TestRecord> records);
 
 /// Identifies a rotor and its contact from material tests, all of the same contact.
@@ -88,8 +90,7 @@ void check_different(std::span<const TestRecord> records);
 /// wrong; so the other intervals include its uncertainty. If its interval is wider than ±1 sample, the fit is
 /// repeated with the given delay.
 /// @throws Failure (bad_data) if a record is given twice, the torque reverses less than twice, a single
-/// reading is an outlier, the model does not explain the records, or the rotor's natural frequency is
-/// implausible and the units are not trusted.
+/// reading is an outlier, or the model does not explain the records.
 Identification identify(std::vector<TestRecord> records, const IdentificationOptions& options = {});
 
 /// The parameters, the parts of the records, the checks and the manifest fragment as text.
@@ -98,9 +99,10 @@ std::string identification_text(const Identification& identification);
 /// The report as one JSON object. Numbers read back to the same double; missing values are null.
 std::string identification_json(const Identification& identification);
 
-/// The identified parameters as a fragment of a manifest, the maps `plant` and `friction`: for each estimated
-/// parameter a distribution whose central 95 % are its confidence interval, for a given parameter its value,
-/// for a parameter that is not identifiable a comment. Ends with a newline.
+/// The identified parameters as a fragment of a manifest, the maps `plant` and `friction` (before them
+/// `axis`, of a linear one): for each estimated parameter a distribution whose central 95 % are its
+/// confidence interval, for a given parameter its value, for a parameter that is not identifiable a comment.
+/// Ends with a newline.
 ///
 /// Positive parameters are lognormal, and n is a truncated normal from 1.
 std::string manifest_fragment(const Identification& identification);

@@ -68,6 +68,7 @@ Json errors_json(const JointErrors& errors) {
 
 std::string identification_json(const Identification& identification) {
   Json json;
+  json["axis"] = parameters::axis_labels.at(static_cast<std::size_t>(identification.axis));
   json["parameters"] = Json::array();
   for (const ParameterEstimate& parameter : identification.parameters) {
     json["parameters"].push_back(parameter_json(parameter));

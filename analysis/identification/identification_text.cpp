@@ -21,10 +21,10 @@ std::string record_line(const RecordSummary& record) {
       record.noise > 0.0 ? fmt::format(", noise {:.3g}", record.noise) : std::string(", no noise");
   return fmt::format(
              "  {}: {} samples, {:.4g} s; {} branches, {} reversals, {} holds, {} ring-downs\n"
-             "    read in {} of {:.6g} rad{}; the model leaves {:.3g} (root mean square)\n",
+             "    read in {} of {:.6g} {}{}; the model leaves {:.3g} (root mean square)\n",
              text::printable(record.name), record.samples, record.duration, record.branches, record.reversals,
-             record.holds, record.ring_downs, record.counted ? "counts" : "units", record.unit, noise,
-             record.misfit) +
+             record.holds, record.ring_downs, record.counted ? "counts" : "units", record.unit,
+             parameters::unit_on(record.axis, "rad"), noise, record.misfit) +
          left_out_text(record);
 }
 
@@ -35,9 +35,10 @@ std::string time_offset_text(const Identification& identification) {
   switch (offset.status) {
     case EstimateStatus::estimated:
       return fmt::format(
-          "The torque acts {:.4g} us (95 %: {:.4g} to {:.4g} us) later than recorded, which the other\n"
+          "The {} acts {:.4g} us (95 %: {:.4g} to {:.4g} us) later than recorded, which the other\n"
           "intervals take into account.\n",
-          in_us(offset.value), in_us(offset.low), in_us(offset.high));
+          parameters::text_on(identification.axis, "$torque"), in_us(offset.value), in_us(offset.low),
+          in_us(offset.high));
     case EstimateStatus::kept:
       return fmt::format(
           "The time offset is kept at {:g} samples, because {}.\n"

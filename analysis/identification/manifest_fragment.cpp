@@ -87,6 +87,7 @@ std::string manifest_fragment(const Identification& identification) {
   if (!identification.checks.passed) {
     text += "# Lack of fit: encoder and noise do not explain the residuals; do not rely on these values.\n";
   }
+  if (identification.axis == parameters::AxisKind::linear) text += "axis: linear\n";
   for (const std::string group : {"plant", "friction"}) {
     std::string lines;
     bool any = false;

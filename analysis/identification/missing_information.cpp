@@ -39,7 +39,7 @@ std::string of_spring(const ContactFit& fit, std::span<const TestRecord> records
 std::string of_ring_down(std::span<const TestRecord> records) {
   if (std::none_of(records.begin(), records.end(),
                    [](const TestRecord& record) { return record.parts.ring_downs() > 0; })) {
-    return "there is no ring-down: the torque never steps (by 5 % of its range within 8 samples) and then "
+    return "there is no ring-down: the $torque never steps (by 5 % of its range within 8 samples) and then "
            "stays";
   }
   return "the ring-downs are too small, or die out too fast for the sampling, to show it";
@@ -47,12 +47,12 @@ std::string of_ring_down(std::span<const TestRecord> records) {
 
 std::string of_creep(const std::vector<CreepingHold>& holds, Coordinate coordinate) {
   if (holds.empty())
-    return "the torque is never held (for 20 samples or more), and so creep is not seen alone";
+    return "the $torque is never held (for 20 samples or more), and so creep is not seen alone";
   double max_creep = 0.0;
   for (const CreepingHold& hold : holds) max_creep = std::max(max_creep, hold.creep);
   constexpr double min_creep = 2.0;
   if (max_creep < min_creep) {
-    return fmt::format("the rotor creeps by {:.2g} steps of the readings at most while the torque is held",
+    return fmt::format("the axis creeps by {:.2g} steps of the readings at most while the torque is held",
                        max_creep);
   }
   double low = 0.0;
@@ -64,21 +64,22 @@ std::string of_creep(const std::vector<CreepingHold>& holds, Coordinate coordina
   }
   constexpr double one_level = 1.1;
   if (coordinate != log_alpha && high < one_level * low) {
-    return fmt::format("creep is seen at one torque only, {:.3g} N m: hold another, or give friction.n",
+    return fmt::format("creep is seen at one $torque only, {:.3g} $Nm: hold another, or give friction.n",
                        high);
   }
   return "the holds are too short, or too much alike, to show the course of creep";
 }
 
 std::string of_time_offset() {
-  return "the torque changes too slowly for the readings to show it: record a step, or give it with "
+  return "the $torque changes too slowly for the readings to show it: record a step, or give it with "
          "--fix time_offset=0";
 }
 
 }  // namespace
 
-std::string missing_information(std::span<const TestRecord> records, const ContactFit& fit,
-                                Coordinate coordinate) {
+namespace {
+
+std::string missing(std::span<const TestRecord> records, const ContactFit& fit, Coordinate coordinate) {
   switch (coordinate) {
     case log_k1:
     case log_k2:
@@ -95,6 +96,13 @@ std::string missing_information(std::span<const TestRecord> records, const Conta
       return of_time_offset();
   }
   return of_creep(creeping_holds(records, fit), coordinate);
+}
+
+}  // namespace
+
+std::string missing_information(std::span<const TestRecord> records, const ContactFit& fit,
+                                Coordinate coordinate) {
+  return parameters::text_on(records.front().axis, missing(records, fit, coordinate));
 }
 
 }  // namespace zerocount::identification

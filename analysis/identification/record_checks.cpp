@@ -21,6 +21,11 @@ constexpr std::size_t clipped_samples = 3;
   throw Failure(ExitCode::bad_data, fmt::format("{}: {}", place, reason));
 }
 
+/// A message with the words and units of the axis (parameters::text_on()).
+[[noreturn]] void refuse(const RawSeries& series, const std::string& place, const std::string& reason) {
+  refuse(place, parameters::text_on(axis_of(series), reason));
+}
+
 /// Plausible range of a quantity, and the question in the message for values outside.
 struct Plausible {
   std::string_view quantity;
@@ -32,8 +37,8 @@ struct Plausible {
 
 void check_plausible(const RawSeries& series, const Plausible& plausible, double value) {
   if (value >= plausible.low && value <= plausible.high) return;
-  refuse(series.name,
-         fmt::format("{} is {:.4g} {}, {} what is plausible for a rotor on its friction ({:g} to {:g} "
+  refuse(series, series.name,
+         fmt::format("{} is {:.4g} {}, {} what is plausible for an axis on its friction ({:g} to {:g} "
                      "{}): {} If it is right, give --any-magnitude",
                      plausible.quantity, value, plausible.unit, value < plausible.low ? "below" : "above",
                      plausible.low, plausible.high, plausible.unit, plausible.question));
@@ -125,9 +130,10 @@ void check_codes(const RawSeries& series) {
   for (std::size_t k = 0; k < series.code.size(); ++k) {
     repeated = series.code[k] == last_code(bits, series.code[k]) ? repeated + 1 : 0;
     if (repeated < clipped_samples) continue;
-    refuse(place_of(series, k), fmt::format("the torque is clipped: the DAC's code stays at {:.0f}, the end "
-                                            "of its range{}",
-                                            series.code[k], doubt));
+    refuse(series, place_of(series, k),
+           fmt::format("the $torque is clipped: the DAC's code stays at {:.0f}, the end "
+                       "of its range{}",
+                       series.code[k], doubt));
   }
 }
 
@@ -143,10 +149,10 @@ void check_flat_top(const RawSeries& series, const TestRecord& record, const Tor
   const double fall = sign * (record.reading[peak] - record.reading[hold.last]);
   const bool swings = peak - hold.first < (hold.last - hold.first) / 20;
   if (rise < noticeable || fall < noticeable || swings) return;
-  refuse(place_of(series, hold.first),
+  refuse(series, place_of(series, hold.first),
          fmt::format(
-             "the torque is clipped: it stays at {:.4g} N m for {:.3g} s, and meanwhile the angle goes on "
-             "by {:.3g} rad and comes back by {:.3g} rad",
+             "the $torque is clipped: it stays at {:.4g} $Nm for {:.3g} s, and meanwhile the $angle goes on "
+             "by {:.3g} $rad and comes back by {:.3g} $rad",
              hold.torque, static_cast<double>(hold.last - hold.first) * record.sample_time,
              rise * record.unit, fall * record.unit));
 }
@@ -184,33 +190,37 @@ std::vector<double> uneven_intervals(const RawSeries& series) {
 void check_magnitudes(const RawSeries& series, const TestRecord& record) {
   check_plausible(series, {"the sampling interval", "s", 1e-6, 2e-2, "is the time in ms or us?"},
                   record.sample_time);
-  check_plausible(series, {"the largest torque", "N m", 1e-3, 20.0, "is the torque in mN m?"},
+  check_plausible(series,
+                  {"the largest $torque", "$Nm", 1e-3, series.linear ? 2e4 : 20.0, "is the $torque in m$Nm?"},
                   largest_torque(record));
   const double turned = travel(record) * record.unit;
   check_plausible(
       series,
-      {"the travel", "rad", 4e-6, 0.05,
-       "is the angle in mrad or degrees, are the counts per revolution right, did the rotor slide "
-       "(then --sliding)?"},
+      {"the travel", "$rad", series.linear ? 5e-9 : 4e-6, series.linear ? 0.01 : 0.05,
+       series.linear
+           ? "is the position in mm or um, is the size of a count right, did the axis slide (then --sliding)?"
+           : "is the angle in mrad or degrees, are the counts per revolution right, did the axis slide (then "
+             "--sliding)?"},
       turned);
   check_plausible(series,
-                  {"the torque's range over the travel", "N m/rad", 1.0, 2e4,
-                   "are torque and angle in N m and rad, are the counts per revolution right?"},
+                  {"the $torque's range over the travel", "$Nm/$rad", series.linear ? 100.0 : 1.0,
+                   series.linear ? 1e10 : 2e4,
+                   "are $torque and $angle in $Nm and $rad, is the resolution of the encoder right?"},
                   torque_range(record) / turned);
 }
 
 void check_change(const RawSeries& series, const TestRecord& record) {
-  if (!(torque_range(record) > 0.0)) refuse(series.name, "the torque is 0 throughout");
+  if (!(torque_range(record) > 0.0)) refuse(series, series.name, "the $torque is 0 throughout");
   if (!(travel(record) > 0.0)) {
-    refuse(series.name, "the angle is constant: the encoder does not see the rotor move");
+    refuse(series, series.name, "the $angle is constant: the encoder does not see the axis move");
   }
 }
 
 void check_motion(const RawSeries& series, const TestRecord& record) {
   const double counts = travel(record);
   if (record.counted && counts < min_counts) {
-    refuse(series.name, fmt::format("the rotor moves by {:.0f} counts only; expected {:.0f} at least", counts,
-                                    min_counts));
+    refuse(series.name,
+           fmt::format("the axis moves by {:.0f} counts only; expected {:.0f} at least", counts, min_counts));
   }
   constexpr std::size_t lag = 10;
   double agreement = 0.0;
@@ -224,12 +234,12 @@ void check_motion(const RawSeries& series, const TestRecord& record) {
     energy += record.torque[k - 1].now * (record.reading[k] - record.reading[k - 1]);
   }
   if (energy < 0.0) {
-    refuse(series.name, "the angle falls where the torque rises: one of them has the wrong sign");
+    refuse(series, series.name, "the $angle falls where the $torque rises: one of them has the wrong sign");
   }
   refuse(
-      series.name,
-      "the angle does not follow the torque as it does on a spring, although the torque drives the motion: "
-      "the "
+      series, series.name,
+      "the $angle does not follow the $torque as it does on a spring, although the $torque drives the "
+      "motion: the "
       "axis slides. Material tests stay within the pre-sliding range; --sliding identifies a sliding axis");
 }
 
@@ -249,9 +259,9 @@ void check_glitches(const RawSeries& series, const TestRecord& record) {
     if (at != highest) next = std::max(next, *at);
   }
   if (!(*highest > beyond_all * next)) return;
-  refuse(place_of(series, static_cast<std::size_t>(highest - height.begin())),
-         fmt::format("this one angle is {:.3g} rad off those before and after it: a fault of the reading. "
-                     "Put in what they say, or cut the record",
+  refuse(series, place_of(series, static_cast<std::size_t>(highest - height.begin())),
+         fmt::format("this one $angle is {:.3g} $rad off those before and after it, probably a read error. "
+                     "Replace it by a neighbouring value, or shorten the record",
                      *highest * record.unit));
 }
 

@@ -61,8 +61,4 @@ void refuse_unexplained(std::span<const TestRecord> records, const ContactFit& f
 void refuse_gross_misfit(std::span<const TestRecord> records, const ContactFit& fit,
                          const ResidualChecks& checks);
 
-/// Refuses a natural frequency of k1 (N m/rad) and inertia (kg m²) outside 0.5 Hz to 20 kHz. No check if the
-/// units of all records are trusted or one of the two values is NaN.
-void refuse_implausible_frequency(std::span<const TestRecord> records, double k1, double inertia);
-
 }  // namespace zerocount::identification

@@ -13,13 +13,14 @@ Eigen::VectorXd measured_angle(const TestRecord& record);
 
 /// Creep law estimated from the holds.
 struct CreepEstimate {
-  double alpha{0.5};     ///< 1/s
+  double alpha{0.0};     ///< 1/s
   double exponent{2.0};  ///< n
   double limit{0.0};     ///< σ0ⁿ/λ, rad; 0 if there is no visible creep
 };
 
-/// Fits the creep law to the holds by least squares, over a grid of α and n. At constant torque only creep
-/// moves the rotor, and the law is linear in its limit.
+/// Fits the creep law to the holds by least squares, over a grid of α and n; without visible creep α is three
+/// over the duration of the longest record. At constant torque only creep moves the rotor, and the law is
+/// linear in its limit.
 CreepEstimate estimate_creep(std::span<const TestRecord> records, double creep_torque);
 
 /// Creep extension xp (rad) at every sample, if the spring torque always equals the applied torque.
@@ -27,9 +28,9 @@ Eigen::VectorXd creep_extension(const TestRecord& record, const CreepEstimate& c
 
 /// Spring parameters estimated from the slow branches.
 struct SpringEstimate {
-  double k1{110.0};       ///< N m/rad
-  double offset{7.5e-3};  ///< k2/β, N m
-  double beta{1.0e5};     ///< 1/rad
+  double k1{0.0};      ///< N m/rad
+  double offset{0.0};  ///< k2/β, N m
+  double beta{0.0};    ///< 1/rad
 };
 
 /// Median over the branches. k1 is the slope of the last 40 % of the travel, k2/β the intercept of that line

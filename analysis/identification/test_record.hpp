@@ -8,6 +8,7 @@
 
 #include "core/motion/plant_start.hpp"
 #include "core/motion/torque_course.hpp"
+#include "experiments/parameters/study_units.hpp"
 
 namespace zerocount::identification {
 
@@ -42,9 +43,11 @@ struct RecordParts {
   std::size_t ring_downs() const;
 };
 
-/// One checked material test: the motor torque and the encoder reading at each sample.
+/// One checked material test: the motor torque and the encoder reading at each sample. Of a linear axis read
+/// force for torque and position for angle, N for N m and m for rad, here and in all that is fitted to it.
 struct TestRecord {
-  std::string name;                          ///< name in messages
+  std::string name;  ///< name in messages
+  parameters::AxisKind axis{parameters::AxisKind::rotary};
   double sample_time{5e-4};                  ///< T, s; of uneven samples the mean
   double first_time{0.0};                    ///< of the first sample, as recorded, s
   std::vector<double> intervals{};           ///< [sample] until the next one, s; empty: T each
@@ -59,10 +62,9 @@ struct TestRecord {
   /// [sample] The readings as recorded; empty: as `reading`, which has straight lines in place of masked
   /// ones.
   std::vector<double> recorded{};
-  std::string note{};          ///< what was cut out of it; empty: nothing
-  bool units_believed{false};  ///< skips the checks of magnitudes
-  motion::PlantStart start;    ///< state of the contact at the first sample
-  RecordParts parts;           ///< parts_of() the record, which identify() sets
+  std::string note{};        ///< what was cut out of it; empty: nothing
+  motion::PlantStart start;  ///< state of the contact at the first sample
+  RecordParts parts;         ///< parts_of() the record, which identify() sets
 };
 
 inline std::size_t sample_count(const TestRecord& record) {

@@ -44,11 +44,15 @@ LawQuantity level_quantity(const LawPoint& point, double largest_torque) {
 LawModel bristle_model(const RecordScales& scales, Records records, friction::FrictionModel law,
                        bool damped_bristle) {
   const double largest_torque = scales.largest_torque;
+  // Before it slides, the sliding damping of lugre cannot be told from σ1.
+  const bool has_default = scales.axis == parameters::AxisKind::rotary || !damped_bristle;
+  const double sliding_damping = has_default ? motion::PlantParameters{}.sliding_damping : 0.0;
   LawModel model;
   model.law = law;
   model.free.assign(bristle_dimension, true);
   model.parameters_at = [=](const LawPoint& point) {
     LawParameters parameters;
+    parameters.plant.sliding_damping = sliding_damping;
     parameters.friction.model = law;
     friction::FrictionParameters& contact = parameters.friction.uniform;
     contact.sigma0 = std::exp(point[bristle_stiffness]);
@@ -73,6 +77,8 @@ LawModel bristle_model(const RecordScales& scales, Records records, friction::Fr
   model.fixed_lines = [](const LawPoint&) {
     return std::string("  coulomb_ratio: 1.0   # given: records without sliding show one level only\n");
   };
+  if (!has_default)
+    model.plant_lines = "  sliding_damping: 0   # given: before it slides, sigma1 stands for both\n";
   return model;
 }
 

@@ -144,6 +144,8 @@ FittedLaw fitted_law(Records records, friction::FrictionModel law, bool series_c
   set_misfit(records, result.fit, found);
   for (const LawQuantity& quantity : result.model.quantities_at(result.fit.at.point)) {
     found.parameters.push_back(estimate_of(quantity, errors));
+    std::string& unit = found.parameters.back().unit;
+    unit = parameters::unit_on(records.front().axis, unit);
   }
   found.fragment = law_fragment(records, result.model, result.fit.at.point, found);
   return result;
@@ -180,6 +182,7 @@ LawComparison compare_laws(std::vector<TestRecord> records, const LawChoice& cho
   }
   const std::vector<double> effective = effective_readings(records, fitted);
   LawComparison comparison;
+  comparison.axis = records.front().axis;
   comparison.sample_time = records.front().sample_time;
   for (std::size_t r = 0; r < records.size(); ++r) {
     comparison.effective_readings += effective[r];

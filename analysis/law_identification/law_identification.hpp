@@ -17,7 +17,7 @@ struct IdentifiedLaw {
   friction::FrictionModel law{friction::FrictionModel::presliding};
   std::vector<identification::ParameterEstimate> parameters;
   std::size_t fitted{0};              ///< coordinates of the fit, with the time offset
-  double misfit{0.0};                 ///< root mean square of the residuals of all readings, rad
+  double misfit{0.0};                 ///< root mean square of the residuals of all readings, rad or m
   double misfit_over_travel{0.0};     ///< the same over the travel of the records, dimensionless
   double information_criterion{0.0};  ///< BIC above that of the best law, 0 or more
   identification::ResidualChecks checks;
@@ -35,6 +35,7 @@ struct ComparedRecord {
 
 /// The laws that were fitted to the same records.
 struct LawComparison {
+  parameters::AxisKind axis{parameters::AxisKind::rotary};
   std::vector<IdentifiedLaw> laws;  ///< by information criterion, the best one first
   std::vector<ComparedRecord> records;
   double effective_readings{0.0};  ///< number of independent residuals

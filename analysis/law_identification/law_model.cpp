@@ -52,6 +52,7 @@ constexpr std::array laws_with_motion{FrictionModel::presliding, FrictionModel::
 
 RecordScales scales_of(Records records) {
   RecordScales scales;
+  scales.axis = records.front().axis;
   scales.creep_torque = identification::creep_torque_for(records, {});
   identification::FreeCoordinates free;
   free.fill(true);

@@ -48,8 +48,10 @@ struct LawModel {
   std::function<double(const LawPoint&)> series_compliance{};
   /// Other starting points near a local minimum; may be empty.
   std::function<std::vector<LawPoint>(const LawPoint&)> neighbours{};
-  /// Lines below `friction:` in a manifest for what is not fitted.
+  /// Lines below `friction:` in a manifest for what is not fitted, with the units of a rotary axis.
   std::function<std::string(const LawPoint&)> fixed_lines;
+  /// Such lines below `plant:`.
+  std::string plant_lines{};
 };
 
 /// Properties of the records from which the starting points follow.
@@ -58,6 +60,7 @@ struct RecordScales {
   double creep_torque{1.0};              ///< σ0 of its coordinates, N m
   double largest_torque{0.0};            ///< N m
   double secant_stiffness{0.0};          ///< range of the torque over travel, N m/rad
+  parameters::AxisKind axis{parameters::AxisKind::rotary};
 };
 
 RecordScales scales_of(Records records);

@@ -25,8 +25,9 @@ std::string word_of(const IdentifiedLaw& law) {
 }
 
 std::string table_of(const LawComparison& comparison) {
-  std::vector<std::vector<std::string>> cells{
-      {"law", "fitted", "residual, rad", "of the travel", "BIC − least", "encoder and noise"}};
+  std::vector<std::vector<std::string>> cells{{"law", "fitted",
+                                               "residual, " + parameters::unit_on(comparison.axis, "rad"),
+                                               "of the travel", "BIC − least", "encoder and noise"}};
   for (const IdentifiedLaw& law : comparison.laws) {
     cells.push_back({word_of(law), fmt::format("{}", law.fitted), fmt::format("{:.3g}", law.misfit),
                      fmt::format("{:.3g} %", 100.0 * law.misfit_over_travel),
@@ -104,16 +105,17 @@ std::string law_fragment(Records records, const LawModel& model, const LawPoint&
   if (!law.checks.passed) {
     text += "# Lack of fit: encoder and noise do not explain the residuals; do not rely on these values.\n";
   }
+  if (records.front().axis == parameters::AxisKind::linear) text += "axis: linear\n";
   for (const std::string group : {"plant", "friction"}) {
-    std::string lines = group == "plant" ? std::string() : fmt::format("  model: {}\n", word_of(law));
+    std::string lines = group == "plant" ? model.plant_lines : fmt::format("  model: {}\n", word_of(law));
     for (const ParameterEstimate& parameter : law.parameters) {
       if (!parameter.key.starts_with(group + ".")) continue;
       lines += identification::manifest_line(parameter, parameter.key.substr(group.size() + 1));
     }
-    if (group == "friction") lines += model.fixed_lines(point);
+    if (group == "friction") lines += parameters::unit_on(records.front().axis, model.fixed_lines(point));
     // A map that contains only comments would not be a map.
     const bool any =
-        group == "friction" ||
+        group == "friction" || !model.plant_lines.empty() ||
         std::any_of(law.parameters.begin(), law.parameters.end(), [&](const auto& parameter) {
           return parameter.key.starts_with(group + ".") && parameter.status == EstimateStatus::estimated;
         });
@@ -142,6 +144,7 @@ std::string comparison_text(const LawComparison& comparison) {
 std::string comparison_json(const LawComparison& comparison) {
   Json json;
   json["kind"] = "laws";
+  json["axis"] = parameters::axis_labels.at(static_cast<std::size_t>(comparison.axis));
   json["readings"] = comparison.readings;
   json["effective_readings"] = comparison.effective_readings;
   json["sample_time"] = comparison.sample_time;

@@ -25,6 +25,12 @@ constexpr Eigen::Index element_dimension = element_inertia + 2;
 /// Level of the sticking element over the largest torque of the records, which it never reaches.
 constexpr double never_reached = 10.0;
 
+/// C of the slipping elements, N m/s. At the paper's torques it is the default of a manifest.
+double attraction_at(double largest_torque) {
+  constexpr double rate = 200.0;  // 1/s
+  return rate * largest_torque;
+}
+
 /// The levels W of the elements, N m.
 std::vector<double> levels_at(const LawPoint& point, double largest_torque) {
   std::vector<double> levels;
@@ -150,8 +156,9 @@ std::string list_lines(const LawPoint& point, double largest_torque) {
       "  coulomb_ratio: 1.0   # given: records without sliding show one level only\n"
       "  gms:   # fitted values, without distributions\n"
       "    stiffness: [{}]   # N m/rad\n"
-      "    weight: [{}]\n",
-      all, fmt::join(stiffnesses, ", "), fmt::join(weights, ", "));
+      "    weight: [{}]\n"
+      "    attraction: {:.3g}   # N m/s, given: the elements slip within milliseconds\n",
+      all, fmt::join(stiffnesses, ", "), fmt::join(weights, ", "), attraction_at(largest_torque));
 }
 
 }  // namespace
@@ -168,6 +175,7 @@ LawModel maxwell_slip_model(const RecordScales& scales) {
     parameters.friction.gms_elements = elements_at(point, levels);
     parameters.friction.uniform.breakaway = std::accumulate(levels.begin(), levels.end(), 0.0);
     parameters.friction.uniform.coulomb_ratio = 1.0;
+    parameters.friction.uniform.gms_attraction = attraction_at(largest_torque);
     parameters.plant.sliding_damping = std::exp(point[element_damping]);
     parameters.plant.inertia = std::exp(point[element_inertia]);
     return parameters;

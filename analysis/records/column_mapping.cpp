@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -63,6 +64,27 @@ std::string quantity_names() {
 
 std::optional<Dimension> dimension_of(Quantity quantity) {
   return quantity_rows[static_cast<std::size_t>(quantity)].dimension;
+}
+
+Unit si_unit(Quantity quantity) {
+  switch (dimension_of(quantity).value()) {
+    case Dimension::time:
+      return unit_named("s").value();
+    case Dimension::torque:
+      return unit_named("N m").value();
+    case Dimension::angle:
+      return unit_named("rad").value();
+    case Dimension::force:
+      return unit_named("N").value();
+    case Dimension::length:
+      return unit_named("m").value();
+    case Dimension::current:
+    case Dimension::voltage:
+    case Dimension::count:
+    case Dimension::proportion:
+      break;
+  }
+  throw std::invalid_argument("a quantity of no SI unit");
 }
 
 bool is_linear(Quantity quantity) {

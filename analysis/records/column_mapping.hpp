@@ -26,6 +26,8 @@ std::string quantity_names();
 /// The dimension of the quantity's values; none for the repetition.
 std::optional<Dimension> dimension_of(Quantity quantity);
 bool is_linear(Quantity quantity);  ///< of a linear axis only
+/// The SI unit of the quantity's values; not of the repetition.
+Unit si_unit(Quantity quantity);
 
 /// The source of the values of a quantity: `torque=current[A]*0.87`.
 ///

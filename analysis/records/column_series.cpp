@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -45,12 +44,13 @@ Unit unit_in_file(const ColumnSource& source, const std::string& column, const U
                             text::printable(column), text::printable(name), unit_names()));
 }
 
-/// Finishes the column: a unit of another dimension needs factors. An encoder's counts need none, because
-/// --counts-per-revolution may be given.
+/// Finishes the column: a unit of another dimension needs factors. An encoder's counts need none, because the
+/// size of a count may be given.
 FoundColumn finished(const ColumnSource& source, FoundColumn found, std::optional<double> factor) {
   const Dimension dimension = dimension_of(found.quantity).value();
   const bool own = found.unit.dimension == dimension;
-  const bool counted_angle = dimension == Dimension::angle && found.unit.dimension == Dimension::count;
+  const bool of_encoder = dimension == Dimension::angle || dimension == Dimension::length;
+  const bool counted_angle = of_encoder && found.unit.dimension == Dimension::count;
   if (!own && !factor && !counted_angle) {
     refuse_column(source,
                   fmt::format("column '{}' is in {}, which is no {} without a factor; expected "
@@ -99,12 +99,10 @@ FoundColumn usual_column(const ColumnSource& source, Quantity quantity,
                                       name_of(quantity), fmt::join(candidates, " or "), name_of(quantity),
                                       source.columns_text()));
   }
-  if (*name == "drive_torque") quantity = Quantity::drive_torque;
-  const Dimension dimension = dimension_of(quantity).value();
-  const Unit usual = *name == "count"                ? unit_named("count").value()
-                     : dimension == Dimension::time  ? unit_named("s").value()
-                     : dimension == Dimension::angle ? unit_named("rad").value()
-                                                     : unit_named("N m").value();
+  if (name->starts_with("drive_")) {
+    quantity = is_linear(quantity) ? Quantity::drive_force : Quantity::drive_torque;
+  }
+  const Unit usual = *name == "count" ? unit_named("count").value() : si_unit(quantity);
   return finished(source, {quantity, *name, unit_in_file(source, *name, usual)}, std::nullopt);
 }
 
@@ -136,9 +134,10 @@ void read_torque(const ColumnSource& source, const SeriesChoice& choice, RawSeri
   const ColumnMapping* mapping =
       mapping_of(choice, {Quantity::torque, Quantity::drive_torque, Quantity::force, Quantity::drive_force});
   const FoundColumn column =
-      mapping != nullptr
-          ? mapped_column(source, *mapping, unit_named(is_linear(mapping->quantity) ? "N" : "N m").value())
-          : usual_column(source, Quantity::torque, choice.torque, {"drive_torque", "torque"});
+      mapping != nullptr ? mapped_column(source, *mapping, si_unit(mapping->quantity))
+      : series.linear    ? usual_column(source, Quantity::force, choice.torque,
+                                        {"drive_force", "force", "drive_torque", "torque"})
+                         : usual_column(source, Quantity::torque, choice.torque, {"drive_torque", "torque"});
   series.torque = scaled_numbers(source, column);
   const bool of_motor = column.quantity == Quantity::drive_torque || column.quantity == Quantity::drive_force;
   series.torque_kind = of_motor ? TorqueKind::motor : TorqueKind::commanded;
@@ -147,27 +146,38 @@ void read_torque(const ColumnSource& source, const SeriesChoice& choice, RawSeri
 void read_angle(const ColumnSource& source, const SeriesChoice& choice, RawSeries& series) {
   const ColumnMapping* mapping = mapping_of(choice, {Quantity::angle, Quantity::position});
   std::vector<std::string> names{"theta", "count"};
-  if (choice.counts_per_revolution) std::swap(names[0], names[1]);
+  if (series.linear) names.insert(names.begin(), "position");
+  if (choice.count_size) std::rotate(names.begin(), names.end() - 1, names.end());
   FoundColumn column =
       mapping != nullptr
-          ? mapped_column(source, *mapping, unit_named(is_linear(mapping->quantity) ? "m" : "rad").value())
-          : usual_column(source, Quantity::angle, choice.angle, names);
-  series.linear = is_linear(column.quantity);
-  if (!series.linear && column.unit.dimension == Dimension::count) {
-    if (!column.has_factor && !choice.counts_per_revolution) {
-      refuse_column(source, "the angle is in counts; --counts-per-revolution is missing");
+          ? mapped_column(source, *mapping, si_unit(mapping->quantity))
+          : usual_column(source, series.linear ? Quantity::position : Quantity::angle, choice.angle, names);
+  if (column.unit.dimension == Dimension::count) {
+    const std::string_view option = series.linear ? "--resolution" : "--counts-per-revolution";
+    const std::string_view what = name_of(column.quantity);
+    if (!column.has_factor && !choice.count_size) {
+      refuse_column(source, fmt::format("the {} is in counts; {} is missing", what, option));
     }
-    if (column.has_factor && choice.counts_per_revolution) {
-      refuse_column(source,
-                    "the angle has a factor for its counts beside --counts-per-revolution; expected "
-                    "one of them");
+    if (column.has_factor && choice.count_size) {
+      refuse_column(source, fmt::format("the {} has a factor for its counts beside {}; expected one of them",
+                                        what, option));
     }
     // Counts stay whole numbers, whose resolution is known.
-    series.counts_per_revolution =
-        column.has_factor ? 2.0 * std::numbers::pi / std::abs(column.factor) : *choice.counts_per_revolution;
+    series.count_size = column.has_factor ? std::abs(column.factor) : *choice.count_size;
     column.factor = column.factor < 0.0 ? -1.0 : 1.0;
   }
   series.angle = scaled_numbers(source, column);
+}
+
+/// True if the columns are those of a linear axis.
+bool is_linear(const ColumnSource& source, const SeriesChoice& choice) {
+  using enum Quantity;
+  if (choice.linear || mapping_of(choice, {force, drive_force, position}) != nullptr) return true;
+  if (mapping_of(choice, {torque, drive_torque, angle}) != nullptr) return false;
+  const auto has_any = [&](std::initializer_list<const char*> names) {
+    return std::any_of(names.begin(), names.end(), [&](const char* name) { return source.has(name); });
+  };
+  return has_any({"force", "drive_force", "position"}) && !has_any({"torque", "drive_torque", "theta"});
 }
 
 template <class Value>
@@ -255,9 +265,8 @@ std::string contradiction_in(const SeriesChoice& choice) {
   if (torques > 0 && choice.torque) return "'--torque' and '--column' both choose the torque";
   if (has({angle, position}) && choice.angle) return "'--angle' and '--column' both choose the angle";
   if (has({time}) && choice.sample_time) return "'--sample-time' and '--column time=…' exclude each other";
-  if (linear && choice.counts_per_revolution) {
-    return "'--counts-per-revolution' is of a rotary axis; of a linear one, '--column "
-           "position=COLUMN[count]*FACTOR' has the m of one count";
+  if (has({angle, torque, drive_torque}) && choice.linear) {
+    return "'--axis linear' has a force and a position, '--column' gives a torque or an angle";
   }
   return "";
 }
@@ -275,6 +284,7 @@ std::vector<RawSeries> read_columns(const ColumnSource& source, const SeriesChoi
   RawSeries series;
   series.name = source.name();
   series.lines = source.lines();
+  series.linear = is_linear(source, choice);
   read_torque(source, choice, series);
   read_angle(source, choice, series);
   read_time(source, choice, series);

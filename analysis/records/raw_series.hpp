@@ -27,17 +27,17 @@ struct RawSeries {
   std::vector<double> time;        ///< s
   std::vector<double> torque;      ///< N m; of a linear axis the force, N
   TorqueKind torque_kind{TorqueKind::commanded};
-  double bandwidth{0.0};              ///< of the amplifier, Hz; 0: ideal amplifier
-  double delay{0.0};                  ///< delay of a commanded torque, samples; the torque is 0 before
-  std::vector<double> angle;          ///< whole counts, or rad; of a linear axis the position, m
-  double counts_per_revolution{0.0};  ///< 0 if the angle is in rad or m
-  bool linear{false};                 ///< of a linear axis
-  std::vector<double> code;           ///< DAC codes; empty if unknown
-  int dac_bits{0};                    ///< 0 if unknown
-  std::vector<bool> sliding;          ///< whether the hook slid; empty if unknown
-  std::vector<bool> excluded;         ///< [sample] masked readings; empty: none
-  motion::PlantStart start;           ///< initial state of the contact
-  bool units_known{false};            ///< certainly SI units, because this program wrote the file
+  double bandwidth{0.0};       ///< of the amplifier, Hz; 0: ideal amplifier
+  double delay{0.0};           ///< delay of a commanded torque, samples; the torque is 0 before
+  std::vector<double> angle;   ///< whole counts, or rad; of a linear axis the position, m
+  double count_size{0.0};      ///< rad or m of a count; 0 if the angle is in rad or m
+  bool linear{false};          ///< of a linear axis: N for N m and m for rad in all that follows
+  std::vector<double> code;    ///< DAC codes; empty if unknown
+  int dac_bits{0};             ///< 0 if unknown
+  std::vector<bool> sliding;   ///< whether the hook slid; empty if unknown
+  std::vector<bool> excluded;  ///< [sample] masked readings; empty: none
+  motion::PlantStart start;    ///< initial state of the contact
+  bool units_known{false};     ///< certainly SI units, because this program wrote the file
 };
 
 /// "NAME:LINE", or "NAME, sample K".
@@ -59,9 +59,10 @@ struct SeriesChoice {
   std::optional<double> sample_time{};   ///< s: the file has no times, sample k is at k·T
   std::optional<std::string> torque;     ///< column: torque or drive_torque
   std::optional<std::string> angle;      ///< column: count or theta
-  std::optional<double> counts_per_revolution;
-  std::optional<double> bandwidth;  ///< Hz
-  std::optional<double> delay;      ///< of the commanded torque, samples
+  std::optional<double> count_size;      ///< rad, or m of a linear axis
+  bool linear{false};                    ///< the usual columns are those of a linear axis
+  std::optional<double> bandwidth;       ///< Hz
+  std::optional<double> delay;           ///< of the commanded torque, samples
   std::optional<int> dac_bits;
   std::optional<double> preload;    ///< N m
   std::optional<double> hardening;  ///< rad
@@ -75,8 +76,10 @@ std::string contradiction_in(const SeriesChoice& choice);
 double delay_of(const RawSeries& series, const SeriesChoice& choice, double otherwise);
 
 /// Reads the series from columns: those that `choice` maps, otherwise t or time, drive_torque or torque,
-/// theta or count, such as `zerocount trace` writes them. If there are both torques, drive_torque is used. If
-/// there are both angles, count is used if the counts per revolution are given, theta otherwise.
+/// theta or count, such as `zerocount trace` writes them, or of a linear axis drive_force, force and
+/// position. If there are both torques, drive_torque is used. If there are both angles, count is used if the
+/// size of a count is given, theta otherwise. A file with a force or a position and without a torque is of a
+/// linear axis.
 ///
 /// The file has several repetitions if the mapped column of the repetition changes, or if the time returns to
 /// the first one. Each becomes a series, and begins with the initial state of the contact.

@@ -45,13 +45,6 @@ RawSeries read_study_series(const std::filesystem::path& path, std::int64_t poin
                   fmt::format("{}: has no point {}, trial {}; it has {} points of {} trials", path.string(),
                               point, index, study::point_count(study), study.trials));
   }
-  if (study.units.axis == parameters::AxisKind::linear) {
-    throw Failure(
-        ExitCode::bad_input,
-        fmt::format("{}: it is of a linear axis; expected a rotary one, whose friction is in N m and "
-                    "rad: identify knows no other units",
-                    path.string()));
-  }
   const std::vector<layout::TraceRecord> records = records_of(file, point * study.trials + index);
   if (records.empty()) {
     throw Failure(ExitCode::bad_input,
@@ -63,6 +56,7 @@ RawSeries read_study_series(const std::filesystem::path& path, std::int64_t poin
 
   RawSeries series;
   series.name = fmt::format("{} (point {}, trial {})", path.string(), point, index);
+  series.linear = study.units.axis == parameters::AxisKind::linear;
   const bool counts = choice.angle.value_or("count") == "count";
   // Without a drive_torque column, the motor torque equals the commanded torque after the control delay.
   const bool commanded = choice.torque.value_or("drive_torque") == "torque" || !file.features().drive_torque;
@@ -84,7 +78,7 @@ RawSeries read_study_series(const std::filesystem::path& path, std::int64_t poin
   series.torque_kind = commanded ? TorqueKind::commanded : TorqueKind::motor;
   series.bandwidth = choice.bandwidth.value_or(trial.amplifier.bandwidth);
   series.delay = delay_of(series, choice, trial.controller.delay);
-  if (counts) series.counts_per_revolution = choice.counts_per_revolution.value_or(trial.encoder.fine);
+  if (counts) series.count_size = choice.count_size.value_or(trial.encoder.fine_length / trial.encoder.fine);
   series.dac_bits = choice.dac_bits.value_or(trial.dac.bits);
   series.start = start_of(trial, choice);
   series.units_known = true;

@@ -34,8 +34,8 @@ struct ShownUnit {
 
 ShownUnit shown_unit(const RecordSummary& record) {
   if (record.counted) return {"counts", 1.0};
-  constexpr double urad = 1e-6;
-  return {"µrad", record.unit / urad};
+  constexpr double micro = 1e-6;
+  return {"µ" + parameters::unit_on(record.axis, "rad"), record.unit / micro};
 }
 
 /// Smallest and largest value of a drawn axis.
@@ -59,7 +59,7 @@ AxisRange angle_range(const FittedRecord& record, const ShownUnit& unit) {
   return range;
 }
 
-FigureData samples_data(const FittedRecord& record, const ShownUnit& unit,
+FigureData samples_data(const FittedRecord& record, const ShownUnit& unit, parameters::AxisKind axis,
                         const std::vector<std::size_t>& samples) {
   constexpr int digits = 9;  // of counts far from 0
   const auto angle = [&](double value, bool shown) {
@@ -69,7 +69,8 @@ FigureData samples_data(const FittedRecord& record, const ShownUnit& unit,
   return data_of<std::size_t>(
       "samples", samples,
       {{{"time", "time", "s"}, [&](std::size_t k) { return datum(record.time[k], digits); }},
-       {{"torque", "torque", "N m"}, [&](std::size_t k) { return datum(record.torque[k]); }},
+       {{"torque", parameters::text_on(axis, "$torque"), parameters::unit_on(axis, "N m")},
+        [&](std::size_t k) { return datum(record.torque[k]); }},
        {{"reading", "measured", unit.name}, [&](std::size_t k) { return angle(record.reading[k], used(k)); }},
        {{"masked", "masked", unit.name}, [&](std::size_t k) { return angle(record.reading[k], !used(k)); }},
        {{"fitted", "fitted", unit.name}, [&](std::size_t k) { return angle(record.fitted[k], true); }},
@@ -111,14 +112,15 @@ std::string fit_caption(const RecordSummary& record, const ShownUnit& unit, doub
       "{} samples in {:.4g} s. Top: the readings (wide line) and the readings that the fit expects (thin "
       "line) "
       "over time{}. Middle: the residuals, measured minus fitted; their root mean square is {:.3g} {}. {}"
-      "Bottom: the torque over the measured and over the fitted angle. ",
+      "Bottom: the {} over the measured and over the fitted {}. ",
       record.samples, record.duration,
       record.counted
-          ? fmt::format("; one count is {:.4g} µrad, and the fit is drawn half a count lower, because the "
+          ? fmt::format("; one count is {:.4g} µ{}, and the fit is drawn half a count lower, because the "
                         "encoder rounds down",
-                        1e6 * record.unit)
+                        1e6 * record.unit, parameters::unit_on(record.axis, "rad"))
           : "",
-      unit.size * record.misfit, unit.name, band_text(record, unit, band));
+      unit.size * record.misfit, unit.name, band_text(record, unit, band),
+      parameters::text_on(record.axis, "$torque"), parameters::text_on(record.axis, "$angle"));
   if (record.excluded > 0)
     caption += fmt::format(
         "Grey are the {} masked samples: the fit does not use their readings, so they have no residual. ",
@@ -130,14 +132,16 @@ std::string fit_caption(const RecordSummary& record, const ShownUnit& unit, doub
 }
 
 /// Sets the titles and the range of the axes, and the legend.
-void set_axes(ordered_json& specification, const ShownUnit& unit, const AxisRange& range, bool masked) {
+void set_axes(ordered_json& specification, const ShownUnit& unit, parameters::AxisKind kind,
+              const AxisRange& range, bool masked) {
   ordered_json& panels = specification["vconcat"];
-  const std::string angle = fmt::format("angle ({})", unit.name);
+  const std::string angle = fmt::format("{} ({})", parameters::text_on(kind, "$angle"), unit.name);
   for (ordered_json* const axis : {&panels[0]["encoding"]["y"], &panels[2]["encoding"]["x"]}) {
     (*axis)["title"] = angle;
     (*axis)["scale"]["domain"] = {datum(range.low), datum(range.high)};
     if (unit.name != "counts") (*axis)["axis"].erase("tickMinStep");
   }
+  panels[2]["encoding"]["y"]["title"] = parameters::text_on(kind, "$torque ($Nm)");
   panels[1]["encoding"]["y"]["title"] = fmt::format("residual ({})", unit.name);
   if (masked) return;
   // Without masked samples the legend has no entry for them.
@@ -153,10 +157,11 @@ Figure fit_figure(const RecordSummary& record, const FittedRecord& fit, std::siz
   const ShownUnit unit = shown_unit(record);
   const std::vector<std::size_t> samples = drawn_samples(fit, buckets);
   const double band = unit.size * residual_band(record, fit);
-  Figure figure = figure_of("identification", fmt::format("record-{}", number), record.name,
-                            fit_caption(record, unit, band, samples.size()),
-                            {samples_data(fit, unit, samples), masks_data(fit), band_data(band)});
-  set_axes(figure.specification, unit, angle_range(fit, unit), record.excluded > 0);
+  Figure figure =
+      figure_of("identification", fmt::format("record-{}", number), record.name,
+                fit_caption(record, unit, band, samples.size()),
+                {samples_data(fit, unit, record.axis, samples), masks_data(fit), band_data(band)});
+  set_axes(figure.specification, unit, record.axis, angle_range(fit, unit), record.excluded > 0);
   return figure;
 }
 

@@ -101,8 +101,7 @@ SlidingRecord sliding_record(const records::RawSeries& series) {
   record.linear = series.linear;
   record.torque = identification::courses_of(series, sampled);
   record.smoothing = smoothing_samples;
-  const double unit =
-      series.counts_per_revolution > 0.0 ? 2.0 * std::numbers::pi / series.counts_per_revolution : 1.0;
+  const double unit = series.count_size > 0.0 ? series.count_size : 1.0;
   double now = 0.0;
   for (std::size_t k = 0; k < series.time.size(); ++k) {
     record.time.push_back(now);

@@ -14,16 +14,19 @@ struct Words {
 };
 
 // Longest first, because each is replaced wherever it occurs.
-constexpr std::array<Words, 6> unit_parts{{{"arcsec", {"arcsec", "µm"}},
+constexpr std::array<Words, 7> unit_parts{{{"arcsec", {"arcsec", "µm"}},
                                            {"kg m^2", {"kg m^2", "kg"}},
                                            {"(N m)^n", {"(N m)^n", "N^n"}},
                                            {"(N m)^2", {"(N m)^2", "N^2"}},
+                                           {"/(N m)", {"/(N m)", "/N"}},
                                            {"N m", {"N m", "N"}},
                                            {"rad", {"rad", "m"}}}};
 
-constexpr std::array<Words, 7> placeholders{{{"$inertia", {"moment of inertia", "mass"}},
+constexpr std::array<Words, 9> placeholders{{{"$inertia", {"moment of inertia", "mass"}},
                                              {"$rotor_angle", {"rotor angle", "position"}},
                                              {"$rotor", {"rotor", "slide"}},
+                                             {"$rad", {"rad", "m"}},
+                                             {"$Nm", {"N m", "N"}},
                                              {"$track", {"rotor", "travel"}},
                                              {"$angle", {"angle", "position"}},
                                              {"$torque", {"torque", "force"}},

@@ -49,6 +49,7 @@ std::string unit_on(AxisKind axis, std::string_view rotary);
 ///     $angle         angle                position
 ///     $track         rotor                travel      (what friction varies along)
 ///     $torque        torque               force       (also $Torque)
+///     $rad, $Nm      rad, N m             m, N
 std::string text_on(AxisKind axis, std::string_view text);
 
 }  // namespace zerocount::parameters

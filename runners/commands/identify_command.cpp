@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,15 +34,17 @@ constexpr const char* identify_help =
     "unloading, the damping and the inertia from the ringing after a step of the torque, alpha,\n"
     "lambda and n from creep at constant torque; all are fitted together, with 95 % confidence\n"
     "intervals. A record may have only some of these tests: parameters that it does not determine\n"
-    "are listed with the reason. Several records must be tests of the same contact, of a rotary\n"
-    "axis.\n"
+    "are listed with the reason. Several records must be tests of the same contact.\n"
     "\n"
     "A table (CSV) has the columns t (s), torque or drive_torque (N m), and theta (rad) or\n"
     "count, for which --counts-per-revolution is needed; 'zerocount trace' writes such tables.\n"
+    "That of a linear axis has force or drive_force (N), and position (m) or count with\n"
+    "--resolution; a trace of a linear axis needs --axis linear.\n"
     "--column names other columns and their units: QUANTITY=COLUMN, or QUANTITY=COLUMN[UNIT]\n"
     "with factors *NUMBER and /NUMBER that convert it, such as *0.87 for 0.87 N m/A.\n"
-    "Quantities are time, torque, drive_torque, angle and repetition. COLUMN is a name in the\n"
-    "header, #NUMBER, or the path of a dataset in an HDF5 or MAT v7.3 file. A new repetition of\n"
+    "Quantities are time, torque or force, drive_torque or drive_force, angle or position, and\n"
+    "repetition. COLUMN is a name in the header, #NUMBER, or the path of a dataset in an HDF5 or MAT v7.3 "
+    "file. A new repetition of\n"
     "the tests begins where the column of the repetition changes, or the time starts again.\n"
     "A results file has the traces of the trials that its manifest retains; the encoder's\n"
     "counts are used. At its first sample the contact must be unloaded and virgin, or have the\n"
@@ -49,7 +52,7 @@ constexpr const char* identify_help =
     "\n"
     "--sliding takes motion records instead, in which the axis slides to and fro, under open or\n"
     "closed loop, and finds the inertia, the viscous damping, the Coulomb level and, if visible,\n"
-    "the Stribeck curve; also of a linear axis, with '--column force=…' and '--column position=…'.\n"
+    "the Stribeck curve.\n"
     "\n"
     "--model fits another friction law to the same tests (lugre, dahl, gms, spring), and --model all\n"
     "compares them by their residuals and by Schwarz's information criterion BIC, where a difference of\n"
@@ -114,18 +117,36 @@ std::optional<double> delay_option(const command_line::Arguments& arguments) {
   return delay;
 }
 
+/// The size of a count (rad or m), by the option of the kind of axis.
+std::optional<double> count_size_option(const command_line::Arguments& arguments,
+                                        const records::SeriesChoice& choice) {
+  const auto counts = number_option(arguments, "counts-per-revolution", 1.0);
+  const auto resolution = number_option(arguments, "resolution", std::numeric_limits<double>::min());
+  if (counts && resolution) {
+    arguments.refuse("options '--counts-per-revolution' and '--resolution' exclude each other");
+  }
+  if (counts && choice.linear) {
+    arguments.refuse("option '--counts-per-revolution' is of a rotary axis; expected '--resolution'");
+  }
+  return counts ? std::optional(2.0 * std::numbers::pi / *counts) : resolution;
+}
+
 records::SeriesChoice series_choice(const command_line::Arguments& arguments) {
   constexpr double any = -std::numeric_limits<double>::infinity();
   records::SeriesChoice choice;
-  choice.torque = column_option(arguments, "torque", {"torque", "drive_torque"});
-  choice.angle = column_option(arguments, "angle", {"count", "theta"});
-  choice.counts_per_revolution = number_option(arguments, "counts-per-revolution", 1.0);
+  choice.torque = column_option(arguments, "torque", {"torque", "drive_torque", "force", "drive_force"});
+  choice.angle = column_option(arguments, "angle", {"count", "theta", "position"});
   choice.bandwidth = bandwidth_option(arguments);
   choice.delay = delay_option(arguments);
   choice.dac_bits = arguments.whole_number("dac-bits", 2, 32);
   choice.preload = number_option(arguments, "preload", any);
   choice.hardening = number_option(arguments, "hardening", 0.0);
   set_columns(arguments, choice);
+  choice.linear =
+      arguments.choice("axis") == "linear" ||
+      std::any_of(choice.columns.begin(), choice.columns.end(),
+                  [](const records::ColumnMapping& one) { return records::is_linear(one.quantity); });
+  choice.count_size = count_size_option(arguments, choice);
   return choice;
 }
 
@@ -337,34 +358,39 @@ ExitCode identify_records(const command_line::Arguments& arguments) {
 
 std::vector<command_line::OptionSpec> identify_options() {
   std::vector<command_line::OptionSpec> options{
-      {"counts-per-revolution", "N", "resolution of the encoder, for an angle in counts"}};
+      {"counts-per-revolution", "N", "resolution of the encoder, for an angle in counts"},
+      {"resolution", "SIZE", "size of a count, m (rad on a rotary axis), for a position in counts"},
+      command_line::choice_option("axis", "AXIS", {"rotary", "linear"},
+                                  "kind of axis of a table with the columns of zerocount trace")};
   const auto append = [&](const std::vector<command_line::OptionSpec>& more) {
     options.insert(options.end(), more.begin(), more.end());
   };
   append(column_options());
   append(law_options());
-  append({{"sliding", "", "identify inertia and sliding friction from motion records"},
-          {"angle", "COLUMN", "count or theta, if both exist (default count, if N is given)"},
-          {"torque", "COLUMN", "torque or drive_torque, if both exist (default drive_torque)"},
-          {"amplifier-bandwidth", "HZ", "bandwidth of the amplifier (default 0: ideal amplifier)"},
-          {"delay", "SAMPLES",
-           "delay of the column torque, such as 1.5 (default 0); the time offset is fitted about it"},
-          {"dac-bits", "BITS", "word length of the converter of the column code, to detect clipping"},
-          {"preload", "TORQUE", "torque of a slow load and unload before the test, N m (default 0)"},
-          {"hardening", "XH", "work hardening before the test, rad (default 0)"},
-          {"fix", "KEY=VALUE", "a known parameter, such as friction.n=2 or time_offset=0; may be repeated",
-           true},
-          {"any-magnitude", "", "accept values that suggest other units"},
-          {"posterior", "FILE", "write joint draws of the parameters there, for the key samples"},
-          {"draws", "N", "number of joint draws (default 1000, up to 10000)"},
-          {"plot", "FILE", "draw the fit: a page of all records (*.html), or one record as *.svg or *.png"},
-          {"point", "P", "design point in a results file, by label or number (default 0); may be repeated",
-           true},
-          {"trial", "I", "trial of the point (default 0)"},
-          command_line::format_option({"text", "json", "yaml"}),
-          {"output,o", "FILE", "write there instead of to standard output"},
-          {"quiet,q", "", "print no progress"},
-          command_line::force_option()});
+  append(
+      {{"sliding", "", "identify inertia and sliding friction from motion records"},
+       {"angle", "COLUMN",
+        "count, theta or position, if several exist (default count, if its size is given)"},
+       {"torque", "COLUMN", "torque, drive_torque, force or drive_force, if several exist (default drive_…)"},
+       {"amplifier-bandwidth", "HZ", "bandwidth of the amplifier (default 0: ideal amplifier)"},
+       {"delay", "SAMPLES",
+        "delay of the column torque, such as 1.5 (default 0); the time offset is fitted about it"},
+       {"dac-bits", "BITS", "word length of the converter of the column code, to detect clipping"},
+       {"preload", "TORQUE", "torque of a slow load and unload before the test, N m (default 0)"},
+       {"hardening", "XH", "work hardening before the test, rad (default 0)"},
+       {"fix", "KEY=VALUE", "a known parameter, such as friction.n=2 or time_offset=0; may be repeated",
+        true},
+       {"any-magnitude", "", "accept values that suggest other units"},
+       {"posterior", "FILE", "write joint draws of the parameters there, for the key samples"},
+       {"draws", "N", "number of joint draws (default 1000, up to 10000)"},
+       {"plot", "FILE", "draw the fit: a page of all records (*.html), or one record as *.svg or *.png"},
+       {"point", "P", "design point in a results file, by label or number (default 0); may be repeated",
+        true},
+       {"trial", "I", "trial of the point (default 0)"},
+       command_line::format_option({"text", "json", "yaml"}),
+       {"output,o", "FILE", "write there instead of to standard output"},
+       {"quiet,q", "", "print no progress"},
+       command_line::force_option()});
   return options;
 }
 

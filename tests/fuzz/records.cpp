@@ -36,7 +36,7 @@ void read_record(const std::filesystem::path& path, const std::vector<std::strin
   options.push_back({"help,h", "", ""});
   const command_line::Arguments arguments(
       {.name = "identify", .operands = "", .options = options, .min_operands = 0, .max_operands = 0}, words);
-  records::SeriesChoice choice{.counts_per_revolution = 1000.0};
+  records::SeriesChoice choice{.count_size = 0.00628};
   commands::set_columns(arguments, choice);
   const records::TextTable table(path, choice.separator);
   fuzz::require_text(table.columns_text());

@@ -15,7 +15,7 @@
 namespace zerocount::testing {
 namespace {
 
-constexpr double counts_per_revolution = 1.62e6;
+constexpr double count_size = 2.0 * std::numbers::pi / 1.62e6;
 
 /// A good series: the paper's rig, loaded and unloaded slowly, with a hold.
 identification::RawSeries good_series() {
@@ -33,7 +33,7 @@ identification::RawSeries good_series() {
     series.torque.push_back(record.torque[k].now);
     series.angle.push_back(record.reading[k]);
   }
-  series.counts_per_revolution = counts_per_revolution;
+  series.count_size = count_size;
   return series;
 }
 
@@ -61,8 +61,8 @@ std::string record_refusal(const std::function<void(identification::RawSeries&)>
 
 /// The series in rad, as an encoder without steps would give it.
 identification::RawSeries in_radians(identification::RawSeries series) {
-  for (double& angle : series.angle) angle *= 2.0 * std::numbers::pi / counts_per_revolution;
-  series.counts_per_revolution = 0.0;
+  for (double& angle : series.angle) angle *= count_size;
+  series.count_size = 0.0;
   return series;
 }
 
@@ -72,7 +72,7 @@ TEST(CheckedRecord, KeepsAGoodSeries) {
   EXPECT_TRUE(record.counted);
   EXPECT_EQ(record.reading, series.angle);
   EXPECT_NEAR(record.sample_time, 5e-4, 1e-15);
-  EXPECT_EQ(record.unit, 2.0 * std::numbers::pi / counts_per_revolution);
+  EXPECT_EQ(record.unit, count_size);
   for (std::size_t k = 0; k < identification::sample_count(record); ++k) {
     EXPECT_TRUE(motion::is_constant(record.torque[k]));
     EXPECT_EQ(record.torque[k].now, series.torque[k]);
@@ -142,7 +142,7 @@ TEST(CheckedRecord, SomethingMustMove) {
               "good.csv", "the angle is constant"));
   EXPECT_TRUE(refused(record_refusal([](identification::RawSeries& s) {
                         for (double& angle : s.angle) angle = std::floor(angle / 400.0);
-                        s.counts_per_revolution /= 400.0;
+                        s.count_size *= 400.0;
                       }),
                       "good.csv", "counts only"));
 }
@@ -157,7 +157,7 @@ TEST(CheckedRecord, TorqueAndAngleMustAgreeInSign) {
 TEST(CheckedRecord, AReadingThatStandsOutAloneIsNamed) {
   for (const double off : {-500.0, -30.0, 30.0, 500.0}) {
     EXPECT_TRUE(refused(record_refusal([off](identification::RawSeries& s) { s.angle[1234] += off; }),
-                        "good.csv:1236", "a fault of the reading"));
+                        "good.csv:1236", "probably a read error"));
   }
 }
 
@@ -182,9 +182,8 @@ TEST(CheckedRecord, UnitsAThousandfoldOffAreRefused) {
     EXPECT_TRUE(refused(record_refusal(times(&identification::RawSeries::angle, factor), radians), "good.csv",
                         "plausible"))
         << factor;
-    EXPECT_TRUE(
-        refused(record_refusal([factor](identification::RawSeries& s) { s.counts_per_revolution *= factor; }),
-                "good.csv", "plausible"))
+    EXPECT_TRUE(refused(record_refusal([factor](identification::RawSeries& s) { s.count_size *= factor; }),
+                        "good.csv", "plausible"))
         << factor;
   }
   EXPECT_TRUE(
@@ -201,7 +200,7 @@ TEST(CheckedRecord, ARecordIsCutWhereItBeginsToSlide) {
   const identification::TestRecord record = identification::checked_record(series, false);
   EXPECT_EQ(identification::sample_count(record), 1321u);
   EXPECT_EQ(record.torque.size(), 1321u);
-  EXPECT_EQ(record.note, "cut at 0.6605 s, where the rotor breaks away and slides");
+  EXPECT_EQ(record.note, "cut at 0.6605 s, where the axis breaks away and slides");
   EXPECT_TRUE(refused(record_refusal([](identification::RawSeries& s) {
                         s.sliding.assign(s.time.size(), false);
                         s.sliding[21] = true;
@@ -282,7 +281,7 @@ TEST(CheckedRecord, HoldsAtTheExtremesAreNotClipping) {
       series.torque.push_back(record.torque[k].now);
       series.angle.push_back(record.reading[k]);
     }
-    series.counts_per_revolution = counts_per_revolution;
+    series.count_size = count_size;
     EXPECT_NO_THROW(identification::checked_record(series, false)) << round;
   }
 }
@@ -291,7 +290,7 @@ TEST(CheckedRecord, CountsWrittenInRadAreRecognised) {
   identification::RawSeries series = in_radians(good_series());
   const identification::TestRecord exact = identification::checked_record(series, false);
   EXPECT_TRUE(exact.counted);
-  EXPECT_NEAR(exact.unit, 2.0 * std::numbers::pi / counts_per_revolution, 1e-12 * exact.unit);
+  EXPECT_NEAR(exact.unit, count_size, 1e-12 * exact.unit);
   const identification::RawSeries counts = good_series();
   for (std::size_t k = 0; k < counts.angle.size(); ++k) {
     EXPECT_EQ(exact.reading[k], counts.angle[k] - counts.angle[0]);

@@ -25,7 +25,7 @@ identification::RawSeries series_of(const identification::TestRecord& record) {
     series.torque.push_back(record.torque[k].now);
     series.angle.push_back(record.reading[k]);
   }
-  series.counts_per_revolution = 2.0 * std::numbers::pi / record.unit;
+  series.count_size = record.unit;
   return series;
 }
 

@@ -17,8 +17,8 @@ records::RawSeries uneven_series(const identification::ContactParameters& contac
                                  const TorqueProgramme& programme, std::mt19937_64& random) {
   records::RawSeries series;
   series.name = "uneven.csv";
-  series.counts_per_revolution = 1.62e6;
-  const double unit = 2.0 * std::numbers::pi / series.counts_per_revolution;
+  series.count_size = 2.0 * std::numbers::pi / 1.62e6;
+  const double unit = series.count_size;
   plant::Plant plant(contact.plant, {contact.friction, {}}, {}, {1e-11 * unit});
   double now = 0.0;
   std::uniform_real_distribution<double> part(0.3, 1.7);

@@ -85,12 +85,12 @@ TEST_F(ColumnSeries, TheUnitIsThatOfTheMappingElseOfTheHeaderElseSi) {
 TEST_F(ColumnSeries, CountsStayWholeNumbersOfKnownResolution) {
   const RawSeries series = one("t,u,enc\n0,0,-7\n1,0,8\n", columns({"torque=u", "angle=enc[count]*1e-6"}));
   EXPECT_EQ(series.angle, (std::vector<double>{-7, 8}));
-  EXPECT_DOUBLE_EQ(series.counts_per_revolution, 2e6 * std::numbers::pi);
+  EXPECT_DOUBLE_EQ(series.count_size, 1e-6);
   const RawSeries turned = one("t,u,enc\n0,0,-7\n1,0,8\n", columns({"torque=u", "angle=enc[count]*-1e-6"}));
   EXPECT_EQ(turned.angle, (std::vector<double>{7, -8}));
   SeriesChoice choice = columns({"torque=u", "angle=enc[count]"});
-  choice.counts_per_revolution = 1000;
-  EXPECT_EQ(one("t,u,enc\n0,0,-7\n1,0,8\n", choice).counts_per_revolution, 1000);
+  choice.count_size = 1e-3;
+  EXPECT_EQ(one("t,u,enc\n0,0,-7\n1,0,8\n", choice).count_size, 1e-3);
 }
 
 TEST_F(ColumnSeries, ALinearAxisHasForceAndPosition) {
@@ -98,8 +98,8 @@ TEST_F(ColumnSeries, ALinearAxisHasForceAndPosition) {
       one("t,u,enc\n0,2,-7\n1,3,8\n", columns({"drive_force=u[V]*35.15", "position=enc[count]*2e-6"}));
   EXPECT_TRUE(series.linear);
   EXPECT_EQ(series.torque[0], 70.3);
-  EXPECT_DOUBLE_EQ(series.angle[1], 1.6e-5);
-  EXPECT_EQ(series.counts_per_revolution, 0.0);
+  EXPECT_EQ(series.angle[1], 8.0);
+  EXPECT_DOUBLE_EQ(series.count_size, 2e-6);
   EXPECT_EQ(series.torque_kind, records::TorqueKind::motor);
 }
 

@@ -2,10 +2,12 @@
 
 #include <vector>
 
-#include "analysis/identification/test_record.hpp"
+#include "analysis/record_fit/test_record.hpp"
 #include "analysis/records/raw_series.hpp"
 
 namespace zerocount::identification {
+
+using record_fit::TestRecord;
 
 using records::place_of;
 using records::RawSeries;

@@ -24,6 +24,24 @@ ContactParameters contact_at(const ContactPoint& point, double creep_torque) {
   return contact;
 }
 
+record_fit::AxisModel contact_model(double creep_torque) {
+  // Far beyond, simulations become very slow. The limit of creep may vanish, which does not slow them.
+  constexpr double max_change = 4.6;  // a factor of 100
+  constexpr double max_creep_decrease = 14.0;
+  constexpr double min_exponent = 0.2;
+  constexpr double max_exponent = 20.0;
+  record_fit::AxisModel model;
+  model.coordinates.assign(coordinate_count, {.max_decrease = max_change, .max_increase = max_change});
+  model.coordinates[log_limit].max_decrease = max_creep_decrease;
+  model.coordinates[creep_exponent] = {.low = min_exponent, .high = max_exponent};
+  model.coordinates[time_offset] = record_fit::time_offset_range();
+  model.parameters_at = [creep_torque](const record_fit::Point& point) {
+    const ContactParameters contact = contact_at(point, creep_torque);
+    return record_fit::AxisParameters{contact.plant, {contact.friction, {}}};
+  };
+  return model;
+}
+
 ContactPoint point_of(const ContactParameters& contact, double creep_torque) {
   ContactPoint point = ContactPoint::Zero();
   point[log_k1] = std::log(contact.friction.k1);

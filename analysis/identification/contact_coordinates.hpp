@@ -6,10 +6,18 @@
 
 #include <Eigen/Core>
 
+#include "analysis/record_fit/axis_model.hpp"
 #include "core/friction/parameters.hpp"
 #include "core/motion/parameters.hpp"
 
 namespace zerocount::identification {
+
+using record_fit::FreeCoordinates;
+using record_fit::LoadingBranch;
+using record_fit::max_time_offset;
+using record_fit::Records;
+using record_fit::TestRecord;
+using record_fit::TorqueHold;
 
 /// The identified parameters of a rotor and its contact.
 struct ContactParameters {
@@ -34,14 +42,8 @@ inline constexpr std::size_t coordinate_count = 9;
 /// coordinate_count as an Eigen index.
 inline constexpr auto contact_dimension = static_cast<Eigen::Index>(coordinate_count);
 
-/// Not aligned, so that structs that contain it need no special alignment.
+/// A record_fit::Point of a contact. Not aligned, so that structs that contain it need no special alignment.
 using ContactPoint = Eigen::Matrix<double, coordinate_count, 1, Eigen::DontAlign>;
-
-/// True for estimated coordinates; the others keep a given value.
-using FreeCoordinates = std::array<bool, coordinate_count>;
-
-/// Largest |time offset| (samples) that a fit may find.
-inline constexpr double max_time_offset = 2.0;
 
 /// Name of the parameter of each coordinate: its manifest key (for log_limit friction.lambda), and that of
 /// the time offset, which is not a parameter of a manifest.
@@ -53,6 +55,9 @@ inline constexpr std::array<std::string_view, coordinate_count> coordinate_keys{
 /// @param creep_torque σ0, N m. It should be near the torques at which creep was observed; otherwise limit
 /// and exponent are strongly correlated. @returns parameters whose breakaway torque is never reached.
 ContactParameters contact_at(const ContactPoint& point, double creep_torque);
+
+/// The pre-sliding model in these coordinates.
+record_fit::AxisModel contact_model(double creep_torque);
 
 /// The inverse of contact_at, except for the breakaway torque, with a time offset of 0.
 ContactPoint point_of(const ContactParameters& contact, double creep_torque);

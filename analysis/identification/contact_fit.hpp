@@ -6,9 +6,16 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/identification/joint_fit.hpp"
+#include "analysis/identification/contact_coordinates.hpp"
+#include "analysis/record_fit/joint_fit.hpp"
 
 namespace zerocount::identification {
+
+using record_fit::FitPoint;
+using record_fit::FitResult;
+using record_fit::FitSetting;
+using record_fit::FittedModel;
+using record_fit::Observations;
 
 /// A parameter with a value given by the user.
 struct KnownParameter {
@@ -21,6 +28,7 @@ using StageReport = std::function<void(std::string_view)>;
 
 /// A contact fitted to records.
 struct ContactFit {
+  double creep_torque{1.0};  ///< σ0 of the coordinates, N m
   FitSetting setting;
   FittedModel model;
   Observations observations;  ///< [record]
@@ -32,33 +40,32 @@ struct ContactFit {
 
 /// σ0 of the coordinates for these records, N m: 1 N m if λ is known, because the coordinate is then ln(1/λ)
 /// for every n; otherwise 0.7 of the largest torque.
-double creep_torque_for(std::span<const TestRecord> records, const std::vector<KnownParameter>& known);
+double creep_torque_for(Records records, const std::vector<KnownParameter>& known);
 
 /// Fits the contact to all records together. First a rough fit from the starting point, to all readings with
 /// equal weights, which converges from far away. Then fits to the observations (see observe()), repeated with
 /// updated observations until the fit no longer changes.
 /// @throws Failure (bad_data) if a single reading is an outlier, the model does not explain a record, or the
 /// fit ends at a rotor that cannot be simulated.
-ContactFit fit_contact(std::span<const TestRecord> records, const std::vector<KnownParameter>& known,
+ContactFit fit_contact(Records records, const std::vector<KnownParameter>& known,
                        const StageReport& report = {});
 
 /// Repeats the fit with a time offset of 0, the given delay.
-void keep_time_offset(std::span<const TestRecord> records, ContactFit& fit);
+void keep_time_offset(Records records, ContactFit& fit);
 
 /// Repeats the fit of records of slow parts alone with all coordinates free, also those that its residuals
 /// hardly told. A wrong inertia leaves residuals that hide what the readings tell of it.
 /// @returns true if the spread of the residuals falls, and `fit` changed.
-bool free_untold_coordinates(std::span<const TestRecord> records, ContactFit& fit);
+bool free_untold_coordinates(Records records, ContactFit& fit);
 
 /// Repeats the fit from other values of β and keeps the fit with the smallest spread of residuals. A spring
 /// that softens within a count or two has little influence on the rough fit, which may end far away. Records
 /// of slow parts alone are left as they are: their β has been searched.
 /// @returns whether `fit` changed.
-bool improve_softening(std::span<const TestRecord> records, ContactFit& fit);
+bool improve_softening(Records records, ContactFit& fit);
 
 /// The reason why the records do not determine a coordinate, derived from their parts: a clause that
 /// completes "because …".
-std::string missing_information(std::span<const TestRecord> records, const ContactFit& fit,
-                                Coordinate coordinate);
+std::string missing_information(Records records, const ContactFit& fit, Coordinate coordinate);
 
 }  // namespace zerocount::identification

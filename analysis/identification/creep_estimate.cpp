@@ -20,7 +20,7 @@ std::size_t oscillating_samples(const TorqueHold& hold) {
 
 /// The longest such time of all holds, s. Creep is told from an oscillation only if it is slower, and where
 /// there are longer holds the shorter ones are left out.
-double longest_oscillation(std::span<const TestRecord> records) {
+double longest_oscillation(Records records) {
   double longest = 0.0;
   for (const TestRecord& record : records) {
     for (const TorqueHold& hold : record.parts.holds) {
@@ -79,7 +79,7 @@ Eigen::VectorXd creep_extension(const TestRecord& record, const CreepEstimate& c
   return extension;
 }
 
-CreepEstimate estimate_creep(std::span<const TestRecord> records, double creep_torque) {
+CreepEstimate estimate_creep(Records records, double creep_torque) {
   std::vector<Eigen::VectorXd> angles;
   double longest = 0.0;
   for (const TestRecord& record : records) {

@@ -1,10 +1,11 @@
+#include "analysis/identification/fit_refusals.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
 
-#include "analysis/identification/residual_checks.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::identification {
@@ -23,12 +24,12 @@ constexpr double max_spread = 30.0;
 
 }  // namespace
 
-void refuse_glitches(std::span<const TestRecord> records, const FitPoint& point, const FitSetting& setting) {
+void refuse_glitches(Records records, const FitPoint& point, const FitSetting& setting) {
   for (std::size_t r = 0; r < records.size(); ++r) {
     const TestRecord& record = records[r];
-    Eigen::VectorXd path = angle_path(record, point.contact, setting.creep_torque);
+    Eigen::VectorXd path = modelled_path(record, setting.model, point.axis);
     path.array() += point.offset[static_cast<Eigen::Index>(r)];
-    const std::optional<std::size_t> glitch = find_glitch(record, path);
+    const std::optional<std::size_t> glitch = record_fit::find_glitch(record, path);
     if (!glitch) continue;
     refuse(record,
            fmt::format(
@@ -39,12 +40,12 @@ void refuse_glitches(std::span<const TestRecord> records, const FitPoint& point,
   }
 }
 
-void refuse_unexplained(std::span<const TestRecord> records, const ContactFit& fit, double tolerance) {
+void refuse_unexplained(Records records, const ContactFit& fit, double tolerance) {
   for (std::size_t r = 0; r < records.size(); ++r) {
     const auto [low, high] = std::minmax_element(records[r].reading.begin(), records[r].reading.end());
     const double allowed = std::max(records[r].counted ? 2.0 : 0.0, max_unexplained * (*high - *low));
     if (fit.misfit[r] <= tolerance * allowed) continue;
-    const std::size_t sample = largest_misfit_growth(records[r], fit.model.motions[r].path);
+    const std::size_t sample = record_fit::largest_misfit_growth(records[r], fit.model.motions[r].path);
     refuse(
         records[r],
         fmt::format("the pre-sliding model does not explain this record: its residuals are {:.3g} $rad (root "
@@ -56,12 +57,11 @@ void refuse_unexplained(std::span<const TestRecord> records, const ContactFit& f
   }
 }
 
-void refuse_gross_misfit(std::span<const TestRecord> records, const ContactFit& fit,
-                         const ResidualChecks& checks) {
+void refuse_gross_misfit(Records records, const ContactFit& fit, const record_fit::ResidualChecks& checks) {
   if (!(checks.spread > max_spread * checks.expected_spread)) return;
   const auto worst =
       static_cast<std::size_t>(std::max_element(fit.misfit.begin(), fit.misfit.end()) - fit.misfit.begin());
-  const std::size_t sample = largest_misfit_growth(records[worst], fit.model.motions[worst].path);
+  const std::size_t sample = record_fit::largest_misfit_growth(records[worst], fit.model.motions[worst].path);
   refuse(
       records[worst],
       fmt::format(

@@ -5,9 +5,11 @@
 
 #include <Eigen/Core>
 
-#include "analysis/identification/test_record.hpp"
+#include "analysis/record_fit/test_record.hpp"
 
 namespace zerocount::identification {
+
+using record_fit::TestRecord;
 
 /// A record beside the fit, sample by sample. Readings are in the record's unit.
 struct FittedRecord {

@@ -6,13 +6,21 @@
 #include <fmt/format.h>
 
 #include "analysis/identification/confidence_interval.hpp"
-#include "analysis/identification/reading_replicates.hpp"
-#include "analysis/identification/residual_checks.hpp"
+#include "analysis/identification/fit_refusals.hpp"
+#include "analysis/record_fit/reading_replicates.hpp"
+#include "analysis/record_fit/residual_checks.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::identification {
 namespace {
+
+using record_fit::interval_of_errors;
+using record_fit::ReadingReplicates;
+using record_fit::replicate_readings;
+using record_fit::residual_statistics;
+using record_fit::ResidualChecks;
+using record_fit::residuals_of;
 
 constexpr std::size_t min_reversals = 2;
 
@@ -33,7 +41,7 @@ bool is_known(const IdentificationOptions& options, Coordinate coordinate) {
                      [&](const KnownParameter& known) { return known.coordinate == coordinate; });
 }
 
-void check_reversals(std::span<const TestRecord> records, const IdentificationOptions& options) {
+void check_reversals(Records records, const IdentificationOptions& options) {
   if (is_known(options, log_k1) && is_known(options, log_k2) && is_known(options, log_beta)) return;
   std::size_t reversals = 0;
   for (const TestRecord& record : records) reversals += record.parts.reversals();
@@ -72,70 +80,61 @@ double half_width(const QuantityEstimate& estimate) {
   return 0.5 * (estimate.high - estimate.low);
 }
 
-bool is_time_offset(const FittedQuantity& quantity) {
-  return quantity.coordinates.front() == time_offset;
+bool is_time_offset(const Quantity& quantity) {
+  return coordinate_of(quantity) == time_offset;
 }
 
-bool is_open(const FittedQuantity& quantity, const QuantityEstimate& estimate) {
+/// True for k1 + k2, the only quantity without a coordinate of its own.
+bool is_sum(const Quantity& quantity) {
+  return quantity.key.empty() && !is_time_offset(quantity);
+}
+
+bool is_open(const Quantity& quantity, const QuantityEstimate& estimate) {
   const double widest = quantity.logarithmic       ? max_log_halfwidth
                         : is_time_offset(quantity) ? widest_time_offset
                                                    : widest_exponent;
   return !(half_width(estimate) <= widest);
 }
 
-ParameterEstimate parameter_of(const FittedQuantity& quantity, EstimateStatus status,
+ParameterEstimate parameter_of(const Quantity& quantity, EstimateStatus status,
                                const QuantityEstimate& estimate) {
-  const std::string_view key = is_time_offset(quantity) ? std::string_view() : quantity.key;
-  return {estimate, std::string(quantity.name), std::string(key), std::string(quantity.unit), status};
+  return {estimate, quantity.name, quantity.key, quantity.unit, status};
 }
 
-/// Converts an estimate to the parameter's own scale.
-ParameterEstimate reported(const FittedQuantity& quantity, const QuantityEstimate& estimate) {
-  ParameterEstimate parameter = parameter_of(quantity, EstimateStatus::estimated, estimate);
-  if (is_time_offset(quantity)) return parameter;
-  if (!quantity.logarithmic) {
-    constexpr double least_exponent = 1.0;
-    parameter.value = std::max(parameter.value, least_exponent);
-    parameter.low = std::max(parameter.low, least_exponent);
-    parameter.high = std::max(parameter.high, least_exponent);
-    return parameter;
-  }
-  parameter.value = std::exp(estimate.value);
-  parameter.standard_error *= parameter.value;
-  parameter.low = std::exp(estimate.low);
-  parameter.high = std::exp(estimate.high);
-  return parameter;
+ParameterEstimate reported(const Quantity& quantity, const QuantityEstimate& estimate) {
+  return parameter_of(quantity, EstimateStatus::estimated,
+                      record_fit::on_parameter_scale(quantity, estimate));
 }
 
-ParameterEstimate given(const FittedQuantity& quantity, const IdentificationOptions& options) {
+ParameterEstimate given(const Quantity& quantity, const IdentificationOptions& options) {
   double value = std::exp(quantity.value);  // of k1 + k2, which has no key
   for (const KnownParameter& known : options.known) {
-    if (coordinate_keys[known.coordinate] == quantity.key) value = known.value;
+    if (known.coordinate == coordinate_of(quantity) && !is_sum(quantity)) value = known.value;
   }
   return parameter_of(quantity, EstimateStatus::known, {value, 0.0, value, value});
 }
 
 /// The source of the estimate of a quantity.
 struct Estimation {
-  std::span<const TestRecord> records;
+  Records records;
   const ContactFit& fit;
   const ReadingReplicates& replicates;
   const IdentificationOptions& options;
   double widening;
 
   /// @param jointly collects what is estimated, except for k1 + k2
-  ParameterEstimate estimate(const FittedQuantity& quantity, std::vector<EstimatedQuantity>& jointly) const {
-    const Coordinate coordinate = quantity.coordinates.front();
-    if (quantity.key.empty() ? is_known(options, log_k1) && is_known(options, log_k2)
-                             : is_known(options, coordinate)) {
+  ParameterEstimate estimate(const Quantity& quantity, std::vector<EstimatedQuantity>& jointly) const {
+    const Coordinate coordinate = coordinate_of(quantity);
+    if (is_sum(quantity) ? is_known(options, log_k1) && is_known(options, log_k2)
+                         : is_known(options, coordinate)) {
       return given(quantity, options);
     }
     if (!fit.setting.free[coordinate]) return kept(quantity);
-    const QuantityEstimate found = interval_by_replicates(quantity, replicates, widening);
+    const QuantityEstimate found = interval_of_errors(quantity, replicates.errors, widening);
     // A lack of fit does not change which parameters the records determine, so this interval is not widened.
-    const QuantityEstimate unwidened = interval_by_replicates(quantity, replicates, 1.0);
+    const QuantityEstimate unwidened = interval_of_errors(quantity, replicates.errors, 1.0);
     if (is_open(quantity, unwidened)) return open(quantity);
-    const bool has_profile = !quantity.key.empty() && !is_time_offset(quantity);
+    const bool has_profile = !quantity.key.empty();
     if (has_profile && half_width(unwidened) > max_linear_halfwidth) {
       const QuantityEstimate profiled = interval_by_profile(records, fit, quantity, found);
       if (!is_open(quantity, profiled)) {
@@ -145,12 +144,12 @@ struct Estimation {
       if (widening == 1.0) return open(quantity);
     }
     if (quantity.logarithmic && half_width(found) > widest_widened) return beyond_the_model(quantity);
-    if (!quantity.key.empty()) jointly.push_back({quantity, found, found});
+    if (!is_sum(quantity)) jointly.push_back({quantity, found, found});
     return reported(quantity, found);
   }
 
   /// The estimate of a quantity that the readings would determine if the model fitted.
-  ParameterEstimate beyond_the_model(const FittedQuantity& quantity) const {
+  ParameterEstimate beyond_the_model(const Quantity& quantity) const {
     ParameterEstimate parameter = open(quantity);
     parameter.reason =
         "the model departs systematically from the records, and the interval that allows for it spans more "
@@ -159,18 +158,21 @@ struct Estimation {
   }
 
   /// The estimate of the time offset, the only coordinate that a fit keeps by itself.
-  ParameterEstimate kept(const FittedQuantity& quantity) const {
+  ParameterEstimate kept(const Quantity& quantity) const {
     ParameterEstimate parameter =
         parameter_of(quantity, EstimateStatus::kept, {quantity.value, 0.0, quantity.value, quantity.value});
     parameter.reason = missing_information(records, fit, time_offset);
     return parameter;
   }
 
-  ParameterEstimate open(const FittedQuantity& quantity) const {
+  ParameterEstimate open(const Quantity& quantity) const {
     ParameterEstimate parameter =
         parameter_of(quantity, EstimateStatus::not_identifiable,
                      {statistics::unknown, statistics::unknown, statistics::unknown, statistics::unknown});
-    parameter.reason = missing_information(records, fit, quantity.coordinates.back());
+    // λ is known as well as n is.
+    const Coordinate missing =
+        coordinate_of(quantity) == log_limit ? creep_exponent : coordinate_of(quantity);
+    parameter.reason = missing_information(records, fit, missing);
     return parameter;
   }
 };
@@ -191,8 +193,8 @@ std::vector<Identification::Correlation> strong_correlations(const JointErrors& 
 
 /// True if the interval of the time offset is too wide for the fit to determine it.
 bool shows_no_time_offset(const ContactFit& fit, const ReadingReplicates& replicates) {
-  const FittedQuantity offset = fitted_quantities(fit.model.point, fit.setting.creep_torque).back();
-  return is_open(offset, interval_by_replicates(offset, replicates, 1.0));
+  const Quantity offset = fitted_quantities(fit.model.point.axis, fit.creep_torque).back();
+  return is_open(offset, interval_of_errors(offset, replicates.errors, 1.0));
 }
 
 /// Draws the parameters of a manifest together. Fits beyond n ≥ 1 are replaced by more replicates; a tenth of
@@ -200,7 +202,7 @@ bool shows_no_time_offset(const ContactFit& fit, const ReadingReplicates& replic
 JointDraws draw_jointly(const Estimation& from, std::vector<EstimatedQuantity> estimated) {
   std::erase_if(estimated, [](const EstimatedQuantity& one) { return is_time_offset(one.quantity); });
   JointDraws draws;
-  for (const EstimatedQuantity& one : estimated) draws.keys.emplace_back(one.quantity.key);
+  for (const EstimatedQuantity& one : estimated) draws.keys.push_back(one.quantity.key);
   if (estimated.empty()) return draws;
   constexpr std::size_t max_blocks = 10;
   const std::size_t wanted = from.options.draws;
@@ -219,20 +221,19 @@ struct CheckedFit {
   ResidualChecks checks;
 };
 
-CheckedFit checked_fit(std::span<const TestRecord> records, ContactFit fit,
-                       const IdentificationOptions& options) {
+CheckedFit checked_fit(Records records, ContactFit fit, const IdentificationOptions& options) {
   if (options.report) options.report("replicates of the readings");
   CheckedFit checked{std::move(fit), {}, {}};
   const ContactFit& found = checked.fit;
   checked.replicates =
       replicate_readings(records, found.model, found.setting, found.noise, options.replicates);
-  checked.checks = check_residuals(residual_statistics(residuals_of(found.model, found.observations, {})),
-                                   checked.replicates.residuals);
+  checked.checks = record_fit::check_residuals(
+      residual_statistics(residuals_of(found.model, found.observations, {})), checked.replicates.residuals);
   return checked;
 }
 
 /// The fit, repeated in other ways while encoder and noise do not explain its residuals.
-CheckedFit explained_fit(std::span<const TestRecord> records, const IdentificationOptions& options) {
+CheckedFit explained_fit(Records records, const IdentificationOptions& options) {
   const auto enter = [&](std::string_view stage) {
     if (options.report) options.report(stage);
   };
@@ -258,7 +259,7 @@ CheckedFit explained_fit(std::span<const TestRecord> records, const Identificati
 
 }  // namespace
 
-void check_different(std::span<const TestRecord> records) {
+void check_different(Records records) {
   for (const TestRecord& record : records) {
     if (record.axis == records.front().axis) continue;
     throw Failure(
@@ -298,10 +299,10 @@ Identification identify(std::vector<TestRecord> records, const IdentificationOpt
     result.records.push_back(summary_of(records[r], fit, r));
     result.fitted.push_back(fitted_record(records[r], fit.model.motions[r].path));
   }
-  const std::vector<FittedQuantity> quantities = fitted_quantities(fit.model.point, fit.setting.creep_torque);
+  const std::vector<Quantity> quantities = fitted_quantities(fit.model.point.axis, fit.creep_torque);
   const Estimation estimation{records, fit, replicates, options, checks.widening};
   std::vector<EstimatedQuantity> estimated;
-  for (const FittedQuantity& quantity : quantities) {
+  for (const Quantity& quantity : quantities) {
     enter(fmt::format("interval of {}", quantity.name));
     result.parameters.push_back(estimation.estimate(quantity, estimated));
   }

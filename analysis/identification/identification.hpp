@@ -8,8 +8,8 @@
 #include "analysis/identification/contact_fit.hpp"
 #include "analysis/identification/fitted_record.hpp"
 #include "analysis/identification/joint_draws.hpp"
-#include "analysis/identification/residual_checks.hpp"
-#include "analysis/identification/test_record.hpp"
+#include "analysis/record_fit/residual_checks.hpp"
+#include "analysis/record_fit/test_record.hpp"
 
 namespace zerocount::identification {
 
@@ -22,7 +22,7 @@ enum class EstimateStatus {
 
 /// Estimate of one parameter in its own unit; all four numbers are NaN if it is not identifiable, and the
 /// standard error is 0 if it is known or kept.
-struct ParameterEstimate : QuantityEstimate {
+struct ParameterEstimate : record_fit::QuantityEstimate {
   /// k1, k2, k1_plus_k2, beta, presliding_damping, inertia, alpha, lambda, n or time_offset
   std::string name;
   std::string key;  ///< in a manifest; empty for k1_plus_k2 and time_offset
@@ -55,7 +55,7 @@ struct Identification {
   double sample_time{0.0};                    ///< of the time offset, s: of the first record
   std::vector<RecordSummary> records;
   std::vector<FittedRecord> fitted;  ///< [record] for figures
-  ResidualChecks checks;
+  record_fit::ResidualChecks checks;
   /// Correlation of the errors of a pair of estimated parameters; listed if its magnitude is 0.9 or more.
   struct Correlation {
     std::string one;
@@ -76,7 +76,7 @@ struct IdentificationOptions {
 
 /// Refuses a record that is given twice: it would have twice its weight.
 /// @throws Failure: bad_data; bad_input if the records are of a rotary and a linear axis
-void check_different(std::span<const TestRecord> records);
+void check_different(Records records);
 
 /// Identifies a rotor and its contact from material tests, all of the same contact.
 ///

@@ -33,7 +33,7 @@ Json record_json(const RecordSummary& record) {
           {"note", text::printable(record.note)}};
 }
 
-Json checks_json(const ResidualChecks& checks) {
+Json checks_json(const record_fit::ResidualChecks& checks) {
   return {{"observations", checks.observations},
           {"spread", checks.spread},
           {"expected_spread", checks.expected_spread},

@@ -60,7 +60,7 @@ std::string correlations_text(const Identification& identification) {
                      fmt::join(pairs, ", "));
 }
 
-std::string checks_text(const ResidualChecks& checks) {
+std::string checks_text(const record_fit::ResidualChecks& checks) {
   std::string text = fmt::format(
       "Residuals of {} observations, beside those of records made up from the fit:\n"
       "  spread {:.3f}, expected {:.3f}: as large by chance in {:.1f} %\n"

@@ -14,7 +14,7 @@ Eigen::MatrixXd errors_of(std::span<const EstimatedQuantity> quantities, const E
   Eigen::MatrixXd found(errors.rows(), static_cast<Eigen::Index>(quantities.size()));
   for (std::size_t j = 0; j < quantities.size(); ++j) {
     found.col(static_cast<Eigen::Index>(j)) =
-        errors.leftCols<contact_dimension>() * quantities[j].quantity.slope;
+        errors.leftCols(quantities[j].quantity.slope.size()) * quantities[j].quantity.slope;
   }
   return found;
 }
@@ -71,7 +71,7 @@ double JointErrors::correlation(Eigen::Index one, Eigen::Index other) const {
 JointErrors joint_errors(std::span<const EstimatedQuantity> quantities, const Eigen::MatrixXd& errors,
                          double widening) {
   JointErrors joint;
-  for (const EstimatedQuantity& estimated : quantities) joint.names.emplace_back(estimated.quantity.name);
+  for (const EstimatedQuantity& estimated : quantities) joint.names.push_back(estimated.quantity.name);
   Eigen::MatrixXd own = errors_of(quantities, errors);
   own.rowwise() -= own.colwise().mean().eval();
   joint.covariance = widening * widening / static_cast<double>(errors.rows() - 1) * (own.transpose() * own);

@@ -19,8 +19,8 @@ struct JointDraws {
 
 /// An estimated parameter of the manifest with its intervals, on the quantity's own scale.
 struct EstimatedQuantity {
-  FittedQuantity quantity;
-  QuantityEstimate by_replicates;  ///< see interval_by_replicates()
+  Quantity quantity;
+  QuantityEstimate by_replicates;  ///< see record_fit::interval_of_errors()
   QuantityEstimate reported;       ///< the same, or the profile's
 };
 

@@ -14,7 +14,7 @@ struct CreepingHold {
   double creep{0.0};   ///< fitted travel from a quarter of the hold to its end, in units of the readings
 };
 
-std::vector<CreepingHold> creeping_holds(std::span<const TestRecord> records, const ContactFit& fit) {
+std::vector<CreepingHold> creeping_holds(Records records, const ContactFit& fit) {
   std::vector<CreepingHold> holds;
   for (std::size_t r = 0; r < records.size(); ++r) {
     const Eigen::VectorXd& path = fit.model.motions[r].path;
@@ -28,15 +28,15 @@ std::vector<CreepingHold> creeping_holds(std::span<const TestRecord> records, co
   return holds;
 }
 
-std::string of_spring(const ContactFit& fit, std::span<const TestRecord> records) {
-  const double softening = std::exp(-fit.model.point.contact[log_beta]) / records.front().unit;
+std::string of_spring(const ContactFit& fit, Records records) {
+  const double softening = std::exp(-fit.model.point.axis[log_beta]) / records.front().unit;
   return fmt::format(
       "the readings show too little of how the spring softens after a reversal (within about "
       "{:.2g} of their steps): reverse more often, or read finer",
       softening);
 }
 
-std::string of_ring_down(std::span<const TestRecord> records) {
+std::string of_ring_down(Records records) {
   if (std::none_of(records.begin(), records.end(),
                    [](const TestRecord& record) { return record.parts.ring_downs() > 0; })) {
     return "there is no ring-down: the $torque never steps (by 5 % of its range within 8 samples) and then "
@@ -79,7 +79,7 @@ std::string of_time_offset() {
 
 namespace {
 
-std::string missing(std::span<const TestRecord> records, const ContactFit& fit, Coordinate coordinate) {
+std::string missing(Records records, const ContactFit& fit, Coordinate coordinate) {
   switch (coordinate) {
     case log_k1:
     case log_k2:
@@ -100,8 +100,7 @@ std::string missing(std::span<const TestRecord> records, const ContactFit& fit, 
 
 }  // namespace
 
-std::string missing_information(std::span<const TestRecord> records, const ContactFit& fit,
-                                Coordinate coordinate) {
+std::string missing_information(Records records, const ContactFit& fit, Coordinate coordinate) {
   return parameters::text_on(records.front().axis, missing(records, fit, coordinate));
 }
 

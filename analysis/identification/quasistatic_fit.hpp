@@ -5,14 +5,9 @@
 
 #include "analysis/identification/contact_coordinates.hpp"
 #include "analysis/identification/starting_point.hpp"
-#include "analysis/identification/test_record.hpp"
+#include "analysis/record_fit/test_record.hpp"
 
 namespace zerocount::identification {
-
-/// Elongation (rad) of the spring after each of the torques (N m), beginning unloaded and virgin. Reversals
-/// are remembered and loops close: Masing's rules with the branch law f(d) = k1·d + k2/β·(1 − exp(−β·d)).
-std::vector<double> spring_elongations(std::span<const double> torques,
-                                       const friction::FrictionParameters& friction);
 
 /// A point fitted to slow parts.
 struct SlowFit {
@@ -27,7 +22,7 @@ struct SlowFit {
 /// chosen.
 /// @param free coordinates that may change
 /// @returns `start` with the fitted coordinates; `start` itself and infinity if there are no slow branches.
-SlowFit fit_slow_parts(std::span<const TestRecord> records, const ContactPoint& start, double creep_torque,
+SlowFit fit_slow_parts(Records records, const ContactPoint& start, double creep_torque,
                        const FreeCoordinates& free);
 
 }  // namespace zerocount::identification

@@ -64,7 +64,7 @@ double softening_travel(const Chord& chord, const Line& line, double proportion,
 
 /// Estimate without a slow branch: from the softest step, or from the ratio of the largest torque and angle,
 /// with assumed values of β and k2.
-SpringEstimate secant_estimate(std::span<const TestRecord> records) {
+SpringEstimate secant_estimate(Records records) {
   constexpr double softened = 20.0;  // β times the travel
   constexpr double offset = 0.05;    // of the torque
   SpringEstimate estimate{std::numeric_limits<double>::infinity(), 0.0, 0.0};
@@ -87,8 +87,7 @@ SpringEstimate secant_estimate(std::span<const TestRecord> records) {
 
 }  // namespace
 
-SpringEstimate estimate_spring(std::span<const TestRecord> records, const CreepEstimate& creep,
-                               double creep_torque) {
+SpringEstimate estimate_spring(Records records, const CreepEstimate& creep, double creep_torque) {
   std::vector<double> slopes, offsets, rates;
   for (std::size_t r = 0; r < records.size(); ++r) {
     const Eigen::VectorXd angle =

@@ -10,7 +10,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "analysis/identification/quasistatic_fit.hpp"
-#include "analysis/identification/record_motion.hpp"
+#include "analysis/record_fit/axis_model.hpp"
 
 namespace zerocount::identification {
 namespace {
@@ -21,7 +21,7 @@ struct RingDown {
   TorqueHold hold;
 };
 
-RingDown largest_ring_down(std::span<const TestRecord> records) {
+RingDown largest_ring_down(Records records) {
   RingDown largest;
   for (std::size_t r = 0; r < records.size(); ++r) {
     for (const TorqueHold& hold : records[r].parts.holds) {
@@ -36,7 +36,7 @@ RingDown largest_ring_down(std::span<const TestRecord> records) {
 
 /// Sum of squares of the residuals about their mean, in units of the readings.
 double misfit(const TestRecord& record, const ContactPoint& point, double creep_torque) {
-  const Eigen::VectorXd path = angle_path(record, point, creep_torque);
+  const Eigen::VectorXd path = modelled_path(record, contact_model(creep_torque), point);
   const Eigen::VectorXd residual = readings_of(record) - path;
   const double sum = (residual.array() - residual.mean()).square().sum();
   return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
@@ -93,14 +93,14 @@ std::vector<ContactPoint> changes_of(std::initializer_list<double> inertias,
   return changes;
 }
 
-ChosenRecords all_of(std::span<const TestRecord> records) {
+ChosenRecords all_of(Records records) {
   ChosenRecords all;
   for (const TestRecord& record : records) all.push_back(&record);
   return all;
 }
 
 /// The records with a ring-down.
-ChosenRecords ringing_records(std::span<const TestRecord> records) {
+ChosenRecords ringing_records(Records records) {
   ChosenRecords ringing;
   for (std::size_t r = 0; r < records.size(); ++r) {
     if (records[r].parts.ring_downs() > 0) ringing.push_back(&records[r]);
@@ -108,27 +108,16 @@ ChosenRecords ringing_records(std::span<const TestRecord> records) {
   return ringing;
 }
 
-/// True if the rotor's motion is not much faster than the sampling; a faster one takes long to simulate.
-bool is_sampled(const ChosenRecords& records, const ContactPoint& point, double creep_torque) {
-  constexpr double max_rate = 20.0;  // in 1/sampling interval
-  const ContactParameters contact = contact_at(point, creep_torque);
-  const double oscillation = std::sqrt((contact.friction.k1 + contact.friction.k2) / contact.plant.inertia);
-  const double rate = std::max(oscillation, contact.plant.presliding_damping / contact.plant.inertia);
-  return std::all_of(records.begin(), records.end(),
-                     [&](const TestRecord* record) { return rate * record->sample_time <= max_rate; });
-}
-
 /// Searches J and c around those of the point, far and then near, with the records that have a ring-down.
 /// Without a ring-down it searches a wider range with all records, because the response to DAC steps may show
 /// the inertia.
-ContactPoint with_best_ringing(std::span<const TestRecord> records, const ContactPoint& point,
-                               double creep_torque) {
+ContactPoint with_best_ringing(Records records, const ContactPoint& point, double creep_torque) {
   constexpr double much = 0.8;
   const ChosenRecords ringing = ringing_records(records);
   if (!ringing.empty()) {
     std::vector<ContactPoint> changes = changes_of({0.01, 0.1, 1.0, 10.0, 100.0}, {0.15, 1.0, 7.0});
     std::erase_if(changes, [&](const ContactPoint& change) {
-      return !is_sampled(ringing, point + change, creep_torque);
+      return !is_sampled(records, contact_model(creep_torque), point + change);
     });
     const ContactPoint far = best_of(ringing, point, creep_torque, changes, much);
     return best_of(ringing, far, creep_torque, changes_of({0.4, 0.63, 1.0, 1.6, 2.5}, {0.2, 0.45, 1.0, 2.2}));
@@ -138,8 +127,7 @@ ContactPoint with_best_ringing(std::span<const TestRecord> records, const Contac
 }
 
 /// Estimates the spring, J and c for a given creep law.
-ContactPoint point_with_creep(std::span<const TestRecord> records, const CreepEstimate& creep,
-                              double creep_torque) {
+ContactPoint point_with_creep(Records records, const CreepEstimate& creep, double creep_torque) {
   const SpringEstimate spring = estimate_spring(records, creep, creep_torque);
   ContactParameters contact;
   contact.plant = estimate_ring_down(records, spring.k1);
@@ -178,7 +166,7 @@ FirstOvershoot first_overshoot(const TestRecord& record, const TorqueHold& ring_
           travel > 0.0 ? motion[peak] / travel - 1.0 : 0.0};
 }
 
-motion::PlantParameters estimate_ring_down(std::span<const TestRecord> records, double k1) {
+motion::PlantParameters estimate_ring_down(Records records, double k1) {
   const RingDown ring = largest_ring_down(records);
   const double sample_time = records.front().sample_time;
   // Without a ring-down: an oscillation too fast for the sampling, with a third of the critical damping.
@@ -204,8 +192,8 @@ motion::PlantParameters estimate_ring_down(std::span<const TestRecord> records, 
   return plant;
 }
 
-ContactPoint starting_point(std::span<const TestRecord> records, double creep_torque,
-                            const ContactPoint& known, const FreeCoordinates& free) {
+ContactPoint starting_point(Records records, double creep_torque, const ContactPoint& known,
+                            const FreeCoordinates& free) {
   CreepEstimate creep = estimate_creep(records, creep_torque);
   const bool seen = creep.limit > 0.0;
   // No hold shows creep. Search its limit as a fraction of the spring's travel, starting with a small one.
@@ -241,8 +229,8 @@ ContactPoint starting_point(std::span<const TestRecord> records, double creep_to
   return with_known(with_best_ringing(records, point, creep_torque), known, free);
 }
 
-std::vector<ContactPoint> starts_with_other_softening(std::span<const TestRecord> records,
-                                                      const ContactPoint& start, double creep_torque) {
+std::vector<ContactPoint> starts_with_other_softening(Records records, const ContactPoint& start,
+                                                      double creep_torque) {
   std::vector<ContactPoint> points;
   for (const double rate : {0.1, 1.0, 5.0, 20.0, 80.0}) {
     for (const double offset : {0.3, 1.0}) {
@@ -255,8 +243,8 @@ std::vector<ContactPoint> starts_with_other_softening(std::span<const TestRecord
   return points;
 }
 
-std::vector<ContactPoint> starts_with_other_creep(std::span<const TestRecord> records,
-                                                  const ContactPoint& start, double creep_torque) {
+std::vector<ContactPoint> starts_with_other_creep(Records records, const ContactPoint& start,
+                                                  double creep_torque) {
   CreepEstimate creep{std::exp(start[log_alpha]), start[creep_exponent], 0.0};
   const double travel = creep_torque / estimate_spring(records, creep, creep_torque).k1;
   std::vector<ContactPoint> points;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "analysis/identification/contact_coordinates.hpp"
-#include "analysis/identification/test_record.hpp"
+#include "analysis/record_fit/test_record.hpp"
 
 namespace zerocount::identification {
 
@@ -21,7 +21,7 @@ struct CreepEstimate {
 /// Fits the creep law to the holds by least squares, over a grid of α and n; without visible creep α is three
 /// over the duration of the longest record. At constant torque only creep moves the rotor, and the law is
 /// linear in its limit.
-CreepEstimate estimate_creep(std::span<const TestRecord> records, double creep_torque);
+CreepEstimate estimate_creep(Records records, double creep_torque);
 
 /// Creep extension xp (rad) at every sample, if the spring torque always equals the applied torque.
 Eigen::VectorXd creep_extension(const TestRecord& record, const CreepEstimate& creep, double creep_torque);
@@ -35,8 +35,7 @@ struct SpringEstimate {
 
 /// Median over the branches. k1 is the slope of the last 40 % of the travel, k2/β the intercept of that line
 /// at the reversal, and 1/β the travel after which 63 % of the intercept are reached.
-SpringEstimate estimate_spring(std::span<const TestRecord> records, const CreepEstimate& creep,
-                               double creep_torque);
+SpringEstimate estimate_spring(Records records, const CreepEstimate& creep, double creep_torque);
 
 /// The first oscillation after a step of the torque.
 struct FirstOvershoot {
@@ -49,23 +48,23 @@ struct FirstOvershoot {
 FirstOvershoot first_overshoot(const TestRecord& record, const TorqueHold& ring_down);
 
 /// J and c from the first oscillation after the largest step, for a linear spring of stiffness k1.
-motion::PlantParameters estimate_ring_down(std::span<const TestRecord> records, double k1);
+motion::PlantParameters estimate_ring_down(Records records, double k1);
 
 /// Starting point of the joint fit: the estimates above, with β, J and c from a coarse grid search around
 /// them (sum of squares over all readings). Where there are slow parts, the spring and its creep are those of
 /// the law without inertia and damping (see fit_slow_parts()).
 /// @param known values of the coordinates that are not `free`
-ContactPoint starting_point(std::span<const TestRecord> records, double creep_torque,
-                            const ContactPoint& known, const FreeCoordinates& free);
+ContactPoint starting_point(Records records, double creep_torque, const ContactPoint& known,
+                            const FreeCoordinates& free);
 
 /// Other starting points: springs with much larger or smaller β and with other values of k2/β, each with its
 /// best J and c of the grid.
-std::vector<ContactPoint> starts_with_other_softening(std::span<const TestRecord> records,
-                                                      const ContactPoint& start, double creep_torque);
+std::vector<ContactPoint> starts_with_other_softening(Records records, const ContactPoint& start,
+                                                      double creep_torque);
 
 /// Other starting points: springs estimated for little, some and much creep instead of that of the holds,
 /// each with other softening. The holds of a closed loop are short and show its motion rather than creep.
-std::vector<ContactPoint> starts_with_other_creep(std::span<const TestRecord> records,
-                                                  const ContactPoint& start, double creep_torque);
+std::vector<ContactPoint> starts_with_other_creep(Records records, const ContactPoint& start,
+                                                  double creep_torque);
 
 }  // namespace zerocount::identification

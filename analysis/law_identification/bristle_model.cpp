@@ -33,8 +33,8 @@ std::vector<LawPoint> bristle_starts(const RecordScales& scales, Records records
   return starts;
 }
 
-LawQuantity level_quantity(const LawPoint& point, double largest_torque) {
-  LawQuantity level = coordinate_quantity("breakaway", "friction.breakaway", "N m", point, bristle_level);
+Quantity level_quantity(const LawPoint& point, double largest_torque) {
+  Quantity level = coordinate_quantity("breakaway", "friction.breakaway", "N m", point, bristle_level);
   const double above = std::exp(point[bristle_level]);
   level.value = std::log(largest_torque * (1.0 + above));
   level.slope[bristle_level] = above / (1.0 + above);
@@ -49,8 +49,9 @@ LawModel bristle_model(const RecordScales& scales, Records records, friction::Fr
   const double sliding_damping = has_default ? motion::PlantParameters{}.sliding_damping : 0.0;
   LawModel model;
   model.law = law;
+  model.axis.coordinates = law_coordinates(bristle_dimension);
   model.free.assign(bristle_dimension, true);
-  model.parameters_at = [=](const LawPoint& point) {
+  model.axis.parameters_at = [=](const LawPoint& point) {
     LawParameters parameters;
     parameters.plant.sliding_damping = sliding_damping;
     parameters.friction.model = law;
@@ -64,7 +65,7 @@ LawModel bristle_model(const RecordScales& scales, Records records, friction::Fr
     return parameters;
   };
   model.quantities_at = [=](const LawPoint& point) {
-    return std::vector<LawQuantity>{
+    return std::vector<Quantity>{
         coordinate_quantity("sigma0", "friction.sigma0", "N m/rad", point, bristle_stiffness),
         level_quantity(point, largest_torque),
         damped_bristle ? coordinate_quantity("sigma1", "friction.sigma1", "N m s/rad", point, bristle_damping)

@@ -17,7 +17,6 @@ namespace {
 
 using identification::EstimateStatus;
 using identification::ParameterEstimate;
-using identification::TestRecord;
 
 /// Largest half-widths of the interval of an identifiable parameter (of a logarithm, of n and the offset).
 constexpr double max_log_halfwidth = 0.7;
@@ -27,10 +26,11 @@ constexpr double max_halfwidth = 1.0;
 constexpr double max_widened_log_halfwidth = 2.3;  // a factor of 10 to each side
 constexpr double max_widened_halfwidth = 2.0;
 
-ParameterEstimate estimate_of(const LawQuantity& quantity, const LawErrors& errors) {
-  identification::QuantityEstimate found = identification::interval_of_errors(
-      quantity.value, errors.errors * quantity.slope, errors.checks.widening);
-  ParameterEstimate estimate{found, quantity.name, quantity.key, quantity.unit, EstimateStatus::estimated};
+ParameterEstimate estimate_of(const Quantity& quantity, const LawErrors& errors) {
+  const record_fit::QuantityEstimate found =
+      record_fit::interval_of_errors(quantity, errors.errors, errors.checks.widening);
+  ParameterEstimate estimate{record_fit::on_parameter_scale(quantity, found), quantity.name, quantity.key,
+                             quantity.unit, EstimateStatus::estimated};
   // The fit of the law does not change which parameters the records determine.
   const double widened = 0.5 * (found.high - found.low);
   const double half_width = widened / errors.checks.widening;
@@ -43,17 +43,6 @@ ParameterEstimate estimate_of(const LawQuantity& quantity, const LawErrors& erro
         open ? "the records hardly depend on it" : "the law departs too far from the records to tell it";
     return estimate;
   }
-  if (quantity.name == "n") {
-    constexpr double least_exponent = 1.0;
-    for (double* number : {&estimate.value, &estimate.low, &estimate.high}) {
-      *number = std::max(*number, least_exponent);
-    }
-  }
-  if (!quantity.logarithmic) return estimate;
-  estimate.value = std::exp(found.value);
-  estimate.standard_error *= estimate.value;
-  estimate.low = std::exp(found.low);
-  estimate.high = std::exp(found.high);
   return estimate;
 }
 
@@ -97,7 +86,7 @@ std::vector<double> effective_readings(Records records, const std::vector<Fitted
         });
     const std::vector<double>& residuals = best->fit.residuals[r];
     effective.push_back(static_cast<double>(residuals.size()) /
-                        identification::residual_statistics(residuals).correlation_length);
+                        record_fit::residual_statistics(residuals).correlation_length);
   }
   return effective;
 }
@@ -134,7 +123,7 @@ FittedLaw fitted_law(Records records, friction::FrictionModel law, bool series_c
   result.model = law_model(law, scales, records);
   if (series_compliance) result.model = with_series_compliance(result.model, scales);
   result.fit = fit_law(records, result.model);
-  const LawErrors errors = errors_of(records, result.model, result.fit);
+  const LawErrors errors = errors_of(records, result.fit);
   IdentifiedLaw& found = result.law;
   found.law = law;
   found.fitted =
@@ -142,12 +131,12 @@ FittedLaw fitted_law(Records records, friction::FrictionModel law, bool series_c
   found.checks = errors.checks;
   found.converged = result.fit.converged;
   set_misfit(records, result.fit, found);
-  for (const LawQuantity& quantity : result.model.quantities_at(result.fit.at.point)) {
+  for (const Quantity& quantity : result.model.quantities_at(result.fit.model.point.axis)) {
     found.parameters.push_back(estimate_of(quantity, errors));
     std::string& unit = found.parameters.back().unit;
     unit = parameters::unit_on(records.front().axis, unit);
   }
-  found.fragment = law_fragment(records, result.model, result.fit.at.point, found);
+  found.fragment = law_fragment(records, result.model, result.fit.model.point.axis, found);
   return result;
 }
 

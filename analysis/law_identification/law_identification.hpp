@@ -6,8 +6,8 @@
 
 #include "analysis/identification/contact_fit.hpp"
 #include "analysis/identification/identification.hpp"
-#include "analysis/identification/residual_checks.hpp"
-#include "analysis/identification/test_record.hpp"
+#include "analysis/record_fit/residual_checks.hpp"
+#include "analysis/record_fit/test_record.hpp"
 #include "core/friction/friction_model.hpp"
 
 namespace zerocount::law_identification {
@@ -20,7 +20,7 @@ struct IdentifiedLaw {
   double misfit{0.0};                 ///< root mean square of the residuals of all readings, rad or m
   double misfit_over_travel{0.0};     ///< the same over the travel of the records, dimensionless
   double information_criterion{0.0};  ///< BIC above that of the best law, 0 or more
-  identification::ResidualChecks checks;
+  record_fit::ResidualChecks checks;
   bool converged{true};
   std::string fragment;  ///< the maps `plant` and `friction` of a manifest
 };
@@ -67,7 +67,7 @@ struct LawChoice {
 /// Appl. Meteor. 23, 1984, 800).
 /// @throws Failure (bad_data) if a record is given twice, begins in a state that a law does not have, or a
 /// law cannot be simulated along the records
-LawComparison compare_laws(std::vector<identification::TestRecord> records, const LawChoice& choice,
+LawComparison compare_laws(std::vector<record_fit::TestRecord> records, const LawChoice& choice,
                            const identification::StageReport& report = {});
 
 /// The comparison, the parameters of the best law and its fragment of a manifest as text.

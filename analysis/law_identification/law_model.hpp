@@ -8,44 +8,31 @@
 #include <Eigen/Core>
 
 #include "analysis/identification/contact_coordinates.hpp"
-#include "analysis/identification/test_record.hpp"
+#include "analysis/record_fit/axis_model.hpp"
+#include "analysis/record_fit/quantity.hpp"
+#include "analysis/record_fit/test_record.hpp"
 #include "core/friction/friction_model.hpp"
 #include "core/friction/parameters.hpp"
 #include "core/motion/parameters.hpp"
 
 namespace zerocount::law_identification {
 
-using Records = std::span<const identification::TestRecord>;
+using record_fit::coordinate_quantity;
+using record_fit::Quantity;
+using record_fit::Records;
+using record_fit::TestRecord;
+using record_fit::time_offset_quantity;
+using LawPoint = record_fit::Point;
+using LawParameters = record_fit::AxisParameters;
 
-/// The coordinates of a law: logarithms of its parameters (the exponent n of creep itself), and last the time
-/// offset, the samples by which the torque acts later than recorded.
-using LawPoint = Eigen::VectorXd;
-
-/// A rotor with its friction.
-struct LawParameters {
-  motion::PlantParameters plant;
-  friction::FrictionAlongRotor friction;
-};
-
-/// A quantity that is reported: a linear or nearly linear function of the coordinates.
-struct LawQuantity {
-  std::string name;
-  std::string key;  ///< in a manifest; empty: none
-  std::string unit;
-  double value{0.0};       ///< its logarithm, or itself
-  Eigen::VectorXd slope;   ///< derivatives of `value` with respect to the coordinates
-  bool logarithmic{true};  ///< tells which of the two `value` is
-};
-
-/// A friction law as a function of its coordinates.
+/// A friction law as a function of its coordinates: logarithms of its parameters (the exponent n of creep
+/// itself), and last the time offset.
 struct LawModel {
   friction::FrictionModel law{friction::FrictionModel::presliding};
-  std::vector<bool> free;  ///< [coordinate] false for one that the law does not have
-  std::function<LawParameters(const LawPoint&)> parameters_at;
-  std::function<std::vector<LawQuantity>(const LawPoint&)> quantities_at;
+  record_fit::AxisModel axis;
+  record_fit::FreeCoordinates free;  ///< [coordinate] false for one that the law does not have
+  std::function<std::vector<Quantity>(const LawPoint&)> quantities_at;
   std::vector<LawPoint> starts;  ///< starting points of the fit
-  /// Compliance of a fixture in series with the contact, rad/(N m); empty: none.
-  std::function<double(const LawPoint&)> series_compliance{};
   /// Other starting points near a local minimum; may be empty.
   std::function<std::vector<LawPoint>(const LawPoint&)> neighbours{};
   /// Lines below `friction:` in a manifest for what is not fitted, with the units of a rotary axis.
@@ -53,6 +40,9 @@ struct LawModel {
   /// Such lines below `plant:`.
   std::string plant_lines{};
 };
+
+/// Coordinates that a fit may change by a factor of 1000 each; the last one is the time offset.
+std::vector<record_fit::CoordinateRange> law_coordinates(std::size_t dimension);
 
 /// Properties of the records from which the starting points follow.
 struct RecordScales {
@@ -81,16 +71,5 @@ LawModel spring_model(const RecordScales& scales, Records records);
 LawModel dahl_model(const RecordScales& scales, Records records);
 LawModel lugre_model(const RecordScales& scales, Records records);
 LawModel maxwell_slip_model(const RecordScales& scales);
-
-/// Largest rate of the rotor's oscillation and damping before it slides, 1/s. It limits the steps of a
-/// simulation.
-double fastest_rate(const LawParameters& parameters);
-
-/// A quantity that is one of the coordinates.
-LawQuantity coordinate_quantity(const std::string& name, const std::string& key, const std::string& unit,
-                                const LawPoint& point, Eigen::Index coordinate);
-
-/// The time offset, the last coordinate.
-LawQuantity time_offset_quantity(const LawPoint& point);
 
 }  // namespace zerocount::law_identification

@@ -52,7 +52,7 @@ std::string verdict_of(const LawComparison& comparison) {
   }
   if (best.checks.passed) return text;
   return text + fmt::format("LACK OF FIT: {} does not explain the records: {}.\n", word_of(best),
-                            identification::reason_of_misfit(best.checks));
+                            record_fit::reason_of_misfit(best.checks));
 }
 
 std::string parameters_of(const IdentifiedLaw& law) {
@@ -93,7 +93,7 @@ Json law_json(const IdentifiedLaw& law) {
 std::string law_fragment(Records records, const LawModel& model, const LawPoint& point,
                          const IdentifiedLaw& law) {
   std::string text = "# Identified from";
-  for (const identification::TestRecord& record : records) {
+  for (const TestRecord& record : records) {
     text += fmt::format("{} {}", &record == &records.front() ? "" : ",", text::printable(record.name));
   }
   text += ".\n# The central 95 % of each distribution are the confidence interval.\n";

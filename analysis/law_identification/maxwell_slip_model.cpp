@@ -167,8 +167,9 @@ LawModel maxwell_slip_model(const RecordScales& scales) {
   const double largest_torque = scales.largest_torque;
   LawModel model;
   model.law = friction::FrictionModel::gms;
+  model.axis.coordinates = law_coordinates(element_dimension);
   model.free.assign(element_dimension, true);
-  model.parameters_at = [=](const LawPoint& point) {
+  model.axis.parameters_at = [=](const LawPoint& point) {
     LawParameters parameters;
     const std::vector<double> levels = levels_at(point, largest_torque);
     parameters.friction.model = friction::FrictionModel::gms;
@@ -181,7 +182,7 @@ LawModel maxwell_slip_model(const RecordScales& scales) {
     return parameters;
   };
   model.quantities_at = [](const LawPoint& point) {
-    std::vector<LawQuantity> quantities;
+    std::vector<Quantity> quantities;
     const std::vector<Eigen::Index> order = in_order_of_slip(point);
     for (std::size_t i = 0; i <= slipping_elements; ++i) {
       const Eigen::Index at = order[i];

@@ -13,25 +13,23 @@ LawModel spring_based_model(const RecordScales& scales, Records records, frictio
   const double creep_torque = scales.creep_torque;
   LawModel model;
   model.law = law;
+  model.axis.coordinates = law_coordinates(id::coordinate_count);
   model.free.assign(id::coordinate_count, true);
   if (!creeps) {
     for (const id::Coordinate j : {id::log_alpha, id::log_limit, id::creep_exponent}) model.free[j] = false;
   }
-  model.parameters_at = [=](const LawPoint& point) {
+  model.axis.parameters_at = [=](const LawPoint& point) {
     const id::ContactParameters contact = id::contact_at(point, creep_torque);
     return LawParameters{contact.plant, {.uniform = contact.friction, .profiled = {}, .model = law}};
   };
   model.quantities_at = [=](const LawPoint& point) {
-    std::vector<LawQuantity> quantities;
-    const id::FitPoint at{point, {}};
-    for (const id::FittedQuantity& fitted : id::fitted_quantities(at, creep_torque)) {
-      const id::Coordinate coordinate = fitted.coordinates.front();
-      if (fitted.key.empty() || coordinate == id::time_offset) continue;
-      if (!creeps && coordinate >= id::log_alpha) continue;
-      quantities.push_back({std::string(fitted.name), std::string(fitted.key), std::string(fitted.unit),
-                            fitted.value, fitted.slope, fitted.logarithmic});
+    std::vector<Quantity> quantities;
+    for (const Quantity& quantity : id::fitted_quantities(point, creep_torque)) {
+      const id::Coordinate coordinate = id::coordinate_of(quantity);
+      if (quantity.name == "k1_plus_k2") continue;
+      if (!creeps && coordinate >= id::log_alpha && coordinate != id::time_offset) continue;
+      quantities.push_back(quantity);
     }
-    quantities.push_back(time_offset_quantity(point));
     return quantities;
   };
   model.starts.push_back(scales.contact);

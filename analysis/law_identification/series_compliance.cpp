@@ -19,7 +19,7 @@ LawPoint with_compliance(const LawPoint& law, double logarithm) {
 }
 
 /// The slope of a quantity of the law alone with respect to all coordinates.
-LawQuantity widened(LawQuantity quantity) {
+Quantity widened(Quantity quantity) {
   quantity.slope = with_compliance(quantity.slope, 0.0);
   return quantity;
 }
@@ -29,12 +29,15 @@ LawQuantity widened(LawQuantity quantity) {
 LawModel with_series_compliance(const LawModel& law, const RecordScales& scales) {
   LawModel model = law;
   model.free.insert(model.free.end() - 1, true);
-  model.parameters_at = [law](const LawPoint& point) { return law.parameters_at(without_compliance(point)); };
+  model.axis.coordinates = law_coordinates(model.free.size());
+  model.axis.parameters_at = [law](const LawPoint& point) {
+    return law.axis.parameters_at(without_compliance(point));
+  };
   model.fixed_lines = [law](const LawPoint& point) { return law.fixed_lines(without_compliance(point)); };
-  model.series_compliance = [](const LawPoint& point) { return std::exp(point[point.size() - 2]); };
+  model.axis.series_compliance = [](const LawPoint& point) { return std::exp(point[point.size() - 2]); };
   model.quantities_at = [law](const LawPoint& point) {
-    std::vector<LawQuantity> quantities;
-    for (LawQuantity& quantity : law.quantities_at(without_compliance(point))) {
+    std::vector<Quantity> quantities;
+    for (Quantity& quantity : law.quantities_at(without_compliance(point))) {
       quantities.push_back(widened(std::move(quantity)));
     }
     quantities.insert(quantities.end() - 1,

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/identification/residual_checks.hpp"
+#include "analysis/record_fit/residual_checks.hpp"
 #include "analysis/report/html.hpp"
 #include "analysis/report/thinning.hpp"
 
@@ -165,7 +165,7 @@ Figure fit_figure(const RecordSummary& record, const FittedRecord& fit, std::siz
   return figure;
 }
 
-std::string check_html(const identification::ResidualChecks& checks) {
+std::string check_html(const record_fit::ResidualChecks& checks) {
   if (checks.passed)
     return html_verdict(
         "The model explains the records.",

@@ -93,7 +93,7 @@ void find_strokes(SlidingRecord& record, const std::vector<bool>& excluded) {
 }  // namespace
 
 SlidingRecord sliding_record(const records::RawSeries& series) {
-  identification::TestRecord sampled;
+  record_fit::TestRecord sampled;
   sampled.sample_time = identification::checked_sample_time(series);
   sampled.intervals = identification::uneven_intervals(series);
   SlidingRecord record;
@@ -105,7 +105,7 @@ SlidingRecord sliding_record(const records::RawSeries& series) {
   double now = 0.0;
   for (std::size_t k = 0; k < series.time.size(); ++k) {
     record.time.push_back(now);
-    now += identification::interval_after(sampled, k);
+    now += record_fit::interval_after(sampled, k);
     record.position.push_back(unit * (series.angle[k] - series.angle.front()));
   }
   const bool idle = std::all_of(series.torque.begin(), series.torque.end(),

@@ -55,10 +55,10 @@ void refuse_options_beside_laws(const command_line::Arguments& arguments) {
 }
 
 ExitCode identification_verdict(std::span<const identification::ParameterEstimate> parameters,
-                                const identification::ResidualChecks& checks) {
+                                const record_fit::ResidualChecks& checks) {
   if (!checks.passed) {
     status::tell("zerocount identify: the result must not be trusted: {}\n",
-                 identification::reason_of_misfit(checks));
+                 record_fit::reason_of_misfit(checks));
     return ExitCode::inconclusive;
   }
   const bool any = std::ranges::any_of(parameters, [](const identification::ParameterEstimate& one) {

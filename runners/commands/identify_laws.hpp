@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "analysis/identification/identification.hpp"
-#include "analysis/identification/test_record.hpp"
 #include "analysis/law_identification/law_identification.hpp"
+#include "analysis/record_fit/test_record.hpp"
 #include "core/failure/failure.hpp"
 #include "runners/command_line/command_line.hpp"
 
@@ -25,7 +25,7 @@ void refuse_options_beside_laws(const command_line::Arguments& arguments);
 /// Success, or inconclusive with a message if no parameter is estimated or the fit does not explain the
 /// records.
 ExitCode identification_verdict(std::span<const identification::ParameterEstimate> parameters,
-                                const identification::ResidualChecks& checks);
+                                const record_fit::ResidualChecks& checks);
 
 /// The report of a comparison, and the exit code: inconclusive if the best law does not explain the records.
 struct LawsReport {

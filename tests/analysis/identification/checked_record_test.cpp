@@ -27,7 +27,7 @@ identification::RawSeries good_series() {
   const identification::TestRecord record = simulated_test(contact, programme, {}, random);
   identification::RawSeries series;
   series.name = "good.csv";
-  for (std::size_t k = 0; k < identification::sample_count(record); ++k) {
+  for (std::size_t k = 0; k < record_fit::sample_count(record); ++k) {
     series.lines.push_back(k + 2);
     series.time.push_back(5e-4 * static_cast<double>(k));
     series.torque.push_back(record.torque[k].now);
@@ -73,7 +73,7 @@ TEST(CheckedRecord, KeepsAGoodSeries) {
   EXPECT_EQ(record.reading, series.angle);
   EXPECT_NEAR(record.sample_time, 5e-4, 1e-15);
   EXPECT_EQ(record.unit, count_size);
-  for (std::size_t k = 0; k < identification::sample_count(record); ++k) {
+  for (std::size_t k = 0; k < record_fit::sample_count(record); ++k) {
     EXPECT_TRUE(motion::is_constant(record.torque[k]));
     EXPECT_EQ(record.torque[k].now, series.torque[k]);
   }
@@ -198,7 +198,7 @@ TEST(CheckedRecord, ARecordIsCutWhereItBeginsToSlide) {
   series.sliding.assign(series.time.size(), false);
   series.sliding[1321] = true;
   const identification::TestRecord record = identification::checked_record(series, false);
-  EXPECT_EQ(identification::sample_count(record), 1321u);
+  EXPECT_EQ(record_fit::sample_count(record), 1321u);
   EXPECT_EQ(record.torque.size(), 1321u);
   EXPECT_EQ(record.note, "cut at 0.6605 s, where the axis breaks away and slides");
   EXPECT_TRUE(refused(record_refusal([](identification::RawSeries& s) {
@@ -227,10 +227,10 @@ TEST(CheckedRecord, MaskedReadingsAreBridged) {
   for (std::size_t k = 500; k < 520; ++k) series.angle[k] = 1e6;
   EXPECT_TRUE(records::exclude(series, {500 * 5e-4 - 1e-9, 519 * 5e-4 + 1e-9}));
   const identification::TestRecord record = identification::checked_record(series, false);
-  EXPECT_EQ(identification::used_samples(record), series.time.size() - 20);
+  EXPECT_EQ(record_fit::used_samples(record), series.time.size() - 20);
   for (std::size_t k = 499; k < 520; ++k) {
     EXPECT_LE(std::abs(record.reading[k + 1] - record.reading[k]), 20.0) << k;
-    EXPECT_EQ(identification::is_excluded(record, k), k >= 500) << k;
+    EXPECT_EQ(record_fit::is_excluded(record, k), k >= 500) << k;
   }
 }
 
@@ -276,7 +276,7 @@ TEST(CheckedRecord, HoldsAtTheExtremesAreNotClipping) {
     programme.step(0.1).hold(0.3).step(-0.1).hold(0.3).ramp(0.12, 0.4).hold(0.5).ramp(-0.12, 2.0).hold(0.3);
     const identification::TestRecord record = simulated_test(contact, programme, {}, random);
     identification::RawSeries series;
-    for (std::size_t k = 0; k < identification::sample_count(record); ++k) {
+    for (std::size_t k = 0; k < record_fit::sample_count(record); ++k) {
       series.time.push_back(5e-4 * static_cast<double>(k));
       series.torque.push_back(record.torque[k].now);
       series.angle.push_back(record.reading[k]);

@@ -76,7 +76,7 @@ TEST(FittedRecords, HaveTheTimesAndReadingsOfTheFile) {
       EXPECT_NEAR(beside.time[k], times[k], 1e-9) << k;
       EXPECT_NEAR(beside.reading[k] * record.unit, series.angle[k] - series.angle[0], 1e-12) << k;
       EXPECT_EQ(beside.excluded[k], k >= 199 && k <= 201) << k;
-      EXPECT_EQ(beside.fitted[k], 2.0 - identification::middle_of_reading(record));
+      EXPECT_EQ(beside.fitted[k], 2.0 - record_fit::middle_of_reading(record));
     }
   }
 }

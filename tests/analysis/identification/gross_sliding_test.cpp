@@ -20,7 +20,7 @@ namespace {
 identification::RawSeries series_of(const identification::TestRecord& record) {
   identification::RawSeries series;
   series.name = "simulated";
-  for (std::size_t k = 0; k < identification::sample_count(record); ++k) {
+  for (std::size_t k = 0; k < record_fit::sample_count(record); ++k) {
     series.time.push_back(record.sample_time * static_cast<double>(k));
     series.torque.push_back(record.torque[k].now);
     series.angle.push_back(record.reading[k]);
@@ -148,8 +148,7 @@ TEST(GrossSliding, TooEarlyABreakawayIsRefused) {
         << failure.what();
     EXPECT_NE(std::string(failure.what()).find("--sliding"), std::string::npos) << failure.what();
   }
-  EXPECT_GE(identification::sample_count(identification::checked_record(made_slide(300, 100.0), false)),
-            250u);
+  EXPECT_GE(record_fit::sample_count(identification::checked_record(made_slide(300, 100.0), false)), 250u);
 }
 
 TEST(GrossSliding, TheFlagOfAFileIsBelieved) {

@@ -30,15 +30,12 @@ Eigen::MatrixXd correlated_errors(Eigen::Index replicates, double size, std::mt1
 /// The manifest's parameters of a contact, with profiles that are wider than the replicates say.
 std::vector<identification::EstimatedQuantity> estimated_quantities(
     const identification::ContactParameters& contact, const Eigen::MatrixXd& errors, double widening) {
-  identification::FitPoint point{identification::point_of(contact, creep_torque), Eigen::VectorXd::Zero(1)};
-  identification::ReadingReplicates replicates;
-  replicates.errors = errors;
+  const record_fit::Point point = identification::point_of(contact, creep_torque);
   std::vector<identification::EstimatedQuantity> quantities;
-  for (const identification::FittedQuantity& quantity :
-       identification::fitted_quantities(point, creep_torque)) {
-    if (quantity.key.empty() || quantity.key == "time_offset") continue;
-    const auto linear = identification::interval_by_replicates(quantity, replicates, widening);
-    identification::QuantityEstimate profiled = linear;
+  for (const identification::Quantity& quantity : identification::fitted_quantities(point, creep_torque)) {
+    if (quantity.key.empty()) continue;
+    const auto linear = record_fit::interval_of_errors(quantity, errors, widening);
+    record_fit::QuantityEstimate profiled = linear;
     if (quantities.size() % 2 == 1) {
       profiled.value = quantity.value;
       profiled.low = quantity.value - 1.3 * (linear.value - linear.low);
@@ -69,7 +66,7 @@ TEST(JointDraws, HaveTheRanksOfTheReplicatesAndTheLimitsOfTheIntervals) {
     identification::append_draws(quantities, errors, widening, 2000, draws);
     ASSERT_EQ(draws.rows.size(), 999u);
     for (std::size_t j = 0; j < quantities.size(); ++j) {
-      const identification::FittedQuantity& quantity = quantities[j].quantity;
+      const identification::Quantity& quantity = quantities[j].quantity;
       const Eigen::VectorXd own =
           -errors.leftCols<identification::contact_dimension>() * quantity.slope;  // estimate less error
       std::vector<double> drawn;

@@ -7,7 +7,7 @@
 
 #include "analysis/identification/contact_coordinates.hpp"
 #include "analysis/identification/identification.hpp"
-#include "analysis/identification/test_record.hpp"
+#include "analysis/record_fit/test_record.hpp"
 
 namespace zerocount::testing {
 

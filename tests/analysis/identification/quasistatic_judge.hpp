@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/identification/test_record.hpp"
+#include "analysis/record_fit/test_record.hpp"
 #include "core/friction/parameters.hpp"
 #include "tests/analysis/identification/material_tests.hpp"
 

@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/identification/record_motion.hpp"
-#include "analysis/law_identification/law_motion.hpp"
+#include "analysis/record_fit/axis_model.hpp"
 #include "core/friction/law.hpp"
 #include "tests/analysis/identification/material_tests.hpp"
 
@@ -26,16 +25,6 @@ identification::TestRecord short_record() {
   return record;
 }
 
-// The pre-sliding model follows the path of identification, which has long steps in holds.
-TEST(LawModel, FollowsThePathOfTheContact) {
-  const identification::TestRecord record = short_record();
-  const auto scales = law_identification::scales_of(std::span(&record, 1));
-  const LawModel model = law_identification::presliding_model(scales, std::span(&record, 1));
-  const Eigen::VectorXd path = law_identification::law_path(record, model, model.starts.front());
-  const Eigen::VectorXd expected = identification::angle_path(record, scales.contact, scales.creep_torque);
-  EXPECT_LT((path - expected).cwiseAbs().maxCoeff(), 1e-2);
-}
-
 // A moving time offset moves the path by the velocity, and coordinates that a law does not have have no
 // effect.
 TEST(LawModel, HasDerivativesOfItsFreeCoordinatesAlone) {
@@ -44,7 +33,8 @@ TEST(LawModel, HasDerivativesOfItsFreeCoordinatesAlone) {
   for (const friction::FrictionModel law : law_identification::fitted_laws()) {
     const LawModel model = law_identification::law_model(law, scales, std::span(&record, 1));
     const LawPoint& point = model.starts.front();
-    const law_identification::LawMotion motion = law_identification::law_motion(record, model, point);
+    const record_fit::RecordMotion motion =
+        record_fit::modelled_motions({&record, 1}, model.axis, point, model.free).front();
     for (Eigen::Index j = 0; j < point.size(); ++j) {
       if (!model.free[static_cast<std::size_t>(j)]) {
         EXPECT_EQ(motion.sensitivity.col(j).norm(), 0.0);
@@ -53,9 +43,9 @@ TEST(LawModel, HasDerivativesOfItsFreeCoordinatesAlone) {
       constexpr double step = 1e-3;
       LawPoint moved = point;
       moved[j] += step;
-      const Eigen::VectorXd there = law_identification::law_path(record, model, moved);
+      const Eigen::VectorXd there = record_fit::modelled_path(record, model.axis, moved);
       moved[j] -= 2.0 * step;
-      const Eigen::VectorXd back = law_identification::law_path(record, model, moved);
+      const Eigen::VectorXd back = record_fit::modelled_path(record, model.axis, moved);
       const Eigen::VectorXd slope = (there - back) / (2.0 * step);
       EXPECT_LT((slope - motion.sensitivity.col(j)).norm(), 0.05 * slope.norm() + 1e-2)
           << friction::traits_of(law).word << " coordinate " << j;

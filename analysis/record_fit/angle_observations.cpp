@@ -1,4 +1,4 @@
-#include "analysis/identification/angle_observations.hpp"
+#include "analysis/record_fit/angle_observations.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include <boost/math/tools/roots.hpp>
 
-namespace zerocount::identification {
+namespace zerocount::record_fit {
 namespace {
 
 /// Variance of a uniform distribution of width 1.
@@ -130,4 +130,4 @@ double counting_noise(const TestRecord& record, const Eigen::VectorXd& path,
   return 0.5 * (bracket.first + bracket.second);
 }
 
-}  // namespace zerocount::identification
+}  // namespace zerocount::record_fit

@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "core/motion/plant_start.hpp"
 #include "core/motion/torque_course.hpp"
 #include "experiments/parameters/study_units.hpp"
 
-namespace zerocount::identification {
+namespace zerocount::record_fit {
 
 /// A part with a monotonic torque, from sample `first` to sample `last`.
 struct LoadingBranch {
@@ -92,6 +94,10 @@ inline double middle_of_reading(const TestRecord& record) {
   return record.counted ? 0.5 : 0.0;
 }
 
+inline Eigen::Map<const Eigen::VectorXd> readings_of(const TestRecord& record) {
+  return {record.reading.data(), static_cast<Eigen::Index>(record.reading.size())};
+}
+
 RecordParts parts_of(const TestRecord& record);
 
 /// True if a branch is slow and has no step (of 5 % of the range from sample to sample), such as at the end
@@ -107,4 +113,4 @@ double torque_range(const TestRecord& record);
 /// Maximum |torque|, N m.
 double largest_torque(const TestRecord& record);
 
-}  // namespace zerocount::identification
+}  // namespace zerocount::record_fit

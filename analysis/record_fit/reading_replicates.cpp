@@ -1,4 +1,4 @@
-#include "analysis/identification/reading_replicates.hpp"
+#include "analysis/record_fit/reading_replicates.hpp"
 
 #include <cmath>
 
@@ -8,7 +8,7 @@
 #include "core/random/random_numbers.hpp"
 #include "core/random/variates.hpp"
 
-namespace zerocount::identification {
+namespace zerocount::record_fit {
 ReplicateNoise::ReplicateNoise(std::size_t replicate) : replicate_(replicate) {}
 
 double ReplicateNoise::next() {
@@ -51,17 +51,16 @@ ResidualStatistics residual_statistics(const std::vector<double>& residuals) {
 namespace {
 
 /// As residuals_of(), with other paths than the model's.
-std::vector<double> residuals_along(const FittedModel& model,
-                                    const std::vector<const Eigen::VectorXd*>& paths,
+std::vector<double> residuals_along(const FittedModel& model, const std::vector<Eigen::VectorXd>& paths,
                                     const Observations& observations, const Eigen::VectorXd& step) {
   std::vector<double> residuals;
   for (std::size_t r = 0; r < observations.size(); ++r) {
-    const RecordMotion& motion = model.motions[r];
+    const Eigen::MatrixXd& sensitivity = model.motions[r].sensitivity;
     for (const AngleObservation& observation : observations[r]) {
-      double modelled = mean_over(observation, *paths[r]).value();
+      double modelled = mean_over(observation, paths[r]).value();
       if (step.size() > 0) {
-        modelled += (mean_over(observation, motion.sensitivity) * step.head<contact_dimension>()).value() +
-                    step[contact_dimension + static_cast<Eigen::Index>(r)];
+        modelled += (mean_over(observation, sensitivity) * step.head(sensitivity.cols())).value() +
+                    step[sensitivity.cols() + static_cast<Eigen::Index>(r)];
       }
       residuals.push_back((observation.position - modelled) / std::sqrt(observation.variance));
     }
@@ -73,20 +72,21 @@ std::vector<double> residuals_along(const FittedModel& model,
 
 std::vector<double> residuals_of(const FittedModel& model, const Observations& observations,
                                  const Eigen::VectorXd& step) {
-  std::vector<const Eigen::VectorXd*> paths;
-  for (const RecordMotion& motion : model.motions) paths.push_back(&motion.path);
+  std::vector<Eigen::VectorXd> paths;
+  for (const RecordMotion& motion : model.motions) paths.push_back(motion.path);
   return residuals_along(model, paths, observations, step);
 }
 
-ReadingReplicates replicate_readings(std::span<const TestRecord> records, const FittedModel& model,
-                                     const FitSetting& setting, const std::vector<double>& noise,
-                                     std::size_t replicates, std::size_t first) {
+ReadingReplicates replicate_readings(Records records, const FittedModel& model, const FitSetting& setting,
+                                     const std::vector<double>& noise, std::size_t replicates,
+                                     std::size_t first) {
   Observations observations(records.size());
   for (std::size_t r = 0; r < records.size(); ++r)
     observe(records[r], model.motions[r].path, readings_of(records[r]), noise[r], observations[r]);
   const Eigen::MatrixXd matrix = normal_equations(model, observations, setting).matrix;
   const Eigen::MatrixXd root = numerics::cholesky_factor(matrix);
 
+  const Eigen::Index dimension = dimension_of(setting.model);
   ReadingReplicates result;
   result.errors.resize(static_cast<Eigen::Index>(replicates), matrix.rows());
   result.residuals.resize(replicates);
@@ -97,30 +97,27 @@ ReadingReplicates replicate_readings(std::span<const TestRecord> records, const 
         truth_spread * numerics::solve_transposed_factor(root, random.next(matrix.rows()));
     NormalEquationsSum sum(records.size(), setting);
     Observations read(records.size());
-    std::vector<Eigen::VectorXd> paths(records.size());
-    std::vector<const Eigen::VectorXd*> path_of;
+    std::vector<Eigen::VectorXd> paths;
     for (std::size_t r = 0; r < records.size(); ++r) {
       const RecordMotion& motion = model.motions[r];
-      Eigen::VectorXd& path = paths[r];
-      path = motion.path;
-      path_of.push_back(&path);
-      path.noalias() += motion.sensitivity * away.head<contact_dimension>();
-      path.array() += away[contact_dimension + static_cast<Eigen::Index>(r)];
+      Eigen::VectorXd& path = paths.emplace_back(motion.path);
+      path.noalias() += motion.sensitivity * away.head(dimension);
+      path.array() += away[dimension + static_cast<Eigen::Index>(r)];
       const Eigen::VectorXd readings = read_path(records[r], path, noise[r], random);
       observe(records[r], path, readings, noise[r], read[r]);
       sum.add(r, read[r], path, motion.sensitivity);
     }
     NormalEquations equations = sum.with_prior(setting.prior);
     // The error of the prior is drawn too: coordinates that only the prior determines keep its uncertainty.
-    for (Eigen::Index j = 0; j < contact_dimension; ++j) {
+    for (Eigen::Index j = 0; j < dimension; ++j) {
       if (setting.free[static_cast<std::size_t>(j)])
         equations.gradient[j] += random.next() / setting.prior_spread;
     }
     const Eigen::VectorXd error = numerics::solve_positive_definite(equations.matrix, equations.gradient);
     result.errors.row(static_cast<Eigen::Index>(i)) = error;
-    result.residuals[i] = residual_statistics(residuals_along(model, path_of, read, error));
+    result.residuals[i] = residual_statistics(residuals_along(model, paths, read, error));
   });
   return result;
 }
 
-}  // namespace zerocount::identification
+}  // namespace zerocount::record_fit

@@ -6,26 +6,25 @@
 
 #include <Eigen/Core>
 
-#include "analysis/identification/angle_observations.hpp"
-#include "analysis/identification/contact_coordinates.hpp"
-#include "analysis/identification/record_motion.hpp"
-#include "analysis/identification/test_record.hpp"
+#include "analysis/record_fit/angle_observations.hpp"
+#include "analysis/record_fit/axis_model.hpp"
+#include "analysis/record_fit/test_record.hpp"
 
-namespace zerocount::identification {
+namespace zerocount::record_fit {
 
-/// The unknowns of a fit: one contact, and for each record the encoder's reading at θ = 0.
+/// The unknowns of a fit: the coordinates of the model, and for each record the encoder's reading at θ = 0.
 struct FitPoint {
-  ContactPoint contact;
+  Point axis;
   Eigen::VectorXd offset;  ///< [record] in the record's unit
 };
 
 /// Settings of a fit.
 struct FitSetting {
+  AxisModel model;
   FreeCoordinates free{};
-  double creep_torque{1.0};  ///< σ0 of the coordinates, N m
   /// Mean of a weak normal prior on the free coordinates, which keeps undetermined coordinates finite. Its
   /// standard deviation `prior_spread` corresponds to a parameter known to a factor of 400.
-  ContactPoint prior;
+  Point prior;
   double prior_spread{3.0};
   double tolerance{1e-6};  ///< relative change of the sum of squares at which the fit ends
   int max_steps{50};
@@ -34,17 +33,39 @@ struct FitSetting {
 /// The observations of each record.
 using Observations = std::vector<std::vector<AngleObservation>>;
 
+/// Every reading that is not masked as an observation with the variance of a count.
+Observations all_readings(Records records);
+
 /// Result of a fit.
 struct FitResult {
   FitPoint point;
-  double squares{0.0};  ///< the minimum sum of squares
+  double squares{0.0};    ///< the minimum sum of squares
+  bool converged{false};  ///< within the steps of the setting
 };
 
 /// Minimises the sum of squares of (observed − modelled angle)/√variance and of the prior, starting at
 /// `start`. Non-linear least squares by Ceres (Levenberg–Marquardt, dense QR). If the fit fails, the point is
 /// `start` and `squares` is infinite.
-FitResult fit_jointly(std::span<const TestRecord> records, const Observations& observations,
-                      const FitPoint& start, const FitSetting& setting);
+FitResult fit_jointly(Records records, const Observations& observations, const FitPoint& start,
+                      const FitSetting& setting);
+
+/// fit_jointly() with the starting point as the mean of the prior.
+FitResult fit_from(Records records, const Observations& observations, const FitPoint& start,
+                   FitSetting setting);
+
+/// fit_from() each of the results, in parallel; by their sums of squares.
+std::vector<FitResult> fits_from(Records records, const Observations& observations,
+                                 std::vector<FitResult> starts, const FitSetting& setting);
+
+/// A point with the offsets for which the residuals of all readings have the mean 0, and their sum of squares
+/// over the variance of a count; infinite where the motion cannot be simulated, or is too fast for the
+/// sampling.
+FitResult with_mean_offsets(Records records, const AxisModel& model, const Point& point);
+
+/// Twelve steps from the six best of the starting points. @returns at most three fits, by their sums of
+/// squares, those within four times the smallest.
+std::vector<FitResult> promising_fits(Records records, const Observations& observations,
+                                      const std::vector<Point>& starts, FitSetting setting);
 
 /// The model at a point, with its linearisation.
 struct FittedModel {
@@ -52,7 +73,10 @@ struct FittedModel {
   std::vector<RecordMotion> motions;  ///< [record]; the paths include the offsets
 };
 
-FittedModel model_at(std::span<const TestRecord> records, const FitPoint& point, const FitSetting& setting);
+FittedModel model_at(Records records, const FitPoint& point, const FitSetting& setting);
+
+/// False if the simulation did not follow the record.
+bool is_finite(const RecordMotion& motion);
 
 /// Textbook covariance of the errors of a fit, valid for independent observations: the inverse of the normal
 /// matrix, including the prior.
@@ -60,7 +84,7 @@ Eigen::MatrixXd textbook_covariance(const FittedModel& model, const Observations
                                     const FitSetting& setting);
 
 /// Normal equations of the linearised model: `matrix`·d = `gradient` gives the step d to its least squares.
-/// The first coordinate_count rows belong to the contact, the others to the offsets. Rows of fixed
+/// The first rows belong to the coordinates, the others to the offsets. Rows of fixed
 /// coordinates are those of the identity.
 struct NormalEquations {
   Eigen::MatrixXd matrix;
@@ -79,14 +103,14 @@ class NormalEquationsSum {
 
   /// Adds the observations of record number `record` with the modelled path `path`.
   void add(std::size_t record, const std::vector<AngleObservation>& observations, const Eigen::VectorXd& path,
-           const PathSensitivity& sensitivity);
+           const Eigen::MatrixXd& sensitivity);
 
-  /// Adds the prior, including its gradient at the contact `at`.
-  NormalEquations with_prior(const ContactPoint& at) const;
+  /// Adds the prior, including its gradient at the coordinates `at`.
+  NormalEquations with_prior(const Point& at) const;
 
  private:
   const FitSetting& setting_;
   NormalEquations sum_;
 };
 
-}  // namespace zerocount::identification
+}  // namespace zerocount::record_fit

@@ -1,24 +1,12 @@
-#include "analysis/identification/record_motion.hpp"
+#include "analysis/record_fit/record_path.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include <oneapi/tbb/parallel_for.h>
-
-namespace zerocount::identification {
+namespace zerocount::record_fit {
 namespace {
-
-/// Decay rate (1/s) of the slowest oscillation about a point of the spring.
-double decay_rate(const ContactParameters& contact) {
-  const double damping = contact.plant.presliding_damping;
-  const double inertia = contact.plant.inertia;
-  const double stiffness = contact.friction.k1;
-  const double discriminant = damping * damping - 4.0 * inertia * stiffness;
-  if (discriminant <= 0.0) return damping / (2.0 * inertia);
-  return 2.0 * stiffness / (damping + std::sqrt(discriminant));
-}
 
 /// Fills the samples inside a step of `m` samples by cubic Hermite interpolation.
 void fill_between(SampledPath& path, Eigen::Index first, std::size_t m) {
@@ -172,14 +160,6 @@ class RecordRun {
   double fraction_{0.0};
 };
 
-SampledPath contact_path(const TestRecord& record, const ContactParameters& contact, double offset) {
-  constexpr double settled = 40.0;     // exp(−40) of an oscillation is below rounding
-  constexpr double creep_step = 0.03;  // of the time constant of creep
-  plant::Plant plant(contact.plant, {contact.friction, {}}, record.start, {motion_tolerance * record.unit});
-  return sampled_path(record, std::move(plant), offset,
-                      {settled / decay_rate(contact), creep_step / contact.friction.alpha});
-}
-
 }  // namespace
 
 SampledPath sampled_path(const TestRecord& record, plant::Plant plant, double offset,
@@ -187,34 +167,4 @@ SampledPath sampled_path(const TestRecord& record, plant::Plant plant, double of
   return RecordRun(record, std::move(plant), offset, steps).run();
 }
 
-Eigen::VectorXd angle_path(const TestRecord& record, const ContactParameters& contact, double offset) {
-  return contact_path(record, contact, offset).angle;
-}
-
-Eigen::VectorXd angle_path(const TestRecord& record, const ContactPoint& point, double creep_torque) {
-  return angle_path(record, contact_at(point, creep_torque), point[time_offset]);
-}
-
-RecordMotion motion_with_sensitivity(const TestRecord& record, const ContactPoint& point, double creep_torque,
-                                     const FreeCoordinates& free) {
-  SampledPath path = contact_path(record, contact_at(point, creep_torque), point[time_offset]);
-  RecordMotion motion;
-  motion.sensitivity.setZero(path.angle.size(), coordinate_count);
-  if (free[time_offset]) motion.sensitivity.col(time_offset) = -path.velocity;
-  motion.path = std::move(path.angle);
-  std::vector<std::size_t> simulated;
-  for (std::size_t j = 0; j < time_offset; ++j) {
-    if (free[j]) simulated.push_back(j);
-  }
-  oneapi::tbb::parallel_for(std::size_t{0}, simulated.size(), [&](std::size_t i) {
-    const std::size_t j = simulated[i];
-    ContactPoint moved = point;
-    moved[j] += difference_step;
-    const double step = moved[j] - point[j];
-    motion.sensitivity.col(static_cast<Eigen::Index>(j)) =
-        (angle_path(record, moved, creep_torque) - motion.path) / step;
-  });
-  return motion;
-}
-
-}  // namespace zerocount::identification
+}  // namespace zerocount::record_fit

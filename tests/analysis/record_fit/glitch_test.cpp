@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/identification/residual_checks.hpp"
+#include "analysis/record_fit/residual_checks.hpp"
 
 namespace zerocount::testing {
 namespace {
@@ -35,7 +35,7 @@ TEST(Glitch, NoiseIsNone) {
     const double noise = std::uniform_real_distribution<double>(0.0, 3.0)(random);
     for (const bool counted : {true, false}) {
       const NoisyRecord noisy = noisy_record(noise, counted, random);
-      EXPECT_FALSE(identification::find_glitch(noisy.record, noisy.path)) << noise << counted;
+      EXPECT_FALSE(record_fit::find_glitch(noisy.record, noisy.path)) << noise << counted;
     }
   }
 }
@@ -48,7 +48,7 @@ TEST(Glitch, AReadingFarBeyondTheNoiseIsOne) {
       NoisyRecord noisy = noisy_record(noise, counted, random);
       const std::size_t at = std::uniform_int_distribution<std::size_t>(10, 19'900)(random);
       noisy.record.reading[at] += std::ceil(20.0 * noise + 4.0);
-      const auto found = identification::find_glitch(noisy.record, noisy.path);
+      const auto found = record_fit::find_glitch(noisy.record, noisy.path);
       ASSERT_TRUE(found) << noise << counted;
       EXPECT_EQ(*found, at);
     }
@@ -59,10 +59,10 @@ TEST(Glitch, AMaskedReadingIsNone) {
   std::mt19937_64 random(3);
   NoisyRecord noisy = noisy_record(0.2, true, random);
   noisy.record.reading[700] += 50.0;
-  EXPECT_TRUE(identification::find_glitch(noisy.record, noisy.path));
+  EXPECT_TRUE(record_fit::find_glitch(noisy.record, noisy.path));
   noisy.record.excluded.assign(noisy.record.reading.size(), false);
   noisy.record.excluded[700] = true;
-  EXPECT_FALSE(identification::find_glitch(noisy.record, noisy.path));
+  EXPECT_FALSE(record_fit::find_glitch(noisy.record, noisy.path));
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
-#include "analysis/identification/test_record.hpp"
+#include "analysis/record_fit/test_record.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
-namespace zerocount::identification {
+namespace zerocount::record_fit {
 namespace {
 
 constexpr double turn_threshold = 0.02;       // of the range
@@ -110,4 +110,4 @@ std::size_t RecordParts::ring_downs() const {
       std::count_if(holds.begin(), holds.end(), std::mem_fn(&TorqueHold::rings_down)));
 }
 
-}  // namespace zerocount::identification
+}  // namespace zerocount::record_fit

@@ -7,9 +7,9 @@
 
 #include <Eigen/Core>
 
-#include "analysis/identification/joint_fit.hpp"
+#include "analysis/record_fit/joint_fit.hpp"
 
-namespace zerocount::identification {
+namespace zerocount::record_fit {
 
 /// Statistics of the residuals, in units of the observations' standard deviations, in the order of time and
 /// of the records.
@@ -69,4 +69,4 @@ ReadingReplicates replicate_readings(std::span<const TestRecord> records, const 
                                      const FitSetting& setting, const std::vector<double>& noise,
                                      std::size_t replicates, std::size_t first = 0);
 
-}  // namespace zerocount::identification
+}  // namespace zerocount::record_fit

@@ -1,14 +1,15 @@
-#include "analysis/identification/residual_checks.hpp"
+#include "analysis/record_fit/residual_checks.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include <fmt/format.h>
 
 #include "analysis/statistics/quantile.hpp"
 
-namespace zerocount::identification {
+namespace zerocount::record_fit {
 namespace {
 
 constexpr double least_chance = 0.01;
@@ -75,6 +76,9 @@ std::string reason_of_misfit(const ResidualChecks& checks) {
 
 namespace {
 
+/// Lower limit of the noise of readings that are not counts: smaller residuals are rounding errors.
+constexpr double min_noise = 1e-6;
+
 /// Standard deviation of normal residuals, from the median of their magnitudes.
 double robust_deviation(const std::vector<double>& magnitudes) {
   constexpr double deviation_over_median = 1.4826;
@@ -97,6 +101,38 @@ double noise_of_counts(const std::vector<double>& residuals) {
 }
 
 }  // namespace
+
+Eigen::VectorXd residuals_along(const TestRecord& record, const Eigen::VectorXd& path) {
+  Eigen::VectorXd left = readings_of(record).array() + middle_of_reading(record) - path.array();
+  for (std::size_t k = 0; k < record.excluded.size(); ++k) {
+    if (record.excluded[k]) left[static_cast<Eigen::Index>(k)] = 0.0;
+  }
+  return left;
+}
+
+double misfit_along(const TestRecord& record, const Eigen::VectorXd& path) {
+  return residuals_along(record, path).norm() / std::sqrt(static_cast<double>(used_samples(record)));
+}
+
+double noise_along(const TestRecord& record, const Eigen::VectorXd& path) {
+  if (record.counted) return counting_noise(record, path, readings_of(record));
+  return std::max(misfit_along(record, path), min_noise);
+}
+
+bool is_explained(const TestRecord& record, const Eigen::VectorXd& path) {
+  const auto rms = [](const Eigen::ArrayXd& values) { return std::sqrt(values.square().mean()); };
+  const Eigen::ArrayXd left = residuals_along(record, path);
+  const Eigen::Index steps = left.size() - 1;
+  const double change = rms(left.tail(steps) - left.head(steps)) / std::numbers::sqrt2;
+  if (record.counted) {
+    constexpr double tolerated = 0.05;  // of a count: the accuracy of the rough fit
+    // Along a path with large errors, counting_noise() overestimates.
+    const double noise = std::min(counting_noise(record, path, readings_of(record)), change);
+    return rms((left.abs() - 0.5).max(0.0)) < tolerated + noise;
+  }
+  constexpr double arithmetic = 1e-3;
+  return rms(left) < 1.5 * change || rms(left) < arithmetic;
+}
 
 std::optional<std::size_t> find_glitch(const TestRecord& record, const Eigen::VectorXd& path) {
   const std::size_t samples = record.reading.size();
@@ -140,4 +176,4 @@ std::size_t largest_misfit_growth(const TestRecord& record, const Eigen::VectorX
   return static_cast<std::size_t>(sample);
 }
 
-}  // namespace zerocount::identification
+}  // namespace zerocount::record_fit

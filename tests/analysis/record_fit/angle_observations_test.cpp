@@ -1,5 +1,5 @@
 // What readings say of the angle: errors as claimed, whatever the encoder's phase, and without favour.
-#include "analysis/identification/angle_observations.hpp"
+#include "analysis/record_fit/angle_observations.hpp"
 
 #include <cmath>
 #include <random>
@@ -29,8 +29,8 @@ Eigen::VectorXd read(const Eigen::VectorXd& path, double noise, std::mt19937_64&
   return path.unaryExpr([&](double at) { return std::floor(at + noise * normal(random)); });
 }
 
-identification::TestRecord counted() {
-  identification::TestRecord record;
+record_fit::TestRecord counted() {
+  record_fit::TestRecord record;
   record.counted = true;
   return record;
 }
@@ -45,12 +45,12 @@ struct ErrorSums {
 ErrorSums errors_of(double most, double noise) {
   std::mt19937_64 random(31);
   ErrorSums sums;
-  std::vector<identification::AngleObservation> observations;
+  std::vector<record_fit::AngleObservation> observations;
   for (int round = 0; round < 300; ++round) {
     const Eigen::VectorXd path = wandering_path(1000, most, random);
-    identification::observe(counted(), path, read(path, noise, random), noise, observations);
-    for (const identification::AngleObservation& o : observations) {
-      const double error = (o.position - identification::mean_over(o, path).value()) / std::sqrt(o.variance);
+    record_fit::observe(counted(), path, read(path, noise, random), noise, observations);
+    for (const record_fit::AngleObservation& o : observations) {
+      const double error = (o.position - record_fit::mean_over(o, path).value()) / std::sqrt(o.variance);
       sums.count += 1.0;
       sums.mean += error;
       sums.variance += error * error;
@@ -73,15 +73,15 @@ TEST(AngleObservations, ErrorsHaveNoMeanAndTheVarianceClaimed) {
 
 TEST(AngleObservations, EdgesLieBetweenTheSamplesThatSawThemPassed) {
   std::mt19937_64 random(32);
-  std::vector<identification::AngleObservation> observations;
+  std::vector<record_fit::AngleObservation> observations;
   for (int round = 0; round < 100; ++round) {
     const Eigen::VectorXd path = wandering_path(500, 0.7, random);
     const Eigen::VectorXd readings = read(path, 0.0, random);
-    identification::observe(counted(), path, readings, 0.0, observations);
+    record_fit::observe(counted(), path, readings, 0.0, observations);
     std::size_t changes = 0;
     for (Eigen::Index k = 1; k < path.size(); ++k) changes += readings[k] != readings[k - 1] ? 1 : 0;
     EXPECT_EQ(observations.size(), changes);
-    for (const identification::AngleObservation& o : observations) {
+    for (const record_fit::AngleObservation& o : observations) {
       const auto k = static_cast<Eigen::Index>(o.first);
       EXPECT_EQ(o.last, o.first + 1);
       EXPECT_EQ(o.position, std::max(readings[k], readings[k + 1]));
@@ -95,9 +95,9 @@ TEST(AngleObservations, FastReadingsAllCount) {
   std::mt19937_64 random(33);
   Eigen::VectorXd path(50);
   for (Eigen::Index k = 0; k < path.size(); ++k) path[k] = 3.7 * static_cast<double>(k) + 0.1;
-  std::vector<identification::AngleObservation> observations;
+  std::vector<record_fit::AngleObservation> observations;
   const Eigen::VectorXd readings = read(path, 0.0, random);
-  identification::observe(counted(), path, readings, 0.0, observations);
+  record_fit::observe(counted(), path, readings, 0.0, observations);
   ASSERT_EQ(observations.size(), 50u);
   for (std::size_t k = 0; k < observations.size(); ++k) {
     EXPECT_EQ(observations[k].first, k);
@@ -118,9 +118,9 @@ TEST(AngleObservations, WithNoiseAveragesHaveTheVarianceClaimed) {
 }
 
 TEST(AngleObservations, ReadingsThatAreNoCountsStandForThemselves) {
-  std::vector<identification::AngleObservation> observations;
+  std::vector<record_fit::AngleObservation> observations;
   const Eigen::VectorXd readings = Eigen::VectorXd::LinSpaced(9, 0.3, 4.0);
-  identification::observe(identification::TestRecord{}, readings, readings, 0.2, observations);
+  record_fit::observe(record_fit::TestRecord{}, readings, readings, 0.2, observations);
   ASSERT_EQ(observations.size(), 9u);
   for (std::size_t k = 0; k < 9; ++k) {
     EXPECT_EQ(observations[k].position, readings[static_cast<Eigen::Index>(k)]);
@@ -132,7 +132,7 @@ TEST(CountingNoise, IsFoundFromNeighbours) {
   std::mt19937_64 random(34);
   for (const double noise : {0.03, 0.1, 0.3, 1.0, 3.0}) {
     const Eigen::VectorXd path = wandering_path(20000, 0.1, random);
-    EXPECT_NEAR(identification::counting_noise(counted(), path, read(path, noise, random)) / noise, 1.0,
+    EXPECT_NEAR(record_fit::counting_noise(counted(), path, read(path, noise, random)) / noise, 1.0,
                 noise < 0.1 ? 0.3 : 0.1)
         << noise;
   }
@@ -142,7 +142,7 @@ TEST(CountingNoise, IsNoneWhereThereIsNone) {
   std::mt19937_64 random(35);
   for (int round = 0; round < 200; ++round) {
     const Eigen::VectorXd path = wandering_path(5000, 0.15, random);
-    EXPECT_EQ(identification::counting_noise(counted(), path, read(path, 0.0, random)), 0.0);
+    EXPECT_EQ(record_fit::counting_noise(counted(), path, read(path, 0.0, random)), 0.0);
   }
 }
 
@@ -151,7 +151,7 @@ TEST(CountingNoise, IsNotWhatTheModelFailsToFollow) {
   const Eigen::VectorXd path = wandering_path(20000, 0.1, random);
   Eigen::VectorXd off = path;
   for (Eigen::Index k = 0; k < off.size(); ++k) off[k] += 5.0 * std::sin(1e-3 * static_cast<double>(k));
-  EXPECT_NEAR(identification::counting_noise(counted(), off, read(path, 0.1, random)), 0.1, 0.02);
+  EXPECT_NEAR(record_fit::counting_noise(counted(), off, read(path, 0.1, random)), 0.1, 0.02);
 }
 
 // A straight line bridges masked readings. Over a step it is far from the path, and so are its edges.
@@ -160,7 +160,7 @@ TEST(CountingNoise, IgnoresTheLinesInPlaceOfMaskedReadings) {
   for (int round = 0; round < 100; ++round) {
     Eigen::VectorXd path = wandering_path(2000, 0.15, random);
     path.tail(1000).array() += 300.0;
-    identification::TestRecord record = counted();
+    record_fit::TestRecord record = counted();
     record.excluded.assign(2000, false);
     Eigen::VectorXd readings = read(path, 0.0, random);
     const double height = readings[1060] - readings[979];
@@ -168,8 +168,8 @@ TEST(CountingNoise, IgnoresTheLinesInPlaceOfMaskedReadings) {
       record.excluded[static_cast<std::size_t>(k)] = true;
       readings[k] = std::round(readings[979] + height * static_cast<double>(k - 979) / 81.0);
     }
-    EXPECT_GT(identification::counting_noise(counted(), path, readings), 0.0);
-    EXPECT_EQ(identification::counting_noise(record, path, readings), 0.0);
+    EXPECT_GT(record_fit::counting_noise(counted(), path, readings), 0.0);
+    EXPECT_EQ(record_fit::counting_noise(record, path, readings), 0.0);
   }
 }
 

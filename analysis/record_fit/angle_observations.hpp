@@ -5,9 +5,9 @@
 
 #include <Eigen/Core>
 
-#include "analysis/identification/test_record.hpp"
+#include "analysis/record_fit/test_record.hpp"
 
-namespace zerocount::identification {
+namespace zerocount::record_fit {
 
 /// An observation of the rotor: its mean angle over the samples first … last is `position`, with the variance
 /// `variance`. Both refer to the record's unit and to an encoder with phase 0.
@@ -53,4 +53,4 @@ auto mean_over(const AngleObservation& observation, const Values& values) {
 /// deviations from `path` have little influence. Masked readings are not used.
 double counting_noise(const TestRecord& record, const Eigen::VectorXd& path, const Eigen::VectorXd& readings);
 
-}  // namespace zerocount::identification
+}  // namespace zerocount::record_fit

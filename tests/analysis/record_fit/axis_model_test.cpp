@@ -1,5 +1,5 @@
 // The model's path along a record: the same as core's Plant sample by sample, and its derivatives.
-#include "analysis/identification/record_motion.hpp"
+#include "analysis/record_fit/axis_model.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,11 +9,19 @@
 namespace zerocount::testing {
 namespace {
 
+Eigen::VectorXd contact_path(const identification::TestRecord& record,
+                             const identification::ContactParameters& contact, double offset = 0.0) {
+  constexpr double creep_torque = 0.1;
+  record_fit::Point point = identification::point_of(contact, creep_torque);
+  point[identification::time_offset] = offset;
+  return record_fit::modelled_path(record, identification::contact_model(creep_torque), point);
+}
+
 Eigen::VectorXd sample_by_sample(const identification::TestRecord& record,
                                  const identification::ContactParameters& contact) {
-  Eigen::VectorXd path(static_cast<Eigen::Index>(identification::sample_count(record)));
+  Eigen::VectorXd path(static_cast<Eigen::Index>(record_fit::sample_count(record)));
   plant::Plant plant(contact.plant, {contact.friction, {}}, record.start, {1e-11 * record.unit});
-  for (std::size_t k = 0; k < identification::sample_count(record); ++k) {
+  for (std::size_t k = 0; k < record_fit::sample_count(record); ++k) {
     path[static_cast<Eigen::Index>(k)] = plant.theta() / record.unit;
     plant.advance(record.torque[k], record.sample_time);
   }
@@ -30,8 +38,7 @@ TEST(RecordMotion, IsThePlantsWhateverTheHolds) {
     programmes.push_back(holds);
     for (const TorqueProgramme& programme : programmes) {
       const identification::TestRecord record = simulated_test(contact, programme, {}, random);
-      const Eigen::VectorXd off =
-          identification::angle_path(record, contact) - sample_by_sample(record, contact);
+      const Eigen::VectorXd off = contact_path(record, contact) - sample_by_sample(record, contact);
       EXPECT_LT(off.cwiseAbs().maxCoeff(), 1e-2) << round;
     }
   }
@@ -57,7 +64,7 @@ TEST(RecordMotion, OfUnevenSamplesIsThatAtTheirInstants) {
   fine.reading.assign(fine.torque.size(), 0.0);
   const Eigen::VectorXd judge = sample_by_sample(fine, contact);
   for (const int late : {0, 3, 14, -4}) {  // steps of the grid; the test begins at rest
-    const Eigen::VectorXd path = identification::angle_path(uneven, contact, 0.1 * late);
+    const Eigen::VectorXd path = contact_path(uneven, contact, 0.1 * late);
     for (std::size_t k = 0; k < instants.size(); ++k) {
       const Eigen::Index at = std::clamp<Eigen::Index>(instants[k] - late, 0, judge.size() - 1);
       ASSERT_NEAR(path[static_cast<Eigen::Index>(k)], judge[at], 1e-4) << k << " " << late;
@@ -69,7 +76,7 @@ TEST(RecordMotion, OfUnevenSamplesIsThatAtTheirInstants) {
 /// are split off every interval.
 Eigen::VectorXd with_late_torque(const identification::TestRecord& record,
                                  const identification::ContactParameters& contact, double delay) {
-  Eigen::VectorXd path(static_cast<Eigen::Index>(identification::sample_count(record)));
+  Eigen::VectorXd path(static_cast<Eigen::Index>(record_fit::sample_count(record)));
   plant::Plant plant(contact.plant, {contact.friction, {}}, record.start, {1e-11 * record.unit});
   const auto last = static_cast<double>(record.torque.size() - 1);
   const auto torque_at = [&](double sample) {
@@ -77,7 +84,7 @@ Eigen::VectorXd with_late_torque(const identification::TestRecord& record,
                         : record.torque[static_cast<std::size_t>(std::min(sample, last))];
   };
   const double before = (delay - std::floor(delay)) * record.sample_time;
-  for (std::size_t k = 0; k < identification::sample_count(record); ++k) {
+  for (std::size_t k = 0; k < record_fit::sample_count(record); ++k) {
     path[static_cast<Eigen::Index>(k)] = plant.theta() / record.unit;
     const double newest = static_cast<double>(k) - std::floor(delay);
     if (before > 0.0) plant.advance(torque_at(newest - 1.0), before);
@@ -97,7 +104,7 @@ TEST(RecordMotion, ALateOrEarlyTorqueIsASplitInterval) {
     identification::TestRecord record = simulated_test(contact, test, {}, random);
     const Eigen::VectorXd expected = with_late_torque(record, contact, delay);
     const auto off = [&](double offset) {
-      return (identification::angle_path(record, contact, offset) - expected).cwiseAbs().maxCoeff();
+      return (contact_path(record, contact, offset) - expected).cwiseAbs().maxCoeff();
     };
     EXPECT_LT(off(delay), 1e-2) << delay;
     EXPECT_GT(off(delay + 0.05), 0.1) << delay;
@@ -113,7 +120,7 @@ TEST(RecordMotion, BeginsWithTheContactAsItIsSaidToBe) {
   identification::TestRecord record = simulated_test(contact, three_tests()[2], {}, random);
   record.start.preload = 0.2;
   record.start.hardening = 3e-4;
-  const Eigen::VectorXd path = identification::angle_path(record, contact);
+  const Eigen::VectorXd path = contact_path(record, contact);
   EXPECT_LT((path - sample_by_sample(record, contact)).cwiseAbs().maxCoeff(), 1e-2);
   record.start = {};
   EXPECT_GT((path - sample_by_sample(record, contact)).cwiseAbs().maxCoeff(), 10.0);
@@ -123,14 +130,14 @@ TEST(RecordMotion, DerivativesAreThoseOfThePath) {
   std::mt19937_64 random(23);
   const identification::ContactParameters contact = random_contact(random);
   constexpr double creep_torque = 0.1;
-  const identification::ContactPoint point = identification::point_of(contact, creep_torque);
+  const record_fit::Point point = identification::point_of(contact, creep_torque);
+  const record_fit::AxisModel model = identification::contact_model(creep_torque);
   for (const TorqueProgramme& programme : three_tests()) {
     const identification::TestRecord record = simulated_test(contact, programme, {}, random);
-    identification::FreeCoordinates free;
-    free.fill(true);
+    record_fit::FreeCoordinates free(identification::coordinate_count, true);
     free[identification::log_beta] = false;
-    const identification::RecordMotion motion =
-        identification::motion_with_sensitivity(record, point, creep_torque, free);
+    const record_fit::RecordMotion motion =
+        record_fit::modelled_motions({&record, 1}, model, point, free).front();
     for (std::size_t j = 0; j < identification::coordinate_count; ++j) {
       const auto column = motion.sensitivity.col(static_cast<Eigen::Index>(j));
       if (!free[j]) {
@@ -138,13 +145,13 @@ TEST(RecordMotion, DerivativesAreThoseOfThePath) {
         continue;
       }
       // Central differences over a hundred times the step.
-      identification::ContactPoint up = point;
-      identification::ContactPoint down = point;
-      up[j] += 1e-4;
-      down[j] -= 1e-4;
-      const Eigen::VectorXd expected = (identification::angle_path(record, up, creep_torque) -
-                                        identification::angle_path(record, down, creep_torque)) /
-                                       2e-4;
+      record_fit::Point up = point;
+      record_fit::Point down = point;
+      up[static_cast<Eigen::Index>(j)] += 1e-4;
+      down[static_cast<Eigen::Index>(j)] -= 1e-4;
+      const Eigen::VectorXd expected =
+          (record_fit::modelled_path(record, model, up) - record_fit::modelled_path(record, model, down)) /
+          2e-4;
       const double scale = std::max(1.0, expected.cwiseAbs().maxCoeff());
       EXPECT_LT((column - expected).norm(), 1e-2 * expected.norm() + 1e-3)
           << identification::coordinate_keys[j] << scale;

@@ -6,11 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "analysis/identification/contact_fit.hpp"
-#include "analysis/identification/reading_replicates.hpp"
-#include "analysis/identification/test_record.hpp"
+#include "analysis/record_fit/reading_replicates.hpp"
+#include "analysis/record_fit/test_record.hpp"
 
-namespace zerocount::identification {
+namespace zerocount::record_fit {
 
 /// Tests whether quantisation and noise explain the residuals. Each statistic is compared with its
 /// distribution in the replicates (see ReadingReplicates).
@@ -39,6 +38,21 @@ ResidualChecks check_residuals(const ResidualStatistics& residuals,
 /// passed.
 std::string reason_of_misfit(const ResidualChecks& checks);
 
+/// Measured − modelled angle, for counts that of the middle of the count; 0 where readings are masked.
+Eigen::VectorXd residuals_along(const TestRecord& record, const Eigen::VectorXd& path);
+
+/// Root mean square of the residuals of the readings that are not masked, in the record's unit. Quantisation
+/// alone gives 0.29.
+double misfit_along(const TestRecord& record, const Eigen::VectorXd& path);
+
+/// Noise of the readings in the record's unit, 0 for counts without noise: of counts by counting_noise(), of
+/// others the misfit.
+double noise_along(const TestRecord& record, const Eigen::VectorXd& path);
+
+/// True if quantisation and noise explain the residuals roughly. For counts the test is the distance of the
+/// path from the counts, for other readings the autocorrelation of the residuals.
+bool is_explained(const TestRecord& record, const Eigen::VectorXd& path);
+
 /// A sample whose reading is an outlier: its residual is above 12 standard deviations of all (for counts,
 /// 1.5 counts beyond rounding and 6 standard deviations of their noise), and the readings a few samples
 /// away are not. Masked readings are none. Nothing if there is none.
@@ -47,18 +61,4 @@ std::optional<std::size_t> find_glitch(const TestRecord& record, const Eigen::Ve
 /// The sample at which the residuals change most over 20 samples.
 std::size_t largest_misfit_growth(const TestRecord& record, const Eigen::VectorXd& path);
 
-// Checks of the records after a fit. Each throws Failure (bad_data) with the record, the place in it and
-// the reason.
-
-/// Refuses records with a single outlier (see find_glitch()).
-void refuse_glitches(std::span<const TestRecord> records, const FitPoint& point, const FitSetting& setting);
-
-/// Refuses residuals whose root mean square exceeds 2 % of a record's travel and 2 counts.
-/// @param tolerance factor on these limits
-void refuse_unexplained(std::span<const TestRecord> records, const ContactFit& fit, double tolerance);
-
-/// Refuses a spread of the residuals of more than 30 times that of the simulated replicates.
-void refuse_gross_misfit(std::span<const TestRecord> records, const ContactFit& fit,
-                         const ResidualChecks& checks);
-
-}  // namespace zerocount::identification
+}  // namespace zerocount::record_fit

@@ -1,0 +1,162 @@
+#include "analysis/record_fit/axis_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include "analysis/record_fit/record_path.hpp"
+#include "core/friction/law.hpp"
+#include "core/plant/plant.hpp"
+
+namespace zerocount::record_fit {
+namespace {
+
+using friction::FrictionModel;
+
+/// Truncation error allowed per step of a motion, and the amplitude of an oscillation at rest, in units of
+/// the readings.
+constexpr double motion_tolerance = 1e-9;
+constexpr double rest_tolerance = 1e-8;
+
+/// Step of the finite differences with respect to coordinates: small enough for a smooth path, far above the
+/// error of the integration.
+constexpr double difference_step = 1e-6;
+
+/// Stiffness of the contact after a reversal, N m/rad.
+double largest_stiffness(const friction::FrictionAlongRotor& friction) {
+  const friction::FrictionParameters& contact = friction.uniform;
+  switch (friction.model) {
+    case FrictionModel::presliding:
+    case FrictionModel::spring:
+      return contact.k1 + contact.k2;
+    case FrictionModel::dahl:
+    case FrictionModel::lugre:
+      return contact.sigma0;
+    case FrictionModel::gms:
+      return std::accumulate(
+          friction.gms_elements.begin(), friction.gms_elements.end(), 0.0,
+          [](double sum, const friction::GmsElement& element) { return sum + element.stiffness; });
+    case FrictionModel::coulomb:
+    case FrictionModel::none:
+      break;
+  }
+  return 0.0;
+}
+
+/// Damping before it slides, N m s/rad.
+double presliding_damping(const AxisParameters& parameters) {
+  const friction::LawTraits& law = friction::traits_of(parameters.friction.model);
+  double damping = law.has_presliding_damping ? parameters.plant.presliding_damping : 0.0;
+  if (law.has_sliding_damping && !law.has_presliding_damping) damping += parameters.plant.sliding_damping;
+  if (parameters.friction.model == FrictionModel::lugre) damping += parameters.friction.uniform.sigma1;
+  return damping;
+}
+
+/// Decay rate (1/s) of the slowest oscillation about a point of the spring.
+double decay_rate(const AxisParameters& axis) {
+  const double damping = axis.plant.presliding_damping;
+  const double inertia = axis.plant.inertia;
+  const double stiffness = axis.friction.uniform.k1;
+  const double discriminant = damping * damping - 4.0 * inertia * stiffness;
+  if (discriminant <= 0.0) return damping / (2.0 * inertia);
+  return 2.0 * stiffness / (damping + std::sqrt(discriminant));
+}
+
+/// The steps in which creep alone moves the axis.
+LongSteps long_steps(const AxisParameters& axis) {
+  if (axis.friction.model != FrictionModel::presliding) return {};
+  constexpr double settled = 40.0;     // exp(−40) of an oscillation is below rounding
+  constexpr double creep_step = 0.03;  // of the time constant of creep
+  return {settled / decay_rate(axis), creep_step / axis.friction.uniform.alpha};
+}
+
+/// Adds compliance (in units of the readings/(N m)) times the torque that acted until each reading.
+void add_twist(const TestRecord& record, double compliance, double offset, Eigen::VectorXd& path) {
+  const double delay = record.delay_fraction + offset;
+  const auto last = static_cast<double>(record.torque.size() - 1);
+  for (Eigen::Index k = 0; k < path.size(); ++k) {
+    const double interval = std::ceil(static_cast<double>(k) - delay) - 1.0;
+    if (interval < 0.0) continue;  // the torque is 0 before the first sample
+    const motion::TorqueCourse& torque = record.torque[static_cast<std::size_t>(std::min(interval, last))];
+    path[k] += compliance * motion::course_after(torque, record.sample_time).now;
+  }
+}
+
+SampledPath path_at(const TestRecord& record, const AxisModel& model, const Point& point) {
+  const AxisParameters axis = model.parameters_at(point);
+  plant::Plant plant(axis.plant, axis.friction, record.start,
+                     {motion_tolerance * record.unit, rest_tolerance * record.unit});
+  const double offset = point[point.size() - 1];
+  SampledPath path = sampled_path(record, std::move(plant), offset, long_steps(axis));
+  if (model.series_compliance) {
+    add_twist(record, model.series_compliance(point) / record.unit, offset, path.angle);
+  }
+  return path;
+}
+
+}  // namespace
+
+double fastest_rate(const AxisParameters& parameters) {
+  return std::max(std::sqrt(largest_stiffness(parameters.friction) / parameters.plant.inertia),
+                  presliding_damping(parameters) / parameters.plant.inertia);
+}
+
+Eigen::VectorXd modelled_path(const TestRecord& record, const AxisModel& model, const Point& point) {
+  return path_at(record, model, point).angle;
+}
+
+std::vector<RecordMotion> modelled_motions(Records records, const AxisModel& model, const Point& point,
+                                           const FreeCoordinates& free) {
+  const Eigen::Index offset = dimension_of(model) - 1;
+  std::vector<Eigen::Index> columns{offset};  // that of the time offset comes with the path itself
+  for (Eigen::Index j = 0; j < offset; ++j) {
+    if (free[static_cast<std::size_t>(j)]) columns.push_back(j);
+  }
+  std::vector<RecordMotion> motions(records.size());
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    motions[r].sensitivity.setZero(static_cast<Eigen::Index>(sample_count(records[r])), dimension_of(model));
+  }
+  oneapi::tbb::parallel_for(std::size_t{0}, records.size() * columns.size(), [&](std::size_t i) {
+    const std::size_t r = i % records.size();
+    const Eigen::Index j = columns[i / records.size()];
+    if (j == offset) {
+      SampledPath path = path_at(records[r], model, point);
+      if (free.back()) motions[r].sensitivity.col(j) = -path.velocity;
+      motions[r].path = std::move(path.angle);
+      return;
+    }
+    Point moved = point;
+    moved[j] += difference_step;
+    motions[r].sensitivity.col(j) = modelled_path(records[r], model, moved);
+  });
+  for (RecordMotion& motion : motions) {
+    for (const Eigen::Index j : columns) {
+      if (j == offset) continue;
+      const double step = (point[j] + difference_step) - point[j];
+      motion.sensitivity.col(j) = (motion.sensitivity.col(j) - motion.path) / step;
+    }
+  }
+  return motions;
+}
+
+bool is_sampled(Records records, const AxisModel& model, const Point& point, double max_rate) {
+  const double rate = fastest_rate(model.parameters_at(point));
+  return std::all_of(records.begin(), records.end(),
+                     [&](const TestRecord& record) { return rate * record.sample_time <= max_rate; });
+}
+
+bool is_within_reach(Records records, const AxisModel& model, const Point& prior, const Point& point) {
+  for (std::size_t j = 0; j < model.coordinates.size(); ++j) {
+    const CoordinateRange& range = model.coordinates[j];
+    const double value = point[static_cast<Eigen::Index>(j)];
+    const double increase = value - prior[static_cast<Eigen::Index>(j)];
+    if (!(increase <= range.max_increase && increase >= -range.max_decrease)) return false;
+    if (!(value <= range.high && value >= range.low)) return false;
+  }
+  if (is_sampled(records, model, point)) return true;
+  return fastest_rate(model.parameters_at(point)) <= 2.0 * fastest_rate(model.parameters_at(prior));
+}
+
+}  // namespace zerocount::record_fit

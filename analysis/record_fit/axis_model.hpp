@@ -1,0 +1,87 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "analysis/record_fit/test_record.hpp"
+#include "core/friction/friction_model.hpp"
+#include "core/friction/parameters.hpp"
+#include "core/motion/parameters.hpp"
+
+namespace zerocount::record_fit {
+
+using Records = std::span<const TestRecord>;
+
+/// Coordinates of a model: mostly logarithms of its parameters, and last the time offset, the samples by
+/// which the torque acts later than recorded; common to all records.
+using Point = Eigen::VectorXd;
+
+/// Coordinates that a fit changes; the others keep their values.
+using FreeCoordinates = std::vector<bool>;
+
+/// Largest |time offset| (samples) that a fit may find.
+inline constexpr double max_time_offset = 2.0;
+
+/// An axis with its friction.
+struct AxisParameters {
+  motion::PlantParameters plant;
+  friction::FrictionAlongRotor friction;
+};
+
+/// The values of a coordinate that a fit may try.
+struct CoordinateRange {
+  double max_decrease{std::numeric_limits<double>::infinity()};  ///< from the mean of its prior
+  double max_increase{std::numeric_limits<double>::infinity()};
+  double low{-std::numeric_limits<double>::infinity()};
+  double high{std::numeric_limits<double>::infinity()};
+};
+
+/// What a friction law gives to a fit. Its motion is that of core's Plant.
+struct AxisModel {
+  std::vector<CoordinateRange> coordinates;  ///< with that of the time offset, the last one
+  std::function<AxisParameters(const Point&)> parameters_at;
+  /// Compliance of a fixture in series with the contact, rad/(N m); empty: none.
+  std::function<double(const Point&)> series_compliance{};
+};
+
+inline Eigen::Index dimension_of(const AxisModel& model) {
+  return static_cast<Eigen::Index>(model.coordinates.size());
+}
+
+/// The range of the time offset.
+inline CoordinateRange time_offset_range() {
+  return {.low = -max_time_offset, .high = max_time_offset};
+}
+
+/// Fastest rate of the axis before it slides, of its oscillation or its damping, 1/s. It limits the steps of
+/// a simulation.
+double fastest_rate(const AxisParameters& parameters);
+
+/// Modelled motion of a record.
+struct RecordMotion {
+  Eigen::VectorXd path;         ///< [sample] angle since the first sample, in the record's unit
+  Eigen::MatrixXd sensitivity;  ///< [sample, coordinate] its derivatives; 0 for coordinates that are not free
+};
+
+/// The path of a record, simulated to 0.01 of the record's unit. When only creep moves the rotor in a long
+/// hold of an evenly sampled record, the steps are longer and the samples are interpolated by cubics.
+Eigen::VectorXd modelled_path(const TestRecord& record, const AxisModel& model, const Point& point);
+
+/// The motions of all records, with derivatives by forward differences, that with respect to the time offset
+/// from the velocity. Simulated in parallel.
+std::vector<RecordMotion> modelled_motions(Records records, const AxisModel& model, const Point& point,
+                                           const FreeCoordinates& free);
+
+/// True if a fit whose prior has the mean `prior` may try the point: all coordinates within their ranges, and
+/// the motion at most 20 times as fast as the sampling, or twice as fast as that of the prior.
+bool is_within_reach(Records records, const AxisModel& model, const Point& prior, const Point& point);
+
+/// True if the motion is at most `max_rate` times as fast as the sampling of every record. A faster one takes
+/// long to simulate, and cannot be told from the records.
+bool is_sampled(Records records, const AxisModel& model, const Point& point, double max_rate = 20.0);
+
+}  // namespace zerocount::record_fit

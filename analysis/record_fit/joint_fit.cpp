@@ -1,0 +1,198 @@
+#include "analysis/record_fit/joint_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <ceres/cost_function.h>
+#include <ceres/manifold.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+#include <glog/logging.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "analysis/record_fit/residual_checks.hpp"
+
+namespace zerocount::record_fit {
+namespace {
+
+/// Variance of a reading in a fit to all of them: that of the rounding to counts.
+constexpr double count_variance = 1.0 / 12.0;
+
+/// The finite ones, by their sums of squares, at most `most`.
+std::vector<FitResult> by_squares(std::vector<FitResult> fits, std::size_t most) {
+  std::erase_if(fits, [](const FitResult& fit) { return !std::isfinite(fit.squares); });
+  std::stable_sort(fits.begin(), fits.end(),
+                   [](const FitResult& one, const FitResult& other) { return one.squares < other.squares; });
+  if (fits.size() > most) fits.resize(most);
+  return fits;
+}
+
+/// Turns off the log that Ceres writes to standard error through glog; its summary has the same information.
+/// Fatal errors are still printed.
+void quieten_log() {
+  [[maybe_unused]] static const bool quiet = [] {
+    FLAGS_minloglevel = google::GLOG_FATAL;
+    return true;
+  }();
+}
+
+/// Ceres cost function: the residuals of all records and of the prior. Parameter blocks: the contact's
+/// coordinates and the offsets.
+class JointResiduals : public ceres::CostFunction {
+ public:
+  JointResiduals(Records records, const Observations& observations, const FitSetting& setting)
+      : records_(records), observations_(observations), setting_(setting) {
+    std::size_t residuals = setting.model.coordinates.size();
+    for (const std::vector<AngleObservation>& of_record : observations) residuals += of_record.size();
+    set_num_residuals(static_cast<int>(residuals));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(setting.model.coordinates.size()));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(records.size()));
+  }
+
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    using Rows = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+    const Eigen::Index dimension = dimension_of(setting_.model);
+    const Point axis = Eigen::Map<const Point>(parameters[0], dimension);
+    if (!is_within_reach(records_, setting_.model, setting_.prior, axis)) return false;
+    const auto block = [&](std::size_t number, Eigen::Index columns) {
+      double* const rows = jacobians != nullptr ? jacobians[number] : nullptr;
+      Rows map(rows, rows != nullptr ? num_residuals() : 0, columns);
+      map.setZero();
+      return map;
+    };
+    Rows by_axis = block(0, dimension);
+    Rows by_offset = block(1, static_cast<Eigen::Index>(records_.size()));
+    const FreeCoordinates none(setting_.free.size(), false);
+    const std::vector<RecordMotion> motions =
+        modelled_motions(records_, setting_.model, axis, by_axis.rows() > 0 ? setting_.free : none);
+    Eigen::Index row = 0;
+    for (std::size_t r = 0; r < records_.size(); ++r) {
+      const RecordMotion& motion = motions[r];
+      if (!motion.path.allFinite() || !motion.sensitivity.allFinite()) return false;
+      for (const AngleObservation& observation : observations_[r]) {
+        const double scale = 1.0 / std::sqrt(observation.variance);
+        residuals[row] =
+            scale * (mean_over(observation, motion.path).value() + parameters[1][r] - observation.position);
+        if (by_axis.rows() > 0) by_axis.row(row) = scale * mean_over(observation, motion.sensitivity);
+        if (by_offset.rows() > 0) by_offset(row, static_cast<Eigen::Index>(r)) = scale;
+        ++row;
+      }
+    }
+    for (Eigen::Index j = 0; j < dimension; ++j, ++row) {  // the prior
+      const double scale = setting_.free[static_cast<std::size_t>(j)] ? 1.0 / setting_.prior_spread : 0.0;
+      residuals[row] = scale * (axis[j] - setting_.prior[j]);
+      if (by_axis.rows() > 0) by_axis(row, j) = scale;
+    }
+    return true;
+  }
+
+ private:
+  Records records_;
+  const Observations& observations_;
+  const FitSetting& setting_;
+};
+
+void keep_fixed(ceres::Problem& problem, double* axis, const FreeCoordinates& free) {
+  std::vector<int> fixed;
+  for (std::size_t j = 0; j < free.size(); ++j) {
+    if (!free[j]) fixed.push_back(static_cast<int>(j));
+  }
+  if (fixed.size() == free.size()) {
+    problem.SetParameterBlockConstant(axis);
+  } else if (!fixed.empty()) {
+    problem.SetManifold(axis, new ceres::SubsetManifold(static_cast<int>(free.size()), fixed));
+  }
+}
+
+}  // namespace
+
+Observations all_readings(Records records) {
+  Observations observations;
+  for (const TestRecord& record : records) {
+    std::vector<AngleObservation>& of_record = observations.emplace_back();
+    for (std::size_t k = 0; k < sample_count(record); ++k) {
+      if (is_excluded(record, k)) continue;
+      of_record.push_back({k, k, record.reading[k] + middle_of_reading(record), count_variance});
+    }
+  }
+  return observations;
+}
+
+FitResult fit_jointly(Records records, const Observations& observations, const FitPoint& start,
+                      const FitSetting& setting) {
+  quieten_log();
+  FitPoint point = start;
+  ceres::Problem problem;
+  problem.AddResidualBlock(new JointResiduals(records, observations, setting), nullptr, point.axis.data(),
+                           point.offset.data());
+  keep_fixed(problem, point.axis.data(), setting.free);
+  ceres::Solver::Options options;
+  options.logging_type = ceres::SILENT;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.max_num_iterations = setting.max_steps;
+  options.function_tolerance = setting.tolerance;
+  options.parameter_tolerance = 1e-9;
+  options.max_num_consecutive_invalid_steps = setting.max_steps;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  if (!summary.IsSolutionUsable()) return {start, std::numeric_limits<double>::infinity(), false};
+  return {point, 2.0 * summary.final_cost,  // Ceres' cost is half the sum
+          summary.termination_type == ceres::CONVERGENCE};
+}
+
+FitResult fit_from(Records records, const Observations& observations, const FitPoint& start,
+                   FitSetting setting) {
+  setting.prior = start.axis;
+  return fit_jointly(records, observations, start, setting);
+}
+
+std::vector<FitResult> fits_from(Records records, const Observations& observations,
+                                 std::vector<FitResult> starts, const FitSetting& setting) {
+  oneapi::tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
+    starts[i] = fit_from(records, observations, starts[i].point, setting);
+  });
+  const std::size_t all = starts.size();
+  return by_squares(std::move(starts), all);
+}
+
+FitResult with_mean_offsets(Records records, const AxisModel& model, const Point& point) {
+  FitResult result{{point, Eigen::VectorXd(static_cast<Eigen::Index>(records.size()))}, 0.0};
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const TestRecord& record = records[r];
+    result.point.offset[static_cast<Eigen::Index>(r)] = record.reading.front() + middle_of_reading(record);
+  }
+  result.squares = std::numeric_limits<double>::infinity();
+  if (!is_sampled(records, model, point)) return result;
+  double squares = 0.0;
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const Eigen::VectorXd left = residuals_along(records[r], modelled_path(records[r], model, point));
+    const auto used = static_cast<double>(used_samples(records[r]));
+    const double mean = left.sum() / used;
+    if (!std::isfinite(mean)) return result;
+    result.point.offset[static_cast<Eigen::Index>(r)] = mean;
+    squares += (left.squaredNorm() - used * mean * mean) / count_variance;
+  }
+  result.squares = squares;
+  return result;
+}
+
+std::vector<FitResult> promising_fits(Records records, const Observations& observations,
+                                      const std::vector<Point>& starts, FitSetting setting) {
+  constexpr std::size_t tried = 6;
+  constexpr std::size_t continued = 3;
+  constexpr double hopeless = 4.0;
+  std::vector<FitResult> fits(starts.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
+    fits[i] = with_mean_offsets(records, setting.model, starts[i]);
+  });
+  fits = by_squares(std::move(fits), tried);
+  setting.max_steps = 12;
+  fits = by_squares(fits_from(records, observations, std::move(fits), setting), continued);
+  if (fits.empty()) return fits;
+  const double least = fits.front().squares;
+  std::erase_if(fits, [&](const FitResult& fit) { return fit.squares > hopeless * least; });
+  return fits;
+}
+
+}  // namespace zerocount::record_fit

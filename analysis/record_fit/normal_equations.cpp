@@ -1,0 +1,81 @@
+#include <cmath>
+
+#include "analysis/record_fit/joint_fit.hpp"
+#include "core/numerics/dense.hpp"
+
+namespace zerocount::record_fit {
+
+FittedModel model_at(Records records, const FitPoint& point, const FitSetting& setting) {
+  FittedModel model{point, modelled_motions(records, setting.model, point.axis, setting.free)};
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    model.motions[r].path.array() += point.offset[static_cast<Eigen::Index>(r)];
+  }
+  return model;
+}
+
+bool is_finite(const RecordMotion& motion) {
+  return motion.path.allFinite() && motion.sensitivity.allFinite();
+}
+
+NormalEquations normal_equations(const FittedModel& model, const Observations& observations,
+                                 const FitSetting& setting) {
+  NormalEquationsSum sum(observations.size(), setting);
+  for (std::size_t r = 0; r < observations.size(); ++r)
+    sum.add(r, observations[r], model.motions[r].path, model.motions[r].sensitivity);
+  return sum.with_prior(model.point.axis);
+}
+
+Eigen::MatrixXd textbook_covariance(const FittedModel& model, const Observations& observations,
+                                    const FitSetting& setting) {
+  return numerics::inverse_of_positive_definite(normal_equations(model, observations, setting).matrix);
+}
+
+NormalEquationsSum::NormalEquationsSum(std::size_t records, const FitSetting& setting) : setting_(setting) {
+  const Eigen::Index size = dimension_of(setting.model) + static_cast<Eigen::Index>(records);
+  sum_.matrix.setZero(size, size);
+  sum_.gradient.setZero(size);
+}
+
+void NormalEquationsSum::add(std::size_t record, const std::vector<AngleObservation>& observations,
+                             const Eigen::VectorXd& path, const Eigen::MatrixXd& sensitivity) {
+  const Eigen::Index dimension = dimension_of(setting_.model);
+  // A row for each observation: its slopes, 1 for the offset, and the residual, over its standard deviation.
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(observations.size()), dimension + 2);
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    const AngleObservation& observation = observations[i];
+    auto row = rows.row(static_cast<Eigen::Index>(i));
+    row.head(dimension) = mean_over(observation, sensitivity);
+    row[dimension] = 1.0;
+    row[dimension + 1] = observation.position - mean_over(observation, path).value();
+    row /= std::sqrt(observation.variance);
+  }
+  const Eigen::MatrixXd products = numerics::transposed_product(rows, rows);
+  const Eigen::Index offset = dimension + static_cast<Eigen::Index>(record);
+  sum_.observations += observations.size();
+  sum_.squares += products(dimension + 1, dimension + 1);
+  sum_.matrix.topLeftCorner(dimension, dimension) += products.topLeftCorner(dimension, dimension);
+  sum_.matrix.block(0, offset, dimension, 1) += products.block(0, dimension, dimension, 1);
+  sum_.matrix.block(offset, 0, 1, dimension) += products.block(dimension, 0, 1, dimension);
+  sum_.matrix(offset, offset) += products(dimension, dimension);
+  sum_.gradient.head(dimension) += products.block(0, dimension + 1, dimension, 1);
+  sum_.gradient[offset] += products(dimension, dimension + 1);
+}
+
+NormalEquations NormalEquationsSum::with_prior(const Point& at) const {
+  NormalEquations equations = sum_;
+  const double weight = 1.0 / (setting_.prior_spread * setting_.prior_spread);
+  for (Eigen::Index j = 0; j < dimension_of(setting_.model); ++j) {
+    if (setting_.free[static_cast<std::size_t>(j)]) {
+      equations.matrix(j, j) += weight;
+      equations.gradient[j] += weight * (setting_.prior[j] - at[j]);
+    } else {
+      equations.matrix.row(j).setZero();
+      equations.matrix.col(j).setZero();
+      equations.matrix(j, j) = 1.0;
+      equations.gradient[j] = 0.0;
+    }
+  }
+  return equations;
+}
+
+}  // namespace zerocount::record_fit

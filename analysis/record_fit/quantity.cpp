@@ -1,0 +1,62 @@
+#include "analysis/record_fit/quantity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace zerocount::record_fit {
+namespace {
+
+/// Quantile of the errors, interpolated between order statistics.
+double quantile_of(std::vector<double>& errors, double probability) {
+  std::sort(errors.begin(), errors.end());
+  const double rank = probability * static_cast<double>(errors.size() + 1) - 1.0;
+  const auto below = static_cast<std::size_t>(std::clamp(rank, 0.0, static_cast<double>(errors.size() - 2)));
+  const double between = std::clamp(rank - static_cast<double>(below), 0.0, 1.0);
+  return errors[below] + between * (errors[below + 1] - errors[below]);
+}
+
+}  // namespace
+
+Quantity coordinate_quantity(const std::string& name, const std::string& key, const std::string& unit,
+                             const Point& point, Eigen::Index coordinate) {
+  Quantity quantity{name, key, unit, point[coordinate], Eigen::VectorXd::Zero(point.size()), true};
+  quantity.slope[coordinate] = 1.0;
+  return quantity;
+}
+
+Quantity time_offset_quantity(const Point& point) {
+  Quantity quantity = coordinate_quantity("time_offset", "", "samples", point, point.size() - 1);
+  quantity.logarithmic = false;
+  return quantity;
+}
+
+QuantityEstimate interval_of_errors(const Quantity& quantity, const Eigen::MatrixXd& errors,
+                                    double widening) {
+  const Eigen::VectorXd own = errors.leftCols(quantity.slope.size()) * quantity.slope;
+  const double mean = own.mean();
+  const Eigen::VectorXd wide = (mean + widening * (own.array() - mean)).matrix();
+  std::vector<double> sorted(wide.data(), wide.data() + wide.size());
+  QuantityEstimate estimate;
+  estimate.value = quantity.value - mean;
+  estimate.standard_error =
+      std::sqrt((wide.array() - mean).square().sum() / static_cast<double>(wide.size() - 1));
+  estimate.low = quantity.value - quantile_of(sorted, 0.975);
+  estimate.high = quantity.value - quantile_of(sorted, 0.025);
+  return estimate;
+}
+
+QuantityEstimate on_parameter_scale(const Quantity& quantity, QuantityEstimate estimate) {
+  if (quantity.logarithmic) {
+    const double value = std::exp(estimate.value);
+    return {value, value * estimate.standard_error, std::exp(estimate.low), std::exp(estimate.high)};
+  }
+  if (quantity.key != "friction.n") return estimate;
+  constexpr double least_exponent = 1.0;
+  for (double* number : {&estimate.value, &estimate.low, &estimate.high}) {
+    *number = std::max(*number, least_exponent);
+  }
+  return estimate;
+}
+
+}  // namespace zerocount::record_fit

@@ -15,6 +15,10 @@
 namespace zerocount::identification {
 namespace {
 
+/// Largest rate of a rotor beside the sampling at which the fits of slow parts start: what is faster shows as
+/// little of itself, and takes longer to simulate.
+constexpr double max_slow_rate = 4.0;
+
 constexpr int max_rounds = 6;
 
 /// The rounds end when the fit changes by less than this many (textbook) standard deviations.
@@ -24,13 +28,6 @@ constexpr double small_change = 0.05;
 double coordinate_value(Coordinate coordinate, double value) {
   if (coordinate == creep_exponent || coordinate == time_offset) return value;
   return coordinate == log_limit ? -std::log(value) : std::log(value);
-}
-
-/// True if the records have slow branches and no ring-downs.
-bool are_slow_alone(Records records) {
-  return has_slow_branches(records) &&
-         std::none_of(records.begin(), records.end(),
-                      [](const TestRecord& record) { return record.parts.ring_downs() > 0; });
 }
 
 FitSetting setting_for(Records records, const std::vector<KnownParameter>& known, double creep_torque) {
@@ -135,6 +132,31 @@ FitResult with_time_offset(Records records, const Observations& observations, co
   return found.squares < from.squares ? found : from;
 }
 
+/// The fit from the best inertia and damping beside the spring of `first`. What slow parts show of them may
+/// be less than the rounding of the readings, so that the starting point has missed them.
+FitResult with_other_inertia(Records records, const Observations& observations, const FitResult& first,
+                             const FitSetting& setting) {
+  if (!setting.free[log_inertia] || !setting.free[log_damping]) return first;
+  FitSetting alone = setting;
+  alone.free.assign(coordinate_count, false);
+  alone.free[log_inertia] = alone.free[log_damping] = true;
+  std::vector<record_fit::Point> starts;
+  for (const double inertia : {0.1, 1.0, 10.0, 100.0, 1000.0}) {
+    for (const double damping : {0.3, 1.0, 3.0, 10.0, 30.0}) {
+      record_fit::Point& start = starts.emplace_back(first.point.axis);
+      start[log_inertia] += std::log(inertia);
+      start[log_damping] += std::log(damping);
+    }
+  }
+  std::erase_if(starts, [&](const record_fit::Point& start) {
+    return !is_sampled(records, setting.model, start, max_slow_rate);
+  });
+  const std::vector<FitResult> found = promising_fits(records, observations, starts, alone, {2, 8, 1});
+  if (found.empty()) return first;
+  const FitResult all = fit_from(records, observations, found.front().point, setting);
+  return all.squares < first.squares ? all : first;
+}
+
 /// The starting points with the coordinates that are not free as in the prior.
 std::vector<record_fit::Point> with_fixed(const std::vector<ContactPoint>& starts,
                                           const FitSetting& setting) {
@@ -163,6 +185,11 @@ FitPoint fit_roughly(Records records, const FitSetting& setting, double creep_to
   FitSetting closer = undelayed;
   closer.tolerance = rough.tolerance = setting.tolerance;
   closer.max_steps = 30;
+  if (are_slow_alone(records)) {
+    best = with_other_inertia(records, observations, best, undelayed);
+    refuse_glitches(records, best.point, setting);
+    if (are_explained(records, best.point, setting)) return best.point;
+  }
   std::vector alternatives{starts_with_other_softening};
   // Steps and long holds show the creep well enough; the holds of a closed loop may not.
   if (are_slow_alone(records)) alternatives.push_back(starts_with_other_creep);

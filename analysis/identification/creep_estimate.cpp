@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "analysis/identification/starting_point.hpp"
+#include "core/numerics/elementary_functions.hpp"
 
 namespace zerocount::identification {
 namespace {
@@ -69,7 +70,8 @@ Eigen::VectorXd creep_extension(const TestRecord& record, const CreepEstimate& c
     extension[static_cast<Eigen::Index>(k)] = extended;
     if (record.torque[k].now != torque) {
       torque = record.torque[k].now;
-      limit = creep.limit * std::pow(std::abs(torque) / creep_torque, creep.exponent);
+      const double ratio = std::abs(torque) / creep_torque;
+      limit = torque == 0.0 ? 0.0 : creep.limit * numerics::exp(creep.exponent * numerics::log(ratio));
     }
     if (limit <= hardening) continue;
     const double growth = (limit - hardening) * (1.0 - left);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include <ceres/dynamic_numeric_diff_cost_function.h>
@@ -17,7 +18,7 @@ namespace zerocount::identification {
 namespace {
 
 /// Samples of a record that are compared.
-constexpr std::size_t most_samples = 3000;
+constexpr std::size_t most_samples = 1500;
 
 /// Relative change of a coordinate for a difference quotient.
 constexpr double slope_step = 1e-6;
@@ -25,8 +26,9 @@ constexpr double slope_step = 1e-6;
 /// Softening travel (units of the readings) below which the readings cannot tell it.
 constexpr double least_travel = 0.3;
 
-/// Largest change of a coordinate from its start.
+/// Largest change of a coordinate from its start, and largest n.
 constexpr double max_change = 8.0;
+constexpr double max_exponent = 6.0;
 
 /// Slow parts of a record: the torques that matter in the order of time, and the angles that answer some.
 struct SlowParts {
@@ -75,26 +77,25 @@ SlowParts slow_parts_of(const TestRecord& record) {
 }
 
 /// Residuals (measured − modelled)/unit of all samples read, about the mean of each record, as a function of
-/// ln k1, ln k2 and ln β.
+/// a ContactPoint.
 class SlowPartsResiduals {
  public:
-  SlowPartsResiduals(Records records, const ContactPoint& creep, double creep_torque) : records_(records) {
-    const CreepEstimate law{std::exp(creep[log_alpha]), creep[creep_exponent], std::exp(creep[log_limit])};
+  SlowPartsResiduals(Records records, double creep_torque) : records_(records), creep_torque_(creep_torque) {
     for (const TestRecord& record : records) {
       parts_.push_back(slow_parts_of(record));
-      angles_.push_back(measured_angle(record) - creep_extension(record, law, creep_torque));
+      angles_.push_back(measured_angle(record));
       read_ += parts_.back().read;
     }
   }
 
   std::size_t size() const { return read_; }
 
-  bool operator()(double const* const* spring_point, double* residuals) const {
-    friction::FrictionParameters friction;
-    friction.k1 = std::exp(spring_point[0][log_k1]);
-    friction.k2 = std::exp(spring_point[0][log_k2]);
-    friction.beta = std::exp(spring_point[0][log_beta]);
-    Eigen::Map<Eigen::VectorXd> all(residuals, static_cast<Eigen::Index>(read_));
+  bool operator()(double const* const* coordinates, double* residuals) const {
+    const ContactPoint point = Eigen::Map<const ContactPoint>(coordinates[0]);
+    const friction::FrictionParameters friction = contact_at(point, creep_torque_).friction;
+    const CreepEstimate creep{std::exp(point[log_alpha]), point[creep_exponent], std::exp(point[log_limit])};
+    // Its own memory: the order of a sum depends on the alignment.
+    Eigen::VectorXd all(static_cast<Eigen::Index>(read_));
     Eigen::Index filled = 0;
     for (std::size_t r = 0; r < records_.size(); ++r) {
       if (parts_[r].read == 0) continue;
@@ -102,89 +103,121 @@ class SlowPartsResiduals {
       spring.start_preloaded(records_[r].start.preload);
       for (const double torque : records_[r].start.history) spring.move_to_torque(torque);
       spring.move_to_torque(0.0);
+      const Eigen::VectorXd extension = creep_extension(records_[r], creep, creep_torque_);
       const Eigen::Index first = filled;
       for (const SlowParts::Point& at : parts_[r].points) {
         spring.move_to_torque(at.torque);
         if (!at.read) continue;
         const auto k = static_cast<Eigen::Index>(at.sample);
-        all[filled++] = (angles_[r][k] - spring.elongation()) / records_[r].unit;
+        all[filled++] = (angles_[r][k] - extension[k] - spring.elongation()) / records_[r].unit;
       }
       auto own = all.segment(first, filled - first);
       own.array() -= own.mean();
     }
+    std::copy(all.begin(), all.end(), residuals);
     return all.allFinite();
   }
 
  private:
   Records records_;
+  double creep_torque_;
   std::vector<SlowParts> parts_;
-  std::vector<Eigen::VectorXd> angles_;  // [record] less the creep extension, rad
+  std::vector<Eigen::VectorXd> angles_;  // [record] rad
   std::size_t read_{0};
 };
 
-/// Numbers of the coordinates of the spring.
-constexpr std::array spring_coordinates{log_k1, log_k2, log_beta};
-
-SlowFit fit_spring(const SlowPartsResiduals& residuals, const ContactPoint& start,
-                   const FreeCoordinates& free, double max_log_beta) {
+/// Levenberg–Marquardt over the coordinates `moved` that are `free`.
+SlowFit fit_coordinates(const SlowPartsResiduals& residuals, const ContactPoint& start,
+                        const FreeCoordinates& free, std::span<const Coordinate> moved, double max_log_beta,
+                        int steps) {
   ContactPoint point = start;
   ceres::NumericDiffOptions differences;
   differences.relative_step_size = slope_step;
   auto* const cost = new ceres::DynamicNumericDiffCostFunction<SlowPartsResiduals, ceres::FORWARD>(
       &residuals, ceres::DO_NOT_TAKE_OWNERSHIP, differences);
-  cost->AddParameterBlock(static_cast<int>(spring_coordinates.size()));
+  cost->AddParameterBlock(static_cast<int>(coordinate_count));
   cost->SetNumResiduals(static_cast<int>(residuals.size()));
   ceres::Problem problem;
   problem.AddResidualBlock(cost, nullptr, point.data());
   std::vector<int> fixed;
-  for (const Coordinate j : spring_coordinates) {
-    const auto at = static_cast<int>(j);
-    if (!free[j]) fixed.push_back(at);
-    problem.SetParameterLowerBound(point.data(), at, start[j] - max_change);
-    problem.SetParameterUpperBound(point.data(), at,
-                                   j == log_beta ? std::max(max_log_beta, start[j]) : start[j] + max_change);
+  for (std::size_t j = 0; j < coordinate_count; ++j) {
+    const auto coordinate = static_cast<Coordinate>(j);
+    if (!free[j] || std::find(moved.begin(), moved.end(), coordinate) == moved.end()) {
+      fixed.push_back(static_cast<int>(j));
+      continue;
+    }
+    const bool exponent = coordinate == creep_exponent;
+    problem.SetParameterLowerBound(point.data(), static_cast<int>(j), exponent ? 1.0 : start[j] - max_change);
+    const double highest = exponent                 ? max_exponent
+                           : coordinate == log_beta ? std::max(max_log_beta, start[j])
+                                                    : start[j] + max_change;
+    problem.SetParameterUpperBound(point.data(), static_cast<int>(j), highest);
   }
-  if (!fixed.empty()) {
-    problem.SetManifold(point.data(),
-                        new ceres::SubsetManifold(static_cast<int>(spring_coordinates.size()), fixed));
-  }
+  if (fixed.size() == coordinate_count) return {start, std::numeric_limits<double>::infinity()};
+  problem.SetManifold(point.data(), new ceres::SubsetManifold(static_cast<int>(coordinate_count), fixed));
   ceres::Solver::Options options;
   options.logging_type = ceres::SILENT;
   options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = 40;
-  options.function_tolerance = 1e-7;
+  options.max_num_iterations = steps;
+  options.function_tolerance = 1e-5;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   if (!summary.IsSolutionUsable()) return {start, std::numeric_limits<double>::infinity()};
   return {point, 2.0 * summary.final_cost};
 }
 
+double squares_at(const SlowPartsResiduals& residuals, const ContactPoint& point) {
+  Eigen::VectorXd all(static_cast<Eigen::Index>(residuals.size()));
+  const double* const coordinates = point.data();
+  return residuals(&coordinates, all.data()) ? all.squaredNorm() : std::numeric_limits<double>::infinity();
+}
+
+/// Fits all starts, in parallel; the best of them, at most `most`.
+std::vector<SlowFit> best_fits(std::vector<SlowFit> fits, std::size_t most,
+                               const std::function<SlowFit(const ContactPoint&)>& fit) {
+  oneapi::tbb::parallel_for(std::size_t{0}, fits.size(),
+                            [&](std::size_t i) { fits[i] = fit(fits[i].point); });
+  std::stable_sort(fits.begin(), fits.end(),
+                   [](const SlowFit& one, const SlowFit& other) { return one.squares < other.squares; });
+  fits.resize(std::min(fits.size(), most));
+  return fits;
+}
+
 }  // namespace
 
-SlowFit fit_slow_parts(Records records, const ContactPoint& start, double creep_torque,
-                       const FreeCoordinates& free) {
-  static_assert(log_k1 == 0 && log_k2 == 1 && log_beta == 2);  // the first coordinates of a point
-  const SlowPartsResiduals residuals(records, start, creep_torque);
-  const bool any = std::any_of(spring_coordinates.begin(), spring_coordinates.end(),
-                               [&](Coordinate coordinate) { return free[coordinate]; });
-  if (!any || !has_slow_branches(records) || residuals.size() == 0) {
-    return {start, std::numeric_limits<double>::infinity()};
+SlowFit fit_slow_parts(Records records, std::span<const ContactPoint> starts, double creep_torque,
+                       const FreeCoordinates& free, SlowCreep creep) {
+  const SlowPartsResiduals residuals(records, creep_torque);
+  if (!has_slow_branches(records) || residuals.size() == 0) {
+    return {starts.front(), std::numeric_limits<double>::infinity()};
   }
   double max_log_beta = -std::numeric_limits<double>::infinity();
   for (const TestRecord& record : records) {
     max_log_beta = std::max(max_log_beta, -std::log(least_travel * record.unit));
   }
-  constexpr std::array rates{1.0, 0.003, 0.01, 0.03, 0.1, 0.3, 3.0, 10.0, 30.0};
-  std::array<SlowFit, rates.size()> found;
-  oneapi::tbb::parallel_for(std::size_t{0}, rates.size(), [&](std::size_t i) {
-    ContactPoint point = start;
-    if (free[log_beta]) point[log_beta] += std::log(rates[i]);
-    if (free[log_beta] && free[log_k2]) point[log_k2] += std::log(rates[i]);
-    found[i] = fit_spring(residuals, point, free, max_log_beta);
+  std::vector<SlowFit> fits;
+  for (const ContactPoint& start : starts) {
+    for (const double rate : {1.0, 0.003, 0.01, 0.03, 0.1, 0.3, 3.0, 10.0, 30.0}) {
+      SlowFit& fit = fits.emplace_back(SlowFit{start, 0.0});
+      if (free[log_beta]) fit.point[log_beta] += std::log(rate);
+      if (free[log_beta] && free[log_k2]) fit.point[log_k2] += std::log(rate);
+    }
+  }
+  constexpr std::array spring{log_k1, log_k2, log_beta};
+  constexpr std::array spring_and_creep{log_k1, log_k2, log_beta, log_alpha, log_limit, creep_exponent};
+  fits = best_fits(std::move(fits), 9, [&](const ContactPoint& point) {
+    return SlowFit{point, squares_at(residuals, point)};
   });
-  return *std::min_element(found.begin(), found.end(), [](const SlowFit& one, const SlowFit& other) {
-    return one.squares < other.squares;
+  fits = best_fits(std::move(fits), 2, [&](const ContactPoint& point) {
+    return fit_coordinates(residuals, point, free, spring, max_log_beta, 8);
   });
+  const std::span<const Coordinate> moved =
+      creep == SlowCreep::fitted ? std::span<const Coordinate>(spring_and_creep) : spring;
+  fits = best_fits(std::move(fits), 1, [&](const ContactPoint& point) {
+    return fit_coordinates(residuals, point, free, moved, max_log_beta, 40);
+  });
+  fits.front().misfit = std::sqrt(fits.front().squares / static_cast<double>(residuals.size()));
+  return fits.front();
 }
 
 }  // namespace zerocount::identification

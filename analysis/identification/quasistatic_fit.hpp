@@ -1,7 +1,7 @@
 #pragma once
 
+#include <limits>
 #include <span>
-#include <vector>
 
 #include "analysis/identification/contact_coordinates.hpp"
 #include "analysis/identification/starting_point.hpp"
@@ -12,17 +12,22 @@ namespace zerocount::identification {
 /// A point fitted to slow parts.
 struct SlowFit {
   ContactPoint point;
-  double squares{0.0};  ///< sum of squares, in units of the readings
+  double squares{std::numeric_limits<double>::infinity()};  ///< sum of squares, in units of the readings
+  double misfit{0.0};  ///< root mean square of the residuals, in their unit
 };
 
+/// Whether the slow parts show the creep law, or keep that of the start.
+enum class SlowCreep { kept, fitted };
+
 /// Least squares of the law without inertia and damping on the slow branches and the later halves of holds:
-/// k1, k2 and β, the best of several starting values of β. It takes milliseconds, and its minimum does not
-/// depend on inertia and damping, which such parts show little of. The creep law is that of `start`, for a
-/// spring that always carries the applied torque. At most some thousand samples of a record are used, evenly
-/// chosen.
+/// the spring and its creep, for a spring that always carries the applied torque. It takes a fraction of a
+/// second, and its minimum does not depend on inertia and damping, which such parts show little of. The
+/// spring is fitted first, from the nine best of `starts` with nine values of β each; from the two best of
+/// these all six coordinates. At most some thousand samples of a record are used, evenly chosen.
 /// @param free coordinates that may change
-/// @returns `start` with the fitted coordinates; `start` itself and infinity if there are no slow branches.
-SlowFit fit_slow_parts(Records records, const ContactPoint& start, double creep_torque,
-                       const FreeCoordinates& free);
+/// @returns the first start with the fitted coordinates; it itself and infinity if there are no slow
+/// branches.
+SlowFit fit_slow_parts(Records records, std::span<const ContactPoint> starts, double creep_torque,
+                       const FreeCoordinates& free, SlowCreep creep);
 
 }  // namespace zerocount::identification

@@ -126,7 +126,7 @@ ContactPoint with_best_ringing(Records records, const ContactPoint& point, doubl
                  changes_of({1.0, 10.0, 100.0, 1e3, 1e4}, {0.5, 2.0, 8.0}), much);
 }
 
-/// Estimates the spring, J and c for a given creep law.
+/// Estimates the spring, J and c for a given creep law, without simulating.
 ContactPoint point_with_creep(Records records, const CreepEstimate& creep, double creep_torque) {
   const SpringEstimate spring = estimate_spring(records, creep, creep_torque);
   ContactParameters contact;
@@ -137,7 +137,7 @@ ContactPoint point_with_creep(Records records, const CreepEstimate& creep, doubl
   contact.friction.alpha = creep.alpha;
   contact.friction.n = creep.exponent;
   contact.friction.lambda = std::pow(creep_torque, creep.exponent) / creep.limit;
-  return best_of(all_of(records), point_of(contact, creep_torque), creep_torque, softening_changes());
+  return point_of(contact, creep_torque);
 }
 
 ContactPoint with_known(ContactPoint point, const ContactPoint& known, const FreeCoordinates& free) {
@@ -194,50 +194,55 @@ motion::PlantParameters estimate_ring_down(Records records, double k1) {
 
 ContactPoint starting_point(Records records, double creep_torque, const ContactPoint& known,
                             const FreeCoordinates& free) {
+  const auto start_with = [&](const CreepEstimate& creep) {
+    return with_known(point_with_creep(records, creep, creep_torque), known, free);
+  };
+  std::vector<ContactPoint> starts;
   CreepEstimate creep = estimate_creep(records, creep_torque);
-  const bool seen = creep.limit > 0.0;
-  // No hold shows creep. Search its limit as a fraction of the spring's travel, starting with a small one.
-  const double travel = seen ? 0.0 : creep_torque / estimate_spring(records, creep, creep_torque).k1;
-  if (!seen) creep.limit = 1e-3 * travel;
-  const ContactPoint estimated = with_known(point_with_creep(records, creep, creep_torque), known, free);
-  // The error of an estimated creep law is larger than what a fit of the spring to slow parts could gain.
-  if (seen) return with_known(with_best_ringing(records, estimated, creep_torque), known, free);
-  ContactPoint point = estimated;
-  SlowFit slow = fit_slow_parts(records, estimated, creep_torque, free);
-  for (const double proportion : {0.1, 0.3, 1.0, 3.0}) {
-    if (std::isfinite(slow.squares)) {
-      ContactPoint start = estimated;
-      if (free[log_limit]) start[log_limit] = std::log(proportion * travel);
-      const SlowFit tried = fit_slow_parts(records, start, creep_torque, free);
-      if (tried.squares < slow.squares) slow = tried;
-    } else {
-      creep.limit = proportion * travel;
-      const ContactPoint tried = with_known(point_with_creep(records, creep, creep_torque), known, free);
-      const std::array<ContactPoint, 1> change{tried - point};
-      point = best_of(all_of(records), point, creep_torque, change);
+  const bool slow_alone = are_slow_alone(records);
+  if (creep.limit > 0.0) {
+    const ContactPoint start = start_with(creep);
+    starts.push_back(best_of(all_of(records), start, creep_torque, softening_changes()));
+    // The error of an estimated creep law is larger than what a fit of the spring alone could gain.
+    if (!slow_alone) {
+      return with_known(with_best_ringing(records, with_known(starts.front(), known, free), creep_torque),
+                        known, free);
     }
   }
+  // Creep as a fraction of the spring's travel.
+  creep.exponent = 2.0;
+  const double travel = creep_torque / estimate_spring(records, {}, creep_torque).k1;
+  for (const double proportion : {1e-3, 0.1, 0.3, 1.0, 3.0}) {
+    creep.limit = proportion * travel;
+    starts.push_back(start_with(creep));
+  }
+  SlowFit slow =
+      fit_slow_parts(records, starts, creep_torque, free, slow_alone ? SlowCreep::fitted : SlowCreep::kept);
+  ContactPoint point = starts.front();
+  std::vector<ContactPoint> changes = softening_changes();
+  for (const ContactPoint& start : starts) changes.push_back(start - point);
   if (std::isfinite(slow.squares)) {
     // The inertia and the damping of the same frequency and damping ratio.
     const double softer = slow.point[log_k1] - point[log_k1];
     if (free[log_inertia]) slow.point[log_inertia] += softer;
     if (free[log_damping]) slow.point[log_damping] += softer;
-    constexpr double not_worse = 1.2;
-    const double left = misfit(all_of(records), slow.point, creep_torque);
-    if (left < not_worse * misfit(all_of(records), point, creep_torque)) point = slow.point;
+    changes.push_back(slow.point - point);
   }
+  point = best_of(all_of(records), point, creep_torque, changes);
   return with_known(with_best_ringing(records, point, creep_torque), known, free);
 }
 
 std::vector<ContactPoint> starts_with_other_softening(Records records, const ContactPoint& start,
                                                       double creep_torque) {
+  // Slow parts alone hardly show inertia and damping.
+  const bool ringing = !ringing_records(records).empty() || !has_slow_branches(records);
   std::vector<ContactPoint> points;
   for (const double rate : {0.1, 1.0, 5.0, 20.0, 80.0}) {
     for (const double offset : {0.3, 1.0}) {
       ContactPoint point = start;
       point[log_beta] += std::log(rate);
       point[log_k2] += std::log(rate * offset);
-      points.push_back(with_best_ringing(records, point, creep_torque));
+      points.push_back(ringing ? with_best_ringing(records, point, creep_torque) : point);
     }
   }
   return points;

@@ -178,17 +178,16 @@ FitResult with_mean_offsets(Records records, const AxisModel& model, const Point
 }
 
 std::vector<FitResult> promising_fits(Records records, const Observations& observations,
-                                      const std::vector<Point>& starts, FitSetting setting) {
-  constexpr std::size_t tried = 6;
-  constexpr std::size_t continued = 3;
+                                      const std::vector<Point>& starts, FitSetting setting,
+                                      const SearchWidth& width) {
   constexpr double hopeless = 4.0;
   std::vector<FitResult> fits(starts.size());
   oneapi::tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
     fits[i] = with_mean_offsets(records, setting.model, starts[i]);
   });
-  fits = by_squares(std::move(fits), tried);
-  setting.max_steps = 12;
-  fits = by_squares(fits_from(records, observations, std::move(fits), setting), continued);
+  fits = by_squares(std::move(fits), width.tried);
+  setting.max_steps = width.steps;
+  fits = by_squares(fits_from(records, observations, std::move(fits), setting), width.continued);
   if (fits.empty()) return fits;
   const double least = fits.front().squares;
   std::erase_if(fits, [&](const FitResult& fit) { return fit.squares > hopeless * least; });

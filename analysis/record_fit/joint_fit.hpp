@@ -62,10 +62,18 @@ std::vector<FitResult> fits_from(Records records, const Observations& observatio
 /// sampling.
 FitResult with_mean_offsets(Records records, const AxisModel& model, const Point& point);
 
-/// Twelve steps from the six best of the starting points. @returns at most three fits, by their sums of
+/// How many starting points are tried.
+struct SearchWidth {
+  std::size_t tried{6};  ///< the best of them, each for `steps` steps
+  int steps{12};
+  std::size_t continued{3};  ///< the best of these fits are results
+};
+
+/// A few steps from the best of the starting points, in parallel. @returns the fits, by their sums of
 /// squares, those within four times the smallest.
 std::vector<FitResult> promising_fits(Records records, const Observations& observations,
-                                      const std::vector<Point>& starts, FitSetting setting);
+                                      const std::vector<Point>& starts, FitSetting setting,
+                                      const SearchWidth& width = {});
 
 /// The model at a point, with its linearisation.
 struct FittedModel {

@@ -100,6 +100,12 @@ bool has_slow_branches(std::span<const TestRecord> records) {
   });
 }
 
+bool are_slow_alone(std::span<const TestRecord> records) {
+  return has_slow_branches(records) &&
+         std::none_of(records.begin(), records.end(),
+                      [](const TestRecord& record) { return record.parts.ring_downs() > 0; });
+}
+
 RecordParts parts_of(const TestRecord& record) {
   const double range = torque_range(record);
   return {branches_of(record, range), holds_of(record, range)};

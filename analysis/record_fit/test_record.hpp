@@ -107,6 +107,9 @@ bool is_gradual(const TestRecord& record, const LoadingBranch& branch);
 /// True if a record has a gradual branch.
 bool has_slow_branches(std::span<const TestRecord> records);
 
+/// True if the records have gradual branches and no ring-downs.
+bool are_slow_alone(std::span<const TestRecord> records);
+
 /// Maximum − minimum torque, N m.
 double torque_range(const TestRecord& record);
 

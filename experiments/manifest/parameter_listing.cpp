@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "experiments/distributions/distribution_forms.hpp"
+#include "experiments/guides/guide_friction.hpp"
 #include "experiments/manifest/drawn_per.hpp"
 #include "experiments/manifest/manifest_keys.hpp"
 #include "experiments/parameters/parameter_table.hpp"
@@ -30,12 +31,25 @@ std::string allowed(const parameters::Parameter& parameter, const parameters::St
          numerics::notation(parameters::range_of(parameter, units)) + (parameter.none ? " | none" : "");
 }
 
+std::string number_text(double number) {
+  return fmt::format("{:.3g}", number);
+}
+
+/// The default; without one the range over the guides, if they have the parameter.
+std::string default_or_guides(const parameters::Parameter& p, const parameters::StudyUnits& units) {
+  if (!parameters::default_holds(p, units)) {
+    if (const auto range = guides::range_over_guides(units.axis, p.name))
+      return fmt::format("guides: {} to {}", number_text(range->first), number_text(range->second));
+  }
+  return parameters::default_text(p, units);
+}
+
 Row parameter_row(const parameters::Parameter& p, const parameters::StudyUnits& units) {
   const std::string meaning =
       parameters::meaning_of(p, units) + (p.profiled != nullptr ? " [profile allowed]" : "");
   return {std::string(p.name),
           parameters::unit_of(p, units),
-          parameters::default_text(p, units),
+          default_or_guides(p, units),
           allowed(p, units),
           parameters::default_holds(p, units) ? std::string(p.source) : "-",
           meaning};
@@ -86,6 +100,39 @@ Listing key_listing() {
   Listing listing{"Other keys of a manifest", {"name", "required", "meaning"}, {}};
   for (const GeneralKey& key : general_keys()) {
     listing.rows.push_back({std::string(key.name), key.required ? "yes" : "no", std::string(key.meaning)});
+  }
+  return listing;
+}
+
+Listing guide_listing() {
+  Listing listing{"Quantities of the guides",
+                  {"guide", "quantity", "unit", "low", "high", "origin", "source or reason"},
+                  {}};
+  for (const guides::Guide& guide : guides::guide_table()) {
+    for (const guides::GuideNumber& number : guide.numbers) {
+      listing.rows.push_back({std::string(guide.name), std::string(number.quantity), std::string(number.unit),
+                              number_text(number.low), number_text(number.high),
+                              std::string(guides::origin_labels[static_cast<std::size_t>(number.origin)]),
+                              number.source});
+    }
+  }
+  return listing;
+}
+
+Listing guide_parameter_listing() {
+  Listing listing{"Parameters of the guides with their usual mass and preload",
+                  {"guide", "mass", "preload (N)", "parameter", "unit", "low", "high", "origin"},
+                  {}};
+  for (const guides::Guide& guide : guides::guide_table()) {
+    const guides::GuideLoad load = guides::usual_load(guide);
+    for (const guides::GuideNumber& number : guides::guide_parameters(guide, load)) {
+      listing.rows.push_back(
+          {std::string(guide.name),
+           fmt::format("{} {}", number_text(load.mass), parameters::unit_on(guide.axis, "kg m^2")),
+           guides::has_load(guide) ? number_text(load.preload) : "-", std::string(number.quantity),
+           std::string(number.unit), number_text(number.low), number_text(number.high),
+           std::string(guides::origin_labels[static_cast<std::size_t>(number.origin)])});
+    }
   }
   return listing;
 }
@@ -142,6 +189,14 @@ std::string parameters_as_text(const study::Study& study) {
 
 std::string parameters_as_markdown(const study::Study& study) {
   return as_markdown(parameter_listing(study));
+}
+
+std::string guides_as_text() {
+  return as_text(guide_listing()) + as_text(guide_parameter_listing());
+}
+
+std::string guides_as_markdown() {
+  return as_markdown(guide_listing()) + as_markdown(guide_parameter_listing());
 }
 
 }  // namespace zerocount::manifest

@@ -18,4 +18,9 @@ std::string parameters_as_markdown(const parameters::StudyUnits& units = {});
 std::string parameters_as_text(const study::Study& study);
 std::string parameters_as_markdown(const study::Study& study);
 
+/// The starting values of guides (experiments/guides): the quantities of each with their sources, and the
+/// parameters that follow with its usual mass and preload.
+std::string guides_as_text();
+std::string guides_as_markdown();
+
 }  // namespace zerocount::manifest

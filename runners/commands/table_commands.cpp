@@ -1,3 +1,7 @@
+#include <string>
+
+#include <fmt/format.h>
+
 #include "experiments/manifest/json_schema.hpp"
 #include "experiments/manifest/parameter_listing.hpp"
 #include "runners/commands/commands.hpp"
@@ -17,8 +21,17 @@ ExitCode print_parameters_of_study(const command_line::Arguments& arguments, con
   return ExitCode::success;
 }
 
+ExitCode print_guides(const command_line::Arguments& arguments, bool text) {
+  for (const char* option : {"manifest", "set", "axis", "units"}) {
+    if (arguments.has(option)) arguments.refuse(fmt::format("--guides cannot be given with --{}", option));
+  }
+  standard_output::print("{}", text ? manifest::guides_as_text() : manifest::guides_as_markdown());
+  return ExitCode::success;
+}
+
 ExitCode print_parameters(const command_line::Arguments& arguments) {
   const std::string format = arguments.choice("format");
+  if (arguments.has("guides")) return print_guides(arguments, format == "text");
   if (const auto manifest = arguments.value("manifest"))
     return print_parameters_of_study(arguments, *manifest, format == "text");
   if (arguments.has("set")) arguments.refuse("option '--set' needs '--manifest'");
@@ -45,13 +58,14 @@ Command parameters_command() {
             {"set", "KEY=VALUE", "override a key of that manifest; may be repeated", true},
             command_line::choice_option("axis", "AXIS", {"rotary", "linear"}, "units on this kind of axis"),
             command_line::choice_option("units", "UNITS", {"count", "si"},
-                                        "unit of the gains (controller.units)")},
+                                        "unit of the gains (controller.units)"),
+            {"guides", "", "list the starting values of guides and bearings, with their sources"}},
            0,
            0},
           "list every parameter: unit, default, range, source",
           "Every physical value of a manifest is a number or a distribution. Missing values take the\n"
           "default, unless its unit differs: on a linear axis most values are required, and with\n"
-          "--units si the integral gain.\n",
+          "--units si the integral gain. Such values of friction show the range of common guides.\n",
           print_parameters};
 }
 

@@ -1,0 +1,128 @@
+#include "experiments/guides/guide_manifest.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace zerocount::guides {
+namespace {
+
+using parameters::AxisKind;
+
+constexpr double acceleration = 1.0;  // m/s², which the converter's range allows beside friction
+constexpr int frictionless_bits = 20;
+
+/// Lowest values of what the loop is designed for; 0 where the guide does not have it.
+struct Lowest {
+  double k1{0.0};
+  double damping{0.0};
+  double highest_breakaway{0.0};
+};
+
+Lowest lowest_of(const std::vector<GuideNumber>& parameters) {
+  Lowest lowest;
+  for (const GuideNumber& number : parameters) {
+    if (number.quantity == "friction.k1") lowest.k1 = number.low;
+    if (number.quantity == "plant.presliding_damping") lowest.damping = number.low;
+    if (number.quantity == "friction.breakaway") lowest.highest_breakaway = number.high;
+  }
+  return lowest;
+}
+
+std::string written(double number) {
+  return fmt::format("{:.4g}", number);
+}
+
+/// Over a factor of more than 2 every order of magnitude is as likely as the next.
+std::string distribution(const GuideNumber& number) {
+  if (number.low == number.high) return written(number.low);
+  const char* const form = number.high > 2.0 * number.low ? "log_uniform" : "uniform";
+  return fmt::format("{{{}: [{}, {}]}}", form, written(number.low), written(number.high));
+}
+
+/// The parameters of a section, each below its origin.
+std::string section(const std::vector<GuideNumber>& parameters, std::string_view prefix) {
+  std::string text;
+  for (const GuideNumber& number : parameters) {
+    if (!number.quantity.starts_with(prefix)) continue;
+    text +=
+        fmt::format("  # {}: {}\n  {}: {}   # {}\n", origin_labels[static_cast<std::size_t>(number.origin)],
+                    number.source, number.quantity.substr(prefix.size()), distribution(number), number.unit);
+  }
+  return text;
+}
+
+std::string controller(double mass, const Lowest& lowest, int sample_rate) {
+  const double w = 2.0 * std::numbers::pi * sample_rate / 100.0;
+  const double kp = mass * w * w;
+  const double kd = 1.4 * mass * w;
+  const double ki = (lowest.damping + kd) * (lowest.k1 + kp) / (4.0 * mass);
+  return fmt::format(
+      "# kp: m·w^2 with w = 2·pi·sample_rate/100; kd: 1.4·m·w; ki: a quarter of criterion (6) with the "
+      "lowest k1.\n"
+      "# A start, not a tuning: see zerocount tune.\n"
+      "controller: {{units: si, sample_rate: {}, delay: 1, kp: {}, ki: {}, kd: {}}}\n",
+      sample_rate, written(kp), written(ki), written(kd));
+}
+
+std::string converter(const GuideAxis& axis, const Lowest& lowest) {
+  const double range = 2.0 * lowest.highest_breakaway + axis.load.mass * acceleration;
+  const double code = 0.5 * lowest.k1 * axis.resolution;
+  const int bits = code > 0.0 ? std::clamp(static_cast<int>(std::ceil(1.0 + std::log2(range / code))), 12, 24)
+                              : frictionless_bits;
+  return fmt::format("dac: {{bits: {}, range: {}}}   # N\n", bits, written(range));
+}
+
+std::string hardware(const Guide& guide, const GuideAxis& axis, const Lowest& lowest) {
+  switch (guide.axis) {
+    case AxisKind::rotary:
+      return "# encoder and converter: the defaults, which are those of the paper's rig\n" +
+             controller(axis.load.mass, lowest, 2000);
+    case AxisKind::linear:
+      break;
+  }
+  return fmt::format("encoder: {{resolution: {}}}   # m per count\n", written(axis.resolution)) +
+         converter(axis, lowest) + controller(axis.load.mass, lowest, 10000);
+}
+
+std::string load_text(const Guide& guide, const GuideAxis& axis) {
+  if (!has_load(guide)) return "";
+  return fmt::format("# For a preload of {} N and a mass of {} kg.\n", written(axis.load.preload),
+                     written(axis.load.mass));
+}
+
+}  // namespace
+
+std::string guide_manifest(const Guide& guide, const GuideAxis& axis) {
+  const std::vector<GuideNumber> parameters = guide_parameters(guide, axis.load);
+  const std::string friction = section(parameters, "friction.");
+  return fmt::format(
+      "# A starting point: {}. Nothing here was measured on your axis.\n"
+      "# Replace the friction by what zerocount identify finds in your records, and the loop by yours.\n"
+      "{}"
+      "# Each of the rigs draws its friction once from these ranges. Sources: zerocount parameters --guides\n"
+      "zerocount: 1\n"
+      "name: {}\n"
+      "description: An unmeasured axis, {}\n"
+      "axis: {}\n"
+      "seed: 1\n"
+      "rigs: 50\n"
+      "trials: 200\n"
+      "plant:\n"
+      "  inertia: {}   # {}\n"
+      "{}"
+      "friction:\n"
+      "  model: {}\n"
+      "{}"
+      "{}"
+      "command: {{targets: [{{integers: [1, 30]}}, 0], hold: 0.5}}   # counts; s per move\n"
+      "initial: {{encoder_phase: {{uniform: [0, 1]}}}}\n",
+      guide.description, load_text(guide, axis), guide.name, guide.description,
+      parameters::axis_labels[static_cast<std::size_t>(guide.axis)], written(axis.load.mass),
+      parameters::unit_on(guide.axis, "kg m^2"), section(parameters, "plant."), guide.model, friction,
+      hardware(guide, axis, lowest_of(parameters)));
+}
+
+}  // namespace zerocount::guides

@@ -1,0 +1,71 @@
+// From the name of a guide to the results of a study of it.
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "experiments/guides/guide_table.hpp"
+#include "tests/runners/program.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+class NewGuide : public ::testing::Test {
+ protected:
+  ProgramResult run(const std::vector<std::string>& words) const {
+    return zerocount_program(words, folder.path());
+  }
+  void expect_refused(const std::vector<std::string>& words, const std::string& message) const {
+    const ProgramResult result = run(words);
+    EXPECT_EQ(result.code, 2) << message;
+    EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
+  }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(NewGuide, EachIsAStudyThatChecksAndRunsAndStaysWithinOneCount) {
+  for (const guides::Guide& guide : guides::guide_table()) {
+    const std::string name(guide.name);
+    ASSERT_EQ(run({"new", "--guide", name}).code, 0) << name;
+    const ProgramResult check = run({"check", name + ".yaml"});
+    EXPECT_EQ(check.code, 0) << check.err;
+    EXPECT_EQ(check.err, "");
+    ASSERT_EQ(run({"run", name + ".yaml", "-o", name + ".h5", "--set", "trials=100"}).code, 0) << name;
+    const auto point =
+        nlohmann::json::parse(run({"summary", name + ".h5", "--format", "json"}).out)["points"][0];
+    EXPECT_EQ(point["nonfinite"], 0) << name;
+    // The air bearing hunts by one count.
+    EXPECT_EQ(point["bands"][1]["band"], 1) << point.dump(2);
+    EXPECT_TRUE(point["bands"][1]["settling_time"]["p95"].is_number()) << name << "\n" << point.dump(2);
+  }
+}
+
+TEST_F(NewGuide, ScalesItWithTheLoad) {
+  const ProgramResult usual = run({"new", "--guide", "ball-rail", "-o", "-"});
+  const ProgramResult more = run(
+      {"new", "--guide", "ball-rail", "--preload", "800", "--mass", "12", "--resolution", "1e-9", "-o", "-"});
+  EXPECT_NE(usual.out, more.out);
+  for (const char* part : {"preload of 800 N", "inertia: 12 ", "resolution: 1e-09"})
+    EXPECT_NE(more.out.find(part), std::string::npos) << part << "\n" << more.out;
+}
+
+TEST_F(NewGuide, IsListed) {
+  const std::string list = run({"new", "--list"}).out;
+  for (const guides::Guide& guide : guides::guide_table())
+    EXPECT_NE(list.find("\n" + std::string(guide.name) + " "), std::string::npos) << list;
+}
+
+TEST_F(NewGuide, RefusesWhatItDoesNotKnow) {
+  std::string names;
+  for (const guides::Guide& guide : guides::guide_table())
+    names += (names.empty() ? "" : ", ") + std::string(guide.name);
+  expect_refused({"new", "--guide", "bal-rail"}, "'bal-rail' is not one of " + names);
+  expect_refused({"new", "paper-gains", "--guide", "plain"}, "expected either the name of a manifest");
+  expect_refused({"new", "paper-gains", "--mass", "5"}, "option '--mass' needs '--guide'");
+  expect_refused({"new", "--guide", "air-bearing", "--preload", "5"}, "has no effect on air-bearing");
+  expect_refused({"new", "--guide", "rotary-ball", "--mass", "5"}, "has no effect on rotary-ball");
+  expect_refused({"new", "--guide", "plain", "--mass", "-5"}, "expected a number above 0");
+  expect_refused({"parameters", "--guides", "--axis", "linear"}, "--guides cannot be given with --axis");
+}
+
+}  // namespace
+}  // namespace zerocount::testing

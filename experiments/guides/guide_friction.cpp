@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "core/numerics/elementary_functions.hpp"
+
 namespace zerocount::guides {
 namespace {
 
@@ -61,7 +63,7 @@ std::vector<GuideNumber> computed_parameters(const Guide& guide, const GuideLoad
   const GuideNumber beta{"friction.beta",      "1/m",
                          1.0 / softening.high, 1.0 / softening.low,
                          softening.origin,     from("1 / softening length", softening)};
-  const double creep_modulus = std::pow(force, centre(number_of(guide, "friction.n"))) / centre(travel);
+  const double creep_modulus = numerics::pow(force, centre(number_of(guide, "friction.n"))) / centre(travel);
   const GuideNumber lambda{
       "friction.lambda",         "N^n/m",         creep_modulus / creep.high,
       creep_modulus / creep.low, Origin::assumed, from("breakaway^n / (creep part·travel)", creep)};

@@ -70,8 +70,7 @@ std::string controller(double mass, const Lowest& lowest, int sample_rate) {
 std::string converter(const GuideAxis& axis, const Lowest& lowest) {
   const double range = 2.0 * lowest.highest_breakaway + axis.load.mass * acceleration;
   const double code = 0.5 * lowest.k1 * axis.resolution;
-  const int bits = code > 0.0 ? std::clamp(static_cast<int>(std::ceil(1.0 + std::log2(range / code))), 12, 24)
-                              : frictionless_bits;
+  const int bits = code > 0.0 ? std::clamp(2 + std::ilogb(range / code), 12, 24) : frictionless_bits;
   return fmt::format("dac: {{bits: {}, range: {}}}   # N\n", bits, written(range));
 }
 

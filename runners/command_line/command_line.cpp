@@ -21,11 +21,14 @@ std::string long_name(const OptionSpec& option) {
   return option.name.substr(0, option.name.find(','));
 }
 
-/// Whether `given`, as the user wrote it ("--quiet"), is a flag.
-bool is_flag(const CommandSpec& spec, const std::string& given) {
-  return std::any_of(spec.options.begin(), spec.options.end(), [&](const OptionSpec& option) {
-    return option.value.empty() && given == "--" + long_name(option);
-  });
+/// What is wrong with the value of the option `given`, as the user wrote it ("--quiet").
+std::string value_problem(const CommandSpec& spec, const std::string& given) {
+  for (const OptionSpec& option : spec.options) {
+    if (given != "--" + long_name(option)) continue;
+    if (option.value.empty()) return "takes no value";
+    if (!option.words.empty()) return fmt::format("needs a value, one of {}", fmt::join(option.words, ", "));
+  }
+  return "needs a value";
 }
 
 /// The option with this long name.
@@ -92,8 +95,8 @@ Arguments::Arguments(const CommandSpec& spec, const std::vector<std::string>& wo
   } catch (const po::unknown_option& error) {
     refuse(fmt::format("unknown option '{}'", error.get_option_name()));
   } catch (const po::error_with_option_name& error) {
-    refuse(fmt::format("option '{}' {}", error.get_option_name(),
-                       is_flag(spec, error.get_option_name()) ? "takes no value" : "needs a value"));
+    refuse(
+        fmt::format("option '{}' {}", error.get_option_name(), value_problem(spec, error.get_option_name())));
   } catch (const po::error&) {
     refuse("invalid arguments");
   }

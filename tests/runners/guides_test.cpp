@@ -59,6 +59,7 @@ TEST_F(NewGuide, RefusesWhatItDoesNotKnow) {
   for (const guides::Guide& guide : guides::guide_table())
     names += (names.empty() ? "" : ", ") + std::string(guide.name);
   expect_refused({"new", "--guide", "bal-rail"}, "'bal-rail' is not one of " + names);
+  expect_refused({"new", "--guide"}, "option '--guide' needs a value, one of " + names);
   expect_refused({"new", "paper-gains", "--guide", "plain"}, "expected either the name of a manifest");
   expect_refused({"new", "paper-gains", "--mass", "5"}, "option '--mass' needs '--guide'");
   expect_refused({"new", "--guide", "air-bearing", "--preload", "5"}, "has no effect on air-bearing");

@@ -46,6 +46,11 @@ std::string distribution_text(const ParameterEstimate& parameter) {
                        manifest_number(mean, sd / mean), manifest_number(sd, small_digits),
                        manifest_number(std::max(mean, 1.0) + far * sd, sd / mean));
   }
+  if (parameter.name == "coulomb_ratio") {
+    return fmt::format("{{truncated_normal: {{mean: {}, sd: {}, low: 0, high: 1}}}}",
+                       manifest_number(parameter.value, parameter.standard_error / std::abs(parameter.value)),
+                       manifest_number(parameter.standard_error, small_digits));
+  }
   const double median = std::sqrt(parameter.low * parameter.high);
   const double spread = 0.5 * std::log(parameter.high / parameter.low) / two_sided_95;
   const double cv = std::sqrt(std::expm1(spread * spread));

@@ -1,9 +1,8 @@
 #include "analysis/sliding_identification/sliding_fit.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <utility>
 
 #include <ceres/cost_function.h>
 #include <ceres/manifold.h>
@@ -17,50 +16,7 @@
 namespace zerocount::sliding_identification {
 namespace {
 
-using Covariance = Eigen::Matrix<double, sliding_dimension, sliding_dimension>;
-
-/// A window of a record, and its initial state: position and velocity.
-struct FittedWindow {
-  const SlidingRecord* record;
-  const Window* window;
-  std::array<double, 2> start;
-};
-
-/// Residuals of a window in units of the readings' resolution.
-class WindowResiduals : public ceres::CostFunction {
- public:
-  explicit WindowResiduals(const FittedWindow& fitted) : fitted_(fitted) {
-    set_num_residuals(static_cast<int>(samples_of(*fitted.window)));
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(sliding_dimension));
-    mutable_parameter_block_sizes()->push_back(2);
-  }
-
-  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
-    const SlidingPoint point = Eigen::Map<const SlidingPoint>(parameters[0]);
-    const SlidingRecord& record = *fitted_.record;
-    const WindowMotion motion =
-        window_motion(record, *fitted_.window, point, parameters[1][0], parameters[1][1]);
-    if (!motion.position.allFinite()) return false;
-    const double scale = 1.0 / record.resolution;
-    const Eigen::Index samples = motion.position.size();
-    for (Eigen::Index i = 0; i < samples; ++i) {
-      residuals[i] =
-          scale * (motion.position[i] - record.position[fitted_.window->first + static_cast<std::size_t>(i)]);
-    }
-    if (jacobians == nullptr) return true;
-    using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    if (jacobians[0] != nullptr) {
-      Eigen::Map<Rows>(jacobians[0], samples, sliding_dimension) =
-          scale * motion.slopes.leftCols<sliding_dimension>();
-    }
-    if (jacobians[1] != nullptr)
-      Eigen::Map<Rows>(jacobians[1], samples, 2) = scale * motion.slopes.rightCols<2>();
-    return true;
-  }
-
- private:
-  const FittedWindow& fitted_;
-};
+constexpr double tiny = std::numeric_limits<double>::min();
 
 std::vector<FittedWindow> windows_of(std::span<const SlidingRecord> records) {
   std::vector<FittedWindow> windows;
@@ -72,22 +28,19 @@ std::vector<FittedWindow> windows_of(std::span<const SlidingRecord> records) {
   return windows;
 }
 
-std::vector<int> known_of(const FreeParameters& free) {
+/// Moves the point and the windows' initial states to the least sum of squares. @returns the sum.
+double solve(SlidingFit& fit) {
+  ceres::Problem problem;
+  for (FittedWindow& fitted : fit.windows) {
+    problem.AddResidualBlock(window_residuals(*fitted.record, *fitted.window).release(), nullptr,
+                             fit.point.data(), fitted.start.data());
+  }
   std::vector<int> known;
   for (std::size_t j = 0; j < sliding_dimension; ++j) {
-    if (!free[j]) known.push_back(static_cast<int>(j));
+    if (!fit.free[j]) known.push_back(static_cast<int>(j));
   }
-  return known;
-}
-
-double solve(std::vector<FittedWindow>& windows, SlidingPoint& point, const FreeParameters& free) {
-  ceres::Problem problem;
-  for (FittedWindow& window : windows) {
-    problem.AddResidualBlock(new WindowResiduals(window), nullptr, point.data(), window.start.data());
-  }
-  if (const std::vector<int> known = known_of(free); !known.empty()) {
-    problem.SetManifold(point.data(), new ceres::SubsetManifold(static_cast<int>(sliding_dimension), known));
-  }
+  problem.SetManifold(fit.point.data(),
+                      new ceres::SubsetManifold(static_cast<int>(sliding_dimension), known));
   ceres::Solver::Options options;
   options.logging_type = ceres::SILENT;
   options.linear_solver_type = ceres::DENSE_SCHUR;
@@ -102,116 +55,81 @@ double solve(std::vector<FittedWindow>& windows, SlidingPoint& point, const Free
         ExitCode::bad_data,
         fmt::format("{}: the simulated motion cannot be fitted to the positions; expected torque and "
                     "position in the units that --column gives",
-                    windows.front().record->name));
+                    fit.windows.front().record->name));
   }
   return 2.0 * summary.final_cost;
 }
 
-/// Columns of a matrix beyond what the columns of another explain.
-Eigen::MatrixXd beyond(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& local) {
-  return columns - numerics::product(local, numerics::least_squares(local, columns));
-}
-
-/// Contribution of one window to the estimating equations, its initial state eliminated.
-struct WindowScore {
-  std::pair<const SlidingRecord*, std::size_t> stroke;
-  Covariance information;
-  SlidingPoint score;
-  double unexplained_torque;
-};
-
-WindowScore score_of(const FittedWindow& fitted, const SlidingPoint& point) {
-  const SlidingRecord& record = *fitted.record;
-  const WindowMotion motion = window_motion(record, *fitted.window, point, fitted.start[0], fitted.start[1]);
-  const Eigen::Index samples = motion.position.size();
-  Eigen::VectorXd residual(samples);
-  Eigen::VectorXd parabola(samples);  // the path under a torque that is 1 too large
-  for (Eigen::Index i = 0; i < samples; ++i) {
-    const std::size_t k = fitted.window->first + static_cast<std::size_t>(i);
-    residual[i] = (record.position[k] - motion.position[i]) / record.resolution;
-  }
-  const Eigen::MatrixXd local = motion.slopes.rightCols<2>() / record.resolution;
-  const Eigen::MatrixXd slopes =
-      beyond(motion.slopes.leftCols<sliding_dimension>() / record.resolution, local);
-  parabola = -slopes.col(offset_torque);
-  return {{fitted.record, fitted.window->stroke},
-          numerics::transposed_product(slopes, slopes),
-          slopes.transpose() * residual,
-          parabola.dot(residual) / std::max(parabola.squaredNorm(), std::numeric_limits<double>::min())};
-}
-
-/// Information and score of a cluster: of a window, or of the windows of a stroke.
-struct ClusterScore {
-  Covariance information{Covariance::Zero()};
+/// Contribution of a window, or of several, to the estimating equations, the initial states eliminated.
+struct Score {
+  SlidingMatrix information{SlidingMatrix::Zero()};
   SlidingPoint score{SlidingPoint::Zero()};
-};
 
-/// The free parameters, each times the root of its information, which makes them comparable.
-struct ScaledParameters {
-  std::vector<Eigen::Index> index;
-  Eigen::VectorXd scale;
-
-  ScaledParameters(const Covariance& information, const FreeParameters& free) {
-    for (std::size_t j = 0; j < sliding_dimension; ++j) {
-      if (free[j]) index.push_back(static_cast<Eigen::Index>(j));
-    }
-    scale.resize(static_cast<Eigen::Index>(index.size()));
-    for (Eigen::Index i = 0; i < scale.size(); ++i) {
-      const double own = information(index[static_cast<std::size_t>(i)], index[static_cast<std::size_t>(i)]);
-      scale[i] = 1.0 / std::sqrt(std::max(own, std::numeric_limits<double>::min()));
-    }
-  }
-
-  Eigen::MatrixXd scaled(const Covariance& matrix) const {
-    return scale.asDiagonal() * Eigen::MatrixXd(matrix(index, index)) * scale.asDiagonal();
-  }
-  Eigen::VectorXd scaled(const SlidingPoint& vector) const {
-    return scale.cwiseProduct(Eigen::VectorXd(vector(index)));
-  }
-  Covariance restored(const Eigen::MatrixXd& matrix) const {
-    Covariance all = Covariance::Zero();
-    all(index, index) = scale.asDiagonal() * matrix * scale.asDiagonal();
-    return all;
+  void operator+=(const Score& other) {
+    information += other.information;
+    score += other.score;
   }
 };
 
-/// Variance of the fits without one cluster each: (G − 1)/G·Σδ_g·δ_gᵀ with δ_g = (B − B_g)⁻¹·s_g.
-Eigen::MatrixXd jackknife(const ScaledParameters& parameters, const Covariance& information,
-                          const std::vector<ClusterScore>& clusters) {
+Score score_of(const FittedWindow& fitted, const SlidingPoint& point) {
+  const auto residuals = window_residuals(*fitted.record, *fitted.window);
+  Eigen::VectorXd residual(residuals->num_residuals());
+  Eigen::Matrix<double, Eigen::Dynamic, sliding_dimension, Eigen::RowMajor> slopes(residual.size(),
+                                                                                   sliding_dimension);
+  Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> by_start(residual.size(), 2);
+  const std::array parameters{point.data(), fitted.start.data()};
+  std::array jacobians{slopes.data(), by_start.data()};
+  residuals->Evaluate(parameters.data(), residual.data(), jacobians.data());
+  slopes -= numerics::product(by_start, numerics::least_squares(by_start, slopes));
+  return {numerics::transposed_product(slopes, slopes), -slopes.transpose() * residual};
+}
+
+/// Scale of each free parameter that makes them comparable: 1/√information; 0 for the others.
+SlidingPoint scale_of(const Score& total, const FreeParameters& free) {
+  SlidingPoint scale = total.information.diagonal().cwiseMax(tiny).cwiseSqrt().cwiseInverse();
+  for (std::size_t j = 0; j < sliding_dimension; ++j) {
+    if (!free[j]) scale[static_cast<Eigen::Index>(j)] = 0.0;
+  }
+  return scale;
+}
+
+SlidingMatrix scaled(const SlidingPoint& scale, const SlidingMatrix& matrix) {
+  return scale.asDiagonal() * matrix * scale.asDiagonal();
+}
+
+/// Scaled variance of the fits without one cluster each: (G − 1)/G·Σδ_g·δ_gᵀ with δ_g = (B − B_g)⁻¹·s_g.
+SlidingMatrix jackknife(const SlidingPoint& scale, const Score& total, const std::vector<Score>& clusters) {
   const auto groups = static_cast<double>(clusters.size());
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(parameters.scale.size(), parameters.scale.size());
-  for (const ClusterScore& cluster : clusters) {
-    const Eigen::MatrixXd others = parameters.scaled(Covariance(information - cluster.information));
-    const Eigen::VectorXd change = numerics::least_squares(others, parameters.scaled(cluster.score));
+  SlidingMatrix sum = SlidingMatrix::Zero();
+  for (const Score& cluster : clusters) {
+    const SlidingPoint change = numerics::least_squares(
+        scaled(scale, total.information - cluster.information), scale.cwiseProduct(cluster.score));
     sum += change * change.transpose();
   }
   return (groups - 1.0) / groups * sum;
 }
 
 /// Enlarges a covariance to the larger variance of each parameter; correlations stay.
-Eigen::MatrixXd enlarged(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& other) {
-  const Eigen::VectorXd factor =
-      (other.diagonal().cwiseQuotient(covariance.diagonal().cwiseMax(std::numeric_limits<double>::min())))
-          .cwiseMax(1.0)
-          .cwiseSqrt();
-  return factor.asDiagonal() * covariance * factor.asDiagonal();
+SlidingMatrix enlarged(const SlidingMatrix& covariance, const SlidingMatrix& other) {
+  const SlidingPoint ratio = other.diagonal().cwiseQuotient(covariance.diagonal().cwiseMax(tiny));
+  return scaled(ratio.cwiseMax(1.0).cwiseSqrt(), covariance);
 }
 
 }  // namespace
 
 SlidingPoint starting_point(std::span<const SlidingRecord> records, bool both_directions) {
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(4, 4);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(4);
+  Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d right = Eigen::Vector4d::Zero();
   for (const SlidingRecord& record : records) {
     const std::size_t h = record.smoothing;
-    for (const Window& window : record.windows) {
-      for (std::size_t k = window.first; k <= window.last; ++k) {
+    for (const Window& stroke : record.strokes) {
+      for (std::size_t k = stroke.first; k <= stroke.last; ++k) {
         if (k < 2 * h || k + 2 * h >= record.time.size()) continue;
         const double acceleration =
             (record.velocity[k + h] - record.velocity[k - h]) / (record.time[k + h] - record.time[k - h]);
         double torque = 0.0;  // mean over the samples that the acceleration is from
         for (std::size_t i = k - 2 * h; i < k + 2 * h; ++i) torque += record.torque[i].now;
-        const Eigen::Vector4d row(acceleration, window.direction, record.velocity[k],
+        const Eigen::Vector4d row(acceleration, stroke.direction, record.velocity[k],
                                   both_directions ? 1.0 : 0.0);
         normal += row * row.transpose();
         right += row * (torque / static_cast<double>(4 * h));
@@ -233,74 +151,52 @@ SlidingPoint starting_point(std::span<const SlidingRecord> records, bool both_di
 
 SlidingFit fit_sliding(std::span<const SlidingRecord> records, const SlidingPoint& start,
                        const FreeParameters& free) {
-  std::vector<FittedWindow> windows = windows_of(records);
   SlidingFit fit;
   fit.point = start;
   fit.free = free;
-  fit.squares = solve(windows, fit.point, free);
-  Covariance information = Covariance::Zero();
-  std::vector<ClusterScore> by_window;
-  by_window.reserve(windows.size());
-  fit.starts.reserve(windows.size());
-  std::map<std::pair<const SlidingRecord*, std::size_t>, ClusterScore> strokes;
+  fit.windows = windows_of(records);
+  const double squares = solve(fit);
+  Score total;
+  std::vector<Score> by_window;
+  std::vector<Score> by_stroke;
   double unexplained = 0.0;
-  for (const FittedWindow& window : windows) {
-    const WindowScore score = score_of(window, fit.point);
-    information += score.information;
-    by_window.push_back({score.information, score.score});
-    ClusterScore& stroke = strokes[score.stroke];
-    stroke.information += score.information;
-    stroke.score += score.score;
-    unexplained += score.unexplained_torque * score.unexplained_torque;
-    fit.samples += samples_of(*window.window);
-    fit.starts.push_back(window.start);
+  for (const FittedWindow& fitted : fit.windows) {
+    const Score score = score_of(fitted, fit.point);
+    total += score;
+    by_window.push_back(score);
+    if (fitted.window->first == fitted.record->strokes[fitted.window->stroke].first) by_stroke.emplace_back();
+    by_stroke.back() += score;
+    // A step of this window's offset alone.
+    unexplained += std::pow(
+        score.score[offset_torque] / std::max(score.information(offset_torque, offset_torque), tiny), 2);
+    fit.samples += samples_of(*fitted.window);
   }
-  std::vector<ClusterScore> by_stroke;
-  by_stroke.reserve(strokes.size());
-  for (const auto& [stroke, score] : strokes) by_stroke.push_back(score);
-  fit.windows = windows.size();
-  fit.strokes = by_stroke.size();
-  fit.unexplained_torque = std::sqrt(unexplained / static_cast<double>(windows.size()));
-  const ScaledParameters parameters(information, free);
-  const double freedom =
-      std::max(1.0, static_cast<double>(fit.samples) - 2.0 * static_cast<double>(fit.windows) -
-                        static_cast<double>(parameters.index.size()));
-  const Eigen::MatrixXd independent =
-      fit.squares / freedom * numerics::pseudo_inverse(parameters.scaled(information));
-  Eigen::MatrixXd covariance = enlarged(independent, jackknife(parameters, information, by_window));
+  const auto windows = static_cast<double>(fit.windows.size());
+  const auto samples = static_cast<double>(fit.samples);
+  fit.misfit = std::sqrt(squares / samples);
+  fit.unexplained_torque = std::sqrt(unexplained / windows);
+  const SlidingPoint scale = scale_of(total, free);
+  const auto parameters = static_cast<double>(std::count(free.begin(), free.end(), true));
+  const double variance = squares / std::max(1.0, samples - 2.0 * windows - parameters);  // of a residual
+  SlidingMatrix covariance = variance * numerics::pseudo_inverse(scaled(scale, total.information));
+  covariance = enlarged(covariance, jackknife(scale, total, by_window));
   constexpr std::size_t min_strokes = 12;  // with fewer the variance between strokes is known too badly
-  if (fit.strokes >= min_strokes) {
-    covariance = enlarged(covariance, jackknife(parameters, information, by_stroke));
-  }
-  fit.covariance = parameters.restored(covariance);
+  if (by_stroke.size() >= min_strokes) covariance = enlarged(covariance, jackknife(scale, total, by_stroke));
+  fit.covariance = scaled(scale, covariance);
   return fit;
 }
 
-double stribeck_gain(std::span<const SlidingRecord> records, const SlidingFit& fit, double velocity) {
+double stribeck_gain(const SlidingFit& fit, double velocity) {
   SlidingPoint point = fit.point;
   point[stribeck_excess] = 0.0;
   point[log_stribeck_velocity] = std::log(velocity);
-  std::vector<FittedWindow> windows = windows_of(records);
-  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(sliding_dimension, sliding_dimension);
-  Eigen::VectorXd total = Eigen::VectorXd::Zero(sliding_dimension);
-  for (std::size_t i = 0; i < windows.size(); ++i) {
-    windows[i].start = fit.starts[i];
-    const WindowScore score = score_of(windows[i], point);
-    information += score.information;
-    total += score.score;
-  }
-  for (Eigen::Index j = 0; j < total.size(); ++j) {
-    if (fit.free[static_cast<std::size_t>(j)] || j == static_cast<Eigen::Index>(stribeck_excess)) continue;
-    information.row(j).setZero();
-    information.col(j).setZero();
-    total[j] = 0.0;
-  }
-  const Eigen::VectorXd scale =
-      information.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt();
-  const Eigen::MatrixXd scaled =
-      scale.cwiseInverse().asDiagonal() * information * scale.cwiseInverse().asDiagonal();
-  const Eigen::VectorXd right = total.cwiseQuotient(scale);
-  const Eigen::VectorXd step = numerics::least_squares(scaled, right);
+  Score total;
+  for (const FittedWindow& fitted : fit.windows) total += score_of(fitted, point);
+  FreeParameters free = fit.free;
+  free[stribeck_excess] = true;
+  const SlidingPoint scale = scale_of(total, free);
+  const SlidingPoint right = scale.cwiseProduct(total.score);
+  const SlidingPoint step = numerics::least_squares(scaled(scale, total.information), right);
   return step[stribeck_excess] > 0.0 ? right.dot(step) : 0.0;
 }
 

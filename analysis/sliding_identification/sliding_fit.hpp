@@ -11,24 +11,30 @@
 namespace zerocount::sliding_identification {
 
 using FreeParameters = std::array<bool, sliding_dimension>;
+using SlidingMatrix = Eigen::Matrix<double, sliding_dimension, sliding_dimension>;
 
-/// Result of a fit of the sliding law to all windows.
+/// A window of a record, and its initial position and velocity.
+struct FittedWindow {
+  const SlidingRecord* record;
+  const Window* window;
+  std::array<double, 2> start;
+};
+
+/// Result of a fit of the sliding law to all windows of records, which must outlive it uncut.
 struct SlidingFit {
   SlidingPoint point{SlidingPoint::Zero()};
   FreeParameters free{};
-  std::vector<std::array<double, 2>> starts;  ///< [window] initial position and velocity
-  double squares{0.0};                        ///< sum of squared residuals
+  std::vector<FittedWindow> windows;
   std::size_t samples{0};
-  std::size_t windows{0};
-  std::size_t strokes{0};
+  double misfit{0.0};  ///< root mean square of the residuals, in steps of the readings
   /// Covariance of the point; zero for parameters that are not free. See fit_sliding().
-  Eigen::Matrix<double, sliding_dimension, sliding_dimension> covariance{};
+  SlidingMatrix covariance{SlidingMatrix::Zero()};
   /// Root mean square over the windows of the mean torque that the model leaves unexplained.
   double unexplained_torque{0.0};
 };
 
 /// The starting point: least squares of the torque on acceleration, direction, velocity and 1 (the inverse
-/// dynamics), over all samples of the windows. Its derivatives are differences of the readings over a few
+/// dynamics), over all samples of the strokes. Its derivatives are differences of the readings over a few
 /// samples, whose errors bias it; the fit does not use them.
 /// @throws Failure (bad_data) if the axis accelerates against the torque.
 SlidingPoint starting_point(std::span<const SlidingRecord> records, bool both_directions);
@@ -52,6 +58,6 @@ SlidingFit fit_sliding(std::span<const SlidingRecord> records, const SlidingPoin
 
 /// How much of the sum of squares a Stribeck excess with this velocity (rad/s or m/s) would explain, by one
 /// Gauss–Newton step from a fit without.
-double stribeck_gain(std::span<const SlidingRecord> records, const SlidingFit& fit, double velocity);
+double stribeck_gain(const SlidingFit& fit, double velocity);
 
 }  // namespace zerocount::sliding_identification

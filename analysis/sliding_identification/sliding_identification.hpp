@@ -1,40 +1,23 @@
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "analysis/identification/identification.hpp"
 #include "analysis/sliding_identification/sliding_record.hpp"
 
 namespace zerocount::sliding_identification {
 
-/// The used part of a record.
-struct SlidingSummary {
-  std::string name;
-  std::size_t samples{0};
-  double duration{0.0};    ///< s
-  double resolution{0.0};  ///< of the readings, rad or m
-  std::size_t strokes{0};
-  std::size_t windows{0};
-  std::size_t used{0};       ///< samples in the windows
-  double min_velocity{0.0};  ///< in the windows, rad/s or m/s
-  double max_velocity{0.0};
-};
-
 /// The inertia and the sliding friction of an axis. Units are those of a rotary or of a linear axis.
 struct SlidingIdentification {
-  bool linear{false};
   /// inertia, sliding_damping, coulomb_level, breakaway_level, coulomb_ratio, stribeck_velocity, offset.
   std::vector<identification::ParameterEstimate> parameters;
-  std::vector<SlidingSummary> records;
-  double misfit{0.0};                   ///< root mean square of the residuals, in steps of the readings
+  std::vector<SlidingRecord> records;   ///< with the windows of the fit
+  double misfit{0.0};                   ///< root mean square of the residuals, in resolutions
   double unexplained_torque{0.0};       ///< root mean square over the windows, N m or N
-  double torque{0.0};                   ///< root mean square of the torque in the windows, N m or N
+  double torque{0.0};                   ///< root mean square of the torque in the strokes, N m or N
   std::vector<std::string> correlated;  ///< names of the fitted parameters
-  Eigen::MatrixXd correlation;          ///< of their errors, in that order
+  std::vector<std::vector<double>> correlation{};  ///< of their errors, in that order
 };
 
 /// Identifies the sliding axis from motion records, under open or closed loop.
@@ -46,8 +29,8 @@ struct SlidingIdentification {
 /// that the law lacks make them, which add up in a window: they are quartered, to 64 and to 16 samples.
 ///
 /// Intervals have 95 %, by Student's t with as many degrees of freedom as there are windows less parameters.
-/// @throws Failure (bad_data) if the axis accelerates against the torque, the fit leaves more than a third of
-/// the torque unexplained, or records of rotary and linear axes are mixed.
+/// @param records of one axis. @throws Failure (bad_data) if the axis accelerates against the torque, or the
+/// fit leaves more than a third of the torque unexplained.
 SlidingIdentification identify_sliding(std::vector<SlidingRecord> records);
 
 /// The parameters, what was used of the records, and the manifest fragment as text.

@@ -3,99 +3,98 @@
 #include <algorithm>
 #include <cmath>
 
+#include <ceres/autodiff_cost_function.h>
+
+#include "core/friction/sliding.hpp"
+
 namespace zerocount::sliding_identification {
 namespace {
 
-/// Position and velocity in column 0, and their derivatives to the parameters and to the initial velocity.
-using MotionState = Eigen::Matrix<double, 2, sliding_dimension + 2>;
-constexpr Eigen::Index of_initial_velocity = sliding_dimension + 1;
+double value_of(double number) {
+  return number;
+}
 
-class SlidingLaw {
+template <int N>
+double value_of(const ceres::Jet<double, N>& number) {
+  return number.a;
+}
+
+/// A sliding axis. Number is double, or ceres::Jet to carry derivatives.
+template <class Number>
+class SlidingAxis {
  public:
-  SlidingLaw(const SlidingPoint& point, double direction)
-      : point_(point),
-        direction_(direction),
-        inertia_(std::exp(point[log_inertia])),
-        stribeck_velocity_(std::exp(point[log_stribeck_velocity])) {}
-
-  MotionState rate(const MotionState& state, double torque) const {
-    const double velocity = state(1, 0);
-    const double ratio = velocity / stribeck_velocity_;
-    const double decay = std::exp(-ratio * ratio);
-    const double excess = point_[stribeck_excess];
-    const double acceleration = (torque - point_[offset_torque] - point_[viscous_damping] * velocity -
-                                 direction_ * (point_[coulomb_level] + excess * decay)) /
-                                inertia_;
-    const double slope =
-        (-point_[viscous_damping] + 2.0 * direction_ * excess * decay * ratio / stribeck_velocity_) /
-        inertia_;
-    MotionState rate;
-    rate.row(0) = state.row(1);
-    rate.row(1) = slope * state.row(1);
-    rate(1, 0) = acceleration;
-    rate(1, 1 + log_inertia) -= acceleration;
-    rate(1, 1 + coulomb_level) -= direction_ / inertia_;
-    rate(1, 1 + viscous_damping) -= velocity / inertia_;
-    rate(1, 1 + offset_torque) -= 1.0 / inertia_;
-    rate(1, 1 + stribeck_excess) -= direction_ * decay / inertia_;
-    rate(1, 1 + log_stribeck_velocity) -= direction_ * excess * decay * 2.0 * ratio * ratio / inertia_;
-    return rate;
+  SlidingAxis(const Number* point, const Number* start, double direction)
+      : position_(start[0]), velocity_(start[1]), direction_(direction) {
+    using std::abs, std::exp, std::sqrt;
+    curve_ = {point[coulomb_level], point[stribeck_excess], exp(-2.0 * point[log_stribeck_velocity])};
+    damping_ = point[viscous_damping];
+    offset_ = point[offset_torque];
+    per_inertia_ = exp(-point[log_inertia]);
+    constexpr double steepest = 0.86;  // of 2·x·exp(−x²)
+    friction_rate_ = value_of(
+        per_inertia_ * (abs(damping_) + steepest * abs(curve_.excess) * sqrt(curve_.per_velocity_squared)));
   }
 
-  /// The largest rate (1/s) at which the friction can change the velocity.
-  double stiffness() const {
-    constexpr double steepest = 0.86;  // of 2·x·exp(−x²)
-    return (std::abs(point_[viscous_damping]) +
-            steepest * std::abs(point_[stribeck_excess]) / stribeck_velocity_) /
-           inertia_;
+  const Number& position() const { return position_; }
+
+  void advance(const motion::TorqueCourse& course, double duration) {
+    const double rate = std::max(friction_rate_, motion::is_constant(course) ? 0.0 : course.rate);
+    constexpr double max_steps = 200.0;  // no meaning beyond: the parameters are far off
+    const double steps = std::clamp(std::ceil(20.0 * rate * duration), 1.0, max_steps);
+    for (double i = 0.0; i < steps; i += 1.0) {
+      const auto torque = [&](double at) { return motion::course_after(course, at * duration / steps).now; };
+      step(torque(i), torque(i + 0.5), torque(i + 1.0), duration / steps);
+    }
   }
 
  private:
-  const SlidingPoint& point_;
+  Number acceleration(const Number& velocity, double torque) const {
+    return per_inertia_ *
+           friction::sliding_torque<Number>(torque - offset_, damping_, curve_, direction_, velocity);
+  }
+
+  void step(double first, double middle, double last, double time) {
+    const Number a1 = acceleration(velocity_, first);
+    const Number a2 = acceleration(velocity_ + 0.5 * time * a1, middle);
+    const Number a3 = acceleration(velocity_ + 0.5 * time * a2, middle);
+    const Number a4 = acceleration(velocity_ + time * a3, last);
+    position_ += time * velocity_ + time * time / 6.0 * (a1 + a2 + a3);
+    velocity_ += time / 6.0 * (a1 + 2.0 * (a2 + a3) + a4);
+  }
+
+  Number position_;
+  Number velocity_;
+  friction::StribeckCurveOf<Number> curve_;
+  Number damping_;      ///< cs
+  Number offset_;       ///< u0
+  Number per_inertia_;  ///< 1/J
   double direction_;
-  double inertia_;
-  double stribeck_velocity_;
+  double friction_rate_;  ///< the largest (1/s) at which the friction can change the velocity
 };
 
-void advance(const SlidingLaw& law, const motion::TorqueCourse& course, double duration, MotionState& state) {
-  const double rate = std::max(law.stiffness(), motion::is_constant(course) ? 0.0 : course.rate);
-  constexpr double max_steps = 200.0;  // no meaning beyond: the parameters are far off
-  const double steps = std::clamp(std::ceil(20.0 * rate * duration), 1.0, max_steps);
-  const double step = duration / steps;
-  for (double i = 0.0; i < steps; i += 1.0) {
-    const double first = motion::course_after(course, i * step).now;
-    const double middle = motion::course_after(course, (i + 0.5) * step).now;
-    const double last = motion::course_after(course, (i + 1.0) * step).now;
-    const MotionState k1 = law.rate(state, first);
-    const MotionState k2 = law.rate(state + 0.5 * step * k1, middle);
-    const MotionState k3 = law.rate(state + 0.5 * step * k2, middle);
-    const MotionState k4 = law.rate(state + step * k3, last);
-    state += step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+struct WindowResiduals {
+  const SlidingRecord& record;
+  const Window& window;
+
+  template <class Number>
+  bool operator()(const Number* point, const Number* start, Number* residuals) const {
+    using std::isfinite;
+    SlidingAxis<Number> axis(point, start, window.direction);
+    for (std::size_t k = window.first; k <= window.last; ++k) {
+      if (!isfinite(axis.position())) return false;
+      *residuals++ = (axis.position() - record.position[k]) / record.resolution;
+      if (k < window.last) axis.advance(record.torque[k], record.time[k + 1] - record.time[k]);
+    }
+    return true;
   }
-}
+};
 
 }  // namespace
 
-WindowMotion window_motion(const SlidingRecord& record, const Window& window, const SlidingPoint& point,
-                           double position, double velocity) {
-  const SlidingLaw law(point, window.direction);
-  WindowMotion motion;
-  const auto samples = static_cast<Eigen::Index>(samples_of(window));
-  motion.position.resize(samples);
-  motion.slopes.resize(samples, window_columns);
-  MotionState state = MotionState::Zero();
-  state(0, 0) = position;
-  state(1, 0) = velocity;
-  state(1, of_initial_velocity) = 1.0;
-  for (Eigen::Index i = 0; i < samples; ++i) {
-    motion.position[i] = state(0, 0);
-    motion.slopes.row(i).head<sliding_dimension>() = state.row(0).segment<sliding_dimension>(1);
-    motion.slopes(i, sliding_dimension) = 1.0;
-    motion.slopes(i, sliding_dimension + 1) = state(0, of_initial_velocity);
-    const std::size_t k = window.first + static_cast<std::size_t>(i);
-    if (i + 1 < samples) advance(law, record.torque[k], record.time[k + 1] - record.time[k], state);
-  }
-  return motion;
+std::unique_ptr<ceres::CostFunction> window_residuals(const SlidingRecord& record, const Window& window) {
+  using Residuals = ceres::AutoDiffCostFunction<WindowResiduals, ceres::DYNAMIC, sliding_dimension, 2>;
+  return std::make_unique<Residuals>(new WindowResiduals{record, window},
+                                     static_cast<int>(samples_of(window)));
 }
 
 }  // namespace zerocount::sliding_identification

@@ -1,11 +1,15 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
+#include <memory>
 
 #include <Eigen/Core>
 
 #include "analysis/sliding_identification/sliding_record.hpp"
+
+namespace ceres {
+class CostFunction;
+}
 
 namespace zerocount::sliding_identification {
 
@@ -22,23 +26,14 @@ enum SlidingCoordinate : std::size_t {
 
 using SlidingPoint = Eigen::Matrix<double, sliding_dimension, 1>;
 
-/// Derivatives of the positions of a window: the parameters, the initial position, the initial velocity.
-constexpr std::size_t window_columns = sliding_dimension + 2;
-using WindowSlopes = Eigen::Matrix<double, Eigen::Dynamic, window_columns, Eigen::RowMajor>;
-
-struct WindowMotion {
-  Eigen::VectorXd position;  ///< [sample of the window]
-  WindowSlopes slopes;       ///< [sample of the window, column]
-};
-
-/// The sliding motion over a window, d = ±1 being its direction:
+/// The positions of a simulated sliding motion less the readings in a window, in units of the resolution. The
+/// parameters are a SlidingPoint, and the initial position and velocity.
 ///
-///   J·dω/dt = u − u0 − cs·ω − d·(Fc + (Fs − Fc)·exp(−(ω/ωs)²)),   dθ/dt = ω,
-///
-/// the law of core/friction/sliding.hpp with an offset, and its derivatives by the variational equations. By
-/// the classical Runge–Kutta method, with steps of at most a sampling interval and a twentieth of the time
-/// constants of the friction and of the amplifier.
-WindowMotion window_motion(const SlidingRecord& record, const Window& window, const SlidingPoint& point,
-                           double position, double velocity);
+/// The motion is J·dω/dt = u − u0 − cs·ω − d·g(ω), dθ/dt = ω, the law of core/friction/sliding.hpp with an
+/// offset, by the classical Runge–Kutta method, with steps of at most a sampling interval and a twentieth of
+/// the time constants of the friction and of the amplifier. The derivatives are those of these steps, by
+/// forward automatic differentiation. The evaluation fails where the motion is not finite.
+/// @param record and @param window must outlive the result.
+std::unique_ptr<ceres::CostFunction> window_residuals(const SlidingRecord& record, const Window& window);
 
 }  // namespace zerocount::sliding_identification

@@ -57,6 +57,10 @@ bool stops_at(const SlidingRecord& record, std::size_t k, double moved) {
   return moved >= visible * record.resolution && here < slow * moved;
 }
 
+double travel_of(const SlidingRecord& record, const Window& part) {
+  return std::abs(record.position[part.last] - record.position[part.first]);
+}
+
 /// Direction of the motion at each sample: −1, 1, or 0 where it rests or is too slow to tell.
 std::vector<int> directions_of(const SlidingRecord& record, const std::vector<bool>& excluded) {
   std::vector<int> direction(record.position.size(), 0);
@@ -70,23 +74,25 @@ std::vector<int> directions_of(const SlidingRecord& record, const std::vector<bo
   return direction;
 }
 
-void add_stroke(SlidingRecord& record, std::size_t first, std::size_t last, int direction) {
-  const double travel = std::abs(record.position[last] - record.position[first]);
-  if (travel < min_window_steps * record.resolution) return;
-  record.strokes.push_back({first, last, record.strokes.size(), static_cast<double>(direction)});
-}
-
 void find_strokes(SlidingRecord& record, const std::vector<bool>& excluded) {
   const std::vector<int> direction = directions_of(record, excluded);
-  const std::size_t samples = direction.size();
-  for (std::size_t first = 0; first < samples;) {
-    std::size_t end = first + 1;
-    while (end < samples && direction[end] == direction[first]) ++end;
-    const std::size_t margin = record.smoothing;
-    if (direction[first] != 0 && end - first >= min_stroke_samples + 2 * margin) {
-      add_stroke(record, first + margin, end - 1 - margin, direction[first]);
-    }
-    first = end;
+  const std::size_t margin = record.smoothing;
+  for (std::size_t from = 0, end = 0; from < direction.size(); from = end) {
+    while (end < direction.size() && direction[end] == direction[from]) ++end;
+    if (direction[from] == 0 || end - from < min_stroke_samples + 2 * margin) continue;
+    const Window stroke{from + margin, end - 1 - margin, record.strokes.size(),
+                        static_cast<double>(direction[from])};
+    if (travel_of(record, stroke) >= min_window_steps * record.resolution) record.strokes.push_back(stroke);
+  }
+}
+
+void set_velocities(SlidingRecord& record) {
+  const std::size_t h = record.smoothing;
+  record.velocity.assign(record.position.size(), 0.0);
+  for (std::size_t k = h; k + h < record.position.size(); ++k) {
+    record.velocity[k] =
+        (record.position[k + h] - record.position[k - h]) / (record.time[k + h] - record.time[k - h]);
+    record.max_velocity = std::max(record.max_velocity, std::abs(record.velocity[k]));
   }
 }
 
@@ -98,7 +104,7 @@ SlidingRecord sliding_record(const records::RawSeries& series) {
   sampled.intervals = identification::uneven_intervals(series);
   SlidingRecord record;
   record.name = series.name;
-  record.linear = series.linear;
+  record.axis = series.linear ? parameters::AxisKind::linear : parameters::AxisKind::rotary;
   record.torque = identification::courses_of(series, sampled);
   record.smoothing = smoothing_samples;
   const double unit = series.count_size > 0.0 ? series.count_size : 1.0;
@@ -108,36 +114,34 @@ SlidingRecord sliding_record(const records::RawSeries& series) {
     now += record_fit::interval_after(sampled, k);
     record.position.push_back(unit * (series.angle[k] - series.angle.front()));
   }
-  const bool idle = std::all_of(series.torque.begin(), series.torque.end(),
-                                [&](double torque) { return torque == series.torque.front(); });
-  if (idle) refuse(series, "the torque or force is constant");
+  if (std::ranges::count(series.torque, series.torque.front()) == std::ssize(series.torque))
+    refuse(series, "the torque or force is constant");
   record.resolution = std::max(least_step(record.position), 3.0 * noise_of(record.position));
   if (!(record.resolution > 0.0)) record.resolution = std::numeric_limits<double>::min();
-  const std::size_t h = record.smoothing;
-  record.velocity.assign(record.position.size(), 0.0);
-  for (std::size_t k = h; k + h < record.position.size(); ++k) {
-    record.velocity[k] =
-        (record.position[k + h] - record.position[k - h]) / (record.time[k + h] - record.time[k - h]);
-    record.max_velocity = std::max(record.max_velocity, std::abs(record.velocity[k]));
-  }
+  set_velocities(record);
   find_strokes(record, series.excluded);
-  cut_windows(record, max_window_samples);
-  if (record.windows.empty()) {
+  if (record.strokes.empty()) {
     refuse(series,
            fmt::format("shows no sliding: nowhere does it move on by {:g} steps of its readings ({:.3g} {}) "
                        "in one direction; material tests within the pre-sliding range are identified "
                        "without --sliding",
-                       min_window_steps, record.resolution, series.linear ? "m" : "rad"));
+                       min_window_steps, record.resolution, parameters::unit_on(record.axis, "rad")));
   }
+  record.min_velocity = record.max_velocity;
+  for (const Window& stroke : record.strokes) {
+    for (std::size_t k = stroke.first; k <= stroke.last; ++k)
+      record.min_velocity = std::min(record.min_velocity, std::abs(record.velocity[k]));
+  }
+  cut_windows(record, max_window_samples);
   return record;
 }
 
 void cut_windows(SlidingRecord& record, std::size_t samples) {
   record.windows.clear();
   for (const Window& stroke : record.strokes) {
-    const double travel = std::abs(record.position[stroke.last] - record.position[stroke.first]);
     const std::size_t length = samples_of(stroke);
-    const auto by_travel = static_cast<std::size_t>(travel / (min_window_steps * record.resolution));
+    const auto by_travel =
+        static_cast<std::size_t>(travel_of(record, stroke) / (min_window_steps * record.resolution));
     const std::size_t parts = std::max<std::size_t>(1, std::min(length / samples, by_travel));
     for (std::size_t i = 0; i < parts; ++i) {
       record.windows.push_back({stroke.first + i * length / parts,

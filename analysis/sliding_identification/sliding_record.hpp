@@ -6,10 +6,11 @@
 
 #include "analysis/records/raw_series.hpp"
 #include "core/motion/torque_course.hpp"
+#include "experiments/parameters/study_units.hpp"
 
 namespace zerocount::sliding_identification {
 
-/// A part of a stroke, over which the motion is simulated from an initial state of its own.
+/// A stroke, or a part of one, over which the motion is simulated from an initial state of its own.
 struct Window {
   std::size_t first{0};   ///< sample
   std::size_t last{0};    ///< sample, included
@@ -22,7 +23,7 @@ struct Window {
 /// Lengths are in rad and torques in N m; of a linear axis in m and N.
 struct SlidingRecord {
   std::string name;  ///< in messages
-  bool linear{false};
+  parameters::AxisKind axis{};
   std::vector<double> time;                  ///< [sample], s
   std::vector<motion::TorqueCourse> torque;  ///< [sample] from t_k to t_{k+1}
   std::vector<double> position;              ///< [sample] as read, from 0 at the first sample
@@ -31,6 +32,7 @@ struct SlidingRecord {
   std::size_t smoothing{1};
   std::vector<Window> strokes;
   std::vector<Window> windows;
+  double min_velocity{0.0};  ///< smallest |velocity| in the strokes
   double max_velocity{0.0};  ///< largest |velocity|
 };
 

@@ -6,6 +6,14 @@
 
 namespace zerocount::friction {
 
+/// u − cs·ω − d·g(ω): the torque J·dω/dt that accelerates a hook which slides in the direction d = ±1, N m.
+/// @param damping cs, N m s/rad. @param curve g, not times d.
+template <class Number>
+Number sliding_torque(const Number& torque, const Number& damping, const StribeckCurveOf<Number>& curve,
+                      double direction, const Number& omega) {
+  return torque - damping * omega - direction * level_at(curve, omega);
+}
+
 /// Taylor series in time of the sliding motion.
 struct SlidingSeries : StribeckSeries {
   numerics::Series position{};  ///< θ, rad
@@ -17,7 +25,7 @@ struct SlidingSeries : StribeckSeries {
 ///
 ///   J·dω/dt = u − cs·ω − d·g(ω),   dθ/dt = ω,
 ///
-/// with g of StribeckCurve. It ends at ω = 0.
+/// with g of StribeckCurve: the Taylor coefficients of sliding_torque(). It ends at ω = 0.
 struct Slide {
   using Expansion = SlidingSeries;
   enum class Event { none, velocity_zero };

@@ -9,11 +9,15 @@ namespace zerocount::friction {
 /// The level of sliding friction over velocity:
 ///
 ///   g(ω) = Fc + (Fs − Fc)·exp(−(ω/ωs)²).
-struct StribeckCurve {
-  double coulomb;               ///< Fc, N m
-  double excess;                ///< Fs − Fc, N m
-  double per_velocity_squared;  ///< 1/ωs², s²/rad²
+///
+/// Number is double, or a number that carries derivatives and has its own exp().
+template <class Number>
+struct StribeckCurveOf {
+  Number coulomb;               ///< Fc, N m
+  Number excess;                ///< Fs − Fc, N m
+  Number per_velocity_squared;  ///< 1/ωs², s²/rad²
 };
+using StribeckCurve = StribeckCurveOf<double>;
 
 /// Fs = breakaway, Fc = coulomb_ratio·Fs, ωs = stribeck_velocity.
 inline StribeckCurve stribeck_curve(const FrictionParameters& contact) {
@@ -23,8 +27,10 @@ inline StribeckCurve stribeck_curve(const FrictionParameters& contact) {
 }
 
 /// g(ω), N m.
-inline double level_at(const StribeckCurve& curve, double omega) {
-  return curve.coulomb + curve.excess * numerics::exp(-curve.per_velocity_squared * omega * omega);
+template <class Number>
+Number level_at(const StribeckCurveOf<Number>& curve, const Number& omega) {
+  using numerics::exp;
+  return curve.coulomb + curve.excess * exp(-curve.per_velocity_squared * omega * omega);
 }
 
 /// Taylor series in time of exp(−(ω/ωs)²).

@@ -253,7 +253,7 @@ std::string identify_sliding_axis(const command_line::Arguments& arguments, cons
   std::vector<sliding_identification::SlidingRecord> found;
   for (const records::RawSeries& series : read_all_series(arguments)) {
     found.push_back(sliding_identification::sliding_record(series));
-    if (found.back().linear != found.front().linear) {
+    if (found.back().axis != found.front().axis) {
       arguments.refuse("the records are of a linear and of a rotary axis; expected one axis");
     }
   }

@@ -43,7 +43,7 @@ TEST(PositioningTwin, GivesThePublishedParameters) {
     EXPECT_LT(std::abs(estimate.value - value), 4.0 * estimate.standard_error) << name;
   }
   EXPECT_EQ(parameter(found, "stribeck_velocity").status, EstimateStatus::not_identifiable);
-  EXPECT_TRUE(found.linear);
+  EXPECT_EQ(found.records[0].axis, parameters::AxisKind::linear);
 }
 
 TEST(PositioningTwin, ShowsItsStribeckCurve) {

@@ -1,8 +1,10 @@
 // The motion over a window: that of core's Plant, and its derivatives.
 #include "analysis/sliding_identification/sliding_motion.hpp"
 
+#include <array>
 #include <cmath>
 
+#include <ceres/cost_function.h>
 #include <gtest/gtest.h>
 
 #include "core/plant/plant.hpp"
@@ -10,10 +12,10 @@
 namespace zerocount::testing {
 namespace {
 
+using sliding_identification::sliding_dimension;
 using sliding_identification::SlidingPoint;
 using sliding_identification::SlidingRecord;
 using sliding_identification::Window;
-using sliding_identification::WindowMotion;
 
 constexpr double inertia = 0.02;
 constexpr double coulomb = 0.4;
@@ -37,7 +39,37 @@ SlidingRecord wavy_record(double direction, double rate) {
     record.torque.push_back({torque, rate > 0.0 ? torque + 0.02 : torque, rate});
   }
   record.position.assign(200, 0.0);
+  record.resolution = 1.0;
   return record;
+}
+
+/// The parameters of the motion: the point, and the initial position and velocity.
+using MotionStart = Eigen::Matrix<double, sliding_dimension + 2, 1>;
+
+/// The simulated positions in a window whose readings are 0, and their derivatives by the parameters.
+struct WindowMotion {
+  Eigen::VectorXd position;
+  Eigen::MatrixXd slopes;
+};
+
+WindowMotion window_motion(const SlidingRecord& record, const Window& window, const MotionStart& start) {
+  const auto residuals = window_residuals(record, window);
+  Eigen::VectorXd position(residuals->num_residuals());
+  Eigen::Matrix<double, Eigen::Dynamic, sliding_dimension, Eigen::RowMajor> by_point(position.size(),
+                                                                                     sliding_dimension);
+  Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> by_start(position.size(), 2);
+  const std::array parameters{start.data(), start.data() + sliding_dimension};
+  std::array jacobians{by_point.data(), by_start.data()};
+  EXPECT_TRUE(residuals->Evaluate(parameters.data(), position.data(), jacobians.data()));
+  Eigen::MatrixXd slopes(position.size(), sliding_dimension + 2);
+  slopes << by_point, by_start;
+  return {position, slopes};
+}
+
+MotionStart start_of_motion(double position, double velocity) {
+  MotionStart start;
+  start << point_of_motion(), position, velocity;
+  return start;
 }
 
 TEST(SlidingMotion, IsThatOfThePlant) {
@@ -45,7 +77,7 @@ TEST(SlidingMotion, IsThatOfThePlant) {
     for (const double rate : {0.0, 500.0}) {
       const SlidingRecord record = wavy_record(direction, rate);
       const WindowMotion motion =
-          window_motion(record, {0, 199, 0, direction}, point_of_motion(), 0.0, direction * 0.2);
+          window_motion(record, {0, 199, 0, direction}, start_of_motion(0.0, direction * 0.2));
       motion::PlantParameters plant;
       plant.inertia = inertia;
       plant.sliding_damping = damping;
@@ -71,23 +103,14 @@ TEST(SlidingMotion, IsThatOfThePlant) {
 TEST(SlidingMotion, DerivativesAreThoseOfTheMotion) {
   const SlidingRecord record = wavy_record(1.0, 0.0);
   const Window window{3, 180, 0, 1.0};
-  const WindowMotion motion = window_motion(record, window, point_of_motion(), 0.1, 0.3);
-  const auto difference = [&](std::size_t column) -> Eigen::VectorXd {
-    constexpr double step = 1e-5;
-    const auto moved = [&](double by) {
-      SlidingPoint point = point_of_motion();
-      double position = 0.1;
-      double velocity = 0.3;
-      if (column < sliding_identification::sliding_dimension) point[static_cast<Eigen::Index>(column)] += by;
-      if (column == sliding_identification::sliding_dimension) position += by;
-      if (column == sliding_identification::sliding_dimension + 1) velocity += by;
-      return window_motion(record, window, point, position, velocity).position;
-    };
-    return (moved(step) - moved(-step)) / (2.0 * step);
-  };
-  for (std::size_t column = 0; column < sliding_identification::window_columns; ++column) {
-    const Eigen::VectorXd judge = difference(column);
-    const Eigen::VectorXd off = motion.slopes.col(static_cast<Eigen::Index>(column)) - judge;
+  const MotionStart start = start_of_motion(0.1, 0.3);
+  const WindowMotion motion = window_motion(record, window, start);
+  for (Eigen::Index column = 0; column < start.size(); ++column) {
+    const MotionStart step = 1e-5 * MotionStart::Unit(column);
+    const Eigen::VectorXd judge = (window_motion(record, window, start + step).position -
+                                   window_motion(record, window, start - step).position) /
+                                  2e-5;
+    const Eigen::VectorXd off = motion.slopes.col(column) - judge;
     EXPECT_LT(off.cwiseAbs().maxCoeff(), 1e-6 * judge.cwiseAbs().maxCoeff() + 1e-10) << column;
   }
 }

@@ -1,0 +1,122 @@
+#include "analysis/sliding_identification/sliding_estimates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "analysis/statistics/distributions.hpp"
+#include "analysis/statistics/unknown.hpp"
+
+namespace zerocount::sliding_identification {
+namespace {
+
+using identification::EstimateStatus;
+using identification::ParameterEstimate;
+
+enum class Scale { linear, positive, logarithmic };
+
+/// A reported parameter: a function of the fitted point.
+struct Quantity {
+  const char* name;
+  const char* key;               ///< in a manifest
+  const char* unit;              ///< on a rotary axis
+  SlidingCoordinate coordinate;  ///< which must be free
+  double value;                  ///< its logarithm, if the scale is logarithmic
+  SlidingPoint gradient;         ///< of the value
+  Scale scale;
+  /// Why it is not identifiable if its interval is too wide; {0} is the interval's upper end, {1} the unit.
+  const char* vague;
+};
+
+std::vector<Quantity> quantities_of(const SlidingPoint& point) {
+  const double coulomb = point[coulomb_level];
+  const double excess = point[stribeck_excess];
+  const double level = coulomb + excess;
+  const SlidingPoint of_coulomb = SlidingPoint::Unit(coulomb_level);
+  const SlidingPoint of_excess = SlidingPoint::Unit(stribeck_excess);
+  const SlidingPoint of_ratio = (excess * of_coulomb - coulomb * of_excess) / (level * level);
+  return {
+      {"inertia", "plant.inertia", "kg m^2", log_inertia, point[log_inertia], SlidingPoint::Unit(log_inertia),
+       Scale::logarithmic, "the velocity hardly changes; accelerate more"},
+      {"sliding_damping", "plant.sliding_damping", "N m s/rad", viscous_damping, point[viscous_damping],
+       SlidingPoint::Unit(viscous_damping), Scale::positive,
+       "it shows too little at these velocities: with 95 % confidence it is at most {0:.3g} {1}; move at "
+       "velocities that differ more"},
+      {"coulomb_level", "", "N m", coulomb_level, coulomb, of_coulomb, Scale::positive,
+       "the velocities differ too little to tell it from the viscous damping"},
+      {"breakaway_level", "friction.breakaway", "N m", stribeck_excess, level, of_coulomb + of_excess,
+       Scale::positive, "the slow motion is too short"},
+      {"coulomb_ratio", "friction.coulomb_ratio", "1", stribeck_excess, coulomb / level, of_ratio,
+       Scale::linear, ""},
+      {"stribeck_velocity", "friction.stribeck_velocity", "rad/s", log_stribeck_velocity,
+       point[log_stribeck_velocity], SlidingPoint::Unit(log_stribeck_velocity), Scale::logarithmic,
+       "the slow motion is too short"},
+      {"offset", "", "N m", offset_torque, point[offset_torque], SlidingPoint::Unit(offset_torque),
+       Scale::linear, ""}};
+}
+
+/// Whether the interval of the quantity spans at most a factor of about 2 to each side.
+bool is_narrow(const ParameterEstimate& estimate, Scale scale) {
+  const double half_width = 0.5 * (estimate.high - estimate.low);
+  switch (scale) {
+    case Scale::positive:
+      return estimate.low > 0.0 && half_width <= max_log_halfwidth * estimate.value;
+    case Scale::logarithmic:
+      return half_width <= max_log_halfwidth;
+    case Scale::linear:
+      break;
+  }
+  return true;
+}
+
+void leave_open(ParameterEstimate& estimate, std::string reason) {
+  estimate.status = EstimateStatus::not_identifiable;
+  estimate.reason = std::move(reason);
+  estimate.value = estimate.standard_error = estimate.low = estimate.high = statistics::unknown;
+}
+
+ParameterEstimate estimate_of(const Quantity& quantity, const SlidingFit& fit, parameters::AxisKind axis) {
+  ParameterEstimate estimate;
+  estimate.name = quantity.name;
+  estimate.key = quantity.key;
+  estimate.unit = parameters::unit_on(axis, quantity.unit);
+  estimate.status = EstimateStatus::estimated;
+  if (!fit.free[quantity.coordinate]) {
+    leave_open(estimate,
+               quantity.coordinate == offset_torque
+                   ? "the motion has one direction, in which it is part of the Coulomb level"
+                   : "the friction does not visibly fall with the velocity; sliding shows no more than the "
+                     "Coulomb level");
+    return estimate;
+  }
+  const double freedom =
+      std::max(1.0, static_cast<double>(fit.windows.size()) - static_cast<double>(sliding_dimension));
+  const double quantile = statistics::student_t_quantile(freedom, 0.975);
+  estimate.value = quantity.value;
+  estimate.standard_error = std::sqrt(quantity.gradient.dot(fit.covariance * quantity.gradient));
+  estimate.low = estimate.value - quantile * estimate.standard_error;
+  estimate.high = estimate.value + quantile * estimate.standard_error;
+  if (!is_narrow(estimate, quantity.scale)) {
+    leave_open(estimate,
+               fmt::format(fmt::runtime(quantity.vague), std::max(estimate.high, 0.0), estimate.unit));
+  } else if (quantity.scale == Scale::logarithmic) {
+    estimate.value = std::exp(estimate.value);
+    estimate.standard_error *= estimate.value;
+    estimate.low = std::exp(estimate.low);
+    estimate.high = std::exp(estimate.high);
+  }
+  return estimate;
+}
+
+}  // namespace
+
+std::vector<ParameterEstimate> estimates_of(const SlidingFit& fit, parameters::AxisKind axis) {
+  std::vector<ParameterEstimate> estimates;
+  for (const Quantity& quantity : quantities_of(fit.point))
+    estimates.push_back(estimate_of(quantity, fit, axis));
+  return estimates;
+}
+
+}  // namespace zerocount::sliding_identification

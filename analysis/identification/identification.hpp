@@ -104,7 +104,7 @@ std::string identification_json(const Identification& identification);
 /// confidence interval, for a given parameter its value, for a parameter that is not identifiable a comment.
 /// Ends with a newline.
 ///
-/// Positive parameters are lognormal, and n is a truncated normal from 1.
+/// Positive parameters are lognormal, n is a truncated normal from 1, and coulomb_ratio one from 0 to 1.
 std::string manifest_fragment(const Identification& identification);
 
 /// `value` with one digit more than the half-width of the parameter's interval justifies.

@@ -65,7 +65,7 @@ SlidingFit best_fit(std::span<const SlidingRecord> records) {
   FreeParameters free{};
   free[log_inertia] = free[coulomb_level] = free[viscous_damping] = true;
   free[offset_torque] = moves_along(records, 1.0) && moves_along(records, -1.0);
-  const SlidingFit without = fit_sliding(records, starting_point(records, free[offset_torque]), free);
+  SlidingFit without = fit_sliding(records, starting_point(records, free[offset_torque]), free);
   const std::optional<double> velocity = visible_stribeck_velocity(records, without);
   if (!velocity) return without;
   free[stribeck_excess] = free[log_stribeck_velocity] = true;
@@ -73,7 +73,7 @@ SlidingFit best_fit(std::span<const SlidingRecord> records) {
   start[stribeck_excess] = 0.1 * std::abs(start[coulomb_level]);
   start[log_stribeck_velocity] = std::log(*velocity);
   try {
-    const SlidingFit fit = fit_sliding(records, start, free);
+    SlidingFit fit = fit_sliding(records, start, free);
     const SlidingPoint error = fit.covariance.diagonal().cwiseSqrt();
     const bool shown = fit.point[stribeck_excess] >= min_excess_ratio * error[stribeck_excess] &&
                        error[log_stribeck_velocity] < 0.5 * max_log_halfwidth;

@@ -28,7 +28,7 @@ inline StribeckCurve stribeck_curve(const FrictionParameters& contact) {
 
 /// g(ω), N m.
 template <class Number>
-Number level_at(const StribeckCurveOf<Number>& curve, const Number& omega) {
+Number level_at(const StribeckCurveOf<Number>& curve, Number omega) {
   using numerics::exp;
   return curve.coulomb + curve.excess * exp(-curve.per_velocity_squared * omega * omega);
 }

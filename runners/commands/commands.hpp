@@ -39,6 +39,7 @@ Command limits_command();
 Command controller_command();
 Command worst_command();
 Command plan_command();
+Command experiment_command();
 Command identify_command();
 Command sensitivity_command();
 Command slurm_command();

@@ -1,0 +1,133 @@
+#include "analysis/experiment_design/expected_widths.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "analysis/identification/checked_record.hpp"
+#include "analysis/identification/confidence_interval.hpp"
+#include "analysis/record_fit/reading_replicates.hpp"
+#include "analysis/record_fit/residual_checks.hpp"
+#include "core/loop/encoder.hpp"
+
+namespace zerocount::experiment_design {
+namespace {
+
+using identification::coordinate_count;
+using identification::TestRecord;
+
+/// The fit of a record, at the truth in place of a fit.
+struct TrueFit {
+  std::vector<TestRecord> records;
+  record_fit::FitSetting setting;
+  record_fit::FittedModel model;
+  double noise{0.0};
+  record_fit::Observations observations;
+  /// [parameter] of the keys of a manifest; without those that the fit does not leave free.
+  std::array<std::optional<identification::Quantity>, identification::time_offset> quantities;
+};
+
+bool is_creep(std::size_t coordinate) {
+  return coordinate == identification::log_alpha || coordinate == identification::log_limit ||
+         coordinate == identification::creep_exponent;
+}
+
+TrueFit true_fit(const Machine& machine, const TorqueProtocol& protocol, const SimulatedRecord& simulated) {
+  TrueFit fit;
+  fit.records.push_back(test_record_of(machine, protocol, simulated));
+  const TestRecord& record = fit.records.front();
+  identification::ContactParameters contact = machine.contact;
+  const bool creeps = contact.friction.alpha > 0.0;
+  if (!creeps) contact.friction.alpha = 1e-9;  // its logarithm is to be finite
+  for (std::size_t j = 0; j < coordinate_count; ++j) fit.setting.free.push_back(creeps || !is_creep(j));
+  const double creep_torque = identification::creep_torque_for(fit.records, {});
+  fit.setting.model = identification::contact_model(creep_torque);
+  fit.setting.prior = identification::point_of(contact, creep_torque);
+  record_fit::FitPoint point{fit.setting.prior, Eigen::VectorXd(1)};
+  point.offset[0] = machine.parameters.initial.encoder_phase;
+  fit.model = record_fit::model_at(fit.records, point, fit.setting);
+  const Eigen::VectorXd& path = fit.model.motions.front().path;
+  const Eigen::VectorXd readings = record_fit::readings_of(record);
+  fit.noise = record_fit::counting_noise(record, path, readings);
+  record_fit::observe(record, path, readings, fit.noise, fit.observations.emplace_back());
+  for (const identification::Quantity& quantity :
+       identification::fitted_quantities(point.axis, creep_torque)) {
+    for (std::size_t j = 0; j < fit.quantities.size(); ++j) {
+      if (quantity.key == identification::coordinate_keys[j] && fit.setting.free[j])
+        fit.quantities[j] = quantity;
+    }
+  }
+  return fit;
+}
+
+}  // namespace
+
+TestRecord test_record_of(const Machine& machine, const TorqueProtocol& protocol,
+                          const SimulatedRecord& simulated) {
+  const trial::TrialParameters& parameters = machine.parameters;
+  identification::RawSeries series;
+  series.name = "simulated record";
+  for (std::size_t k = 0; k < protocol.torque.size(); ++k) {
+    series.time.push_back(static_cast<double>(k) * protocol.sample_time);
+    series.torque.push_back(protocol.torque[k]);
+    series.angle.push_back(static_cast<double>(simulated.counts[k]));
+    series.code.push_back(static_cast<double>(protocol.codes[k]));
+  }
+  series.sliding.assign(protocol.torque.size(), false);
+  series.bandwidth = parameters.amplifier.bandwidth;
+  series.delay = parameters.controller.delay;
+  series.count_size = loop::fine_resolution(parameters.encoder);
+  series.linear = machine.axis == parameters::AxisKind::linear;
+  series.dac_bits = parameters.dac.bits;
+  series.units_known = true;
+  TestRecord record = identification::checked_record(series, true);
+  record.parts = record_fit::parts_of(record);
+  return record;
+}
+
+double log_spread(const Machine& machine, const TorqueProtocol& protocol, const SimulatedRecord& simulated) {
+  const TrueFit fit = true_fit(machine, protocol, simulated);
+  const Eigen::MatrixXd covariance =
+      record_fit::textbook_covariance(fit.model, fit.observations, fit.setting)
+          .topLeftCorner(identification::contact_dimension, identification::contact_dimension);
+  double sum = 0.0;
+  double count = 0.0;
+  for (const std::optional<identification::Quantity>& quantity : fit.quantities) {
+    if (!quantity) continue;
+    sum += 0.5 * std::log(quantity->slope.dot(covariance * quantity->slope));
+    count += 1.0;
+  }
+  return sum / count;
+}
+
+Widths expected_widths(const Machine& machine, const TorqueProtocol& protocol,
+                       const SimulatedRecord& simulated) {
+  constexpr std::size_t replicates = 200;
+  const TrueFit fit = true_fit(machine, protocol, simulated);
+  const record_fit::ReadingReplicates found =
+      record_fit::replicate_readings(fit.records, fit.model, fit.setting, {fit.noise}, replicates);
+  Widths widths;
+  for (const std::optional<identification::Quantity>& quantity : fit.quantities) {
+    widths.push_back(std::numeric_limits<double>::infinity());
+    if (!quantity) continue;
+    const record_fit::QuantityEstimate estimate = record_fit::interval_of_errors(
+        *quantity, found.errors.leftCols(identification::contact_dimension), 1.0);
+    widths.back() = 0.5 * (estimate.high - estimate.low);
+  }
+  return widths;
+}
+
+double widest(std::size_t parameter) {
+  return parameter == identification::creep_exponent ? 1.0 : 0.7;
+}
+
+identification::Identification identified(const Machine& machine, const TorqueProtocol& protocol,
+                                          const SimulatedRecord& simulated,
+                                          const identification::StageReport& report) {
+  identification::IdentificationOptions options;
+  options.report = report;
+  return identification::identify({test_record_of(machine, protocol, simulated)}, options);
+}
+
+}  // namespace zerocount::experiment_design

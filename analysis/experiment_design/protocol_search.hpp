@@ -1,0 +1,58 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analysis/experiment_design/expected_widths.hpp"
+#include "analysis/experiment_design/prior_machines.hpp"
+#include "analysis/experiment_design/torque_protocol.hpp"
+
+namespace zerocount::experiment_design {
+
+/// The problem: the protocol with the smallest mean of log_spread() over some machines, among those that are
+/// safe on all. The expectation over the prior, in place of the spread at one guess, is the average-optimal
+/// (ED-optimal) design: Pronzato, "Optimal experimental design and some related control problems",
+/// Automatica 44 (2008) 303, section 6; the information matrix of a dynamic experiment: Goodwin & Payne,
+/// Dynamic System Identification, 1977, chapter 6, and Ljung, System Identification, 1999, chapter 13.
+struct SearchProblem {
+  ProtocolFrame frame;
+  std::span<const Machine> machines;  ///< on all of them a protocol must be safe
+  std::size_t judging{4};             ///< the first so many machines have the criterion
+  double max_travel{0.0};             ///< rad; infinite: no limit
+};
+
+struct SearchSettings {
+  int max_protocols{80};
+  /// Asked before each protocol, with the number of those before; may be empty.
+  std::function<bool(int)> go_on{};
+};
+
+/// A shape with its criterion.
+struct JudgedShape {
+  ProtocolShape shape;
+  double spread{0.0};
+};
+
+struct SearchResult {
+  std::vector<JudgedShape>
+      improvements;       ///< the first safe shape, then each better one; the last is the best
+  int protocols{0};       ///< examined
+  bool converged{false};  ///< no single change of the shape is better
+};
+
+/// Searches by coordinate exchange (Meyer & Nachtsheim, Technometrics 37 (1995) 60): one property after the
+/// other goes to the next value on its grid, while that is better.
+/// @throws Failure (bad_input) with the last reason if even the smallest protocol is not safe.
+SearchResult search_protocol(const SearchProblem& problem, const SearchSettings& settings);
+
+/// How a protocol does on all machines.
+struct Safety {
+  std::string danger{};  ///< why it is not safe; empty if it is
+  double travel{0.0};    ///< largest |angle|, rad
+};
+
+Safety safety_of(const SearchProblem& problem, const TorqueProtocol& protocol);
+
+}  // namespace zerocount::experiment_design

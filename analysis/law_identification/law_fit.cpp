@@ -18,6 +18,11 @@ using record_fit::Observations;
 /// Steps of a fit that is continued to its end.
 constexpr int last_steps = 60;
 
+/// Squares in multiples of those of another law from which a law is not searched further, and the steps that
+/// it still takes.
+constexpr double hopeless = 100.0;
+constexpr int hopeless_steps = 15;
+
 /// True if the readings are counts and the residuals are about those of their rounding.
 bool is_explained(Records records, const FitResult& minimum, const Observations& readings) {
   if (!std::all_of(records.begin(), records.end(), [](const TestRecord& record) { return record.counted; })) {
@@ -42,7 +47,7 @@ FitResult with_neighbours(Records records, const LawModel& model, const Observat
   constexpr double better = 0.98;
   for (int round = 0; round < rounds && !is_explained(records, best, readings); ++round) {
     const std::vector<FitResult> tried =
-        promising_fits(records, readings, model.neighbours(best.point.axis), setting);
+        promising_fits(records, readings, model.neighbours(best.point.axis), setting, {3, 8, 1});
     if (tried.empty() || !(tried.front().squares < better * best.squares)) break;
     best = fit_from(records, readings, tried.front().point, with_steps(setting, last_steps));
   }
@@ -51,7 +56,8 @@ FitResult with_neighbours(Records records, const LawModel& model, const Observat
 
 /// The fit to all readings. The time offset is left free in the last steps only: far from a minimum it would
 /// make up for a wrong inertia.
-FitResult fit_all_readings(Records records, const LawModel& model, const FitSetting& setting) {
+FitResult fit_all_readings(Records records, const LawModel& model, const FitSetting& setting,
+                           double least_squares) {
   FitSetting undelayed = setting;
   undelayed.free.back() = false;
   const Observations readings = record_fit::all_readings(records);
@@ -62,6 +68,9 @@ FitResult fit_all_readings(Records records, const LawModel& model, const FitSett
         fmt::format("{}: no starting point of the friction model {} can be simulated along the records, "
                     "the rotor is too fast for their sampling; are the units right?",
                     records.front().name, friction::traits_of(model.law).word));
+  }
+  if (minima.front().squares > hopeless * least_squares) {
+    return fit_from(records, readings, minima.front().point, with_steps(setting, hopeless_steps));
   }
   minima = fits_from(records, readings, minima, with_steps(undelayed, last_steps));
   const FitResult found = with_neighbours(records, model, readings, undelayed, minima.front());
@@ -83,11 +92,12 @@ void observe_at(Records records, const record_fit::FitPoint& at, LawFit& fit) {
 
 }  // namespace
 
-LawFit fit_law(Records records, const LawModel& model) {
+LawFit fit_law(Records records, const LawModel& model, double least_squares) {
   LawFit fit;
   fit.setting.model = model.axis;
   fit.setting.free = model.free;
-  const FitResult rough = fit_all_readings(records, model, fit.setting);
+  const FitResult rough = fit_all_readings(records, model, fit.setting, least_squares);
+  fit.squares = rough.squares;
   fit.converged = rough.converged;
   observe_at(records, rough.point, fit);
   for (std::size_t r = 0; r < records.size(); ++r) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -118,11 +119,11 @@ void require_start(Records records, friction::FrictionModel law) {
 }
 
 FittedLaw fitted_law(Records records, friction::FrictionModel law, bool series_compliance,
-                     const RecordScales& scales) {
+                     const RecordScales& scales, double least_squares) {
   FittedLaw result;
   result.model = law_model(law, scales, records);
   if (series_compliance) result.model = with_series_compliance(result.model, scales);
-  result.fit = fit_law(records, result.model);
+  result.fit = fit_law(records, result.model, least_squares);
   const LawErrors errors = errors_of(records, result.fit);
   IdentifiedLaw& found = result.law;
   found.law = law;
@@ -165,9 +166,11 @@ LawComparison compare_laws(std::vector<TestRecord> records, const LawChoice& cho
   enter("starting values");
   const RecordScales scales = scales_of(records);
   std::vector<FittedLaw> fitted;
+  double least_squares = std::numeric_limits<double>::infinity();
   for (const friction::FrictionModel law : choice.laws) {
     enter(fmt::format("fit of {}", friction::traits_of(law).word));
-    fitted.push_back(fitted_law(records, law, choice.series_compliance, scales));
+    fitted.push_back(fitted_law(records, law, choice.series_compliance, scales, least_squares));
+    least_squares = std::min(least_squares, fitted.back().fit.squares);
   }
   const std::vector<double> effective = effective_readings(records, fitted);
   LawComparison comparison;

@@ -95,4 +95,15 @@ std::vector<RawSeries> read_columns(const ColumnSource& source, const SeriesChoi
 RawSeries read_study_series(const std::filesystem::path& path, std::int64_t point, std::int64_t index,
                             const SeriesChoice& choice);
 
+/// The points of a results file that keep the trace of one trial, all of the same axis.
+struct TracedPoints {
+  std::vector<std::int64_t> points;
+  /// Points that keep the trace too, but whose plant or friction has other values: "point 3 (k1=80)".
+  std::vector<std::string> left_out;
+};
+
+/// The points that keep the trace of trial `index`, and have the plant and the friction of the first of them; point 0
+/// if none keeps it.
+TracedPoints traced_points(const std::filesystem::path& path, std::int64_t index);
+
 }  // namespace zerocount::records

@@ -34,7 +34,40 @@ motion::PlantStart start_of(const trial::TrialParameters& trial, const SeriesCho
   return start;
 }
 
+/// The values of plant and friction of a trial that differ between trials or points.
+std::vector<double> axis_inputs(const study::Study& study, std::int64_t point, std::int64_t index) {
+  const std::vector<double> inputs = study::study_trial(study, point, index).inputs;
+  std::vector<double> own;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const std::string& name = study.input_columns[i].name;
+    if (name.starts_with("plant.") || name.starts_with("friction.")) own.push_back(inputs[i]);
+  }
+  return own;
+}
+
 }  // namespace
+
+TracedPoints traced_points(const std::filesystem::path& path, std::int64_t index) {
+  const reading::StudyFile file(path, reading::Require::any_part);
+  const study::Study study = layout::recorded_study(file.header(), path);
+  TracedPoints traced;
+  std::vector<double> of_first;
+  if (index >= study.trials) return {{0}, {}};
+  for (std::int64_t point = 0; point < study::point_count(study); ++point) {
+    const std::int64_t row = point * study.trials + index;
+    if (first_record(file, row) == first_record(file, row + 1)) continue;
+    const std::vector<double> own = axis_inputs(study, point, index);
+    if (traced.points.empty()) of_first = own;
+    if (own == of_first) {
+      traced.points.push_back(point);
+    } else {
+      traced.left_out.push_back(
+          fmt::format("point {} ({})", point, study.point_labels[static_cast<std::size_t>(point)]));
+    }
+  }
+  if (traced.points.empty()) traced.points.push_back(0);  // read_study_series() names what is missing
+  return traced;
+}
 
 RawSeries read_study_series(const std::filesystem::path& path, std::int64_t point, std::int64_t index,
                             const SeriesChoice& choice) {

@@ -46,8 +46,8 @@ constexpr const char* identify_help =
     "repetition. COLUMN is a name in the header, #NUMBER, or the path of a dataset in an HDF5 or MAT v7.3 "
     "file. A new repetition of\n"
     "the tests begins where the column of the repetition changes, or the time starts again.\n"
-    "A results file has the traces of the trials that its manifest retains; the encoder's\n"
-    "counts are used. At its first sample the contact must be unloaded and virgin, or have the\n"
+    "A results file has the traces of the trials that its manifest retains, of which all points\n"
+    "of one axis are taken, unless --point chooses; the encoder's counts are used. At its first sample the contact must be unloaded and virgin, or have the\n"
     "state given by --preload and --hardening.\n"
     "\n"
     "--sliding takes motion records instead, in which the axis slides to and fro, under open or\n"
@@ -70,7 +70,7 @@ constexpr const char* identify_help =
     "noise do not explain the residuals: the result is printed, but must not be trusted.\n"
     "\n"
     "Examples: zerocount identify ramps.csv steps.csv holds.csv --counts-per-revolution 1620000\n"
-    "          zerocount identify tests.h5 --point 0 --point 1 --format yaml -o friction.yaml\n"
+    "          zerocount identify tests.h5 --format yaml -o friction.yaml\n"
     "          zerocount identify tests.h5 --point 0 --point 1 --plot fit.html\n"
     "          zerocount identify log.txt --column time=t[ms] --column 'torque=I[A]*0.87' \\\n"
     "            --column 'angle=pos[mm]/10'\n";
@@ -200,12 +200,18 @@ identification::IdentificationOptions identification_options(const command_line:
   return options;
 }
 
-std::vector<std::int64_t> points_of(const command_line::Arguments& arguments, const std::string& path) {
-  std::vector<std::int64_t> points;
-  if (arguments.has("point"))
-    points = command_line::point_options(arguments, reading::StudyFile(path).point_labels());
-  if (points.empty()) points.push_back(0);
-  return points;
+/// The chosen points, or all that keep the trace of the trial and are of one axis.
+std::vector<std::int64_t> points_of(const command_line::Arguments& arguments, const std::string& path,
+                                    std::int64_t index) {
+  if (arguments.has("point")) {
+    return command_line::point_options(arguments, reading::StudyFile(path).point_labels());
+  }
+  const records::TracedPoints traced = records::traced_points(path, index);
+  if (!traced.left_out.empty()) {
+    status::tell("zerocount identify: {}: left out, because plant or friction has other values there: {}\n", path,
+                 fmt::join(traced.left_out, ", "));
+  }
+  return traced.points;
 }
 
 std::vector<records::RawSeries> read_all_series(const command_line::Arguments& arguments) {
@@ -226,7 +232,7 @@ std::vector<records::RawSeries> read_all_series(const command_line::Arguments& a
     }
     constexpr std::int64_t most = std::int64_t{1} << 53;
     const std::int64_t index = arguments.whole_number("trial", 0, most).value_or(0);
-    for (const std::int64_t point : points_of(arguments, path)) {
+    for (const std::int64_t point : points_of(arguments, path, index)) {
       found.push_back(records::read_study_series(path, point, index, choice));
     }
   }
@@ -384,7 +390,7 @@ std::vector<command_line::OptionSpec> identify_options() {
        {"posterior", "FILE", "write joint draws of the parameters there, for the key samples"},
        {"draws", "N", "number of joint draws (default 1000, up to 10000)"},
        {"plot", "FILE", "draw the fit: a page of all records (*.html), or one record as *.svg or *.png"},
-       {"point", "P", "design point in a results file, by label or number (default 0); may be repeated",
+       {"point", "P", "design point in a results file, by label or number (default: all with a trace); may be repeated",
         true},
        {"trial", "I", "trial of the point (default 0)"},
        command_line::format_option({"text", "json", "yaml"}),

@@ -67,7 +67,7 @@ TEST_F(Identify, FindsTheTruthInAResultsFile) {
 TEST_F(Identify, FindsTheSameInATrace) {
   run_study();
   trace("slow.csv", "0");
-  const ProgramResult file = run({"identify", "tests.h5", "--format", "json"});
+  const ProgramResult file = run({"identify", "tests.h5", "--point", "0", "--format", "json"});
   const ProgramResult table =
       run({"identify", "slow.csv", "--counts-per-revolution", "1620000", "--format", "json"});
   ASSERT_EQ(table.code, 0) << table.err;
@@ -89,9 +89,9 @@ TEST_F(Identify, ACommandedTorqueIsDelayed) {
     EXPECT_EQ(result.code, 0) << result.err;
     return parameter(nlohmann::json::parse(result.out), "k1")["value"].get<double>();
   };
-  const double of_motor = k1_of({"tests.h5"});
+  const double of_motor = k1_of({"tests.h5", "--point", "0"});
   EXPECT_NEAR(of_motor, 130.0, 0.5);
-  EXPECT_EQ(k1_of({"tests.h5", "--torque", "torque"}), of_motor);
+  EXPECT_EQ(k1_of({"tests.h5", "--point", "0", "--torque", "torque"}), of_motor);
   EXPECT_EQ(k1_of({"slow.csv", "--counts-per-revolution", "1620000", "--torque", "torque", "--delay", "3"}),
             of_motor);
 }
@@ -277,7 +277,7 @@ TEST_F(Identify, TheFragmentIsPartOfAManifest) {
 
 TEST_F(Identify, WhatIsKnownIsTaken) {
   run_study();
-  const ProgramResult result = run({"identify", "tests.h5", "--fix", "friction.n=2", "--format", "json"});
+  const ProgramResult result = run({"identify", "tests.h5", "--point", "0", "--fix", "friction.n=2", "--format", "json"});
   ASSERT_EQ(result.code, 0) << result.err;
   const auto json = nlohmann::json::parse(result.out);
   EXPECT_EQ(parameter(json, "n")["status"], "given");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -30,8 +31,15 @@ double coordinate_value(Coordinate coordinate, double value) {
   return coordinate == log_limit ? -std::log(value) : std::log(value);
 }
 
-FitSetting setting_for(Records records, const std::vector<KnownParameter>& known, double creep_torque) {
+/// The setting of a fit, and the points where it may start.
+struct FitStart {
   FitSetting setting;
+  std::vector<ContactPoint> points;  ///< the best first, which is the mean of the setting's prior
+};
+
+FitStart start_for(Records records, const std::vector<KnownParameter>& known, double creep_torque) {
+  FitStart start;
+  FitSetting& setting = start.setting;
   setting.model = contact_model(creep_torque);
   setting.free.assign(coordinate_count, true);
   ContactPoint values = ContactPoint::Zero();
@@ -41,8 +49,9 @@ FitSetting setting_for(Records records, const std::vector<KnownParameter>& known
   }
   // Slow parts hardly change from one sample to the next: a free offset would lead their fit astray.
   if (are_slow_alone(records)) setting.free[time_offset] = false;
-  setting.prior = starting_point(records, creep_torque, values, setting.free);
-  return setting;
+  start.points = starting_points(records, creep_torque, values, setting.free);
+  setting.prior = start.points.front();
+  return start;
 }
 
 void update_misfit(Records records, ContactFit& fit) {
@@ -169,19 +178,36 @@ std::vector<record_fit::Point> with_fixed(const std::vector<ContactPoint>& start
   return points;
 }
 
+/// Simulated samples (AxisModel::simulated) after which a fit of the usual effort 1 tries no more starting
+/// points: some 20 s on two cores.
+constexpr double usual_effort = 1.5e7;
+
+bool has_spent_effort(const FitSetting& setting, double effort) {
+  return static_cast<double>(setting.model.simulated->load()) > effort * usual_effort;
+}
+
 /// The rough fit, to all readings with equal weights: from the starting point, or from others if that
 /// explains too little.
-FitPoint fit_roughly(Records records, const FitSetting& setting, double creep_torque) {
+FitPoint fit_roughly(Records records, const FitStart& start, double creep_torque, double effort) {
+  const FitSetting& setting = start.setting;
   const Observations observations = all_readings(records);
   FitSetting rough = setting;
   rough.tolerance = 1e-3;
   FitSetting undelayed = rough;
   undelayed.free[time_offset] = false;
-  const FitPoint start = with_mean_offsets(records, setting.model, setting.prior).point;
-  FitResult best =
-      with_time_offset(records, observations, first_fit(records, observations, start, undelayed), rough);
-  refuse_glitches(records, best.point, setting);
-  if (are_explained(records, best.point, setting)) return best.point;
+  FitResult best{{}, std::numeric_limits<double>::infinity()};
+  for (const ContactPoint& point : start.points) {
+    undelayed.prior = rough.prior = point;
+    const FitPoint at = with_mean_offsets(records, setting.model, point).point;
+    const FitResult found =
+        with_time_offset(records, observations, first_fit(records, observations, at, undelayed), rough);
+    if (!(found.squares >= best.squares)) best = found;
+    refuse_glitches(records, best.point, setting);
+    if (are_explained(records, best.point, setting)) return best.point;
+  }
+  // The other starting points vary the one of closed forms, which has no wrong minimum of its own.
+  const ContactPoint& estimated = start.points.back();
+  undelayed.prior = rough.prior = estimated;
   FitSetting closer = undelayed;
   closer.tolerance = rough.tolerance = setting.tolerance;
   closer.max_steps = 30;
@@ -193,10 +219,12 @@ FitPoint fit_roughly(Records records, const FitSetting& setting, double creep_to
   std::vector alternatives{starts_with_other_softening};
   // Steps and long holds show the creep well enough; the holds of a closed loop may not.
   if (are_slow_alone(records)) alternatives.push_back(starts_with_other_creep);
-  for (const auto& starting_points : alternatives) {
-    const std::vector<ContactPoint> starts = starting_points(records, setting.prior, creep_torque);
+  for (const auto& alternative : alternatives) {
+    if (has_spent_effort(setting, effort)) return best.point;
+    const std::vector<ContactPoint> starts = alternative(records, estimated, creep_torque);
     for (const FitResult& other :
          promising_fits(records, observations, with_fixed(starts, setting), undelayed)) {
+      if (has_spent_effort(setting, effort)) break;
       rough.prior = other.point.axis;
       const FitResult found = with_time_offset(records, observations,
                                                fit_from(records, observations, other.point, closer), rough);
@@ -258,31 +286,30 @@ double spread(const ContactFit& fit) {
   return std::sqrt(statistics.squares / static_cast<double>(statistics.observations));
 }
 
-/// Fits with all coordinates free from the point of `fit` plus each of `changes`, and continues the best of
-/// them. False if none is better than `fit`, which then stays as it is.
+/// A few steps with all coordinates free from the point of `fit` plus each of `changes`, and the best of them
+/// to the end. False if that is not better than `fit`, which then stays as it is.
 bool improve_from(Records records, std::span<const ContactPoint> changes, ContactFit& fit) {
-  const ContactFit first = fit;
-  bool improved = false;
+  if (has_spent_effort(fit.setting, fit.effort)) return false;
+  std::vector<record_fit::Point> starts;
   for (const ContactPoint& change : changes) {
-    ContactFit other = first;
-    FitPoint point = first.model.point;
+    record_fit::Point& start = starts.emplace_back(fit.model.point.axis);
     for (std::size_t j = 0; j < coordinate_count; ++j) {
-      if (change[j] != 0.0 && first.setting.free[j]) other.setting.prior[j] = point.axis[j] += change[j];
+      if (fit.setting.free[j]) start[static_cast<Eigen::Index>(j)] += change[static_cast<Eigen::Index>(j)];
     }
-    other.setting.max_steps = 10;
-    try {
-      refine(records, point, 3, Freedom::all, other);
-    } catch (const Failure&) {
-      continue;  // a rotor that cannot be simulated
-    }
-    observe_again(records, other);
-    if (spread(other) >= spread(fit)) continue;
-    fit = other;
-    improved = true;
   }
-  if (!improved) return false;
-  fit.setting.max_steps = first.setting.max_steps;
-  refine(records, fit.model.point, max_rounds, Freedom::all, fit);
+  const std::vector<FitResult> found =
+      promising_fits(records, fit.observations, starts, fit.setting, {3, 8, 1});
+  if (found.empty()) return false;
+  ContactFit other = fit;
+  other.setting.prior = found.front().point.axis;
+  try {
+    refine(records, found.front().point, max_rounds, Freedom::all, other);
+  } catch (const Failure&) {
+    return false;  // a rotor that cannot be simulated
+  }
+  observe_again(records, other);
+  if (spread(other) >= spread(fit)) return false;
+  fit = other;
   return true;
 }
 
@@ -298,13 +325,16 @@ double creep_torque_for(Records records, const std::vector<KnownParameter>& know
   return 0.7 * largest;
 }
 
-ContactFit fit_contact(Records records, const std::vector<KnownParameter>& known, const StageReport& report) {
+ContactFit fit_contact(Records records, const std::vector<KnownParameter>& known, const StageReport& report,
+                       double effort) {
   ContactFit fit;
+  fit.effort = effort;
   if (report) report("starting values");
   fit.creep_torque = creep_torque_for(records, known);
-  fit.setting = setting_for(records, known, fit.creep_torque);
+  const FitStart start = start_for(records, known, fit.creep_torque);
+  fit.setting = start.setting;
   if (report) report("rough fit");
-  const FitPoint point = fit_roughly(records, fit.setting, fit.creep_torque);
+  const FitPoint point = fit_roughly(records, start, fit.creep_torque, effort);
   for (std::size_t j = 0; j < coordinate_count; ++j) {
     if (fit.setting.free[j]) fit.setting.prior[j] = point.axis[j];
   }
@@ -340,6 +370,10 @@ bool free_untold_coordinates(Records records, ContactFit& fit) {
     }
   }
   return improve_from(records, changes, fit);
+}
+
+bool has_ended_early(const ContactFit& fit) {
+  return has_spent_effort(fit.setting, fit.effort);
 }
 
 bool improve_softening(Records records, ContactFit& fit) {

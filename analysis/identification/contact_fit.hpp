@@ -29,6 +29,7 @@ using StageReport = std::function<void(std::string_view)>;
 /// A contact fitted to records.
 struct ContactFit {
   double creep_torque{1.0};  ///< σ0 of the coordinates, N m
+  double effort{1.0};        ///< see fit_contact()
   FitSetting setting;
   FittedModel model;
   Observations observations;  ///< [record]
@@ -47,8 +48,12 @@ double creep_torque_for(Records records, const std::vector<KnownParameter>& know
 /// updated observations until the fit no longer changes.
 /// @throws Failure (bad_data) if a single reading is an outlier, the model does not explain a record, or the
 /// fit ends at a rotor that cannot be simulated.
+/// @param effort factor on the number of simulated samples after which no other starting points are tried
 ContactFit fit_contact(Records records, const std::vector<KnownParameter>& known,
-                       const StageReport& report = {});
+                       const StageReport& report = {}, double effort = 1.0);
+
+/// True if the search for other starting points ended because of the effort.
+bool has_ended_early(const ContactFit& fit);
 
 /// Repeats the fit with a time offset of 0, the given delay.
 void keep_time_offset(Records records, ContactFit& fit);

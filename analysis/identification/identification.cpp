@@ -237,7 +237,8 @@ CheckedFit explained_fit(Records records, const IdentificationOptions& options) 
   const auto enter = [&](std::string_view stage) {
     if (options.report) options.report(stage);
   };
-  CheckedFit best = checked_fit(records, fit_contact(records, options.known, options.report), options);
+  CheckedFit best =
+      checked_fit(records, fit_contact(records, options.known, options.report, options.effort), options);
   if (best.fit.setting.free[time_offset] && shows_no_time_offset(best.fit, best.replicates)) {
     enter("fit with the given delay");
     keep_time_offset(records, best.fit);
@@ -294,6 +295,7 @@ Identification identify(std::vector<TestRecord> records, const IdentificationOpt
   Identification result;
   const auto& [fit, replicates, checks] = explained_fit(records, options);
   result.checks = checks;
+  result.search_ended = !checks.passed && has_ended_early(fit);
   refuse_gross_misfit(records, fit, checks);
   for (std::size_t r = 0; r < records.size(); ++r) {
     result.records.push_back(summary_of(records[r], fit, r));

@@ -56,6 +56,7 @@ struct Identification {
   std::vector<RecordSummary> records;
   std::vector<FittedRecord> fitted;  ///< [record] for figures
   record_fit::ResidualChecks checks;
+  bool search_ended{false};  ///< not explained, and no more starting points were tried because of the effort
   /// Correlation of the errors of a pair of estimated parameters; listed if its magnitude is 0.9 or more.
   struct Correlation {
     std::string one;
@@ -71,6 +72,7 @@ struct IdentificationOptions {
   std::vector<KnownParameter> known;
   std::size_t replicates{500};
   std::size_t draws{0};  ///< joint draws of the parameters
+  double effort{1.0};    ///< see fit_contact()
   StageReport report{};
 };
 

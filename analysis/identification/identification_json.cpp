@@ -82,6 +82,7 @@ std::string identification_json(const Identification& identification) {
   json["records"] = Json::array();
   for (const RecordSummary& record : identification.records) json["records"].push_back(record_json(record));
   json["residuals"] = checks_json(identification.checks);
+  json["search_ended"] = identification.search_ended;
   json["manifest"] = manifest_fragment(identification);
   return json.dump(2) + "\n";
 }

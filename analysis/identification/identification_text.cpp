@@ -117,6 +117,9 @@ std::string identification_text(const Identification& identification) {
   text += "Records:\n";
   for (const RecordSummary& record : identification.records) text += record_line(record);
   text += checks_text(identification.checks);
+  if (identification.search_ended) {
+    text += "  Other starting points were left out to save time: --effort 4 tries more of them.\n";
+  }
   return text + "\nTo paste into a manifest:\n\n" + manifest_fragment(identification);
 }
 

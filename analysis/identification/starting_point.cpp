@@ -192,22 +192,21 @@ motion::PlantParameters estimate_ring_down(Records records, double k1) {
   return plant;
 }
 
-ContactPoint starting_point(Records records, double creep_torque, const ContactPoint& known,
-                            const FreeCoordinates& free) {
+std::vector<ContactPoint> starting_points(Records records, double creep_torque, const ContactPoint& known,
+                                          const FreeCoordinates& free) {
   const auto start_with = [&](const CreepEstimate& creep) {
     return with_known(point_with_creep(records, creep, creep_torque), known, free);
   };
-  std::vector<ContactPoint> starts;
+  const auto with_ringing = [&](const ContactPoint& point) {
+    return with_known(with_best_ringing(records, point, creep_torque), known, free);
+  };
   CreepEstimate creep = estimate_creep(records, creep_torque);
-  const bool slow_alone = are_slow_alone(records);
-  if (creep.limit > 0.0) {
+  const bool creep_seen = creep.limit > 0.0;
+  std::vector<ContactPoint> starts;
+  if (creep_seen) {
     const ContactPoint start = start_with(creep);
     starts.push_back(best_of(all_of(records), start, creep_torque, softening_changes()));
-    // The error of an estimated creep law is larger than what a fit of the spring alone could gain.
-    if (!slow_alone) {
-      return with_known(with_best_ringing(records, with_known(starts.front(), known, free), creep_torque),
-                        known, free);
-    }
+    if (!has_slow_branches(records)) return {with_ringing(with_known(starts.front(), known, free))};
   }
   // Creep as a fraction of the spring's travel.
   creep.exponent = 2.0;
@@ -216,20 +215,24 @@ ContactPoint starting_point(Records records, double creep_torque, const ContactP
     creep.limit = proportion * travel;
     starts.push_back(start_with(creep));
   }
-  SlowFit slow =
-      fit_slow_parts(records, starts, creep_torque, free, slow_alone ? SlowCreep::fitted : SlowCreep::kept);
-  ContactPoint point = starts.front();
+  SlowFit slow = fit_slow_parts(records, starts, creep_torque, free,
+                                creep_seen || are_slow_alone(records) ? SlowCreep::fitted : SlowCreep::kept);
+  const ContactPoint estimated = starts.front();
   std::vector<ContactPoint> changes = softening_changes();
-  for (const ContactPoint& start : starts) changes.push_back(start - point);
+  for (const ContactPoint& start : starts) changes.push_back(start - estimated);
   if (std::isfinite(slow.squares)) {
     // The inertia and the damping of the same frequency and damping ratio.
-    const double softer = slow.point[log_k1] - point[log_k1];
+    const double softer = slow.point[log_k1] - estimated[log_k1];
     if (free[log_inertia]) slow.point[log_inertia] += softer;
     if (free[log_damping]) slow.point[log_damping] += softer;
-    changes.push_back(slow.point - point);
+    changes.push_back(slow.point - estimated);
   }
-  point = best_of(all_of(records), point, creep_torque, changes);
-  return with_known(with_best_ringing(records, point, creep_torque), known, free);
+  const ContactPoint point = with_ringing(best_of(all_of(records), estimated, creep_torque, changes));
+  if (!creep_seen) return {point};
+  // Creep that was fitted to slow parts may stand for the softening of the spring.
+  const std::array<ContactPoint, 1> other{with_ringing(estimated) - point};
+  const ContactPoint first = best_of(all_of(records), point, creep_torque, other);
+  return {first, first == point ? ContactPoint(point + other[0]) : point};
 }
 
 std::vector<ContactPoint> starts_with_other_softening(Records records, const ContactPoint& start,

@@ -50,12 +50,13 @@ FirstOvershoot first_overshoot(const TestRecord& record, const TorqueHold& ring_
 /// J and c from the first oscillation after the largest step, for a linear spring of stiffness k1.
 motion::PlantParameters estimate_ring_down(Records records, double k1);
 
-/// Starting point of the joint fit: the estimates above, with β, J and c from a coarse grid search around
-/// them (sum of squares over all readings). Where there are slow parts, the spring and its creep are those of
-/// the law without inertia and damping (see fit_slow_parts()).
+/// Starting points of the joint fit, the best one first: the estimates above, with β, J and c from a coarse
+/// grid search around them (sum of squares over all readings). Where there are slow parts, the spring and its
+/// creep are those of the law without inertia and damping (see fit_slow_parts()); with visible creep both are
+/// returned.
 /// @param known values of the coordinates that are not `free`
-ContactPoint starting_point(Records records, double creep_torque, const ContactPoint& known,
-                            const FreeCoordinates& free);
+std::vector<ContactPoint> starting_points(Records records, double creep_torque, const ContactPoint& known,
+                                          const FreeCoordinates& free);
 
 /// Other starting points: springs with much larger or smaller β and with other values of k2/β, each with its
 /// best J and c of the grid.

@@ -24,8 +24,9 @@ RecordScales scales_of(Records records) {
   scales.axis = records.front().axis;
   scales.creep_torque = identification::creep_torque_for(records, {});
   const record_fit::FreeCoordinates free(identification::coordinate_count, true);
-  scales.contact = identification::starting_point(records, scales.creep_torque,
-                                                  identification::ContactPoint::Zero(), free);
+  scales.contact = identification::starting_points(records, scales.creep_torque,
+                                                   identification::ContactPoint::Zero(), free)
+                       .front();
   scales.contact[identification::time_offset] = 0.0;
   for (const TestRecord& record : records) {
     const Eigen::VectorXd angle = identification::measured_angle(record);

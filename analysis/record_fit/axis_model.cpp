@@ -88,6 +88,9 @@ SampledPath path_at(const TestRecord& record, const AxisModel& model, const Poin
   const AxisParameters axis = model.parameters_at(point);
   plant::Plant plant(axis.plant, axis.friction, record.start,
                      {motion_tolerance * record.unit, rest_tolerance * record.unit});
+  const double steps = 1.0 + fastest_rate(axis) * record.sample_time;
+  const auto samples = static_cast<double>(sample_count(record));
+  model.simulated->fetch_add(static_cast<std::int64_t>(std::min(steps, 1e3) * samples));
   const double offset = point[point.size() - 1];
   SampledPath path = sampled_path(record, std::move(plant), offset, long_steps(axis));
   if (model.series_compliance) {

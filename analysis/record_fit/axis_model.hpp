@@ -1,7 +1,10 @@
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -46,6 +49,9 @@ struct AxisModel {
   std::function<AxisParameters(const Point&)> parameters_at;
   /// Compliance of a fixture in series with the contact, rad/(N m); empty: none.
   std::function<double(const Point&)> series_compliance{};
+  /// Samples simulated with this model and its copies, each weighted by the steps that a fast rotor needs in
+  /// it. The same for any number of threads.
+  std::shared_ptr<std::atomic<std::int64_t>> simulated{std::make_shared<std::atomic<std::int64_t>>(0)};
 };
 
 inline Eigen::Index dimension_of(const AxisModel& model) {

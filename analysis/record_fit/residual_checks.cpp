@@ -66,7 +66,7 @@ std::string reason_of_misfit(const ResidualChecks& checks) {
   if (checks.passed) return "";
   const bool large = checks.spread_chance < least_chance;
   return large
-             ? fmt::format("the residuals are {:.2g} times as large as the encoder's steps and noise explain",
+             ? fmt::format("the residuals are {:.3g} times as large as the encoder's steps and noise explain",
                            checks.spread / checks.expected_spread)
              : fmt::format(
                    "the residuals have {:.0f} runs of one sign, where the encoder's steps and noise "
@@ -148,13 +148,21 @@ std::optional<std::size_t> find_glitch(const TestRecord& record, const Eigen::Ve
   constexpr double arithmetic = 1e-3;
   const double least = record.counted ? 1.5 + counted_deviations * noise_of_counts(residual)
                                       : arithmetic + deviations * robust_deviation(off);
+  // Off the path alone may be the path's fault: such a reading is also off those about it.
+  const auto beside = [&](std::size_t k) {
+    const double before = record.reading[k > 0 ? k - 1 : k + 1];
+    const double after = record.reading[k + 1 < samples ? k + 1 : k - 1];
+    return std::abs(record.reading[k] - 0.5 * (before + after));
+  };
+  const double rounding = record.counted ? 1.0 : 0.0;
   constexpr std::size_t near = 3;
   constexpr std::size_t far = 6;
-  for (std::size_t k = far; k + far < samples; ++k) {
-    if (off[k] <= least) continue;
+  for (std::size_t k = 0; k < samples; ++k) {
+    if (off[k] <= least || beside(k) < 0.5 * off[k] + rounding) continue;
     bool alone = true;
     for (std::size_t lag = near; lag <= far; ++lag) {
-      alone = alone && off[k - lag] < off[k] / 3.0 && off[k + lag] < off[k] / 3.0;
+      if (k >= lag) alone = alone && off[k - lag] < off[k] / 3.0;
+      if (k + lag < samples) alone = alone && off[k + lag] < off[k] / 3.0;
     }
     if (alone) return k;
   }

@@ -54,8 +54,9 @@ double noise_along(const TestRecord& record, const Eigen::VectorXd& path);
 bool is_explained(const TestRecord& record, const Eigen::VectorXd& path);
 
 /// A sample whose reading is an outlier: its residual is above 12 standard deviations of all (for counts,
-/// 1.5 counts beyond rounding and 6 standard deviations of their noise), and the readings a few samples
-/// away are not. Masked readings are none. Nothing if there is none.
+/// 1.5 counts beyond rounding and 6 standard deviations of their noise), those of the readings a few samples
+/// away are not, and it is as far from the readings before and after it. Masked readings are none. Nothing if
+/// there is none.
 std::optional<std::size_t> find_glitch(const TestRecord& record, const Eigen::VectorXd& path);
 
 /// The sample at which the residuals change most over 20 samples.

@@ -47,7 +47,8 @@ constexpr const char* identify_help =
     "file. A new repetition of\n"
     "the tests begins where the column of the repetition changes, or the time starts again.\n"
     "A results file has the traces of the trials that its manifest retains, of which all points\n"
-    "of one axis are taken, unless --point chooses; the encoder's counts are used. At its first sample the contact must be unloaded and virgin, or have the\n"
+    "of one axis are taken, unless --point chooses; the encoder's counts are used. At its first sample the "
+    "contact must be unloaded and virgin, or have the\n"
     "state given by --preload and --hardening.\n"
     "\n"
     "--sliding takes motion records instead, in which the axis slides to and fro, under open or\n"
@@ -197,6 +198,8 @@ identification::IdentificationOptions identification_options(const command_line:
     constexpr std::int64_t least = 1, most = 10'000, usual = 1000;
     options.draws = static_cast<std::size_t>(arguments.whole_number("draws", least, most).value_or(usual));
   }
+  constexpr double least = 0.1;
+  options.effort = number_option(arguments, "effort", least).value_or(1.0);
   return options;
 }
 
@@ -208,8 +211,8 @@ std::vector<std::int64_t> points_of(const command_line::Arguments& arguments, co
   }
   const records::TracedPoints traced = records::traced_points(path, index);
   if (!traced.left_out.empty()) {
-    status::tell("zerocount identify: {}: left out, because plant or friction has other values there: {}\n", path,
-                 fmt::join(traced.left_out, ", "));
+    status::tell("zerocount identify: {}: left out, because plant or friction has other values there: {}\n",
+                 path, fmt::join(traced.left_out, ", "));
   }
   return traced.points;
 }
@@ -242,8 +245,8 @@ std::vector<records::RawSeries> read_all_series(const command_line::Arguments& a
 
 /// Refuses the options of material tests. Windows of sliding begin at samples, and so must their torque.
 void refuse_material_options(const command_line::Arguments& arguments) {
-  for (const char* option : {"fix", "model", "series-compliance", "preload", "hardening", "dac-bits",
-                             "any-magnitude", "posterior", "plot"}) {
+  for (const char* option : {"fix", "effort", "model", "series-compliance", "preload", "hardening",
+                             "dac-bits", "any-magnitude", "posterior", "plot"}) {
     if (arguments.has(option)) {
       arguments.refuse(fmt::format("options '--{}' and '--sliding' exclude each other", option));
     }
@@ -386,11 +389,14 @@ std::vector<command_line::OptionSpec> identify_options() {
        {"hardening", "XH", "work hardening before the test, rad (default 0)"},
        {"fix", "KEY=VALUE", "a known parameter, such as friction.n=2 or time_offset=0; may be repeated",
         true},
+       {"effort", "FACTOR",
+        "time for other starting points, if the first does not fit (default 1: about 20 s)"},
        {"any-magnitude", "", "accept values that suggest other units"},
        {"posterior", "FILE", "write joint draws of the parameters there, for the key samples"},
        {"draws", "N", "number of joint draws (default 1000, up to 10000)"},
        {"plot", "FILE", "draw the fit: a page of all records (*.html), or one record as *.svg or *.png"},
-       {"point", "P", "design point in a results file, by label or number (default: all with a trace); may be repeated",
+       {"point", "P",
+        "design point in a results file, by label or number (default: all with a trace); may be repeated",
         true},
        {"trial", "I", "trial of the point (default 0)"},
        command_line::format_option({"text", "json", "yaml"}),

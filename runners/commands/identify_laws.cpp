@@ -46,7 +46,7 @@ law_identification::LawChoice chosen_laws(const command_line::Arguments& argumen
 }
 
 void refuse_options_beside_laws(const command_line::Arguments& arguments) {
-  for (const char* option : {"fix", "posterior", "plot"}) {
+  for (const char* option : {"fix", "effort", "posterior", "plot"}) {
     if (!arguments.has(option)) continue;
     arguments.refuse(fmt::format(
         "option '--{}' is only for the pre-sliding model, without '--model' and '--series-compliance'",

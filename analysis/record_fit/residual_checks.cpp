@@ -150,21 +150,24 @@ std::optional<std::size_t> find_glitch(const TestRecord& record, const Eigen::Ve
                                       : arithmetic + deviations * robust_deviation(off);
   // Off the path alone may be the path's fault: such a reading is also off those about it.
   const auto beside = [&](std::size_t k) {
-    const double before = record.reading[k > 0 ? k - 1 : k + 1];
-    const double after = record.reading[k + 1 < samples ? k + 1 : k - 1];
-    return std::abs(record.reading[k] - 0.5 * (before + after));
+    return std::abs(record.reading[k] - 0.5 * (record.reading[k - 1] + record.reading[k + 1]));
+  };
+  // Nor is a reading wrong where the path does not follow the others either.
+  constexpr double beyond_others = 12.0;
+  const double all = std::inner_product(off.begin(), off.end(), off.begin(), 0.0);
+  const auto others = [&](std::size_t k) {
+    return std::sqrt(std::max(all - off[k] * off[k], 0.0) / static_cast<double>(samples));
   };
   const double rounding = record.counted ? 1.0 : 0.0;
   constexpr std::size_t near = 3;
   constexpr std::size_t far = 6;
-  for (std::size_t k = 0; k < samples; ++k) {
+  for (std::size_t k = far; k + far < samples; ++k) {
     if (off[k] <= least || beside(k) < 0.5 * off[k] + rounding) continue;
     bool alone = true;
     for (std::size_t lag = near; lag <= far; ++lag) {
-      if (k >= lag) alone = alone && off[k - lag] < off[k] / 3.0;
-      if (k + lag < samples) alone = alone && off[k + lag] < off[k] / 3.0;
+      alone = alone && off[k - lag] < off[k] / 3.0 && off[k + lag] < off[k] / 3.0;
     }
-    if (alone) return k;
+    if (alone && off[k] > beyond_others * others(k)) return k;
   }
   return std::nullopt;
 }

@@ -102,8 +102,8 @@ struct TracedPoints {
   std::vector<std::string> left_out;
 };
 
-/// The points that keep the trace of trial `index`, and have the plant and the friction of the first of them; point 0
-/// if none keeps it.
+/// The points that keep the trace of trial `index`, and have the plant and the friction of the first of them;
+/// point 0 if none keeps it.
 TracedPoints traced_points(const std::filesystem::path& path, std::int64_t index);
 
 }  // namespace zerocount::records

@@ -277,7 +277,8 @@ TEST_F(Identify, TheFragmentIsPartOfAManifest) {
 
 TEST_F(Identify, WhatIsKnownIsTaken) {
   run_study();
-  const ProgramResult result = run({"identify", "tests.h5", "--point", "0", "--fix", "friction.n=2", "--format", "json"});
+  const ProgramResult result =
+      run({"identify", "tests.h5", "--point", "0", "--fix", "friction.n=2", "--format", "json"});
   ASSERT_EQ(result.code, 0) << result.err;
   const auto json = nlohmann::json::parse(result.out);
   EXPECT_EQ(parameter(json, "n")["status"], "given");

@@ -24,10 +24,10 @@ RecordScales scales_of(Records records) {
   scales.axis = records.front().axis;
   scales.creep_torque = identification::creep_torque_for(records, {});
   const record_fit::FreeCoordinates free(identification::coordinate_count, true);
+  // That of closed forms, without a creep that was fitted to slow parts.
   scales.contact = identification::starting_points(records, scales.creep_torque,
                                                    identification::ContactPoint::Zero(), free)
-                       .front();
-  scales.contact[identification::time_offset] = 0.0;
+                       .back();
   for (const TestRecord& record : records) {
     const Eigen::VectorXd angle = identification::measured_angle(record);
     scales.largest_torque = std::max(scales.largest_torque, record_fit::largest_torque(record));

@@ -232,6 +232,7 @@ FitPoint fit_roughly(Records records, const FitStart& start, double creep_torque
       if (are_explained(records, best.point, setting)) return best.point;
     }
   }
+  if (has_spent_effort(setting, effort)) return best.point;
   rough.max_steps = 50;
   return fit_from(records, observations, best.point, rough).point;
 }

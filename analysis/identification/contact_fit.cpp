@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,6 +19,11 @@ namespace {
 /// Largest rate of a rotor beside the sampling at which the fits of slow parts start: what is faster shows as
 /// little of itself, and takes longer to simulate.
 constexpr double max_slow_rate = 4.0;
+
+/// Simulated samples at which a single fit ends: a fit that converges simulates each record some hundred
+/// times.
+constexpr double least_fit_samples = 8e6;
+constexpr double fit_paths = 400.0;
 
 constexpr int max_rounds = 6;
 
@@ -41,6 +46,9 @@ FitStart start_for(Records records, const std::vector<KnownParameter>& known, do
   FitStart start;
   FitSetting& setting = start.setting;
   setting.model = contact_model(creep_torque);
+  std::size_t samples = 0;
+  for (const TestRecord& record : records) samples += sample_count(record);
+  setting.max_simulated = std::max(least_fit_samples, fit_paths * static_cast<double>(samples));
   setting.free.assign(coordinate_count, true);
   ContactPoint values = ContactPoint::Zero();
   for (const auto& [coordinate, value] : known) {
@@ -195,16 +203,18 @@ FitPoint fit_roughly(Records records, const FitStart& start, double creep_torque
   rough.tolerance = 1e-3;
   FitSetting undelayed = rough;
   undelayed.free[time_offset] = false;
-  FitResult best{{}, std::numeric_limits<double>::infinity()};
+  std::optional<FitResult> first;
   for (const ContactPoint& point : start.points) {
     undelayed.prior = rough.prior = point;
     const FitPoint at = with_mean_offsets(records, setting.model, point).point;
     const FitResult found =
         with_time_offset(records, observations, first_fit(records, observations, at, undelayed), rough);
-    if (!(found.squares >= best.squares)) best = found;
+    if (!first || found.squares < first->squares) first = found;
+    const FitResult& best = *first;
     refuse_glitches(records, best.point, setting);
     if (are_explained(records, best.point, setting)) return best.point;
   }
+  FitResult best = *first;
   // The other starting points vary the one of closed forms, which has no wrong minimum of its own.
   const ContactPoint& estimated = start.points.back();
   undelayed.prior = rough.prior = estimated;

@@ -17,6 +17,12 @@ constexpr double max_unexplained = 0.02;
 /// Maximum residual spread, as a multiple of the expected one.
 constexpr double max_spread = 30.0;
 
+/// Names what a search that ended early has left out.
+std::string early_end_text(const ContactFit& fit) {
+  if (!has_ended_early(fit)) return "";
+  return ". Other starting points were left out to save time: --effort 4 tries more of them";
+}
+
 /// @throws Failure (bad_data) with the words and units of the record's axis.
 [[noreturn]] void refuse(const TestRecord& record, const std::string& reason) {
   throw Failure(ExitCode::bad_data, record.name + ": " + parameters::text_on(record.axis, reason));
@@ -51,9 +57,9 @@ void refuse_unexplained(Records records, const ContactFit& fit, double tolerance
         fmt::format("the pre-sliding model does not explain this record: its residuals are {:.3g} $rad (root "
                     "mean square) of a travel of {:.3g} $rad, and grow most at {:.4g} s. Did the axis slide, "
                     "was the $torque clipped, is the contact not as it was said to be at the start? --model "
-                    "all compares other friction laws",
+                    "all compares other friction laws{}",
                     fit.misfit[r] * records[r].unit, (*high - *low) * records[r].unit,
-                    static_cast<double>(sample) * records[r].sample_time));
+                    static_cast<double>(sample) * records[r].sample_time, early_end_text(fit)));
   }
 }
 
@@ -62,14 +68,14 @@ void refuse_gross_misfit(Records records, const ContactFit& fit, const record_fi
   const auto worst =
       static_cast<std::size_t>(std::max_element(fit.misfit.begin(), fit.misfit.end()) - fit.misfit.begin());
   const std::size_t sample = record_fit::largest_misfit_growth(records[worst], fit.model.motions[worst].path);
-  refuse(
-      records[worst],
-      fmt::format(
-          "the pre-sliding model does not explain the records: the residuals are {:.0f} times those that "
-          "the encoder's steps and noise give, and grow most at {:.4g} s of this record. Does a record "
-          "begin under load, is the $torque of another time than the $angle, did the axis slide? "
-          "--model all compares other friction laws",
-          checks.spread / checks.expected_spread, static_cast<double>(sample) * records[worst].sample_time));
+  refuse(records[worst],
+         fmt::format(
+             "the pre-sliding model does not explain the records: the residuals are {:.0f} times those that "
+             "the encoder's steps and noise give, and grow most at {:.4g} s of this record. Does a record "
+             "begin under load, is the $torque of another time than the $angle, did the axis slide? "
+             "--model all compares other friction laws{}",
+             checks.spread / checks.expected_spread, static_cast<double>(sample) * records[worst].sample_time,
+             early_end_text(fit)));
 }
 
 }  // namespace zerocount::identification

@@ -5,12 +5,13 @@
 #include <limits>
 
 #include <ceres/cost_function.h>
+#include <ceres/iteration_callback.h>
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 #include <glog/logging.h>
-#include <oneapi/tbb/parallel_for.h>
 
+#include "analysis/record_fit/parallel.hpp"
 #include "analysis/record_fit/residual_checks.hpp"
 
 namespace zerocount::record_fit {
@@ -93,6 +94,20 @@ class JointResiduals : public ceres::CostFunction {
   const FitSetting& setting_;
 };
 
+/// Ends a fit that has simulated more samples than its setting allows.
+class EndOfEffort : public ceres::IterationCallback {
+ public:
+  explicit EndOfEffort(const FitSetting& setting) : setting_(setting) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& /*summary*/) override {
+    const auto simulated = static_cast<double>(setting_.model.simulated->load());
+    return simulated > setting_.max_simulated ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const FitSetting& setting_;
+};
+
 void keep_fixed(ceres::Problem& problem, double* axis, const FreeCoordinates& free) {
   std::vector<int> fixed;
   for (std::size_t j = 0; j < free.size(); ++j) {
@@ -120,8 +135,12 @@ Observations all_readings(Records records) {
 }
 
 FitResult fit_jointly(Records records, const Observations& observations, const FitPoint& start,
-                      const FitSetting& setting) {
+                      const FitSetting& given) {
   quieten_log();
+  // Its own counter, so that the end does not depend on fits that run beside this one.
+  FitSetting setting = given;
+  setting.model.simulated = std::make_shared<std::atomic<std::int64_t>>(0);
+  EndOfEffort end(setting);
   FitPoint point = start;
   ceres::Problem problem;
   problem.AddResidualBlock(new JointResiduals(records, observations, setting), nullptr, point.axis.data(),
@@ -134,8 +153,10 @@ FitResult fit_jointly(Records records, const Observations& observations, const F
   options.function_tolerance = setting.tolerance;
   options.parameter_tolerance = 1e-9;
   options.max_num_consecutive_invalid_steps = setting.max_steps;
+  options.callbacks.push_back(&end);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
+  given.model.simulated->fetch_add(setting.model.simulated->load());
   if (!summary.IsSolutionUsable()) return {start, std::numeric_limits<double>::infinity(), false};
   return {point, 2.0 * summary.final_cost,  // Ceres' cost is half the sum
           summary.termination_type == ceres::CONVERGENCE};
@@ -149,7 +170,7 @@ FitResult fit_from(Records records, const Observations& observations, const FitP
 
 std::vector<FitResult> fits_from(Records records, const Observations& observations,
                                  std::vector<FitResult> starts, const FitSetting& setting) {
-  oneapi::tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
+  for_each_index(starts.size(), [&](std::size_t i) {
     starts[i] = fit_from(records, observations, starts[i].point, setting);
   });
   const std::size_t all = starts.size();
@@ -182,9 +203,8 @@ std::vector<FitResult> promising_fits(Records records, const Observations& obser
                                       const SearchWidth& width) {
   constexpr double hopeless = 4.0;
   std::vector<FitResult> fits(starts.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
-    fits[i] = with_mean_offsets(records, setting.model, starts[i]);
-  });
+  for_each_index(starts.size(),
+                 [&](std::size_t i) { fits[i] = with_mean_offsets(records, setting.model, starts[i]); });
   fits = by_squares(std::move(fits), width.tried);
   setting.max_steps = width.steps;
   fits = by_squares(fits_from(records, observations, std::move(fits), setting), width.continued);

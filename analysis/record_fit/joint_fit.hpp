@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct FitSetting {
   double prior_spread{3.0};
   double tolerance{1e-6};  ///< relative change of the sum of squares at which the fit ends
   int max_steps{50};
+  /// Simulated samples (AxisModel::simulated) at which the fit ends after its present step.
+  double max_simulated{std::numeric_limits<double>::infinity()};
 };
 
 /// The observations of each record.

@@ -59,7 +59,8 @@ std::vector<std::string> row_of(const ExpectedParameter& parameter) {
               : "–"};
 }
 
-/// What cannot be told, and why; what can be told on some machines only; a lack of fit.
+/// Sentences on the parameters that the record does not determine, or not on all machines, and on a lack of
+/// fit.
 std::string limits_text(const ExperimentDesign& design) {
   std::string text;
   for (const ExpectedParameter& parameter : design.parameters) {

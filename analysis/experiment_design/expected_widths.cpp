@@ -118,10 +118,6 @@ Widths expected_widths(const Machine& machine, const TorqueProtocol& protocol,
   return widths;
 }
 
-double widest(std::size_t parameter) {
-  return parameter == identification::creep_exponent ? 1.0 : 0.7;
-}
-
 identification::Identification identified(const Machine& machine, const TorqueProtocol& protocol,
                                           const SimulatedRecord& simulated,
                                           const identification::StageReport& report) {

@@ -30,9 +30,6 @@ double log_spread(const Machine& machine, const TorqueProtocol& protocol, const 
 Widths expected_widths(const Machine& machine, const TorqueProtocol& protocol,
                        const SimulatedRecord& simulated);
 
-/// Half-width from which on `identify` calls a parameter not identifiable: of the logarithm, of n.
-double widest(std::size_t parameter);
-
 /// Identifies the record.
 /// @throws Failure (bad_data) if `identify` refuses it.
 identification::Identification identified(const Machine& machine, const TorqueProtocol& protocol,

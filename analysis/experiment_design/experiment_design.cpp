@@ -84,11 +84,10 @@ std::vector<ExpectedParameter> expected_parameters(const ExperimentDesign& desig
     const auto at = std::ranges::find(identification::coordinate_keys, estimate.key);
     if (estimate.key.empty() || at == identification::coordinate_keys.end()) continue;
     const auto j = static_cast<std::size_t>(at - identification::coordinate_keys.begin());
-    ExpectedParameter parameter{estimate.key, parameters::unit_on(design.frame.axis, estimate.unit),
-                                guess_of(design.median.contact, j), estimate};
+    ExpectedParameter parameter{estimate.key, estimate.unit, guess_of(design.median.contact, j), estimate};
     parameter.narrowest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < machines.size(); ++i) {
-      if (!(widths[i][j] <= widest(j))) continue;
+      if (!(widths[i][j] <= record_fit::max_half_width(j != identification::creep_exponent))) continue;
       const double relative = relative_width(j, widths[i][j], machines[i].contact);
       parameter.narrowest = std::min(parameter.narrowest, relative);
       parameter.widest = std::max(parameter.widest, relative);

@@ -22,7 +22,7 @@ struct DesignSettings {
   identification::StageReport report{};
 };
 
-/// What the experiment tells of a parameter.
+/// Expected estimate of a parameter.
 struct ExpectedParameter {
   std::string key;                          ///< in a manifest
   std::string unit;                         ///< on this kind of axis

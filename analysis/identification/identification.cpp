@@ -24,14 +24,8 @@ using record_fit::residuals_of;
 
 constexpr std::size_t min_reversals = 2;
 
-/// Maximum half-widths of the interval of an identifiable quantity (of a logarithm; of n).
-constexpr double max_log_halfwidth = 0.7;  // a factor of 2 to each side
-constexpr double widest_exponent = 1.0;
-
 /// Largest half-width (of a logarithm) of an interval that was widened because the model does not fit.
 constexpr double widest_widened = 7.0;  // a factor of 1000 to each side
-
-constexpr double widest_time_offset = 1.0;  // samples
 
 /// Half-width above which the interval is computed by profile likelihood.
 constexpr double max_linear_halfwidth = 0.05;
@@ -90,10 +84,7 @@ bool is_sum(const Quantity& quantity) {
 }
 
 bool is_open(const Quantity& quantity, const QuantityEstimate& estimate) {
-  const double widest = quantity.logarithmic       ? max_log_halfwidth
-                        : is_time_offset(quantity) ? widest_time_offset
-                                                   : widest_exponent;
-  return !(half_width(estimate) <= widest);
+  return !(half_width(estimate) <= record_fit::max_half_width(quantity.logarithmic));
 }
 
 ParameterEstimate parameter_of(const Quantity& quantity, EstimateStatus status,

@@ -10,8 +10,8 @@
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
-#include <oneapi/tbb/parallel_for.h>
 
+#include "analysis/record_fit/parallel.hpp"
 #include "core/friction/spring.hpp"
 
 namespace zerocount::identification {
@@ -175,8 +175,7 @@ double squares_at(const SlowPartsResiduals& residuals, const ContactPoint& point
 /// Fits all starts, in parallel; the best of them, at most `most`.
 std::vector<SlowFit> best_fits(std::vector<SlowFit> fits, std::size_t most,
                                const std::function<SlowFit(const ContactPoint&)>& fit) {
-  oneapi::tbb::parallel_for(std::size_t{0}, fits.size(),
-                            [&](std::size_t i) { fits[i] = fit(fits[i].point); });
+  record_fit::for_each_index(fits.size(), [&](std::size_t i) { fits[i] = fit(fits[i].point); });
   std::stable_sort(fits.begin(), fits.end(),
                    [](const SlowFit& one, const SlowFit& other) { return one.squares < other.squares; });
   fits.resize(std::min(fits.size(), most));
@@ -216,7 +215,6 @@ SlowFit fit_slow_parts(Records records, std::span<const ContactPoint> starts, do
   fits = best_fits(std::move(fits), 1, [&](const ContactPoint& point) {
     return fit_coordinates(residuals, point, free, moved, max_log_beta, 40);
   });
-  fits.front().misfit = std::sqrt(fits.front().squares / static_cast<double>(residuals.size()));
   return fits.front();
 }
 

@@ -13,7 +13,6 @@ namespace zerocount::identification {
 struct SlowFit {
   ContactPoint point;
   double squares{std::numeric_limits<double>::infinity()};  ///< sum of squares, in units of the readings
-  double misfit{0.0};  ///< root mean square of the residuals, in their unit
 };
 
 /// Whether the slow parts show the creep law, or keep that of the start.

@@ -7,10 +7,9 @@
 #include <limits>
 #include <numbers>
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include "analysis/identification/quasistatic_fit.hpp"
 #include "analysis/record_fit/axis_model.hpp"
+#include "analysis/record_fit/parallel.hpp"
 
 namespace zerocount::identification {
 namespace {
@@ -55,9 +54,8 @@ double misfit(const ChosenRecords& records, const ContactPoint& point, double cr
 ContactPoint best_of(const ChosenRecords& records, const ContactPoint& point, double creep_torque,
                      std::span<const ContactPoint> changes, double proportion = 1.0) {
   std::vector<double> left(changes.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, changes.size(), [&](std::size_t i) {
-    left[i] = misfit(records, point + changes[i], creep_torque);
-  });
+  record_fit::for_each_index(
+      changes.size(), [&](std::size_t i) { left[i] = misfit(records, point + changes[i], creep_torque); });
   ContactPoint best = point;
   double least = proportion * misfit(records, point, creep_torque);
   for (std::size_t i = 0; i < changes.size(); ++i) {

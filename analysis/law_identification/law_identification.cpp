@@ -19,10 +19,6 @@ namespace {
 using identification::EstimateStatus;
 using identification::ParameterEstimate;
 
-/// Largest half-widths of the interval of an identifiable parameter (of a logarithm, of n and the offset).
-constexpr double max_log_halfwidth = 0.7;
-constexpr double max_halfwidth = 1.0;
-
 /// Largest half-widths of an interval that was widened because the law does not fit.
 constexpr double max_widened_log_halfwidth = 2.3;  // a factor of 10 to each side
 constexpr double max_widened_halfwidth = 2.0;
@@ -35,7 +31,7 @@ ParameterEstimate estimate_of(const Quantity& quantity, const LawErrors& errors)
   // The fit of the law does not change which parameters the records determine.
   const double widened = 0.5 * (found.high - found.low);
   const double half_width = widened / errors.checks.widening;
-  const bool open = !(half_width <= (quantity.logarithmic ? max_log_halfwidth : max_halfwidth));
+  const bool open = !(half_width <= record_fit::max_half_width(quantity.logarithmic));
   const bool vague = !(widened <= (quantity.logarithmic ? max_widened_log_halfwidth : max_widened_halfwidth));
   if (open || vague) {
     estimate.value = estimate.standard_error = estimate.low = estimate.high = statistics::unknown;

@@ -43,7 +43,7 @@ struct CoordinateRange {
   double high{std::numeric_limits<double>::infinity()};
 };
 
-/// What a friction law gives to a fit. Its motion is that of core's Plant.
+/// A friction law as a function of coordinates that are fitted. Its motion is that of core's Plant.
 struct AxisModel {
   std::vector<CoordinateRange> coordinates;  ///< with that of the time offset, the last one
   std::function<AxisParameters(const Point&)> parameters_at;

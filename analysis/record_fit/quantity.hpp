@@ -38,6 +38,12 @@ struct QuantityEstimate {
 /// @param errors [replicate, coordinate]; further columns are left out
 QuantityEstimate interval_of_errors(const Quantity& quantity, const Eigen::MatrixXd& errors, double widening);
 
+/// Largest half-width of a 95 % interval of a quantity that the records determine: of a logarithm a factor of
+/// two to each side, of n or the time offset (samples) 1.
+inline double max_half_width(bool logarithmic) {
+  return logarithmic ? 0.7 : 1.0;
+}
+
 /// The estimate on the scale of the parameter: the exponential of a logarithm; n at least 1.
 QuantityEstimate on_parameter_scale(const Quantity& quantity, QuantityEstimate estimate);
 

@@ -2,8 +2,7 @@
 
 #include <cmath>
 
-#include <oneapi/tbb/parallel_for.h>
-
+#include "analysis/record_fit/parallel.hpp"
 #include "core/numerics/dense.hpp"
 #include "core/random/random_numbers.hpp"
 #include "core/random/variates.hpp"
@@ -90,7 +89,7 @@ ReadingReplicates replicate_readings(Records records, const FittedModel& model, 
   ReadingReplicates result;
   result.errors.resize(static_cast<Eigen::Index>(replicates), matrix.rows());
   result.residuals.resize(replicates);
-  oneapi::tbb::parallel_for(std::size_t{0}, replicates, [&](std::size_t i) {
+  for_each_index(replicates, [&](std::size_t i) {
     ReplicateNoise random(first + i);
     // The textbook covariance is matrix⁻¹. With matrix = L·Lᵀ, L⁻ᵀz has this covariance.
     const Eigen::VectorXd away =

@@ -148,11 +148,11 @@ std::optional<std::size_t> find_glitch(const TestRecord& record, const Eigen::Ve
   constexpr double arithmetic = 1e-3;
   const double least = record.counted ? 1.5 + counted_deviations * noise_of_counts(residual)
                                       : arithmetic + deviations * robust_deviation(off);
-  // Off the path alone may be the path's fault: such a reading is also off those about it.
+  // A reading that lies between its neighbours is right, and the path is wrong.
   const auto beside = [&](std::size_t k) {
     return std::abs(record.reading[k] - 0.5 * (record.reading[k - 1] + record.reading[k + 1]));
   };
-  // Nor is a reading wrong where the path does not follow the others either.
+  // A path that misses the other readings as well cannot accuse one of them.
   constexpr double beyond_others = 12.0;
   const double all = std::inner_product(off.begin(), off.end(), off.begin(), 0.0);
   const auto others = [&](std::size_t k) {

@@ -62,9 +62,9 @@ bool is_narrow(const ParameterEstimate& estimate, Scale scale) {
   const double half_width = 0.5 * (estimate.high - estimate.low);
   switch (scale) {
     case Scale::positive:
-      return estimate.low > 0.0 && half_width <= max_log_halfwidth * estimate.value;
+      return estimate.low > 0.0 && half_width <= record_fit::max_half_width(true) * estimate.value;
     case Scale::logarithmic:
-      return half_width <= max_log_halfwidth;
+      return half_width <= record_fit::max_half_width(true);
     case Scale::linear:
       break;
   }

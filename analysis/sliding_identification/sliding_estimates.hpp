@@ -7,8 +7,7 @@
 
 namespace zerocount::sliding_identification {
 
-constexpr double max_log_halfwidth = 0.7;  ///< of intervals: a factor of 2 to each side
-constexpr double min_excess_ratio = 3.5;   ///< of the Stribeck excess to its standard error
+constexpr double min_excess_ratio = 3.5;  ///< of the Stribeck excess to its standard error
 
 /// The reported parameters with their 95 % intervals. What the fit has no parameter for, or knows too badly,
 /// is not identifiable.

@@ -76,7 +76,7 @@ SlidingFit best_fit(std::span<const SlidingRecord> records) {
     SlidingFit fit = fit_sliding(records, start, free);
     const SlidingPoint error = fit.covariance.diagonal().cwiseSqrt();
     const bool shown = fit.point[stribeck_excess] >= min_excess_ratio * error[stribeck_excess] &&
-                       error[log_stribeck_velocity] < 0.5 * max_log_halfwidth;
+                       error[log_stribeck_velocity] < 0.5 * record_fit::max_half_width(true);
     return shown ? fit : without;
   } catch (const Failure&) {
     return without;

@@ -9,7 +9,7 @@
 
 namespace zerocount::guides {
 
-/// What the friction of a guide scales with.
+/// Mass and preload of a guide, which scale its friction.
 struct GuideLoad {
   double mass{0.0};     ///< kg, or kg m^2
   double preload{0.0};  ///< N, normal to the guide, on all carriages together

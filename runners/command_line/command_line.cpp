@@ -21,7 +21,7 @@ std::string long_name(const OptionSpec& option) {
   return option.name.substr(0, option.name.find(','));
 }
 
-/// What is wrong with the value of the option `given`, as the user wrote it ("--quiet").
+/// Describes the wrong value of the option `given`, which is as the user wrote it ("--quiet").
 std::string value_problem(const CommandSpec& spec, const std::string& given) {
   for (const OptionSpec& option : spec.options) {
     if (given != "--" + long_name(option)) continue;

@@ -123,7 +123,7 @@ struct Comparison {
   double difference;  ///< predicted − measured success rate
 };
 
-/// Of some machines.
+/// Comparisons of several machines.
 struct Agreement {
   int consistent{0};
   int misfits{0};

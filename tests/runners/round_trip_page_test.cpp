@@ -118,7 +118,7 @@ TEST_F(RoundTripPage, ItsCommandsPrintWhatItSays) {
       }
     }
   }
-  // What the reader is to have counted is what the machine did.
+  // The counts that the page gives to `observed` are those of the machine.
   const auto predicted = nlohmann::json::parse(
       zerocount_program({"summary", "predicted.h5", "--format", "json"}, folder_.path()).out);
   ASSERT_EQ(predicted["points"].size(), 2u);

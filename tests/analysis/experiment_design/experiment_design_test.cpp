@@ -113,7 +113,7 @@ TEST(ExperimentDesign, EachImprovementIsOne) {
   EXPECT_TRUE(std::ranges::is_sorted(improvements, std::greater<>(), &JudgedShape::spread));
 }
 
-// What is told of machines by the linear theory is what `identify` reports of their records.
+// The widths of the linear theory are those that `identify` reports of simulated records.
 TEST(ExperimentDesign, IdentifyReportsTheExpectedWidths) {
   const ExperimentDesign& design = quick_design();
   for (const Machine& machine : drawn_machines(study_of(manifest_with()), 0, 5)) {

@@ -55,6 +55,26 @@ TEST(Glitch, AReadingFarBeyondTheNoiseIsOne) {
   }
 }
 
+// A model that does not fit leaves residuals on smooth flanks, which are no faults of the readings.
+TEST(Glitch, AReadingOnTheCourseOfItsNeighboursIsNone) {
+  std::mt19937_64 random(4);
+  NoisyRecord exact = noisy_record(0.0, true, random);
+  Eigen::VectorXd wrong = exact.path;
+  wrong[700] -= 6.0;
+  EXPECT_FALSE(record_fit::find_glitch(exact.record, wrong));
+  exact.record.reading[700] += 6.0;
+  EXPECT_TRUE(record_fit::find_glitch(exact.record, exact.path));
+}
+
+TEST(Glitch, APathThatMissesTheOtherReadingsAccusesNone) {
+  std::mt19937_64 random(5);
+  NoisyRecord exact = noisy_record(0.0, true, random);
+  exact.record.reading[700] += 6.0;
+  const Eigen::VectorXd wrong =
+      exact.path.array() + 2.0 * Eigen::ArrayXd::LinSpaced(exact.path.size(), -1.0, 1.0);
+  EXPECT_FALSE(record_fit::find_glitch(exact.record, wrong));
+}
+
 TEST(Glitch, AMaskedReadingIsNone) {
   std::mt19937_64 random(3);
   NoisyRecord noisy = noisy_record(0.2, true, random);

@@ -149,29 +149,26 @@ FitResult with_time_offset(Records records, const Observations& observations, co
   return found.squares < from.squares ? found : from;
 }
 
-/// The fit from the best inertia and damping beside the spring of `first`. What slow parts show of them may
-/// be less than the rounding of the readings, so that the starting point has missed them.
-FitResult with_other_inertia(Records records, const Observations& observations, const FitResult& first,
-                             const FitSetting& setting) {
-  if (!setting.free[log_inertia] || !setting.free[log_damping]) return first;
-  FitSetting alone = setting;
-  alone.free.assign(coordinate_count, false);
-  alone.free[log_inertia] = alone.free[log_damping] = true;
-  std::vector<record_fit::Point> starts;
-  for (const double inertia : {0.1, 1.0, 10.0, 100.0, 1000.0}) {
-    for (const double damping : {0.3, 1.0, 3.0, 10.0, 30.0}) {
-      record_fit::Point& start = starts.emplace_back(first.point.axis);
-      start[log_inertia] += std::log(inertia);
-      start[log_damping] += std::log(damping);
+/// The points with another inertia and damping than the model's that explain the observations better, with
+/// the other coordinates adapted. Slow parts show little of the inertia, and a fit adapts the others to a
+/// wrong one.
+std::vector<FitResult> with_other_inertia(Records records, const Observations& observations,
+                                          const FittedModel& model, const FitSetting& setting) {
+  if (!setting.free[log_inertia] || !setting.free[log_damping]) return {};
+  FitSetting others = setting;
+  others.free[log_inertia] = others.free[log_damping] = false;
+  std::vector<record_fit::Point> changes;
+  for (const double inertia : {0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0}) {
+    for (const double damping : {0.1, 0.3, 1.0, 3.0, 10.0, 30.0}) {
+      record_fit::Point& change = changes.emplace_back(ContactPoint::Zero());
+      change[log_inertia] = std::log(inertia);
+      change[log_damping] = std::log(damping);
     }
   }
-  std::erase_if(starts, [&](const record_fit::Point& start) {
-    return !is_sampled(records, setting.model, start, max_slow_rate);
+  std::erase_if(changes, [&](const record_fit::Point& change) {
+    return !is_sampled(records, setting.model, model.point.axis + change, max_slow_rate);
   });
-  const std::vector<FitResult> found = promising_fits(records, observations, starts, alone, {2, 8, 1});
-  if (found.empty()) return first;
-  const FitResult all = fit_from(records, observations, found.front().point, setting);
-  return all.squares < first.squares ? all : first;
+  return record_fit::better_points(records, observations, model, others, changes);
 }
 
 /// The starting points with the coordinates that are not free as in the prior.
@@ -222,7 +219,14 @@ FitPoint fit_roughly(Records records, const FitStart& start, double creep_torque
   closer.tolerance = rough.tolerance = setting.tolerance;
   closer.max_steps = 30;
   if (are_slow_alone(records)) {
-    best = with_other_inertia(records, observations, best, undelayed);
+    const FittedModel model = model_at(records, best.point, undelayed);
+    if (can_be_followed(model)) {
+      const std::vector<FitResult> others = with_other_inertia(records, observations, model, undelayed);
+      if (!others.empty()) {
+        const FitResult found = fit_from(records, observations, others.front().point, undelayed);
+        if (found.squares < best.squares) best = found;
+      }
+    }
     refuse_glitches(records, best.point, setting);
     if (are_explained(records, best.point, setting)) return best.point;
   }
@@ -297,6 +301,21 @@ double spread(const ContactFit& fit) {
   return std::sqrt(statistics.squares / static_cast<double>(statistics.observations));
 }
 
+/// Repeats the fit from another inertia and damping, if these explain the observations better.
+void improve_inertia(Records records, ContactFit& fit) {
+  const std::vector<FitResult> others = with_other_inertia(records, fit.observations, fit.model, fit.setting);
+  if (others.empty()) return;
+  ContactFit other = fit;
+  other.setting.prior = others.front().point.axis;
+  try {
+    refine(records, others.front().point, max_rounds, usual_freedom(records), other);
+  } catch (const Failure&) {
+    return;  // a rotor that cannot be simulated
+  }
+  observe_again(records, other);
+  if (spread(other) < spread(fit)) fit = other;
+}
+
 /// A few steps with all coordinates free from the point of `fit` plus each of `changes`, and the best of them
 /// to the end. False if that is not better than `fit`, which then stays as it is.
 bool improve_from(Records records, std::span<const ContactPoint> changes, ContactFit& fit) {
@@ -357,6 +376,7 @@ ContactFit fit_contact(Records records, const std::vector<KnownParameter>& known
   refuse_unexplained(records, fit, rough_tolerance);
   if (report) report("fit");
   refine(records, point, max_rounds, usual_freedom(records), fit);
+  if (are_slow_alone(records)) improve_inertia(records, fit);
   refuse_glitches(records, fit.model.point, fit.setting);
   refuse_unexplained(records, fit, 1.0);
   return fit;
@@ -367,20 +387,6 @@ void keep_time_offset(Records records, ContactFit& fit) {
   point.axis[time_offset] = fit.setting.prior[time_offset] = 0.0;
   fit.setting.free[time_offset] = false;
   refine(records, point, max_rounds, usual_freedom(records), fit);
-}
-
-bool free_untold_coordinates(Records records, ContactFit& fit) {
-  if (!are_slow_alone(records)) return false;
-  std::vector<ContactPoint> changes;
-  // The held inertia and damping may be those of another minimum.
-  for (const double inertia : {0.0, -1.0, -2.0, 1.0, 2.0}) {
-    for (const double damping : {0.0, 2.0, -2.0}) {
-      ContactPoint& change = changes.emplace_back(ContactPoint::Zero());
-      change[log_inertia] = inertia;
-      change[log_damping] = damping;
-    }
-  }
-  return improve_from(records, changes, fit);
 }
 
 bool has_ended_early(const ContactFit& fit) {

@@ -58,11 +58,6 @@ bool has_ended_early(const ContactFit& fit);
 /// Repeats the fit with a time offset of 0, the given delay.
 void keep_time_offset(Records records, ContactFit& fit);
 
-/// Repeats the fit of records of slow parts alone with all coordinates free, also those that its residuals
-/// hardly told. A wrong inertia leaves residuals that hide what the readings tell of it.
-/// @returns true if the spread of the residuals falls, and `fit` changed.
-bool free_untold_coordinates(Records records, ContactFit& fit);
-
 /// Repeats the fit from other values of β and keeps the fit with the smallest spread of residuals. A spring
 /// that softens within a count or two has little influence on the rough fit, which may end far away. Records
 /// of slow parts alone are left as they are: their β has been searched.

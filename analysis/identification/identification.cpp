@@ -238,15 +238,7 @@ CheckedFit explained_fit(Records records, const IdentificationOptions& options) 
   if (best.checks.passed) return best;
   enter("fit with other values of beta");
   if (improve_softening(records, best.fit)) best = checked_fit(records, std::move(best.fit), options);
-  if (best.checks.passed) return best;
-  enter("fit with all coordinates free");
-  ContactFit all_free = best.fit;
-  if (!free_untold_coordinates(records, all_free)) return best;
-  // A wrong reading that a worse fit hides may be all that is left to explain.
-  refuse_glitches(records, all_free.model.point, all_free.setting);
-  CheckedFit freed = checked_fit(records, std::move(all_free), options);
-  // Coordinates that the records do not tell stay held if that does not explain the records either.
-  return freed.checks.passed ? freed : best;
+  return best;
 }
 
 }  // namespace

@@ -49,8 +49,8 @@ auto mean_over(const AngleObservation& observation, const Values& values) {
 }
 
 /// Noise of the readings (standard deviation in counts, before rounding), estimated from the differences of
-/// neighbouring readings beyond the rotor's travel; 0 if an encoder without noise explains them. Slow
-/// deviations from `path` have little influence. Masked readings are not used.
+/// readings one or two samples apart beside the rotor's travel; 0 if an encoder without noise explains them.
+/// Slow deviations from `path` have little influence. Masked and single wrong readings are not used.
 double counting_noise(const TestRecord& record, const Eigen::VectorXd& path, const Eigen::VectorXd& readings);
 
 }  // namespace zerocount::record_fit

@@ -108,6 +108,14 @@ struct NormalEquations {
 NormalEquations normal_equations(const FittedModel& model, const Observations& observations,
                                  const FitSetting& setting);
 
+/// The points at each of `changes` from the model, with the free coordinates of `others` and the offsets
+/// moved by their linear least squares there, with the sensitivities of the model. Their sums of squares are
+/// those of the linear model.
+/// @returns those with a smaller sum than the model's by more than chance, by their sums of squares.
+std::vector<FitResult> better_points(Records records, const Observations& observations,
+                                     const FittedModel& model, const FitSetting& others,
+                                     const std::vector<Point>& changes);
+
 class NormalEquationsSum {
  public:
   NormalEquationsSum(std::size_t records, const FitSetting& setting);

@@ -85,21 +85,6 @@ double robust_deviation(const std::vector<double>& magnitudes) {
   return deviation_over_median * statistics::upper_median(magnitudes);
 }
 
-/// Standard deviation of the noise of counts before they are rounded, from the differences of neighbouring
-/// residuals, on which slow deviations of the path have little influence. The largest hundredth is left out.
-double noise_of_counts(const std::vector<double>& residuals) {
-  std::vector<double> squares;
-  for (std::size_t k = 1; k < residuals.size(); ++k) {
-    squares.push_back((residuals[k] - residuals[k - 1]) * (residuals[k] - residuals[k - 1]));
-  }
-  const auto kept = static_cast<std::ptrdiff_t>(squares.size() - squares.size() / 100);
-  std::nth_element(squares.begin(), squares.begin() + kept - 1, squares.end());
-  const double mean =
-      std::accumulate(squares.begin(), squares.begin() + kept, 0.0) / static_cast<double>(kept);
-  constexpr double rounding = 1.0 / 12.0;  // variance
-  return std::sqrt(std::max(0.5 * mean - rounding, 0.0));
-}
-
 }  // namespace
 
 Eigen::VectorXd residuals_along(const TestRecord& record, const Eigen::VectorXd& path) {
@@ -136,18 +121,19 @@ bool is_explained(const TestRecord& record, const Eigen::VectorXd& path) {
 
 std::optional<std::size_t> find_glitch(const TestRecord& record, const Eigen::VectorXd& path) {
   const std::size_t samples = record.reading.size();
-  std::vector<double> residual(samples);  // 0 where masked
-  std::vector<double> off(samples);       // beyond the rounding of a count
+  std::vector<double> off(samples);  // beyond the rounding of a count; 0 where masked
   for (std::size_t k = 0; k < samples; ++k) {
     if (is_excluded(record, k)) continue;
-    residual[k] = record.reading[k] + middle_of_reading(record) - path[static_cast<Eigen::Index>(k)];
-    off[k] = std::max(std::abs(residual[k]) - middle_of_reading(record), 0.0);
+    const double residual =
+        record.reading[k] + middle_of_reading(record) - path[static_cast<Eigen::Index>(k)];
+    off[k] = std::max(std::abs(residual) - middle_of_reading(record), 0.0);
   }
   constexpr double counted_deviations = 6.0;
   constexpr double deviations = 12.0;
   constexpr double arithmetic = 1e-3;
-  const double least = record.counted ? 1.5 + counted_deviations * noise_of_counts(residual)
-                                      : arithmetic + deviations * robust_deviation(off);
+  const double least = record.counted
+                           ? 1.5 + counted_deviations * counting_noise(record, path, readings_of(record))
+                           : arithmetic + deviations * robust_deviation(off);
   // A reading that lies between its neighbours is right, and the path is wrong.
   const auto beside = [&](std::size_t k) {
     return std::abs(record.reading[k] - 0.5 * (record.reading[k - 1] + record.reading[k + 1]));

@@ -170,8 +170,12 @@ motion::PlantParameters estimate_ring_down(Records records, double k1) {
   // Without a ring-down: an oscillation too fast for the sampling, with a third of the critical damping.
   double frequency = 0.5 * std::numbers::pi / sample_time;  // of the undamped rotor, rad/s
   double damping_ratio = 0.33;
+  double stiffness = k1;
   if (ring.record != nullptr) {
     const FirstOvershoot motion = first_overshoot(*ring.record, ring.hold);
+    // That of the chord: a spring with k1 much smaller than k2 is stiffer over the step.
+    if (motion.travel > 0.0)
+      stiffness = std::max(k1, std::abs(ring.hold.torque - ring.hold.from) / motion.travel);
     constexpr double visible = 0.01;
     if (motion.overshoot > visible && motion.overshoot < 1.0) {
       const double decay = -std::log(motion.overshoot);
@@ -185,8 +189,8 @@ motion::PlantParameters estimate_ring_down(Records records, double k1) {
     }
   }
   motion::PlantParameters plant;
-  plant.inertia = k1 / (frequency * frequency);
-  plant.presliding_damping = 2.0 * damping_ratio * std::sqrt(k1 * plant.inertia);
+  plant.inertia = stiffness / (frequency * frequency);
+  plant.presliding_damping = 2.0 * damping_ratio * std::sqrt(stiffness * plant.inertia);
   return plant;
 }
 

@@ -47,7 +47,8 @@ struct FirstOvershoot {
 
 FirstOvershoot first_overshoot(const TestRecord& record, const TorqueHold& ring_down);
 
-/// J and c from the first oscillation after the largest step, for a linear spring of stiffness k1.
+/// J and c from the first oscillation after the largest step, for a linear spring of the stiffness that the
+/// step shows, at least k1.
 motion::PlantParameters estimate_ring_down(Records records, double k1);
 
 /// Starting points of the joint fit, the best one first: the estimates above, with β, J and c from a coarse

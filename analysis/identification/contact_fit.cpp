@@ -70,13 +70,8 @@ void update_misfit(Records records, ContactFit& fit) {
 }
 
 void observe_again(Records records, ContactFit& fit) {
-  fit.noise.clear();
-  fit.observations.resize(records.size());
-  for (std::size_t r = 0; r < records.size(); ++r) {
-    const Eigen::VectorXd& path = fit.model.motions[r].path;
-    fit.noise.push_back(record_fit::noise_along(records[r], path));
-    observe(records[r], path, readings_of(records[r]), fit.noise[r], fit.observations[r]);
-  }
+  fit.noise = record_fit::noise_along(records, fit.model);
+  fit.observations = record_fit::observations_along(records, fit.model, fit.noise);
 }
 
 bool are_explained(Records records, const FitPoint& point, const FitSetting& setting) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -241,6 +242,21 @@ CheckedFit explained_fit(Records records, const IdentificationOptions& options) 
   return best;
 }
 
+/// Frequencies of the fitted rotor's free oscillation: slow and large on k1, small on k1 + k2.
+record_fit::FrequencyRange own_ringing_of(const ContactFit& fit) {
+  const ContactParameters contact = contact_at(fit.model.point.axis, fit.creep_torque);
+  const auto frequency = [&](double stiffness) {
+    return std::sqrt(stiffness / contact.plant.inertia) / (2.0 * std::numbers::pi);
+  };
+  return {frequency(contact.friction.k1), frequency(contact.friction.k1 + contact.friction.k2)};
+}
+
+std::optional<record_fit::ResidualLine> line_beside(Records records, const ContactFit& fit,
+                                                    const record_fit::FrequencyRange& own) {
+  constexpr double margin = 1.2;  // the frequency of a misfitted ring-down is not quite the model's
+  return record_fit::residual_line(records, fit.model, fit.noise, {own.low / margin, own.high * margin});
+}
+
 }  // namespace
 
 void check_different(Records records) {
@@ -280,6 +296,11 @@ Identification identify(std::vector<TestRecord> records, const IdentificationOpt
   result.checks = checks;
   result.search_ended = !checks.passed && has_ended_early(fit);
   refuse_gross_misfit(records, fit, checks);
+  result.own_ringing = own_ringing_of(fit);
+  if (!checks.passed) {
+    enter("spectrum of the residuals");
+    result.residual_line = line_beside(records, fit, result.own_ringing);
+  }
   for (std::size_t r = 0; r < records.size(); ++r) {
     result.records.push_back(summary_of(records[r], fit, r));
     result.fitted.push_back(fitted_record(records[r], fit.model.motions[r].path));

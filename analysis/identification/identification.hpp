@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "analysis/identification/fitted_record.hpp"
 #include "analysis/identification/joint_draws.hpp"
 #include "analysis/record_fit/residual_checks.hpp"
+#include "analysis/record_fit/residual_line.hpp"
 #include "analysis/record_fit/test_record.hpp"
 
 namespace zerocount::identification {
@@ -56,6 +58,10 @@ struct Identification {
   std::vector<RecordSummary> records;
   std::vector<FittedRecord> fitted;  ///< [record] for figures
   record_fit::ResidualChecks checks;
+  /// Frequencies at which the fitted rotor rings: on k1 after large steps, on k1 + k2 after small ones.
+  record_fit::FrequencyRange own_ringing;
+  /// Looked for if the checks failed, beyond a fifth outside of own_ringing.
+  std::optional<record_fit::ResidualLine> residual_line;
   bool search_ended{false};  ///< not explained, and no more starting points were tried because of the effort
   /// Correlation of the errors of a pair of estimated parameters; listed if its magnitude is 0.9 or more.
   struct Correlation {

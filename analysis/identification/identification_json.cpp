@@ -48,6 +48,13 @@ Json checks_json(const record_fit::ResidualChecks& checks) {
           {"widening", checks.widening}};
 }
 
+Json line_json(const Identification& identification) {
+  if (!identification.residual_line) return {};
+  const record_fit::ResidualLine& line = *identification.residual_line;
+  return {{"record", text::printable(identification.records[line.record].name)},
+          {"frequency", line.frequency}};
+}
+
 /// Matrices in the order of the parameters, of logarithms except for n and the time offset.
 Json errors_json(const JointErrors& errors) {
   Json object{{"parameters", errors.names}, {"covariance", Json::array()}, {"correlation", Json::array()}};
@@ -82,6 +89,7 @@ std::string identification_json(const Identification& identification) {
   json["records"] = Json::array();
   for (const RecordSummary& record : identification.records) json["records"].push_back(record_json(record));
   json["residuals"] = checks_json(identification.checks);
+  json["residual_line"] = line_json(identification);
   json["search_ended"] = identification.search_ended;
   json["manifest"] = manifest_fragment(identification);
   return json.dump(2) + "\n";

@@ -76,6 +76,18 @@ std::string checks_text(const record_fit::ResidualChecks& checks) {
                     reason_of_misfit(checks), checks.widening);
 }
 
+std::string line_text(const Identification& identification) {
+  if (!identification.residual_line) return "";
+  const record_fit::ResidualLine& line = *identification.residual_line;
+  return fmt::format(
+      "  The residuals have a line at {:.3g} Hz in the ring-downs of\n  {}.\n"
+      "  The fitted axis itself rings at {:.3g} to {:.3g} Hz: a second mass on a spring is likely, such as "
+      "a\n"
+      "  load (plant.load), a coupling or the base.\n",
+      line.frequency, text::printable(identification.records[line.record].name),
+      identification.own_ringing.low, identification.own_ringing.high);
+}
+
 }  // namespace
 
 std::vector<std::string> estimate_heads() {
@@ -117,6 +129,7 @@ std::string identification_text(const Identification& identification) {
   text += "Records:\n";
   for (const RecordSummary& record : identification.records) text += record_line(record);
   text += checks_text(identification.checks);
+  text += line_text(identification);
   if (identification.search_ended) {
     text += "  Other starting points were left out to save time: --effort 4 tries more of them.\n";
   }

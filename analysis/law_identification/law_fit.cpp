@@ -81,13 +81,8 @@ FitResult fit_all_readings(Records records, const LawModel& model, const FitSett
 /// Computes the motions and the observations at a point.
 void observe_at(Records records, const record_fit::FitPoint& at, LawFit& fit) {
   fit.model = record_fit::model_at(records, at, fit.setting);
-  fit.noise.clear();
-  fit.observations.assign(records.size(), {});
-  for (std::size_t r = 0; r < records.size(); ++r) {
-    const Eigen::VectorXd& path = fit.model.motions[r].path;
-    fit.noise.push_back(record_fit::noise_along(records[r], path));
-    record_fit::observe(records[r], path, readings_of(records[r]), fit.noise[r], fit.observations[r]);
-  }
+  fit.noise = record_fit::noise_along(records, fit.model);
+  fit.observations = record_fit::observations_along(records, fit.model, fit.noise);
 }
 
 }  // namespace

@@ -134,6 +134,14 @@ Observations all_readings(Records records) {
   return observations;
 }
 
+Observations observations_along(Records records, const FittedModel& model, const std::vector<double>& noise) {
+  Observations observations(records.size());
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    observe(records[r], model.motions[r].path, readings_of(records[r]), noise[r], observations[r]);
+  }
+  return observations;
+}
+
 FitResult fit_jointly(Records records, const Observations& observations, const FitPoint& start,
                       const FitSetting& given) {
   quieten_log();

@@ -86,6 +86,10 @@ struct FittedModel {
 
 FittedModel model_at(Records records, const FitPoint& point, const FitSetting& setting);
 
+/// The readings as observations (see observe()) along the paths of a model.
+/// @param noise [record] of the readings, in the record's unit
+Observations observations_along(Records records, const FittedModel& model, const std::vector<double>& noise);
+
 /// False if the simulation did not follow the record.
 bool is_finite(const RecordMotion& motion);
 

@@ -79,9 +79,7 @@ std::vector<double> residuals_of(const FittedModel& model, const Observations& o
 ReadingReplicates replicate_readings(Records records, const FittedModel& model, const FitSetting& setting,
                                      const std::vector<double>& noise, std::size_t replicates,
                                      std::size_t first) {
-  Observations observations(records.size());
-  for (std::size_t r = 0; r < records.size(); ++r)
-    observe(records[r], model.motions[r].path, readings_of(records[r]), noise[r], observations[r]);
+  const Observations observations = observations_along(records, model, noise);
   const Eigen::MatrixXd matrix = normal_equations(model, observations, setting).matrix;
   const Eigen::MatrixXd root = numerics::cholesky_factor(matrix);
 

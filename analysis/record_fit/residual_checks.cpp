@@ -99,9 +99,23 @@ double misfit_along(const TestRecord& record, const Eigen::VectorXd& path) {
   return residuals_along(record, path).norm() / std::sqrt(static_cast<double>(used_samples(record)));
 }
 
-double noise_along(const TestRecord& record, const Eigen::VectorXd& path) {
-  if (record.counted) return counting_noise(record, path, readings_of(record));
-  return std::max(misfit_along(record, path), min_noise);
+std::vector<double> noise_along(Records records, const FittedModel& model) {
+  std::vector<double> seen;
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const Eigen::VectorXd& path = model.motions[r].path;
+    seen.push_back(records[r].counted ? counting_noise(records[r], path, readings_of(records[r]))
+                                      : std::max(misfit_along(records[r], path), min_noise));
+  }
+  std::vector<double> noise = seen;
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    if (seen[r] > 0.0) continue;
+    for (std::size_t other = 0; other < records.size(); ++other) {
+      const bool same_encoder = records[other].counted && records[other].unit == records[r].unit;
+      if (!same_encoder || seen[other] == 0.0) continue;
+      noise[r] = noise[r] == 0.0 ? seen[other] : std::min(noise[r], seen[other]);
+    }
+  }
+  return noise;
 }
 
 bool is_explained(const TestRecord& record, const Eigen::VectorXd& path) {

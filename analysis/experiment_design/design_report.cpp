@@ -1,9 +1,11 @@
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
 #include "analysis/experiment_design/experiment_design.hpp"
 #include "analysis/text/text.hpp"
+#include "core/loop/encoder.hpp"
 
 namespace zerocount::experiment_design {
 namespace {
@@ -80,6 +82,20 @@ std::string limits_text(const ExperimentDesign& design) {
   return text;
 }
 
+/// The command that identifies what the axis records, with the options that the manifest tells.
+std::string identify_command(const ExperimentDesign& design) {
+  const trial::TrialParameters& machine = design.median.parameters;
+  const double count = loop::fine_resolution(machine.encoder);
+  std::string command = "zerocount identify recorded.csv";
+  command += design.frame.axis == parameters::AxisKind::linear
+                 ? fmt::format(" --resolution {:.10g}", count)
+                 : fmt::format(" --counts-per-revolution {:.10g}", 2.0 * std::numbers::pi / count);
+  if (machine.controller.delay > 0.0) command += fmt::format(" --delay {:g}", machine.controller.delay);
+  if (machine.amplifier.bandwidth > 0.0)
+    command += fmt::format(" --amplifier-bandwidth {:g}", machine.amplifier.bandwidth);
+  return command;
+}
+
 }  // namespace
 
 std::string design_text(const ExperimentDesign& design) {
@@ -98,7 +114,9 @@ std::string design_text(const ExperimentDesign& design) {
       {"parameter", "guess", "unit", "expected 95 % interval", "±", "± over the machines"}};
   for (const ExpectedParameter& parameter : design.parameters) cells.push_back(row_of(parameter));
   text += text::aligned_table(cells, {false, true, false, true, true, true}) + "\n";
-  return text + limits_text(design);
+  text += limits_text(design);
+  return text + fmt::format("\nThen, with the recorded counts beside the {}:\n  {}\n",
+                            parameters::text_on(design.frame.axis, "$torque"), identify_command(design));
 }
 
 }  // namespace zerocount::experiment_design

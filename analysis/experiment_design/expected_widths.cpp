@@ -7,6 +7,7 @@
 
 #include "analysis/identification/checked_record.hpp"
 #include "analysis/identification/confidence_interval.hpp"
+#include "analysis/record_fit/encoder_noise.hpp"
 #include "analysis/record_fit/reading_replicates.hpp"
 #include "analysis/record_fit/residual_checks.hpp"
 #include "core/loop/encoder.hpp"
@@ -22,7 +23,7 @@ struct TrueFit {
   std::vector<TestRecord> records;
   record_fit::FitSetting setting;
   record_fit::FittedModel model;
-  double noise{0.0};
+  std::vector<double> noise;  ///< of the record, counts
   record_fit::Observations observations;
   /// [parameter] of the keys of a manifest; without those that the fit does not leave free.
   std::array<std::optional<identification::Quantity>, identification::time_offset> quantities;
@@ -36,7 +37,6 @@ bool is_creep(std::size_t coordinate) {
 TrueFit true_fit(const Machine& machine, const TorqueProtocol& protocol, const SimulatedRecord& simulated) {
   TrueFit fit;
   fit.records.push_back(test_record_of(machine, protocol, simulated));
-  const TestRecord& record = fit.records.front();
   identification::ContactParameters contact = machine.contact;
   const bool creeps = contact.friction.alpha > 0.0;
   if (!creeps) contact.friction.alpha = 1e-9;  // its logarithm is to be finite
@@ -47,10 +47,8 @@ TrueFit true_fit(const Machine& machine, const TorqueProtocol& protocol, const S
   record_fit::FitPoint point{fit.setting.prior, Eigen::VectorXd(1)};
   point.offset[0] = machine.parameters.initial.encoder_phase;
   fit.model = record_fit::model_at(fit.records, point, fit.setting);
-  const Eigen::VectorXd& path = fit.model.motions.front().path;
-  const Eigen::VectorXd readings = record_fit::readings_of(record);
-  fit.noise = record_fit::counting_noise(record, path, readings);
-  record_fit::observe(record, path, readings, fit.noise, fit.observations.emplace_back());
+  fit.noise = record_fit::noise_along(fit.records, fit.model);
+  fit.observations = record_fit::observations_along(fit.records, fit.model, fit.noise);
   for (const identification::Quantity& quantity :
        identification::fitted_quantities(point.axis, creep_torque)) {
     for (std::size_t j = 0; j < fit.quantities.size(); ++j) {
@@ -106,7 +104,7 @@ Widths expected_widths(const Machine& machine, const TorqueProtocol& protocol,
   constexpr std::size_t replicates = 200;
   const TrueFit fit = true_fit(machine, protocol, simulated);
   const record_fit::ReadingReplicates found =
-      record_fit::replicate_readings(fit.records, fit.model, fit.setting, {fit.noise}, replicates);
+      record_fit::replicate_readings(fit.records, fit.model, fit.setting, fit.noise, replicates);
   Widths widths;
   for (const std::optional<identification::Quantity>& quantity : fit.quantities) {
     widths.push_back(std::numeric_limits<double>::infinity());

@@ -9,6 +9,7 @@
 
 #include "analysis/identification/fit_refusals.hpp"
 #include "analysis/identification/starting_point.hpp"
+#include "analysis/record_fit/encoder_noise.hpp"
 #include "analysis/record_fit/reading_replicates.hpp"
 #include "analysis/record_fit/residual_checks.hpp"
 #include "core/failure/failure.hpp"
@@ -186,6 +187,22 @@ bool has_spent_effort(const FitSetting& setting, double effort) {
   return static_cast<double>(setting.model.simulated->load()) > effort * usual_effort;
 }
 
+/// The records with the torque so many samples later.
+std::vector<TestRecord> with_later_torque(Records records, int samples) {
+  std::vector<TestRecord> shifted(records.begin(), records.end());
+  for (TestRecord& record : shifted) {
+    const std::vector<motion::TorqueCourse> torque = record.torque;
+    const auto last = static_cast<std::ptrdiff_t>(torque.size()) - 1;
+    for (std::ptrdiff_t k = 0; k <= last; ++k) {
+      const std::ptrdiff_t from = k - samples;
+      record.torque[static_cast<std::size_t>(k)] =
+          from < 0 ? motion::constant_torque(0.0) : torque[static_cast<std::size_t>(std::min(from, last))];
+    }
+    record.parts = parts_of(record);
+  }
+  return shifted;
+}
+
 /// The rough fit, to all readings with equal weights: from the starting point, or from others if that
 /// explains too little.
 FitPoint fit_roughly(Records records, const FitStart& start, double creep_torque, double effort) {
@@ -196,15 +213,29 @@ FitPoint fit_roughly(Records records, const FitStart& start, double creep_torque
   FitSetting undelayed = rough;
   undelayed.free[time_offset] = false;
   std::optional<FitResult> first;
-  for (const ContactPoint& point : start.points) {
+  const auto explains = [&](const FitResult& found) {
+    if (!first || found.squares < first->squares) first = found;
+    refuse_glitches(records, first->point, setting);
+    return are_explained(records, first->point, setting);
+  };
+  const auto fit_at = [&](const ContactPoint& point) {
     undelayed.prior = rough.prior = point;
     const FitPoint at = with_mean_offsets(records, setting.model, point).point;
-    const FitResult found =
-        with_time_offset(records, observations, first_fit(records, observations, at, undelayed), rough);
-    if (!first || found.squares < first->squares) first = found;
-    const FitResult& best = *first;
-    refuse_glitches(records, best.point, setting);
-    if (are_explained(records, best.point, setting)) return best.point;
+    return with_time_offset(records, observations, first_fit(records, observations, at, undelayed), rough);
+  };
+  if (explains(fit_at(start.points.front()))) return first->point;
+  // A delay that was not given: the fit has made up for it by a wrong spring and inertia, too.
+  const double offset = first->point.axis[time_offset];
+  constexpr double least_shift = 0.5;  // samples
+  if (setting.free[time_offset] && std::abs(offset) > least_shift && !has_spent_effort(setting, effort)) {
+    const int shift = offset > 0.0 ? 1 : -1;
+    const std::vector<TestRecord> shifted = with_later_torque(records, shift);
+    ContactPoint point = starting_points(shifted, creep_torque, start.points.front(), setting.free).front();
+    point[time_offset] = shift;
+    if (explains(fit_at(point))) return first->point;
+  }
+  for (std::size_t i = 1; i < start.points.size(); ++i) {
+    if (explains(fit_at(start.points[i]))) return first->point;
   }
   FitResult best = *first;
   // The other starting points vary the one of closed forms, which has no wrong minimum of its own.
@@ -250,12 +281,11 @@ FittedModel followed_model(Records records, const FitPoint& point, const FitSett
   FittedModel model = model_at(records, point, setting);
   for (std::size_t r = 0; r < records.size(); ++r) {
     if (record_fit::is_finite(model.motions[r])) continue;
-    throw Failure(
-        ExitCode::bad_data,
-        fmt::format("{}: the rotor that comes nearest to this record cannot be simulated: it is too "
-                    "stiff, too light or too strongly damped beside the sampling interval. Are the "
-                    "units right?",
-                    records[r].name));
+    throw Failure(ExitCode::bad_data,
+                  fmt::format("{}: the axis that comes nearest to this record cannot be simulated: it is too "
+                              "stiff, too light or too strongly damped beside the sampling interval. Are the "
+                              "units right?",
+                              records[r].name));
   }
   return model;
 }

@@ -17,10 +17,10 @@ constexpr double max_unexplained = 0.02;
 /// Maximum residual spread, as a multiple of the expected one.
 constexpr double max_spread = 30.0;
 
-/// Names what a search that ended early has left out.
+/// Hint if the search stopped at its effort limit.
 std::string early_end_text(const ContactFit& fit) {
   if (!has_ended_early(fit)) return "";
-  return ". Other starting points were left out to save time: --effort 4 tries more of them";
+  return ". " + left_out_text(fit.effort);
 }
 
 /// @throws Failure (bad_data) with the words and units of the record's axis.
@@ -29,6 +29,11 @@ std::string early_end_text(const ContactFit& fit) {
 }
 
 }  // namespace
+
+std::string left_out_text(double effort) {
+  return fmt::format("Other starting points were left out to save time: --effort {:g} tries more of them",
+                     4.0 * effort);
+}
 
 void refuse_glitches(Records records, const FitPoint& point, const FitSetting& setting) {
   for (std::size_t r = 0; r < records.size(); ++r) {
@@ -63,19 +68,21 @@ void refuse_unexplained(Records records, const ContactFit& fit, double tolerance
   }
 }
 
-void refuse_gross_misfit(Records records, const ContactFit& fit, const record_fit::ResidualChecks& checks) {
+void refuse_gross_misfit(Records records, const ContactFit& fit, const record_fit::ResidualChecks& checks,
+                         const std::string& cause) {
   if (!(checks.spread > max_spread * checks.expected_spread)) return;
   const auto worst =
       static_cast<std::size_t>(std::max_element(fit.misfit.begin(), fit.misfit.end()) - fit.misfit.begin());
   const std::size_t sample = record_fit::largest_misfit_growth(records[worst], fit.model.motions[worst].path);
-  refuse(records[worst],
-         fmt::format(
-             "the pre-sliding model does not explain the records: the residuals are {:.0f} times those that "
-             "the encoder's steps and noise give, and grow most at {:.4g} s of this record. Does a record "
-             "begin under load, is the $torque of another time than the $angle, did the axis slide? "
-             "--model all compares other friction laws{}",
-             checks.spread / checks.expected_spread, static_cast<double>(sample) * records[worst].sample_time,
-             early_end_text(fit)));
+  refuse(
+      records[worst],
+      fmt::format(
+          "the pre-sliding model does not explain the records: the residuals are {:.0f} times those that "
+          "the encoder's steps and noise give, and grow most at {:.4g} s of this record. Does a record "
+          "begin under load, is the $torque of another time than the $angle (--delay), did the axis slide? "
+          "{}--model all compares other friction laws{}",
+          checks.spread / checks.expected_spread, static_cast<double>(sample) * records[worst].sample_time,
+          cause.empty() ? "" : cause + ". ", early_end_text(fit)));
 }
 
 }  // namespace zerocount::identification

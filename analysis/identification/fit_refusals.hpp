@@ -1,11 +1,15 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "analysis/identification/contact_fit.hpp"
 #include "analysis/record_fit/residual_checks.hpp"
 
 namespace zerocount::identification {
+
+/// Sentence for a search that stopped at its effort limit, without the full stop.
+std::string left_out_text(double effort);
 
 // Checks of the records after a fit. Each throws Failure (bad_data) with the record, the place in it and
 // the reason.
@@ -18,6 +22,8 @@ void refuse_glitches(Records records, const FitPoint& point, const FitSetting& s
 void refuse_unexplained(Records records, const ContactFit& fit, double tolerance);
 
 /// Refuses a spread of the residuals of more than 30 times that of the simulated replicates.
-void refuse_gross_misfit(Records records, const ContactFit& fit, const record_fit::ResidualChecks& checks);
+/// @param cause a sentence that names a likely cause, without its full stop; may be empty
+void refuse_gross_misfit(Records records, const ContactFit& fit, const record_fit::ResidualChecks& checks,
+                         const std::string& cause);
 
 }  // namespace zerocount::identification

@@ -294,17 +294,18 @@ Identification identify(std::vector<TestRecord> records, const IdentificationOpt
   Identification result;
   const auto& [fit, replicates, checks] = explained_fit(records, options);
   result.checks = checks;
+  result.effort = fit.effort;
   result.search_ended = !checks.passed && has_ended_early(fit);
-  refuse_gross_misfit(records, fit, checks);
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    result.records.push_back(summary_of(records[r], fit, r));
+    result.fitted.push_back(fitted_record(records[r], fit.model.motions[r].path));
+  }
   result.own_ringing = own_ringing_of(fit);
   if (!checks.passed) {
     enter("spectrum of the residuals");
     result.residual_line = line_beside(records, fit, result.own_ringing);
   }
-  for (std::size_t r = 0; r < records.size(); ++r) {
-    result.records.push_back(summary_of(records[r], fit, r));
-    result.fitted.push_back(fitted_record(records[r], fit.model.motions[r].path));
-  }
+  refuse_gross_misfit(records, fit, checks, second_mass_text(result));
   const std::vector<Quantity> quantities = fitted_quantities(fit.model.point.axis, fit.creep_torque);
   const Estimation estimation{records, fit, replicates, options, checks.widening};
   std::vector<EstimatedQuantity> estimated;

@@ -60,8 +60,9 @@ struct Identification {
   record_fit::ResidualChecks checks;
   /// Frequencies at which the fitted rotor rings: on k1 after large steps, on k1 + k2 after small ones.
   record_fit::FrequencyRange own_ringing;
-  /// Looked for if the checks failed, beyond a fifth outside of own_ringing.
+  /// Searched only if the checks failed, below own_ringing.low/1.2 and above 1.2·own_ringing.high.
   std::optional<record_fit::ResidualLine> residual_line;
+  double effort{1.0};        ///< see fit_contact()
   bool search_ended{false};  ///< not explained, and no more starting points were tried because of the effort
   /// Correlation of the errors of a pair of estimated parameters; listed if its magnitude is 0.9 or more.
   struct Correlation {
@@ -100,6 +101,10 @@ void check_different(Records records);
 /// @throws Failure (bad_data) if a record is given twice, the torque reverses less than twice, a single
 /// reading is an outlier, or the model does not explain the records.
 Identification identify(std::vector<TestRecord> records, const IdentificationOptions& options = {});
+
+/// A sentence that names the line of the residuals and its likely cause, without the full stop; empty if
+/// there is none.
+std::string second_mass_text(const Identification& identification);
 
 /// The parameters, the parts of the records, the checks and the manifest fragment as text.
 std::string identification_text(const Identification& identification);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/identification/fit_refusals.hpp"
 #include "analysis/identification/identification.hpp"
 #include "analysis/text/text.hpp"
 
@@ -76,19 +77,20 @@ std::string checks_text(const record_fit::ResidualChecks& checks) {
                     reason_of_misfit(checks), checks.widening);
 }
 
-std::string line_text(const Identification& identification) {
+}  // namespace
+
+std::string second_mass_text(const Identification& identification) {
   if (!identification.residual_line) return "";
   const record_fit::ResidualLine& line = *identification.residual_line;
   return fmt::format(
-      "  The residuals have a line at {:.3g} Hz in the ring-downs of\n  {}.\n"
-      "  The fitted axis itself rings at {:.3g} to {:.3g} Hz: a second mass on a spring is likely, such as "
-      "a\n"
-      "  load (plant.load), a coupling or the base.\n",
-      line.frequency, text::printable(identification.records[line.record].name),
+      "The ring-downs of {} leave residuals with a spectral line at {:.3g} Hz, and the fitted axis itself "
+      "rings "
+      "at {:.3g} to {:.3g} Hz: a second mass on a spring is likely, such as a load (plant.load), a coupling "
+      "or "
+      "the base",
+      text::printable(identification.records[line.record].name), line.frequency,
       identification.own_ringing.low, identification.own_ringing.high);
 }
-
-}  // namespace
 
 std::vector<std::string> estimate_heads() {
   return {"parameter", "value", "unit", "95 % interval", "±", "status"};
@@ -129,9 +131,9 @@ std::string identification_text(const Identification& identification) {
   text += "Records:\n";
   for (const RecordSummary& record : identification.records) text += record_line(record);
   text += checks_text(identification.checks);
-  text += line_text(identification);
+  if (identification.residual_line) text += "  " + second_mass_text(identification) + ".\n";
   if (identification.search_ended) {
-    text += "  Other starting points were left out to save time: --effort 4 tries more of them.\n";
+    text += "  " + left_out_text(identification.effort) + ".\n";
   }
   return text + "\nTo paste into a manifest:\n\n" + manifest_fragment(identification);
 }

@@ -202,11 +202,14 @@ void check_magnitudes(const RawSeries& series, const TestRecord& record) {
            : "is the angle in mrad or degrees, are the counts per revolution right, did the axis slide (then "
              "--sliding)?"},
       turned);
-  check_plausible(series,
-                  {"the $torque's range over the travel", "$Nm/$rad", series.linear ? 100.0 : 1.0,
-                   series.linear ? 1e10 : 2e4,
-                   "are $torque and $angle in $Nm and $rad, is the resolution of the encoder right?"},
-                  torque_range(record) / turned);
+  check_plausible(
+      series,
+      {"the $torque's range over the travel", "$Nm/$rad", series.linear ? 100.0 : 1.0,
+       series.linear ? 1e10 : 2e4,
+       series.linear ? "are force and position in N and m, is the resolution of the encoder right?"
+                     : "are torque and angle in N m and rad, are the counts per revolution right, "
+                       "is this a linear axis (then --axis linear)?"},
+      torque_range(record) / turned);
 }
 
 void check_change(const RawSeries& series, const TestRecord& record) {

@@ -173,7 +173,7 @@ motion::PlantParameters estimate_ring_down(Records records, double k1) {
   double stiffness = k1;
   if (ring.record != nullptr) {
     const FirstOvershoot motion = first_overshoot(*ring.record, ring.hold);
-    // That of the chord: a spring with k1 much smaller than k2 is stiffer over the step.
+    // The chord stiffness over the step: larger than k1 if k1 is much smaller than k2.
     if (motion.travel > 0.0)
       stiffness = std::max(k1, std::abs(ring.hold.torque - ring.hold.from) / motion.travel);
     constexpr double visible = 0.01;

@@ -9,6 +9,9 @@
 
 namespace zerocount::record_fit {
 
+/// Variance of a uniform distribution of width 1.
+inline constexpr double uniform_variance = 1.0 / 12.0;
+
 /// An observation of the rotor: its mean angle over the samples first … last is `position`, with the variance
 /// `variance`. Both refer to the record's unit and to an encoder with phase 0.
 struct AngleObservation {
@@ -47,10 +50,5 @@ auto mean_over(const AngleObservation& observation, const Values& values) {
   const auto count = static_cast<Eigen::Index>(observation.last - observation.first + 1);
   return values.middleRows(first, count).colwise().mean();
 }
-
-/// Noise of the readings (standard deviation in counts, before rounding), estimated from the differences of
-/// readings one or two samples apart beside the rotor's travel; 0 if an encoder without noise explains them.
-/// Slow deviations from `path` have little influence. Masked and single wrong readings are not used.
-double counting_noise(const TestRecord& record, const Eigen::VectorXd& path, const Eigen::VectorXd& readings);
 
 }  // namespace zerocount::record_fit

@@ -112,12 +112,12 @@ struct NormalEquations {
 NormalEquations normal_equations(const FittedModel& model, const Observations& observations,
                                  const FitSetting& setting);
 
-/// The points at each of `changes` from the model, with the free coordinates of `others` and the offsets
-/// moved by their linear least squares there, with the sensitivities of the model. Their sums of squares are
-/// those of the linear model.
+/// Adds each of `changes` to the model's point, and adapts the free coordinates of `setting` and the offsets
+/// by one step of linear least squares with the model's sensitivities. Their sums of squares are those of the
+/// linear model.
 /// @returns those with a smaller sum than the model's by more than chance, by their sums of squares.
 std::vector<FitResult> better_points(Records records, const Observations& observations,
-                                     const FittedModel& model, const FitSetting& others,
+                                     const FittedModel& model, const FitSetting& setting,
                                      const std::vector<Point>& changes);
 
 class NormalEquationsSum {

@@ -37,20 +37,20 @@ namespace {
 
 /// One of better_points(), with an infinite sum of squares if it cannot be simulated.
 FitResult linear_fit(Records records, const Observations& observations, const FittedModel& model,
-                     const FitSetting& others, const Point& change) {
+                     const FitSetting& setting, const Point& change) {
   FitResult result{model.point, std::numeric_limits<double>::infinity(), false};
   result.point.axis += change;
-  if (!is_sampled(records, others.model, result.point.axis)) return result;
-  NormalEquationsSum sum(records.size(), others);
+  if (!is_sampled(records, setting.model, result.point.axis)) return result;
+  NormalEquationsSum sum(records.size(), setting);
   for (std::size_t r = 0; r < records.size(); ++r) {
-    Eigen::VectorXd path = modelled_path(records[r], others.model, result.point.axis);
+    Eigen::VectorXd path = modelled_path(records[r], setting.model, result.point.axis);
     path.array() += model.point.offset[static_cast<Eigen::Index>(r)];
     if (!path.allFinite()) return result;
     sum.add(r, observations[r], path, model.motions[r].sensitivity);
   }
   const NormalEquations equations = sum.with_prior(result.point.axis);
   const Eigen::VectorXd step = numerics::solve_positive_definite(equations.matrix, equations.gradient);
-  const Eigen::Index dimension = dimension_of(others.model);
+  const Eigen::Index dimension = dimension_of(setting.model);
   result.point.axis += step.head(dimension);
   result.point.offset += step.tail(step.size() - dimension);
   result.squares = equations.squares - step.dot(equations.gradient);
@@ -60,15 +60,15 @@ FitResult linear_fit(Records records, const Observations& observations, const Fi
 }  // namespace
 
 std::vector<FitResult> better_points(Records records, const Observations& observations,
-                                     const FittedModel& model, const FitSetting& others,
+                                     const FittedModel& model, const FitSetting& setting,
                                      const std::vector<Point>& changes) {
   constexpr double chance = 6.0;  // about 95 % of a sum of squares with two degrees of freedom
   std::vector<FitResult> points(changes.size());
   for_each_index(changes.size(), [&](std::size_t i) {
-    points[i] = linear_fit(records, observations, model, others, changes[i]);
+    points[i] = linear_fit(records, observations, model, setting, changes[i]);
   });
   const double squares =
-      linear_fit(records, observations, model, others, Point::Zero(dimension_of(others.model))).squares;
+      linear_fit(records, observations, model, setting, Point::Zero(dimension_of(setting.model))).squares;
   std::erase_if(points, [&](const FitResult& point) { return !(point.squares < squares - chance); });
   std::stable_sort(points.begin(), points.end(),
                    [](const FitResult& one, const FitResult& other) { return one.squares < other.squares; });

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/record_fit/encoder_noise.hpp"
 #include "analysis/statistics/quantile.hpp"
 
 namespace zerocount::record_fit {
@@ -76,9 +77,6 @@ std::string reason_of_misfit(const ResidualChecks& checks) {
 
 namespace {
 
-/// Lower limit of the noise of readings that are not counts: smaller residuals are rounding errors.
-constexpr double min_noise = 1e-6;
-
 /// Standard deviation of normal residuals, from the median of their magnitudes.
 double robust_deviation(const std::vector<double>& magnitudes) {
   constexpr double deviation_over_median = 1.4826;
@@ -97,25 +95,6 @@ Eigen::VectorXd residuals_along(const TestRecord& record, const Eigen::VectorXd&
 
 double misfit_along(const TestRecord& record, const Eigen::VectorXd& path) {
   return residuals_along(record, path).norm() / std::sqrt(static_cast<double>(used_samples(record)));
-}
-
-std::vector<double> noise_along(Records records, const FittedModel& model) {
-  std::vector<double> seen;
-  for (std::size_t r = 0; r < records.size(); ++r) {
-    const Eigen::VectorXd& path = model.motions[r].path;
-    seen.push_back(records[r].counted ? counting_noise(records[r], path, readings_of(records[r]))
-                                      : std::max(misfit_along(records[r], path), min_noise));
-  }
-  std::vector<double> noise = seen;
-  for (std::size_t r = 0; r < records.size(); ++r) {
-    if (seen[r] > 0.0) continue;
-    for (std::size_t other = 0; other < records.size(); ++other) {
-      const bool same_encoder = records[other].counted && records[other].unit == records[r].unit;
-      if (!same_encoder || seen[other] == 0.0) continue;
-      noise[r] = noise[r] == 0.0 ? seen[other] : std::min(noise[r], seen[other]);
-    }
-  }
-  return noise;
 }
 
 bool is_explained(const TestRecord& record, const Eigen::VectorXd& path) {

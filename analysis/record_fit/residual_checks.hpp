@@ -45,11 +45,6 @@ Eigen::VectorXd residuals_along(const TestRecord& record, const Eigen::VectorXd&
 /// alone gives 0.29.
 double misfit_along(const TestRecord& record, const Eigen::VectorXd& path);
 
-/// [record] Noise of the readings in the record's unit, 0 for counts without noise: of counts by
-/// counting_noise(), of others the misfit. A record of counts that is too short or too fast to show noise has
-/// the smallest noise of those with the same count: they come from the same encoder.
-std::vector<double> noise_along(Records records, const FittedModel& model);
-
 /// True if quantisation and noise explain the residuals roughly. For counts the test is the distance of the
 /// path from the counts, for other readings the autocorrelation of the residuals.
 bool is_explained(const TestRecord& record, const Eigen::VectorXd& path);

@@ -27,8 +27,9 @@ struct ResidualLine {
 /// the torque, summed over the holds of a record. It is compared with those of 1000 simulated replicates of
 /// the readings along the model's path, each read at a random position between two counts. At each frequency,
 /// the largest power of the first 500 is the usual one. A line is a peak whose ratio to the usual power is
-/// twice the largest ratio of the other 500 at any frequency, and with at least half of the power above the
-/// usual one within ±10 % of its frequency: a wrong friction law leaves residuals at all low frequencies.
+/// more than twice the largest ratio of the other 500 at any frequency, and with at least half of the power
+/// above the usual one within ±10 % of its frequency: a wrong friction law leaves residuals at all low
+/// frequencies.
 /// @param noise [record] of the readings, in the record's unit
 /// @param own the oscillation of the model itself: lines are looked for outside of it
 /// @returns the line with the largest ratio. Nothing if there is none, or no evenly sampled record has a

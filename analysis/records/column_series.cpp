@@ -177,7 +177,15 @@ bool is_linear(const ColumnSource& source, const SeriesChoice& choice) {
   const auto has_any = [&](std::initializer_list<const char*> names) {
     return std::any_of(names.begin(), names.end(), [&](const char* name) { return source.has(name); });
   };
-  return has_any({"force", "drive_force", "position"}) && !has_any({"torque", "drive_torque", "theta"});
+  const bool linear =
+      has_any({"force", "drive_force", "position"}) && !has_any({"torque", "drive_torque", "theta"});
+  if (linear && choice.rotary) {
+    refuse_column(
+        source,
+        "has the columns of a linear axis, force or position; expected --resolution for the size of "
+        "a count, and not --counts-per-revolution or --axis rotary");
+  }
+  return linear;
 }
 
 template <class Value>

@@ -61,6 +61,7 @@ struct SeriesChoice {
   std::optional<std::string> angle;      ///< column: count or theta
   std::optional<double> count_size;      ///< rad, or m of a linear axis
   bool linear{false};                    ///< the usual columns are those of a linear axis
+  bool rotary{false};                    ///< they are those of a rotary axis
   std::optional<double> bandwidth;       ///< Hz
   std::optional<double> delay;           ///< of the commanded torque, samples
   std::optional<int> dac_bits;

@@ -147,6 +147,7 @@ records::SeriesChoice series_choice(const command_line::Arguments& arguments) {
       arguments.choice("axis") == "linear" ||
       std::any_of(choice.columns.begin(), choice.columns.end(),
                   [](const records::ColumnMapping& one) { return records::is_linear(one.quantity); });
+  choice.rotary = (arguments.has("axis") && !choice.linear) || arguments.has("counts-per-revolution");
   choice.count_size = count_size_option(arguments, choice);
   return choice;
 }
@@ -385,8 +386,8 @@ std::vector<command_line::OptionSpec> identify_options() {
        {"delay", "SAMPLES",
         "delay of the column torque, such as 1.5 (default 0); the time offset is fitted about it"},
        {"dac-bits", "BITS", "word length of the converter of the column code, to detect clipping"},
-       {"preload", "TORQUE", "torque of a slow load and unload before the test, N m (default 0)"},
-       {"hardening", "XH", "work hardening before the test, rad (default 0)"},
+       {"preload", "TORQUE", "torque of a slow load and unload before the test, N m or N (default 0)"},
+       {"hardening", "XH", "work hardening before the test, rad or m (default 0)"},
        {"fix", "KEY=VALUE", "a known parameter, such as friction.n=2 or time_offset=0; may be repeated",
         true},
        {"effort", "FACTOR",

@@ -46,6 +46,7 @@ TEST_F(IdentifyRefusals, BadUsageIsRefused) {
   folder_.write("times.csv", "t,time,torque,theta\n0,0,0,0\n");
   folder_.write("motor.csv", "t,drive_torque,theta\n0,0,0\n");
   folder_.write("wrong.csv", "time [ms],torque,theta\n0,0,0\n");
+  folder_.write("linear.csv", "t,force,count\n0,0,0\n");
   for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
            {},
            {"nothing.csv"},
@@ -53,6 +54,8 @@ TEST_F(IdentifyRefusals, BadUsageIsRefused) {
            {"wrong.csv", "--column", "time=t"},
            {"data.csv", "--counts-per-revolution", "many"},
            {"data.csv", "--counts-per-revolution", "1000", "--angle", "theta"},
+           {"linear.csv", "--counts-per-revolution", "1000"},
+           {"linear.csv", "--axis", "rotary", "--resolution", "1e-9"},
            {"times.csv"},
            {"data.csv", "--fix", "friction.k3=1"},
            {"data.csv", "--fix", "friction.n=0.5"},

@@ -52,7 +52,10 @@ class ElementMachine {
     slid_ = slid_ || std::abs(elements_.torque()) > friction_.breakaway;
   }
 
-  std::int64_t count() const { return static_cast<std::int64_t>(std::floor(theta_ / resolution + phase_)); }
+  /// The reading of the encoder, with an error in counts.
+  std::int64_t count(double error) const {
+    return static_cast<std::int64_t>(std::floor(theta_ / resolution + phase_ + error));
+  }
   bool slid() const { return slid_; }
 
  private:
@@ -86,8 +89,15 @@ struct Gains {
   double ki;
 };
 
+/// The noise of an encoder, standard deviation in counts.
+struct EncoderNoise {
+  double deviation;
+  Draws* draw;
+  double next() const { return deviation > 0.0 ? deviation * draw->normal() : 0.0; }
+};
+
 /// A PI control of one sample of delay moves the machine by so many counts. Whether it ends at zero error.
-bool succeeds(ElementMachine machine, const Gains& gains, std::int64_t target) {
+bool succeeds(ElementMachine machine, const EncoderNoise& noise, const Gains& gains, std::int64_t target) {
   const double torque_per_code = loop::DacParameters{}.resolution;
   const auto samples = static_cast<int>(std::lround(hold / sample_time));
   constexpr int window = 100;  // samples
@@ -96,7 +106,7 @@ bool succeeds(ElementMachine machine, const Gains& gains, std::int64_t target) {
   double waiting = 0.0;
   bool zero = true;
   for (int k = 0; k < samples; ++k) {
-    const std::int64_t error = target - machine.count();
+    const std::int64_t error = target - machine.count(noise.next());
     if (k >= samples - window && error != 0) zero = false;
     integral += gains.ki * resolution * 0.5 * sample_time * static_cast<double>(error + last_error);
     last_error = error;
@@ -144,10 +154,11 @@ class RoundTrip : public ::testing::Test {
   }
 
   /// The torque of the protocol and the counts of the machine, as a table for identify.
-  std::string record_of(ElementMachine machine) const {
+  std::string record_of(ElementMachine machine, const EncoderNoise& noise) const {
     std::string table = "t [s],torque [N m],count\n";
     for (std::size_t k = 0; k < torques_.size(); ++k) {
-      table += fmt::format("{},{},{}\n", static_cast<double>(k) * sample_time, torques_[k], machine.count());
+      table += fmt::format("{},{},{}\n", static_cast<double>(k) * sample_time, torques_[k],
+                           machine.count(noise.next()));
       machine.advance(torques_[k]);
     }
     EXPECT_FALSE(machine.slid());
@@ -155,9 +166,11 @@ class RoundTrip : public ::testing::Test {
   }
 
   /// The comparison of the machine's moves with what is predicted from its record.
-  Comparison comparison(const trial::TrialParameters& machine, const Gains& gains, Draws& draw) {
+  Comparison comparison(const trial::TrialParameters& machine, const Gains& gains, double deviation,
+                        Draws& draw) {
+    const EncoderNoise noise{deviation, &draw};
     const auto started = [&] { return ElementMachine(machine, draw.uniform(0.0, 1.0)); };
-    folder_.write("recorded.csv", record_of(started()));
+    folder_.write("recorded.csv", record_of(started(), noise));
     const ProgramResult identified =
         program({"identify", "recorded.csv", "--counts-per-revolution", "1620000", "--posterior",
                  "posterior.csv", "--force", "--quiet"});
@@ -165,16 +178,17 @@ class RoundTrip : public ::testing::Test {
     std::int64_t successes = 0;
     for (std::int64_t i = 0; i < moves; ++i) {
       const std::int64_t target = draw.integer(1, 30);
-      successes += succeeds(started(), gains, target) ? 1 : 0;
+      successes += succeeds(started(), noise, gains, target) ? 1 : 0;
     }
-    folder_.write("study.yaml",
-                  fmt::format("zerocount: 1\nname: study\nseed: 1\nrigs: 100\ntrials: {}\n"
-                              "samples: posterior.csv\nencoder: {{fine: 1620000}}\n"
-                              "controller: {{units: si, sample_rate: 2000, delay: 1, kp: {}, ki: {}}}\n"
-                              "command: {{targets: [{{integers: [1, 30]}}], hold: {}}}\n"
-                              "initial: {{encoder_phase: {{uniform: [0, 1]}}}}\n"
-                              "observed: {{all: {{successes: {}, of: {}}}}}\n",
-                              100 * moves, gains.kp, gains.ki, hold, successes, moves));
+    folder_.write(
+        "study.yaml",
+        fmt::format("zerocount: 1\nname: study\nseed: 1\nrigs: 100\ntrials: {}\n"
+                    "samples: posterior.csv\nencoder: {{fine: 1620000, fine_errors: {{noise: {}}}}}\n"
+                    "controller: {{units: si, sample_rate: 2000, delay: 1, kp: {}, ki: {}}}\n"
+                    "command: {{targets: [{{integers: [1, 30]}}], hold: {}}}\n"
+                    "initial: {{encoder_phase: {{uniform: [0, 1]}}}}\n"
+                    "observed: {{all: {{successes: {}, of: {}}}}}\n",
+                    100 * moves, deviation, gains.kp, gains.ki, hold, successes, moves));
     const ProgramResult run = program({"run", "study.yaml", "-o", "predicted.h5", "--force", "--quiet"});
     EXPECT_EQ(run.code, 0) << run.err;
     const auto summary = nlohmann::json::parse(program({"summary", "predicted.h5", "--format", "json"}).out);
@@ -183,18 +197,20 @@ class RoundTrip : public ::testing::Test {
             point["success_rate"].get<double>() - static_cast<double>(successes) / moves};
   }
 
-  Agreement agreement_of(std::int64_t machines) {
+  /// @param deviation noise of the encoder, counts
+  Agreement agreement_of(std::int64_t machines, double deviation = 0.0) {
     Draws draw(5);
     Agreement sum;
     for (std::int64_t i = 0; i < machines; ++i) {
-      const Comparison found = comparison(study::study_trial(study_, 0, i).parameters, {74.0, 6e4}, draw);
+      const Comparison found =
+          comparison(study::study_trial(study_, 0, i).parameters, {74.0, 6e4}, deviation, draw);
       sum.consistent += found.consistent ? 1 : 0;
       sum.misfits += found.misfit ? 1 : 0;
       sum.difference += found.difference * found.difference / static_cast<double>(machines);
     }
     sum.difference = std::sqrt(sum.difference);
-    fmt::print("of {} machines {} are consistent, {} have a lack of fit; difference {:.3f}\n", machines,
-               sum.consistent, sum.misfits, sum.difference);
+    fmt::print("noise {}: of {} machines {} are consistent, {} have a lack of fit; difference {:.3f}\n",
+               deviation, machines, sum.consistent, sum.misfits, sum.difference);
     return sum;
   }
 
@@ -211,6 +227,10 @@ class RoundTrip : public ::testing::Test {
 // moves.
 TEST_F(RoundTrip, ThePredictionHoldsWhatMachinesDo) {
   EXPECT_GE(agreement_of(6).consistent, 5);
+}
+
+TEST_F(RoundTrip, DISABLED_ThePredictionHoldsWhatMachinesWithNoiseDo) {
+  for (const double noise : {0.03, 0.1, 0.3}) EXPECT_GE(agreement_of(20, noise).consistent, 18) << noise;
 }
 
 TEST_F(RoundTrip, DISABLED_ThePredictionHoldsWhatManyMachinesDo) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <random>
 
 namespace zerocount::testing {
@@ -16,6 +17,11 @@ class Draws {
   double log_uniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
   std::int64_t integer(std::int64_t low, std::int64_t high) {
     return low + static_cast<std::int64_t>(engine_() % static_cast<std::uint64_t>(high - low + 1));
+  }
+  /// Standard normal (Box and Muller, 1958).
+  double normal() {
+    const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform(0.0, 1.0)));
+    return radius * std::cos(2.0 * std::numbers::pi * uniform(0.0, 1.0));
   }
   bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
   int sign() { return chance(0.5) ? 1 : -1; }

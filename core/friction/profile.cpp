@@ -23,7 +23,7 @@ double field_at(const Profile& profile, double position) {
 
 double value_at(const Profile& profile, double position) {
   const double value = profile.location + profile.scale * field_at(profile, position);
-  return profile.marginal == Marginal::lognormal ? numerics::exp(value) : value;
+  return profile.marginal == Marginal::lognormal ? numerics::exp_of_draws(value) : value;
 }
 
 }  // namespace zerocount::friction

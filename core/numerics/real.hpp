@@ -33,7 +33,7 @@ class Real : boost::ordered_field_operators<Real> {
   friend constexpr bool operator<(Real a, Real b) { return a.value_ < b.value_; }
   friend std::ostream& operator<<(std::ostream& stream, Real a) { return stream << a.value_; }
 
-  friend Real exp(Real x) { return numerics::exp(x.value_); }
+  friend Real exp(Real x) { return numerics::exp_of_draws(x.value_); }
   friend Real log(Real x) { return numerics::log(x.value_); }
   friend Real pow(Real x, Real y) { return numerics::pow(x.value_, y.value_); }
   friend Real sin(Real x) { return numerics::sin(x.value_); }

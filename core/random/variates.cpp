@@ -17,7 +17,7 @@ std::int64_t binomial_number(std::int64_t n, double probability, std::uint64_t b
   if (probability >= 1.0) return n;
   using numerics::Real;
   const double u = open_uniform(bits);
-  if (u <= numerics::exp(static_cast<double>(n) * numerics::log1p(-probability))) return 0;
+  if (u <= numerics::exp_of_draws(static_cast<double>(n) * numerics::log1p(-probability))) return 0;
 
   // By bisection, because Boost's quantile fails in some far tails of small probabilities.
   const boost::math::binomial_distribution<Real> happened(static_cast<double>(n), probability);

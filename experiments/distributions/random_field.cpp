@@ -29,7 +29,7 @@ std::vector<double> field_spectrum(double correlation_length) {
   const double last = -std::numbers::sqrt2 / correlation_length * numerics::normal_quantile(0.5 * tail);
   std::vector<double> spectrum{1.0};
   for (double m = 1.0; m <= std::ceil(last); m += 1.0) {
-    spectrum.push_back(2.0 * numerics::exp(-0.25 * m * m * correlation_length * correlation_length));
+    spectrum.push_back(2.0 * numerics::exp_of_draws(-0.25 * m * m * correlation_length * correlation_length));
   }
   const double sum = std::accumulate(spectrum.rbegin(), spectrum.rend(), 0.0);
   for (double& variance : spectrum) variance /= sum;
@@ -74,7 +74,7 @@ numerics::Interval limits(const friction::Profile& profile) {
   const double low = profile.location - profile.scale * largest;
   const double high = profile.location + profile.scale * largest;
   return profile.marginal == friction::Marginal::lognormal
-             ? numerics::closed(numerics::exp(low), numerics::exp(high))
+             ? numerics::closed(numerics::exp_of_draws(low), numerics::exp_of_draws(high))
              : numerics::closed(low, high);
 }
 

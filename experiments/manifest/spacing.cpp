@@ -21,7 +21,7 @@ double spaced(const Spacing& spacing, std::size_t i) {
   const double t = static_cast<double>(i) / static_cast<double>(spacing.count - 1);
   if (!spacing.logarithmic) return without_rounding_noise(std::lerp(spacing.from, spacing.to, t));
   return without_rounding_noise(
-      numerics::exp(std::lerp(numerics::log(spacing.from), numerics::log(spacing.to), t)));
+      numerics::exp_of_draws(std::lerp(numerics::log(spacing.from), numerics::log(spacing.to), t)));
 }
 
 }  // namespace

@@ -42,6 +42,20 @@ TEST(ElementaryFunctions, AreWithinAFewUnitsOfTheLastPlace) {
   }
 }
 
+// Densely, and where the table, the series and the functions for large arguments meet.
+TEST(ElementaryFunctions, ExponentialsAreWithinOneUnitOfTheLastPlace) {
+  Draws draws(1804);
+  for (const double most : {1e-9, 0.0027, 0.0054, 0.02, 0.025, 0.1, 0.7, 3.0, 40.0, 699.0}) {
+    for (int round = 0; round < 20000; ++round) {
+      const double x = draws.uniform(-most, most);
+      ASSERT_LE(distance(numerics::exp(x), std::exp(static_cast<long double>(x))), 0.52) << x;
+      ASSERT_LE(distance(numerics::expm1(x), std::expm1(static_cast<long double>(x))), 1.0) << x;
+    }
+  }
+  for (const double x : {0.0, -0.0, 1e-300, -1e-300}) EXPECT_EQ(numerics::expm1(x), x);
+  EXPECT_EQ(numerics::exp(0.0), 1.0);
+}
+
 TEST(ElementaryFunctions, OfTwoArgumentsAreTooAndPowersOfWholeNumbersAreExact) {
   Draws draws(1802);
   for (int round = 0; round < 3000; ++round) {

@@ -226,9 +226,11 @@ FitPoint fit_roughly(Records records, const FitStart& start, double creep_torque
   if (explains(fit_at(start.points.front()))) return first->point;
   // A delay that was not given: the fit has made up for it by a wrong spring and inertia, too.
   const double offset = first->point.axis[time_offset];
-  constexpr double least_shift = 0.5;  // samples
-  if (setting.free[time_offset] && std::abs(offset) > least_shift && !has_spent_effort(setting, effort)) {
-    const int shift = offset > 0.0 ? 1 : -1;
+  constexpr double min_offset = 0.5;  // samples
+  for (const int samples : {1, 2}) {
+    if (!setting.free[time_offset] || std::abs(offset) < min_offset || has_spent_effort(setting, effort))
+      break;
+    const int shift = offset > 0.0 ? samples : -samples;
     const std::vector<TestRecord> shifted = with_later_torque(records, shift);
     ContactPoint point = starting_points(shifted, creep_torque, start.points.front(), setting.free).front();
     point[time_offset] = shift;

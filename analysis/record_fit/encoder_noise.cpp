@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <optional>
 
 #include <boost/math/tools/roots.hpp>
 
@@ -185,68 +187,50 @@ void add_edges(const TestRecord& record, const Eigen::VectorXd& path, const Eige
 
 }  // namespace
 
-double edge_noise(Records records, const std::vector<Eigen::VectorXd>& paths) {
-  EdgeDifferences observed;
-  for (std::size_t r = 0; r < records.size(); ++r)
-    add_edges(records[r], paths[r], readings_of(records[r]), observed);
-  // Readings without noise, with the path at different places between two counts.
-  constexpr int places = 32;
+double edge_noise(Records records, const FittedModel& model, double unit) {
+  // With readings of the paths moved by `place`, or with the recorded ones.
+  const auto mean_difference = [&](std::optional<double> place) {
+    EdgeDifferences sum;
+    for (std::size_t r = 0; r < records.size(); ++r) {
+      if (!records[r].counted || records[r].unit != unit) continue;
+      const Eigen::VectorXd path = model.motions[r].path.array() + place.value_or(0.0);
+      const Eigen::VectorXd noiseless = path.array().floor();
+      add_edges(records[r], path, place ? noiseless : Eigen::VectorXd(readings_of(records[r])), sum);
+    }
+    return sum.mean();
+  };
+  constexpr int places = 32;  // of the path between two counts
   double largest = 0.0;
   double usual = 0.0;
-  for (int place = 0; place < places; ++place) {
-    EdgeDifferences noiseless;
-    for (std::size_t r = 0; r < records.size(); ++r) {
-      const Eigen::VectorXd moved = paths[r].array() + (place + 0.5) / places;
-      add_edges(records[r], moved, moved.array().floor(), noiseless);
-    }
-    largest = std::max(largest, noiseless.mean());
-    usual += noiseless.mean() / places;
+  for (int i = 0; i < places; ++i) {
+    const double noiseless = mean_difference((i + 0.5) / places);
+    largest = std::max(largest, noiseless);
+    usual += noiseless / places;
   }
   constexpr double margin = 1.2;  // the path is not exact
-  if (observed.mean() <= margin * largest) return 0.0;
-  return std::sqrt((observed.mean() - usual) / of_second_difference);
+  const double observed = mean_difference(std::nullopt);
+  if (observed <= margin * largest) return 0.0;
+  return std::sqrt((observed - usual) / of_second_difference);
 }
-
-namespace {
-
-/// Lower limit of the noise of readings that are not counts: smaller residuals are rounding errors.
-constexpr double min_noise = 1e-6;
-
-/// The records of counts from the same encoder as a record.
-std::vector<std::size_t> of_same_encoder(Records records, std::size_t as) {
-  std::vector<std::size_t> same;
-  for (std::size_t r = 0; r < records.size(); ++r)
-    if (records[r].counted && records[r].unit == records[as].unit) same.push_back(r);
-  return same;
-}
-
-double edge_noise_of(Records records, const FittedModel& model, const std::vector<std::size_t>& used) {
-  std::vector<TestRecord> some;
-  std::vector<Eigen::VectorXd> paths;
-  for (const std::size_t r : used) {
-    some.push_back(records[r]);
-    paths.push_back(model.motions[r].path);
-  }
-  return edge_noise(some, paths);
-}
-
-}  // namespace
 
 std::vector<double> noise_along(Records records, const FittedModel& model) {
-  std::vector<double> seen;
+  constexpr double min_noise = 1e-6;  // smaller residuals of angles are rounding errors
+  std::vector<double> noise;
+  std::map<double, double> of_encoder;  // by the size of its count
   for (std::size_t r = 0; r < records.size(); ++r) {
+    const TestRecord& record = records[r];
     const Eigen::VectorXd& path = model.motions[r].path;
-    seen.push_back(records[r].counted ? counting_noise(records[r], path, readings_of(records[r]))
-                                      : std::max(misfit_along(records[r], path), min_noise));
+    noise.push_back(record.counted ? counting_noise(record, path, readings_of(record))
+                                   : std::max(misfit_along(record, path), min_noise));
+    if (!record.counted || noise[r] == 0.0) continue;
+    const auto found = of_encoder.try_emplace(record.unit, noise[r]).first;
+    found->second = std::min(found->second, noise[r]);
   }
-  std::vector<double> noise = seen;
   for (std::size_t r = 0; r < records.size(); ++r) {
-    if (seen[r] > 0.0) continue;
-    const std::vector<std::size_t> same = of_same_encoder(records, r);
-    for (const std::size_t other : same) {
-      if (seen[other] > 0.0) noise[r] = noise[r] > 0.0 ? std::min(noise[r], seen[other]) : seen[other];
-    }
-    if (noise[r] == 0.0) noise[r] = edge_noise_of(records, model, same);
+    if (noise[r] > 0.0) continue;
+    const auto [found, is_new] = of_encoder.try_emplace(records[r].unit, 0.0);
+    if (is_new) found->second = edge_noise(records, model, records[r].unit);
+    noise[r] = found->second;
   }
   return noise;
 }

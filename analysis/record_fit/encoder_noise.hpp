@@ -16,9 +16,9 @@ double counting_noise(const TestRecord& record, const Eigen::VectorXd& path, con
 /// Noise of counts of one encoder, estimated from the edges that slow motion passes: by the second
 /// differences of their distances from the paths, beside those of readings without noise. It shows noise that
 /// is too small for counting_noise(), but not in fast motion.
-/// @param records of counts; `paths` [record] in counts. @returns counts; 0 if an encoder without noise
-/// explains the edges.
-double edge_noise(Records records, const std::vector<Eigen::VectorXd>& paths);
+/// @param unit size of its count, rad or m. Other records are not used. @returns counts; 0 if an encoder
+/// without noise explains the edges.
+double edge_noise(Records records, const FittedModel& model, double unit);
 
 /// [record] Noise of the readings in the record's unit: of counts by counting_noise(), of others the misfit.
 ///

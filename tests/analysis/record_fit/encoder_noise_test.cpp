@@ -86,7 +86,7 @@ TEST(CountingNoise, IgnoresTheLinesInPlaceOfMaskedReadings) {
 /// Two records of one encoder, without edges in common.
 double edge_noise_of(double noise, double most, double model_error, std::mt19937_64& random) {
   std::vector<record_fit::TestRecord> records;
-  std::vector<Eigen::VectorXd> paths;
+  record_fit::FittedModel model;
   for (int record = 0; record < 2; ++record) {
     Eigen::VectorXd path = wandering_path(3000, most, random);
     const Eigen::VectorXd readings = read(path, noise, random);
@@ -94,9 +94,9 @@ double edge_noise_of(double noise, double most, double model_error, std::mt19937
     records.back().reading.assign(readings.begin(), readings.end());
     for (Eigen::Index k = 0; k < path.size(); ++k)
       path[k] += model_error * std::sin(2e-3 * static_cast<double>(k));
-    paths.push_back(path);
+    model.motions.push_back({path, {}});
   }
-  return record_fit::edge_noise(records, paths);
+  return record_fit::edge_noise(records, model, records.front().unit);
 }
 
 TEST(EdgeNoise, IsFoundBelowATenthOfACount) {

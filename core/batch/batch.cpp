@@ -68,35 +68,50 @@ std::string_view lacking(const trial::CommandParameters& command) {
   return targets.empty() ? "no moves" : "";
 }
 
-}  // namespace
-
-std::string lacking_in_lanes(const trial::TrialParameters& p) {
+/// Of a trial whose friction model has lanes.
+std::string_view lacking(const trial::TrialParameters& p, LaneMotion motion) {
   [[maybe_unused]] const auto& [plant, friction, encoder, dac, amplifier, controller, command, initial,
                                 verdict, randomness, disturbance] = p;
   [[maybe_unused]] const auto& [inertia, presliding_damping, sliding_damping, load] = plant;
-  const std::optional<LaneMotion> motion = lane_motion(friction.model);
-  if (!motion) return "friction.model " + std::string(friction::traits_of(friction.model).word);
   if (motion::has_load(plant)) return "a second mass";
   // After a late sample the series must reach up to the next one.
   const double max_frequency = 0.5 / (1.0 / controller.sample_rate + controller.jitter);
   for (const std::string_view feature :
-       {lacking(controller), lacking(command), lacking(disturbance, *motion, max_frequency)}) {
-    if (!feature.empty()) return std::string(feature);
+       {lacking(controller), lacking(command), lacking(disturbance, motion, max_frequency)}) {
+    if (!feature.empty()) return feature;
   }
   return trial::samples_of_move(p, 0) > 0 ? "" : "moves without a sample";
 }
 
+}  // namespace
+
+std::string lacking_in_lanes(const trial::TrialParameters& parameters) {
+  const friction::FrictionModel model = parameters.friction.model;
+  const std::optional<LaneMotion> motion = lane_motion(model);
+  if (!motion) return "friction.model " + std::string(friction::traits_of(model).word);
+  return std::string(lacking(parameters, *motion));
+}
+
 bool runs_in_lanes(const trial::TrialParameters& parameters) {
-  return lacking_in_lanes(parameters).empty();
+  const std::optional<LaneMotion> motion = lane_motion(parameters.friction.model);
+  return motion && lacking(parameters, *motion).empty();
 }
 
 BatchEngine::BatchEngine(const BatchSettings& settings)
     : scheduler_(std::make_unique<LaneScheduler>(settings)) {}
 BatchEngine::~BatchEngine() = default;
 
+void BatchEngine::run(const TrialSource& source, std::span<trial::TrialOutcome> outcomes,
+                      const BatchObservers& observers) {
+  scheduler_->run(source, outcomes, observers);
+}
+
 void BatchEngine::run(std::span<const trial::TrialParameters* const> trials,
                       std::span<trial::TrialOutcome> outcomes, const BatchObservers& observers) {
-  scheduler_->run(trials, outcomes, observers);
+  const auto source = [trials](std::size_t trial, std::size_t) -> const trial::TrialParameters& {
+    return *trials[trial];
+  };
+  run(source, outcomes.first(trials.size()), observers);
 }
 
 }  // namespace zerocount::batch

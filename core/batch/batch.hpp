@@ -35,6 +35,10 @@ struct BatchObservers {
   std::stop_token stop{};  ///< a request to stop ends the batch by trial::Interrupted
 };
 
+/// Gives the parameters of a trial of a batch when a lane begins it. They stay as they are until the next
+/// call with the same `slot`, a number below BatchSettings::lanes.
+using TrialSource = std::function<const trial::TrialParameters&(std::size_t trial, std::size_t slot)>;
+
 struct BatchSettings {
   int lanes{128};  ///< trials in work at the same time, 1 to 128
   InstructionSet instructions{widest_instruction_set()};
@@ -62,8 +66,11 @@ class BatchEngine {
   BatchEngine(BatchEngine&&) = delete;
   BatchEngine& operator=(BatchEngine&&) = delete;
 
-  /// @param trials not changed while this runs. @param outcomes [trial], overwritten.
+  /// @param source called once for each trial, in order. @param outcomes [trial], overwritten.
   /// @throws trial::Interrupted if a stop is requested before the last trial ends.
+  void run(const TrialSource& source, std::span<trial::TrialOutcome> outcomes,
+           const BatchObservers& observers = {});
+  /// @param trials not changed while this runs.
   void run(std::span<const trial::TrialParameters* const> trials, std::span<trial::TrialOutcome> outcomes,
            const BatchObservers& observers = {});
 

@@ -47,6 +47,7 @@ struct alignas(64) MotionLanes {
   Lanes rest_torque;      ///< torque under which the plant is at rest, N m; NaN: it moves
 
   Lanes spring_torque;  ///< σ at the start of the step, N m
+  Lanes torque_power;   ///< |σ|ⁿ at the start of the step
   Lanes softness;       ///< exp(−y) of the branch at the start of the step
 };
 

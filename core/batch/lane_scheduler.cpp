@@ -30,9 +30,9 @@ void LaneScheduler::fill_spare_lane() {
   batch_.time.time_to_stop[spare_lane] = batch_.time.sample_time[spare_lane];
 }
 
-void LaneScheduler::run(std::span<const trial::TrialParameters* const> trials,
-                        std::span<trial::TrialOutcome> outcomes, const BatchObservers& observers) {
-  trials_ = trials;
+void LaneScheduler::run(const TrialSource& source, std::span<trial::TrialOutcome> outcomes,
+                        const BatchObservers& observers) {
+  source_ = &source;
   outcomes_ = outcomes;
   observers_ = &observers;
   next_trial_ = 0;
@@ -56,19 +56,20 @@ void LaneScheduler::run(std::span<const trial::TrialParameters* const> trials,
 void LaneScheduler::refill(int lane) {
   LaneTrial& trial = trial_of(lane);
   for (LaneSet* of : sets()) of->erase(lane);
-  while (next_trial_ < trials_.size()) {
+  while (next_trial_ < outcomes_.size()) {
     const std::size_t number = next_trial_++;
-    trial.parameters = trials_[number];
+    const trial::TrialParameters& parameters = (*source_)(number, trial_index_[lane]);
+    trial.parameters = &parameters;
     trial.number = number;
     trial.outcome = &outcomes_[number];
-    if (runs_in_lanes(*trials_[number])) {
+    if (runs_in_lanes(parameters)) {
       outcomes_[number].moves.clear();
-      outcomes_[number].moves.reserve(trials_[number]->command.targets.size());
-      start_trial(batch_, lane, trial, number, *trials_[number], outcomes_[number]);
+      outcomes_[number].moves.reserve(parameters.command.targets.size());
+      start_trial(batch_, lane, trial, number, parameters, outcomes_[number]);
       active_.insert(lane);
       if (trial.loop) {
         with_loop_.insert(lane);
-      } else if (has_blocks(*trials_[number])) {
+      } else if (has_blocks(parameters)) {
         with_blocks_.insert(lane);
       }
       set_moving(lane);
@@ -101,7 +102,7 @@ void LaneScheduler::set_moving(int lane) {
 /// on neighbouring lanes, which share cache lines.
 void LaneScheduler::close_gaps() {
   const int running = active_.count();
-  if (running == used_lanes_ || next_trial_ < trials_.size()) return;
+  if (running == used_lanes_ || next_trial_ < outcomes_.size()) return;
   int gap = 0;
   for (; used_lanes_ > running; --used_lanes_) {
     const int last = used_lanes_ - 1;

@@ -17,7 +17,7 @@ class LaneScheduler {
   explicit LaneScheduler(const BatchSettings& settings);
 
   /// See BatchEngine::run.
-  void run(std::span<const trial::TrialParameters* const> trials, std::span<trial::TrialOutcome> outcomes,
+  void run(const TrialSource& source, std::span<trial::TrialOutcome> outcomes,
            const BatchObservers& observers);
 
  private:
@@ -92,7 +92,7 @@ class LaneScheduler {
   LaneSet ahead_;        ///< active lanes whose plant is behind (CreepAhead)
   LaneSet part_;         ///< active lanes whose next stop ends a part of a sample
 
-  std::span<const trial::TrialParameters* const> trials_;
+  const TrialSource* source_{nullptr};
   std::span<trial::TrialOutcome> outcomes_;
   const BatchObservers* observers_{nullptr};
   std::size_t next_trial_{0};

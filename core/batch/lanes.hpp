@@ -7,6 +7,7 @@
 #include <immintrin.h>
 #endif
 
+#include "core/numerics/ln2.hpp"
 #include "core/numerics/number.hpp"
 
 /// Vectors of doubles for the kernels of the batch engine, by the vector extension of GCC and Clang.
@@ -273,16 +274,12 @@ struct Simd {
   }
 };
 
-/// ln 2 in two parts; the first has so few bits that its product with an exponent is exact.
-inline constexpr double ln2_high = 0x1.62e42fefa3800p-1;
-inline constexpr double ln2_low = 0x1.ef35793c76730p-45;
-
 /// eᵃ for a ≤ 700, to about 2e-16 relative; e⁻⁷⁰⁰ for a < −700.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P exp(const P& a) {
   const P x = max(a, P(-700.0));
   const P n = fast_rint(x * P(0x1.71547652b82fep0));  // x/ln 2
-  const P r = (x - n * P(ln2_high)) - n * P(ln2_low);
+  const P r = (x - n * P(numerics::ln2_high)) - n * P(numerics::ln2_low);
   constexpr double factorials[] = {1.0 / 6227020800.0, 1.0 / 479001600.0, 1.0 / 39916800.0, 1.0 / 3628800.0,
                                    1.0 / 362880.0,     1.0 / 40320.0,     1.0 / 5040.0,     1.0 / 720.0,
                                    1.0 / 120.0,        1.0 / 24.0,        1.0 / 6.0,        0.5};
@@ -304,7 +301,7 @@ ZEROCOUNT_ALWAYS_INLINE P log(const P& a) {
   const P square = s * s;
   P sum(1.0 / 21.0);
   for (int odd = 19; odd >= 3; odd -= 2) sum = sum * square + P(1.0 / odd);
-  return e * P(ln2_high) + (e * P(ln2_low) + P(2.0) * (s + s * (square * sum)));
+  return e * P(numerics::ln2_high) + (e * P(numerics::ln2_low) + P(2.0) * (s + s * (square * sum)));
 }
 
 /// aⁿ for a ≥ 0 and n > 0, to about 2e-16·(1 + |n·ln a|) relative. Results from e⁷⁰⁰ on are infinite, those

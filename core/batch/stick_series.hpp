@@ -41,7 +41,7 @@ struct StickStart {
   P velocity;        ///< ω·h
   P scaled_torque;   ///< σ·h²/J
   P softness;        ///< exp(−y) of the branch
-  P torque;          ///< σ, N m
+  P torque_power;    ///< |σ|ⁿ
   Mask at_reversal;  ///< dxs/dt is zero
   Mask creeping;     ///< of the lanes that take part
 };
@@ -76,12 +76,18 @@ ZEROCOUNT_ALWAYS_INLINE void expand_orders(const StickLaw<P>& law, const StickSt
   P scaled_torque_end = start.scaled_torque;
   P last_terms = zero;
 
+  P per_start = zero;
+  typename P::Mask others = zero < zero;
+  if constexpr (AnyPower) {
+    per_start = P(1.0) / start.scaled_torque;
+    others = other_powers(law, start);
+  }
   // |σ|ⁿ of order k, the square of scaled_torque where n = 2.
   const auto power_of = [&](int k, const P& square) __attribute__((always_inline)) {
     if constexpr (AnyPower) {
-      power[k] = k == 0 ? pow(abs(start.torque), law.creep_exponent)
-                        : torque_power_coefficient(s.scaled_torque, power, law.creep_exponent, k);
-      return select(other_powers(law, start), power[k], square);
+      power[k] = k == 0 ? start.torque_power
+                        : torque_power_coefficient(s.scaled_torque, power, law.creep_exponent, per_start, k);
+      return select(others, power[k], square);
     } else {
       return square;
     }

@@ -37,7 +37,8 @@ __attribute__((noinline)) void start_step(BatchState& batch, const At& at) {
   const P torque_sign = select(spring_torque < zero, P(-1.0), P(1.0));
 
   Mask creeping = to_mask(at.load(m.creeping)) | (abs(spring_torque) >= at.load(m.creep_onset));
-  const P rate = alpha * (torque_power(spring_torque, exponent) * per_lambda - hardening);
+  const P power = torque_power(spring_torque, exponent);
+  const P rate = alpha * (power * per_lambda - hardening);
   const Mask ends = creeping & ~(rate > zero);
   creeping = creeping & ~ends;
   const P extension_rate = select(creeping, torque_sign * rate, zero);
@@ -89,6 +90,7 @@ __attribute__((noinline)) void start_step(BatchState& batch, const At& at) {
   const Mask held = ~rests & ~breaks_away;
 
   at.store(m.spring_torque, spring_torque);
+  at.store(m.torque_power, power);
   at.store(m.softness, softness);
   at.store(m.omega, omega);
   at.store(m.heading, direction);

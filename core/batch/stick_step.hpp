@@ -136,7 +136,7 @@ ZEROCOUNT_ALWAYS_INLINE void expand_step(const BatchState& batch, const At& at, 
   start.velocity = exponent * velocity;
   start.scaled_torque = per_torque * torque;
   start.softness = at.load(m.softness);
-  start.torque = torque;
+  start.torque_power = at.load(m.torque_power);
   start.at_reversal = step.at_reversal;
   start.creeping = step.creeping & step.here;
   if constexpr (Varies) {

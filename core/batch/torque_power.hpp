@@ -14,12 +14,13 @@ ZEROCOUNT_ALWAYS_INLINE P torque_power(const P& torque, const P& exponent) {
 }
 
 /// Coefficient k ≥ 1 of |σ|ⁿ, σ ≠ 0 at the start, from those of σ up to k and those of |σ|ⁿ before it.
+/// @param per_start 1/σ at the start
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P torque_power_coefficient(const P* torque, const P* power, const P& exponent,
-                                                   int k) {
+                                                   const P& per_start, int k) {
   // For n = 1 without the sum, whose terms cancel.
-  const P linear = power[0] * torque[k] / torque[0];
-  return select(exponent == P(1.0), linear, numerics::power_coefficient(torque, power, exponent, k));
+  return select(exponent == P(1.0), power[0] * torque[k] * per_start,
+                numerics::power_coefficient(torque, power, exponent, per_start, k));
 }
 
 }  // namespace zerocount::batch

@@ -77,7 +77,7 @@ struct Sticking {
                                          double n, std::size_t k) {
     if (n == 1.0) return magnitude[k];
     if (n == 2.0) return numerics::square_coefficient(magnitude.data(), k);
-    return numerics::power_coefficient(magnitude.data(), power.data(), n, k);
+    return numerics::power_coefficient(magnitude.data(), power.data(), n, 1.0 / magnitude[0], k);
   }
 
   void expand_torque(StickingSeries& s, std::size_t k) const {

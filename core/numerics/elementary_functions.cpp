@@ -3,10 +3,13 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include <sleef.h>
 
 #include "core/numerics/exponential_table.hpp"
+#include "core/numerics/ln2.hpp"
+#include "core/numerics/logarithm_table.hpp"
 
 namespace zerocount::numerics {
 namespace {
@@ -21,12 +24,13 @@ struct ScaledExponential {
   double excess;
 };
 
-ScaledExponential scaled_exponential(double x) noexcept {
+/// @param x_error added to x, far smaller.
+ScaledExponential scaled_exponential(double x, double x_error = 0.0) noexcept {
   constexpr double to_whole = 0x1.8p52;  // a number so large that its last bit is 1
   const double shifted = x * steps_per_unit + to_whole;
   const std::int64_t steps = std::bit_cast<std::int64_t>(shifted) - std::bit_cast<std::int64_t>(to_whole);
   const double whole = shifted - to_whole;
-  const double r = (x - whole * step_high) - whole * step_low;
+  const double r = ((x - whole * step_high) - whole * step_low) + x_error;
   const PowerOfTwo& power = powers_of_two[static_cast<std::size_t>(steps & (table_steps - 1))];
   const auto doublings = static_cast<std::uint64_t>(steps >> 7);
   const double r2 = r * r;
@@ -40,6 +44,57 @@ double small_expm1(double x) noexcept {
   const double x2 = x * x;
   const double high = (1.0 / 24.0 + x * (1.0 / 120.0)) + x2 * (1.0 / 720.0 + x * (1.0 / 5040.0));
   return x + x2 * ((1.0 / 2.0 + x * (1.0 / 6.0)) + x2 * high);
+}
+
+/// A number as a sum: `high` is it, rounded.
+struct Sum {
+  double high;
+  double low;
+};
+
+/// The sum of two numbers, exact if |a| ≥ |b| or a = 0 (Dekker, Numer. Math. 18 (1971) 224).
+Sum exact_sum(double a, double b) noexcept {
+  const double high = a + b;
+  return {high, (a - high) + b};
+}
+
+/// The first 26 bits of a number, and the other 27.
+Sum halves(double x) noexcept {
+  constexpr std::uint64_t upper = ~((std::uint64_t{1} << 27) - 1);
+  const double high = std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & upper);
+  return {high, x - high};
+}
+
+bool is_normal_and_positive(double x) noexcept {
+  return x >= std::numeric_limits<double>::min() && x <= std::numeric_limits<double>::max();
+}
+
+/// ln x of a normal x > 0, to 2⁻⁶⁵: x = 2ᵏ·c·(1 + r) with ln c from the table and |r| < 2⁻⁷·⁹ (Tang, ACM
+/// Trans. Math. Softw. 16 (1990) 378).
+Sum logarithm(double x) noexcept {
+  const std::uint64_t bits = std::bit_cast<std::uint64_t>(x);
+  const std::uint64_t after_start = bits - logarithm_start;
+  const auto doublings = static_cast<std::int64_t>(after_start) >> 52;
+  const LogarithmStep& step = logarithms[(after_start >> logarithm_interval_bits) & (logarithm_steps - 1)];
+  const Sum z = halves(std::bit_cast<double>(bits - (static_cast<std::uint64_t>(doublings) << 52)));
+  // Exact: the products of 26 and of 27 bits with 24 are.
+  const double r_high = z.high * step.reciprocal - 1.0;
+  const double r_low = z.low * step.reciprocal;
+  const double r = r_high + r_low;
+  const double r_error = (r_high - r) + r_low;
+  const auto k = static_cast<double>(doublings);
+  const Sum linear = exact_sum(k * ln2_high + step.high, r);
+  // −r²/2, of which the first term is exact.
+  const Sum part = halves(r);
+  const Sum sum = exact_sum(linear.high, -0.5 * part.high * part.high);
+  const double square_rest = -0.5 * part.low * (r + part.high);
+  const double r2 = r * r;
+  const double series = r * r2 *
+                        ((1.0 / 3.0 - r * (1.0 / 4.0)) +
+                         r2 * ((1.0 / 5.0 - r * (1.0 / 6.0)) + r2 * (1.0 / 7.0 - r * (1.0 / 8.0))));
+  const double low = ((k * ln2_low + step.low) + (r_error - r * r_error)) +
+                     ((linear.low + sum.low) + (square_rest + series));
+  return exact_sum(sum.high, low);
 }
 
 }  // namespace
@@ -67,12 +122,29 @@ double expm1(double x) noexcept {
 }
 
 double log(double x) noexcept {
+  return is_normal_and_positive(x) ? logarithm(x).high : log_of_draws(x);
+}
+double log_of_draws(double x) noexcept {
   return Sleef_cinz_logd1_u10purec(x);
 }
 double log1p(double x) noexcept {
   return Sleef_cinz_log1pd1_u10purec(x);
 }
 double pow(double x, double y) noexcept {
+  const double magnitude = std::abs(y);
+  if (is_normal_and_positive(x) && magnitude > 1e-100 && magnitude < 1e100) {
+    const Sum ln = logarithm(x);
+    const double product = y * ln.high;
+    if (std::abs(product) < max_table_argument) {
+      const Sum of_y = halves(y);
+      const Sum of_ln = halves(ln.high);
+      const double error =
+          ((of_y.high * of_ln.high - product) + of_y.high * of_ln.low + of_y.low * of_ln.high) +
+          (of_y.low * of_ln.low + y * ln.low);
+      const ScaledExponential e = scaled_exponential(product, error);
+      return e.scale + e.scale * e.excess;
+    }
+  }
   return Sleef_cinz_powd1_u10purec(x, y);
 }
 double cbrt(double x) noexcept {

@@ -17,6 +17,14 @@ inline constexpr struct Reciprocals {
   constexpr double operator[](std::size_t k) const { return of[k]; }
 } reciprocal;
 
+/// The orders of a series as numbers: loading one is faster than converting an integer.
+inline constexpr struct Whole {
+  double of[24]{};
+  constexpr Whole() {
+    for (int k = 1; k < 24; ++k) of[k] = k;
+  }
+} whole;
+
 /// Coefficient k ≥ 1 of exp(a): from e′ = a′·e, given the coefficients of the derivative a′[0…k−1] and
 /// e[0…k−1].
 template <class Number>
@@ -45,16 +53,18 @@ ZEROCOUNT_ALWAYS_INLINE Number square_coefficient(const Number* a, std::size_t k
 }
 
 /// Coefficient k ≥ 1 of aⁿ, a[0] ≠ 0, any real n: from a·p′ = n·a′·p (Knuth, The Art of Computer Programming,
-/// vol. 2, section 4.7), given a[0…k] and p[0…k−1].
+/// vol. 2, section 4.7), given a[0…k] and p[0…k−1]. @param per_start 1/a[0]
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number power_coefficient(const Number* a, const Number* p, const Number& n,
-                                                 std::size_t k) {
+                                                 const Number& per_start, std::size_t k) {
   Number sum(0.0);
+  Number weighted(0.0);  // Σ j·a[j]·p[k−j]
   for (std::size_t j = 1; j <= k; ++j) {
-    const Number weight = n * Number(static_cast<double>(j)) - Number(static_cast<double>(k - j));
-    sum = sum + weight * a[j] * p[k - j];
+    const Number product = a[j] * p[k - j];
+    sum = sum + product;
+    weighted = weighted + Number(whole.of[j]) * product;
   }
-  return sum * Number(reciprocal.of[k]) / a[0];
+  return ((n + Number(1.0)) * Number(reciprocal.of[k]) * weighted - sum) * per_start;
 }
 
 }  // namespace zerocount::numerics

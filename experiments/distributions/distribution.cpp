@@ -33,8 +33,9 @@ double quantile_of(const Uniform& d, double u) {
 }
 
 double quantile_of(const LogUniform& d, double u) {
-  return kept_inside(numerics::exp_of_draws(std::lerp(numerics::log(d.low), numerics::log(d.high), u)), d.low,
-                     d.high);
+  return kept_inside(
+      numerics::exp_of_draws(std::lerp(numerics::log_of_draws(d.low), numerics::log_of_draws(d.high), u)),
+      d.low, d.high);
 }
 
 double quantile_of(const Normal& d, double u) {
@@ -58,8 +59,8 @@ double quantile_of(const TruncatedNormal& d, double u) {
 }
 
 double quantile_of(const Lognormal& d, double u) {
-  return numerics::exp_of_draws(
-      numerics::normal_quantile(u, numerics::log(d.median), std::sqrt(numerics::log1p(d.cv * d.cv))));
+  return numerics::exp_of_draws(numerics::normal_quantile(u, numerics::log_of_draws(d.median),
+                                                          std::sqrt(numerics::log1p(d.cv * d.cv))));
 }
 
 double quantile_of(const Triangular& d, double u) {

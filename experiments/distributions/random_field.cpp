@@ -50,7 +50,7 @@ friction::Profile realise_profile(const ProfileDescription& description, std::sp
   profile.period = description.period;
   if (description.marginal == friction::Marginal::lognormal) {
     const double variance = numerics::log1p(description.cv * description.cv);
-    profile.location = numerics::log(description.mean) - 0.5 * variance;
+    profile.location = numerics::log_of_draws(description.mean) - 0.5 * variance;
     profile.scale = std::sqrt(variance);
   } else {
     profile.location = description.mean;

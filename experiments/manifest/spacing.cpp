@@ -20,8 +20,8 @@ double spaced(const Spacing& spacing, std::size_t i) {
   if (i + 1 == spacing.count) return spacing.to;
   const double t = static_cast<double>(i) / static_cast<double>(spacing.count - 1);
   if (!spacing.logarithmic) return without_rounding_noise(std::lerp(spacing.from, spacing.to, t));
-  return without_rounding_noise(
-      numerics::exp_of_draws(std::lerp(numerics::log(spacing.from), numerics::log(spacing.to), t)));
+  return without_rounding_noise(numerics::exp_of_draws(
+      std::lerp(numerics::log_of_draws(spacing.from), numerics::log_of_draws(spacing.to), t)));
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ bool look_random(std::span<const std::byte> bytes) {
   const double expected = static_cast<double>(bytes.size()) / 256.0;
   double chi_square = 0.0;
   for (const std::uint32_t count : counts) chi_square += (count - expected) * (count - expected) / expected;
-  return 140.0 < chi_square && chi_square < 500.0;
+  return 140.0 < chi_square && chi_square < 1700.0;
 }
 
 constexpr std::size_t page = 4096;
@@ -91,7 +91,7 @@ std::vector<std::byte> deflate(std::span<const std::byte> bytes, int level) {
   const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
       libdeflate_alloc_compressor(level), libdeflate_free_compressor);
   if (!compressor) throw std::bad_alloc();
-  constexpr std::size_t largest_block = 15 * page;  // of at most 65 535 bytes
+  constexpr std::size_t largest_block = 15 * page;                  // of at most 65 535 bytes
   std::vector<std::byte> stream{std::byte{0x78}, std::byte{0x01}};  // window of 32 kB, fastest
   const std::size_t stored = random_front(bytes);
   const std::span<const std::byte> rest = bytes.subspan(stored);

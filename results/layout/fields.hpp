@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -59,25 +60,39 @@ bool is_computed(const RecordField<Record>& field) {
   return std::holds_alternative<double (*)(const Record&)>(field.member);
 }
 
-/// One column of `records` as the bytes of its elements.
+/// Writes a field of the records to `to`, as the bytes of its elements.
 template <class Record>
-std::vector<std::byte> gather(const RecordField<Record>& field, std::span<const Record> records) {
-  std::vector<std::byte> bytes(records.size() * hdf5::size_of(field.column.element));
+void gather(const RecordField<Record>& field, std::span<const Record* const> records, std::byte* to) {
   std::visit(
       [&](auto member) {
-        std::byte* to = bytes.data();
-        for (const Record& record : records) {
+        for (const Record* record : records) {
           const auto stored =
-              static_cast<Stored<ValueOf<Record, decltype(member)>>>(std::invoke(member, record));
+              static_cast<Stored<ValueOf<Record, decltype(member)>>>(std::invoke(member, *record));
           std::memcpy(to, &stored, sizeof stored);
           to += sizeof stored;
         }
       },
       field.member);
-  return bytes;
 }
 
-/// The reverse of gather. What is computed from a record is not read.
+/// [field] The columns of the records, as the bytes of their elements.
+template <class Record>
+std::vector<std::vector<std::byte>> columns_of(const std::vector<RecordField<Record>>& fields,
+                                               std::span<const Record* const> records) {
+  std::vector<std::vector<std::byte>> columns;
+  for (const RecordField<Record>& field : fields)
+    columns.emplace_back(records.size() * hdf5::size_of(field.column.element));
+  // A few records at a time, which stay in the cache for all of their fields.
+  constexpr std::size_t at_a_time = 32;
+  for (std::size_t first = 0; first < records.size(); first += at_a_time) {
+    const auto some = records.subspan(first, std::min(at_a_time, records.size() - first));
+    for (std::size_t i = 0; i < fields.size(); ++i)
+      gather(fields[i], some, columns[i].data() + first * hdf5::size_of(fields[i].column.element));
+  }
+  return columns;
+}
+
+/// The reverse of gather(). What is computed from a record is not read.
 template <class Record>
 void scatter(const RecordField<Record>& field, std::span<const std::byte> bytes, std::span<Record> records) {
   std::visit(

@@ -75,17 +75,15 @@ std::vector<Value> read_column(const TableIo& io, std::size_t index) {
 /// Writes records to the rows from `first` on; a row of a table of width w takes w records.
 template <class Record>
 void write_records(TableIo& io, const std::vector<RecordField<Record>>& fields, std::int64_t first,
-                   std::span<const Record> records) {
+                   std::span<const Record* const> records) {
   const auto chunk = static_cast<std::size_t>(chunk_rows(io.width()) * io.width());
   for (; !records.empty(); records = records.subspan(std::min(chunk, records.size()))) {
-    const std::span<const Record> part = records.first(std::min(chunk, records.size()));
+    const std::span<const Record* const> part = records.first(std::min(chunk, records.size()));
     const std::int64_t rows = std::ssize(part) / io.width();
-    std::vector<std::vector<std::byte>> bytes;
+    const std::vector<std::vector<std::byte>> bytes = columns_of(fields, part);
     std::vector<hdf5::RowsToWrite> columns;
-    for (std::size_t index = 0; index < fields.size(); ++index) {
-      bytes.push_back(gather(fields[index], part));
-      columns.push_back({&io.column(index), first, rows, bytes.back().data()});
-    }
+    for (std::size_t index = 0; index < fields.size(); ++index)
+      columns.push_back({&io.column(index), first, rows, bytes[index].data()});
     hdf5::write_rows(columns);
     first += rows;
   }

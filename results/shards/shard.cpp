@@ -67,30 +67,38 @@ void write_trials(hdf5::File& file, const study::Study& study, std::span<const T
 template <class Record>
 layout::TableIo write_table(hdf5::File& file, const layout::Table& table,
                             const std::vector<layout::RecordField<Record>>& fields,
-                            const std::vector<Record>& records, std::int64_t width,
+                            const std::vector<const Record*>& records, std::int64_t width,
                             hdf5::Compression compression) {
   const std::int64_t of_last = table.last ? std::ssize(table.last->values) : 1;
   const std::int64_t rows = std::ssize(records) / (width * of_last);
   layout::TableIo io = layout::TableIo::create(file, table, rows, width, compression);
-  layout::write_records(io, fields, 0, std::span<const Record>(records));
+  layout::write_records(io, fields, 0, std::span(records));
   return io;
 }
 
-std::vector<trial::MoveOutcome> move_outcomes(std::span<const TrialResult> results) {
-  std::vector<trial::MoveOutcome> moves;
+template <class Record>
+std::vector<const Record*> pointers_to(const std::vector<Record>& records) {
+  std::vector<const Record*> pointers;
+  pointers.reserve(records.size());
+  for (const Record& record : records) pointers.push_back(&record);
+  return pointers;
+}
+
+std::vector<const trial::MoveOutcome*> move_outcomes(std::span<const TrialResult> results) {
+  std::vector<const trial::MoveOutcome*> moves;
+  if (!results.empty()) moves.reserve(results.size() * results.front().outcome.moves.size());
   for (const TrialResult& result : results)
-    moves.insert(moves.end(), result.outcome.moves.begin(), result.outcome.moves.end());
+    for (const trial::MoveOutcome& move : result.outcome.moves) moves.push_back(&move);
   return moves;
 }
 
 /// [move][band], flattened.
-std::vector<trial::BandOutcome> band_outcomes(std::span<const trial::MoveOutcome> moves,
-                                              const trial::ErrorBands& bands) {
-  std::vector<trial::BandOutcome> outcomes;
-  for (const trial::MoveOutcome& move : moves) {
-    outcomes.insert(outcomes.end(), move.bands.begin(),
-                    move.bands.begin() + static_cast<std::ptrdiff_t>(bands.count));
-  }
+std::vector<const trial::BandOutcome*> band_outcomes(std::span<const trial::MoveOutcome* const> moves,
+                                                     const trial::ErrorBands& bands) {
+  std::vector<const trial::BandOutcome*> outcomes;
+  outcomes.reserve(moves.size() * bands.count);
+  for (const trial::MoveOutcome* move : moves)
+    for (std::size_t band = 0; band < bands.count; ++band) outcomes.push_back(&move->bands[band]);
   return outcomes;
 }
 
@@ -133,17 +141,19 @@ void write_trial_tables(hdf5::File& file, const study::Study& study, std::span<c
   const layout::MeasureTable& measures =
       options.measures != nullptr ? *options.measures : layout::measure_table(features.bands);
   write_trials(file, study, trials, compression);
-  const std::vector<trial::MoveOutcome> moves = move_outcomes(trials);
+  const std::vector<const trial::MoveOutcome*> moves = move_outcomes(trials);
   layout::TableIo outcomes = write_table(
       file, layout::outcome_table(layout::format_version, features, measures),
       layout::move_fields(layout::format_version, features, measures), moves, study.moves, compression);
   write_row_numbers(outcomes, trials);
   write_table(file, layout::band_table(features.bands), layout::band_fields(),
               band_outcomes(moves, features.bands), study.moves, compression);
-  write_table(file, layout::jerk_table(), layout::jerk_fields(), jerk_records(trials), 1, compression)
+  const std::vector<layout::JerkRecord> jerks = jerk_records(trials);
+  write_table(file, layout::jerk_table(), layout::jerk_fields(), pointers_to(jerks), 1, compression)
       .number_rows(0);
   if (study.retained_trials.empty()) return;
-  write_table(file, layout::trace_table(features), layout::trace_fields(features), trace_records(trials), 1,
+  const std::vector<layout::TraceRecord> trace = trace_records(trials);
+  write_table(file, layout::trace_table(features), layout::trace_fields(features), pointers_to(trace), 1,
               compression)
       .number_rows(0);
 }

@@ -40,7 +40,10 @@ shards::TrialResult run_study_trial(const study::Study& study, std::int64_t row,
 }
 
 TrialRunner::TrialRunner(const study::Study& study) : study_(&study) {
-  if (study.engine == study::Engine::batch) engine_ = std::make_unique<batch::BatchEngine>();
+  if (study.engine != study::Engine::batch) return;
+  const batch::BatchSettings settings;
+  engine_ = std::make_unique<batch::BatchEngine>(settings);
+  drawn_.resize(static_cast<std::size_t>(settings.lanes));
 }
 
 study::StudyTrial TrialRunner::next_trial(std::int64_t row, TrialBlock& block) {
@@ -72,32 +75,31 @@ TrialBlock TrialRunner::run_block(layout::RowRange rows, const std::stop_token& 
 
 void TrialRunner::run_in_lanes(layout::RowRange rows, const std::stop_token& stop, TrialBlock& block) {
   std::vector<shards::TrialResult>& results = block.results;
-  std::vector<study::StudyTrial> trials;
   std::vector<std::size_t> places;  // indices of the trials in the results
-  trials.reserve(results.size());
   places.reserve(results.size());
   for (std::size_t i = 0; i < results.size(); ++i) {
     const std::int64_t row = rows.first + static_cast<std::int64_t>(i);
+    results[i].row = row;
     if (is_retained(*study_, row % study_->trials)) {
       results[i] = run_reference(*study_, row, next_trial(row, block), stop);
-      continue;
+    } else {
+      places.push_back(i);
     }
-    results[i].row = row;
-    trials.push_back(next_trial(row, block));
-    results[i].inputs = std::move(trials.back().inputs);
-    places.push_back(i);
   }
-  std::vector<const trial::TrialParameters*> parameters;
-  parameters.reserve(trials.size());
-  for (const study::StudyTrial& trial : trials) parameters.push_back(&trial.parameters);
-  std::vector<trial::TrialOutcome> outcomes(trials.size());
+  const auto draw = [&](std::size_t trial, std::size_t slot) -> const trial::TrialParameters& {
+    shards::TrialResult& result = results[places[trial]];
+    drawn_[slot] = next_trial(result.row, block);
+    result.inputs = std::move(drawn_[slot].inputs);
+    return drawn_[slot].parameters;
+  };
+  std::vector<trial::TrialOutcome> outcomes(places.size());
   batch::BatchObservers observers;
   observers.stop = stop;
   observers.jerk = [&](std::size_t trial, const trial::Jerk& jerk) {
     results[places[trial]].jerks.push_back(jerk);
   };
-  engine_->run(parameters, outcomes, observers);
-  for (std::size_t i = 0; i < trials.size(); ++i) results[places[i]].outcome = std::move(outcomes[i]);
+  engine_->run(draw, outcomes, observers);
+  for (std::size_t i = 0; i < places.size(); ++i) results[places[i]].outcome = std::move(outcomes[i]);
 }
 
 }  // namespace zerocount::study_run

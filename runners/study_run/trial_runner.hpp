@@ -38,6 +38,7 @@ class TrialRunner {
 
   const study::Study* study_;
   std::unique_ptr<batch::BatchEngine> engine_;
+  std::vector<study::StudyTrial> drawn_;  ///< [slot] trials in work
 };
 
 }  // namespace zerocount::study_run

@@ -1,5 +1,6 @@
 #include "core/numerics/elementary_functions.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -54,6 +55,20 @@ TEST(ElementaryFunctions, ExponentialsAreWithinOneUnitOfTheLastPlace) {
   }
   for (const double x : {0.0, -0.0, 1e-300, -1e-300}) EXPECT_EQ(numerics::expm1(x), x);
   EXPECT_EQ(numerics::exp(0.0), 1.0);
+}
+
+TEST(ElementaryFunctions, LogarithmsAndPowersAreWithinOneUnitOfTheLastPlace) {
+  Draws draws(1805);
+  for (const double range : {1e-12, 1e-6, 1e-3, 0.01, 0.4, 3.0, 40.0, 690.0}) {
+    for (int round = 0; round < 20000; ++round) {
+      const double x = std::exp(draws.uniform(-range, range));
+      const double y = draws.uniform(-1.0, 1.0) * std::min(690.0 / std::abs(std::log(x)), 1e6);
+      const long double wide_x = x;
+      ASSERT_LE(distance(numerics::log(x), std::log(wide_x)), 0.52) << x;
+      ASSERT_LE(distance(numerics::pow(x, y), std::pow(wide_x, static_cast<long double>(y))), 0.52)
+          << x << ' ' << y;
+    }
+  }
 }
 
 TEST(ElementaryFunctions, OfTwoArgumentsAreTooAndPowersOfWholeNumbersAreExact) {

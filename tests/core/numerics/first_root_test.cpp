@@ -95,7 +95,7 @@ TEST(PowerSeries, ExponentialAndPowerAgreeWithTheFunctions) {
     for (std::size_t k = 0; k < series_order; ++k) derivative[k] = static_cast<double>(k + 1) * a[k + 1];
     for (std::size_t k = 1; k <= series_order; ++k) {
       exponential[k] = exponential_coefficient(derivative.data(), exponential.data(), k);
-      power[k] = power_coefficient(a.data(), power.data(), n, k);
+      power[k] = power_coefficient(a.data(), power.data(), n, 1.0 / a[0], k);
       square[k] = square_coefficient(a.data(), k);
     }
     const double t = 0.02;

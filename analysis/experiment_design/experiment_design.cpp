@@ -14,7 +14,7 @@ namespace {
 
 void require_known_law(const study::Study& study, const Machine& machine) {
   const friction::FrictionModel model = machine.parameters.friction.model;
-  if (model != friction::FrictionModel::presliding && model != friction::FrictionModel::spring)
+  if (!friction::has_spring(model))
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: friction.model is another law than presliding and spring, for which alone "
                               "an experiment can be designed; identify --model fits others to any record",

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "analysis/record_fit/parallel.hpp"
 #include "analysis/record_fit/record_path.hpp"
@@ -11,8 +10,6 @@
 
 namespace zerocount::record_fit {
 namespace {
-
-using friction::FrictionModel;
 
 /// Truncation error allowed per step of a motion, and the amplitude of an oscillation at rest, in units of
 /// the readings.
@@ -23,34 +20,10 @@ constexpr double rest_tolerance = 1e-8;
 /// error of the integration.
 constexpr double difference_step = 1e-6;
 
-/// Stiffness of the contact after a reversal, N m/rad.
-double largest_stiffness(const friction::FrictionAlongRotor& friction) {
-  const friction::FrictionParameters& contact = friction.uniform;
-  switch (friction.model) {
-    case FrictionModel::presliding:
-    case FrictionModel::spring:
-      return contact.k1 + contact.k2;
-    case FrictionModel::dahl:
-    case FrictionModel::lugre:
-      return contact.sigma0;
-    case FrictionModel::gms:
-      return std::accumulate(
-          friction.gms_elements.begin(), friction.gms_elements.end(), 0.0,
-          [](double sum, const friction::GmsElement& element) { return sum + element.stiffness; });
-    case FrictionModel::coulomb:
-    case FrictionModel::none:
-      break;
-  }
-  return 0.0;
-}
-
-/// Damping before it slides, N m s/rad.
-double presliding_damping(const AxisParameters& parameters) {
-  const friction::LawTraits& law = friction::traits_of(parameters.friction.model);
-  double damping = law.has_presliding_damping ? parameters.plant.presliding_damping : 0.0;
-  if (law.has_sliding_damping && !law.has_presliding_damping) damping += parameters.plant.sliding_damping;
-  if (parameters.friction.model == FrictionModel::lugre) damping += parameters.friction.uniform.sigma1;
-  return damping;
+/// The contact after a reversal.
+friction::LinearContact stiffest_contact(const AxisParameters& axis) {
+  return friction::stiffest_of(friction::traits_of(axis.friction.model)
+                                   .linear_contacts(axis.plant, axis.friction, axis.friction.uniform));
 }
 
 /// Decay rate (1/s) of the slowest oscillation about a point of the spring.
@@ -65,7 +38,7 @@ double decay_rate(const AxisParameters& axis) {
 
 /// The steps in which creep alone moves the axis.
 LongSteps long_steps(const AxisParameters& axis) {
-  if (axis.friction.model != FrictionModel::presliding) return {};
+  if (!friction::has_creep(axis.friction.model)) return {};
   constexpr double settled = 40.0;     // exp(−40) of an oscillation is below rounding
   constexpr double creep_step = 0.03;  // of the time constant of creep
   return {settled / decay_rate(axis), creep_step / axis.friction.uniform.alpha};
@@ -101,8 +74,9 @@ SampledPath path_at(const TestRecord& record, const AxisModel& model, const Poin
 }  // namespace
 
 double fastest_rate(const AxisParameters& parameters) {
-  return std::max(std::sqrt(largest_stiffness(parameters.friction) / parameters.plant.inertia),
-                  presliding_damping(parameters) / parameters.plant.inertia);
+  const friction::LinearContact contact = stiffest_contact(parameters);
+  return std::max(std::sqrt(contact.stiffness / parameters.plant.inertia),
+                  contact.damping / parameters.plant.inertia);
 }
 
 Eigen::VectorXd modelled_path(const TestRecord& record, const AxisModel& model, const Point& point) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "analysis/theory/trial_loops.hpp"
+#include "core/friction/law.hpp"
 #include "core/loop/controller.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/theory/describing_function.hpp"
@@ -39,7 +40,7 @@ std::optional<HuntingPrediction> predict_hunting(const trial::TrialParameters& t
   prediction.grows_while_sliding = !is_stable_while_sliding(trial);
   prediction.by_function =
       harmonic_balance(model, contact, trial.plant, trial.encoder, controller, drive_of(trial));
-  prediction.sticks = model == friction::FrictionModel::coulomb;
+  prediction.sticks = friction::is_relay(friction::traits_of(model));
   if (!prediction.sticks) return prediction;
   if (const auto cycle = stick_slip_cycle(contact, trial.plant, trial.encoder, controller))
     prediction.by_stick_slip.push_back(*cycle);

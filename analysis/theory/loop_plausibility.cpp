@@ -64,7 +64,7 @@ bool is_integral_alone(const trial::TrialParameters& p) {
 /// others hunt by design. Integral control alone works beyond criterion (6) too, that is with a loop at k1
 /// which is not stable; it does not beyond (7).
 bool is_used(const ExaminedLoop& loop) {
-  if (loop.trial.friction.model == friction::FrictionModel::none) return true;
+  if (!friction::has_friction(loop.trial.friction.model)) return true;
   if (loop.of_trial.slides) return loop.stability == LoopStability::stable && loop.travel.slides();
   return loop.of_trial.name != "at k1" || !is_integral_alone(loop.trial);
 }

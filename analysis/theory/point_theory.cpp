@@ -202,7 +202,7 @@ void for_trials(const study::Study& study, std::int64_t point, std::int64_t coun
 void examine_outside(const study::Study& study, std::int64_t point, const trial::TrialParameters& first,
                      PointTheory& theory) {
   theory.hunting = predict_hunting(first);
-  theory.free = !has_no_linear_loop(first) && first.friction.model == friction::FrictionModel::none;
+  theory.free = !has_no_linear_loop(first) && !friction::has_friction(first.friction.model);
   for_trials(study, point, max_trials_examined_closely, [&](const trial::TrialParameters& p) {
     add_loops(theory.loops, p);
     if (theory.free) examine_free(study, p, theory);

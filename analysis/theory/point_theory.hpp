@@ -90,8 +90,8 @@ struct LoopRanges {
 
 /// Results of the theory (section 3 of the paper) for the trials of a design point.
 struct PointTheory {
-  std::string_view outside;  ///< reason why (6) and (7) do not apply; empty if they do
-  bool free{false};          ///< no spring: `gain` and `approach` are of the loop without friction
+  std::string outside;  ///< reason why (6) and (7) do not apply; empty if they do
+  bool free{false};     ///< no spring: `gain` and `approach` are of the loop without friction
   std::optional<HuntingPrediction> hunting;  ///< of trial 0, where `outside`
   GainTheory gain;
   DesignRules rules;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/theory/frozen_loop.hpp"
@@ -15,7 +14,7 @@ bool has_no_linear_loop(const trial::TrialParameters& parameters);
 
 /// Why criteria (6) and (7) do not apply to this trial: "the loop is open", …; empty where its loop is linear
 /// about a pre-sliding spring. It is equal in all trials of a point.
-std::string_view why_outside_theory(const trial::TrialParameters& parameters);
+std::string why_outside_theory(const trial::TrialParameters& parameters);
 
 /// The linear model of the trial's converter and amplifier.
 LinearDrive drive_of(const trial::TrialParameters& parameters);

@@ -4,7 +4,7 @@
 #include "core/batch/bristle_kernel.hpp"
 #include "core/batch/free_kernel.hpp"
 #include "core/batch/kernels.hpp"
-#include "core/batch/lanes_at_stop_kernel.hpp"
+#include "core/batch/lane_sets_kernel.hpp"
 #include "core/batch/sample_kernel.hpp"
 #include "core/batch/slide_kernel.hpp"
 #include "core/batch/stick_start_kernel.hpp"
@@ -23,6 +23,7 @@ inline constexpr MotionKernels motion_kernels_with{
 /// those that go over all lanes.
 template <class V, class E, class P>
 inline constexpr Kernels kernels_with{lanes_at_stop_kernel<P>,
+                                      fast_lanes_kernel<P>,
                                       sample_kernel<V, Decider::pid>,
                                       sample_kernel<V, Decider::blocks>,
                                       sample_kernel<V, Decider::lane_loop>,

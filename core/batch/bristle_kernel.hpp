@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/batch/applied_torque.hpp"
+#include "core/batch/velocity_step.hpp"
 #include "core/friction/bristle_formulas.hpp"
 
 namespace zerocount::batch {
@@ -70,26 +70,21 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
   }
   const P speed = abs(omega);
   const P stribeck_velocity = one / sqrt(per_velocity_squared);
-  P stribeck_decay_start = zero;
+  P decay_start = zero;
   P h = min(at.load(time.next_step), time_to_stop);
   if constexpr (Fast) {
-    const P above = speed - P(6.5) * stribeck_velocity;
     P max_torque = max(stiffness * abs(deflection_start), coulomb + excess) + abs(torque);
     if constexpr (Varies) max_torque = max_torque + torque_range(batch, at, h);
     const P slowing = (max_torque + (damping + P(2.0) * bristle_damping) * speed) * per_inertia;
-    h = select((excess > zero) & (slowing * h > above), above / slowing, h);
+    h = select(excess > zero, fast_step(speed, stribeck_velocity, slowing, h), h);
   } else {
-    stribeck_decay_start = exp(-per_velocity_squared * omega * omega);
+    decay_start = exp(-per_velocity_squared * omega * omega);
     const P rate =
-        omega - direction * stiffness * omega * deflection_start / (coulomb + excess * stribeck_decay_start);
+        omega - direction * stiffness * omega * deflection_start / (coulomb + excess * decay_start);
     const P unbalanced = torque - stiffness * deflection_start - bristle_damping * rate - damping * omega;
-    // (ω/ωs)² may change by about 4 per step, and far above the Stribeck velocity by more.
-    const P changing =
-        abs(unbalanced) * per_inertia * (speed + P(2.0) * stribeck_velocity) * per_velocity_squared;
-    const P far = per_velocity_squared * omega * omega;
-    h = min(h, max(P(4.0), P(0.5) * (far - P(23.0))) / changing);
+    h = min(h, stribeck_step(omega, abs(unbalanced) * per_inertia, stribeck_velocity, per_velocity_squared));
   }
-  h = select((h < time_to_stop) & (time_to_stop < P(1.4) * h), time_to_stop * P(0.5), h);
+  h = without_small_rest(h, time_to_stop);
   const P force_scale = h * h * per_inertia;
   const P damping_scale = h * per_inertia;
   const P per_step_squared = per_velocity_squared / (h * h);
@@ -97,39 +92,31 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
   const Mask saturated =
       friction::is_at_end(deflection_start, end_of_bristle, coulomb, at.load(c.inertia), omega);
   const P towards = direction * stiffness;
-  const P per_coulomb = one / coulomb;
+  const P per_coulomb = towards / coulomb;
 
   P travel[batch_order + 1];
   P velocity[batch_order + 1];
   P deflection[batch_order + 1];  // z
   P ratio[batch_order + 1];       // ω·z/g
-  P exponent[batch_order + 1];
-  P slope[batch_order + 1];
-  P stribeck_decay[batch_order + 1];
+  friction::StribeckSeriesOf<P[batch_order + 1]> curve;
   P level[batch_order + 1];
   travel[0] = zero;
   velocity[0] = omega * h;
   deflection[0] = Fast ? select(saturated, end_of_bristle, deflection_start) : deflection_start;
-  stribeck_decay[0] = stribeck_decay_start;
+  curve.decay[0] = decay_start;
   [[maybe_unused]] VaryingTorque<P> applied;
   if constexpr (Varies) load_torque(batch, at, h, one, one, applied);
 #pragma GCC unroll 1
   for (int k = 0; k < batch_order; ++k) {
-    P product = velocity[0] * deflection[k];
-#pragma GCC unroll 1
-    for (int j = 1; j <= k; ++j) product = product + velocity[j] * deflection[k - j];
+    const auto order = static_cast<std::size_t>(k);
+    P rate;
     if constexpr (Fast) {
-      ratio[k] = product * per_coulomb;
+      rate = velocity[k] - per_coulomb * numerics::product_coefficient(velocity, deflection, order);
     } else {
-      exponent[k] = -per_step_squared * numerics::square_coefficient(velocity, k);
-      if (k > 0) {
-        slope[k - 1] = P(static_cast<double>(k)) * exponent[k];
-        stribeck_decay[k] = numerics::exponential_coefficient(slope, stribeck_decay, k);
-      }
-      level[k] = excess * stribeck_decay[k] + (k == 0 ? coulomb : zero);
-      ratio[k] = numerics::quotient_coefficient(product, level, ratio, k);
+      curve.expand(per_step_squared, velocity, order);
+      level[k] = excess * curve.decay[k] + (k == 0 ? coulomb : zero);
+      rate = friction::bristle_rate_coefficient(towards, velocity, deflection, level, ratio, order);
     }
-    P rate = velocity[k] - towards * ratio[k];
     if constexpr (Fast) rate = select(saturated, zero, rate);
     const P per_order = P(numerics::reciprocal.of[k + 1]);
     P torque_k = k == 0 ? torque : zero;
@@ -141,55 +128,46 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
         (force_scale * force - damping_scale * (bristle_damping * rate + damping * velocity[k])) * per_order;
   }
 
-  const P left_out = ((abs(travel[batch_order - 1]) + abs(velocity[batch_order - 1])) +
-                      (abs(travel[batch_order]) + abs(velocity[batch_order]))) +
-                     (abs(deflection[batch_order - 1]) + abs(deflection[batch_order]));
-  const P allowed = at.load(time.tolerance) * (h * at.load(time.sample_rate));
-  const Mask inexact = ~(left_out <= allowed);
+  VelocityStep<P> step;
+  step.time_to_stop = time_to_stop;
+  step.h = h;
+  step.left_out = (last_terms_of(travel) + last_terms_of(velocity)) + last_terms_of(deflection);
+  step.allowed = at.load(time.tolerance) * (h * at.load(time.sample_rate));
+  step.inexact = ~(step.left_out <= step.allowed);
   const P velocity_start = select(from_zero, velocity[1], velocity[0]);
   const P velocity_end = sum_of(velocity, batch_order);
-  const Mask halts = velocity_start * velocity_end < zero;
+  step.halts = velocity_start * velocity_end < zero;
   // Neither ω, nor ω/t where ω starts at 0, may have two zeros within the step.
   P signed_part[batch_order + 1];
   for (int k = 0; k < batch_order; ++k) signed_part[k] = select(from_zero, velocity[k + 1], velocity[k]);
   signed_part[batch_order] = select(from_zero, zero, velocity[batch_order]);
-  Mask unfit = ~halts & ~cannot_turn(signed_part[0], velocity_end, signed_part[1],
-                                     curvature_bound(signed_part, batch_order));
+  Mask unfit = ~step.halts & ~cannot_turn(signed_part[0], velocity_end, signed_part[1],
+                                          curvature_bound(signed_part, batch_order));
   if constexpr (Varies) {
-    unfit = unfit | (halts & ~crosses_once(signed_part, batch_order));
+    unfit = unfit | (step.halts & ~crosses_once(signed_part, batch_order));
     // A rotor that nothing moves keeps still.
     unfit = unfit & ((curvature_bound(signed_part, batch_order) > zero) | (signed_part[1] != zero));
   }
-  if constexpr (!Fast) {
-    P growth = max(exponent[batch_order - 1], zero);
-#pragma GCC unroll 1
-    for (int k = batch_order - 2; k >= 1; --k) growth = growth + max(exponent[k], zero);
-    unfit = unfit | (growth > max(P(6.0), P(-23.0) - exponent[0]));
-  }
-  const Mask too_long = inexact | unfit;
-  P x = one;
-  const Mask seeks = at.taking_part() & halts & ~too_long;
+  if constexpr (!Fast) unfit = unfit | grows_too_much(curve.exponent);
+  step.too_long = step.inexact | unfit;
+  step.done = ~step.too_long;
+  step.x = one;
+  const Mask seeks = at.taking_part() & step.halts & step.done;
   if (seeks.any()) {
-    x = select(halts, next_zero(velocity, batch_order, velocity_start, velocity_end, from_zero, seeks), one);
+    step.x = select(step.halts,
+                    next_zero(velocity, batch_order, velocity_start, velocity_end, from_zero, seeks), one);
   }
+  store_time(batch, at, step);
 
-  const Mask moves = ~too_long;
-  const P omega_end = select(moves, select(halts, zero, value_of(velocity, batch_order, x) / h), omega);
-  const P deflection_end = select(moves, value_of(deflection, batch_order, x), deflection_start);
-  const Mask stops_here = moves & ~halts & ~(h < time_to_stop);
+  const P omega_end =
+      select(step.done, select(step.halts, zero, value_of(velocity, batch_order, step.x) / h), omega);
+  const P deflection_end = select(step.done, value_of(deflection, batch_order, step.x), deflection_start);
   const P level_end = Fast ? coulomb : coulomb + excess * exp(-per_velocity_squared * omega_end * omega_end);
-  const P rate_end = omega_end - stiffness * abs(omega_end) * deflection_end / level_end;
-  const Mask slides = abs(stiffness * deflection_end + bristle_damping * rate_end) > P(0.99) * level_end;
-  const P factor = P(0.9) * rough_power(allowed, left_out, 1.0 / batch_order);
-  const P shorter = select(inexact, h * min(max(factor, P(0.05)), P(0.8)), h * P(0.5));
-  const P longer = h * min(max(factor, P(0.3)), P(4.0));
-  at.store(time.next_step, select(too_long, shorter, select(moves, longer, at.load(time.next_step))));
-  at.store(time.time_to_stop, select(stops_here, zero, select(moves, time_to_stop - x * h, time_to_stop)));
-  at.store(time.steps, at.load(time.steps) + one);
-  at.store(m.theta, at.load(m.theta) + select(moves, value_of(travel, batch_order, x), zero));
+  at.store(m.theta, at.load(m.theta) + select(step.done, value_of(travel, batch_order, step.x), zero));
   at.store(m.omega, omega_end);
   at.store(m.elongation, deflection_end);
-  at.store(m.gradual_slide, to_number<P>(slides));
+  at.store(m.gradual_slide, to_number<P>(friction::bristle_slides(deflection_end, omega_end, stiffness,
+                                                                  bristle_damping, level_end)));
   add_events(batch, at, events_where<P>(at.load(time.steps) > P(max_steps_to_stop), beyond_kernel));
 }
 

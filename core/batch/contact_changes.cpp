@@ -53,7 +53,7 @@ void store_contact_parameters(BatchState& batch, int lane, const friction::Frict
   c.creep_exponent[lane] = contact.n;
   c.breakaway[lane] = contact.breakaway;
   c.coulomb[lane] = contact.coulomb_ratio * contact.breakaway;
-  c.fast_velocity[lane] = 8.0 * contact.stribeck_velocity;
+  c.fast_velocity[lane] = friction::fast_by_stribeck_velocity * contact.stribeck_velocity;
   c.max_oscillation[lane] = std::max(batch.time.rest[lane], std::sqrt(batch.time.rest[lane] / contact.beta));
   c.per_velocity_squared[lane] = 1.0 / (contact.stribeck_velocity * contact.stribeck_velocity);
 }

@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "core/batch/lane_trial.hpp"
-#include "core/friction/dahl.hpp"
+#include "core/friction/bristle.hpp"
 #include "core/friction/free_motion.hpp"
-#include "core/friction/lugre.hpp"
 #include "core/loop/controller.hpp"
 #include "core/loop/dac.hpp"
 #include "core/loop/drive.hpp"
@@ -142,8 +141,13 @@ void start_without_hook(BatchState& batch, int lane, double velocity) {
   m.hardening[lane] = 0.0;
 }
 
-void start_bristle(BatchState& batch, int lane, const friction::Bristle& bristle, double resolution) {
-  const friction::BristleParameters& p = bristle.parameters();
+void start_bristle(BatchState& batch, int lane, const trial::TrialParameters& trial, double resolution) {
+  const motion::PlantStart start = trial::plant_start(trial);
+  const friction::BristleParameters p =
+      friction::traits_of(trial.friction.model)
+          .bristle(trial.plant, friction::friction_at(trial.friction, start.position));
+  const motion::MotionTolerance tolerance = trial::motion_tolerance(resolution);
+  const friction::Bristle bristle(p, trial.plant.inertia, start, tolerance);
   start_without_hook(batch, lane, bristle.omega());
   batch.motion.elongation[lane] = bristle.deflection();
   batch.motion.gradual_slide[lane] = bristle.sliding() ? 1.0 : 0.0;
@@ -156,7 +160,7 @@ void start_bristle(BatchState& batch, int lane, const friction::Bristle& bristle
   const bool constant = p.level.excess == 0.0;
   c.per_velocity_squared[lane] = constant ? 1.0 : p.level.per_velocity_squared;
   c.fast_velocity[lane] = constant ? -1.0 : p.fast;
-  batch.time.tolerance[lane] = trial::motion_tolerance(resolution).elongation;
+  batch.time.tolerance[lane] = tolerance.elongation;
 }
 
 void start_free(BatchState& batch, int lane, const trial::TrialParameters& p, double sample_time) {
@@ -185,15 +189,7 @@ void start_motion(BatchState& batch, int lane, LaneTrial& trial, double resoluti
       store_contact(batch, lane, trial);
       return;
     case LaneMotion::bristle:
-      if (p.friction.model == friction::FrictionModel::dahl) {
-        start_bristle(batch, lane,
-                      friction::DahlFriction(p.plant, p.friction, trial::plant_start(p), tolerance),
-                      resolution);
-      } else {
-        start_bristle(batch, lane,
-                      friction::LuGreFriction(p.plant, p.friction, trial::plant_start(p), tolerance),
-                      resolution);
-      }
+      start_bristle(batch, lane, p, resolution);
       return;
     case LaneMotion::free:
       start_free(batch, lane, p, batch.time.sample_time[lane]);

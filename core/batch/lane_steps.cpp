@@ -9,18 +9,6 @@
 #include "core/numerics/elementary_functions.hpp"
 
 namespace zerocount::batch {
-namespace {
-
-/// The lanes that move faster than ContactLanes::fast_velocity.
-LaneSet fast_lanes(const BatchState& batch, const LaneSet& lanes) {
-  LaneSet fast;
-  for_each_lane(lanes, [&](int lane) {
-    if (std::abs(batch.motion.omega[lane]) > batch.contact.fast_velocity[lane]) fast.insert(lane);
-  });
-  return fast;
-}
-
-}  // namespace
 
 /// Computes the present torque of lanes in which it varies, and its series.
 void LaneScheduler::follow_torques(const LaneSet& lanes) {
@@ -173,7 +161,7 @@ void LaneScheduler::move_sliding() {
 }
 
 void LaneScheduler::move_sliding(const LaneSet& lanes, const MotionKernels& kernels) {
-  const LaneSet fast = fast_lanes(batch_, lanes);
+  const LaneSet fast = lanes.in_both(kernels_.fast_lanes(batch_));
   kernels.slide_fast(batch_, fast);
   end_sliding_steps();
   kernels.slide_slow(batch_, lanes.without(fast));
@@ -205,7 +193,7 @@ void LaneScheduler::move_bristles() {
 }
 
 void LaneScheduler::move_bristles(const LaneSet& lanes, const MotionKernels& kernels) {
-  const LaneSet fast = fast_lanes(batch_, lanes);
+  const LaneSet fast = lanes.in_both(kernels_.fast_lanes(batch_));
   kernels.bristle_fast(batch_, fast);
   rerun_lost_lanes();
   kernels.bristle_slow(batch_, lanes.without(fast));

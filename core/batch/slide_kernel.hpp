@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/batch/applied_torque.hpp"
+#include "core/batch/velocity_step.hpp"
 
 namespace zerocount::batch {
 
@@ -28,27 +28,22 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
 
   const P stribeck_velocity = one / sqrt(per_velocity_squared);
   const P speed = abs(omega);
-  P stribeck_decay_start = zero;
+  P decay_start = zero;
   P h = time_to_stop;
   if constexpr (Fast) {
-    const P above = speed - P(6.5) * stribeck_velocity;
     P resisting = breakaway_torque - direction * torque + damping * speed;
     if constexpr (Varies) {
       h = min(at.load(time.next_step), time_to_stop);
       resisting = resisting + torque_range(batch, at, h);
     }
-    const P slowing = max(resisting, zero) * per_inertia;
-    h = select(slowing * h > above, above / slowing, h);
+    h = fast_step(speed, stribeck_velocity, max(resisting, zero) * per_inertia, h);
   } else {
-    stribeck_decay_start = exp(-per_velocity_squared * omega * omega);
-    // (ω/ωs)² may change by about 4 per step, and by more far above the Stribeck velocity, where its
-    // exponential is negligible.
-    const P acceleration = abs(driving - stribeck * stribeck_decay_start - damping * omega) * per_inertia;
-    const P changing = acceleration * (speed + P(2.0) * stribeck_velocity) * per_velocity_squared;
-    const P far = per_velocity_squared * omega * omega;
-    const P max_change = max(P(4.0), P(0.5) * (far - P(23.0)));
-    h = min(min(at.load(time.next_step), max_change / changing), time_to_stop);
-    h = select((h < time_to_stop) & (time_to_stop < P(1.4) * h), time_to_stop * P(0.5), h);
+    decay_start = exp(-per_velocity_squared * omega * omega);
+    const P acceleration = abs(driving - stribeck * decay_start - damping * omega) * per_inertia;
+    h = min(min(at.load(time.next_step),
+                stribeck_step(omega, acceleration, stribeck_velocity, per_velocity_squared)),
+            time_to_stop);
+    h = without_small_rest(h, time_to_stop);
   }
   const P force_scale = h * h * per_inertia;
   const P damping_scale = damping * h * per_inertia;
@@ -56,14 +51,12 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
 
   P theta[batch_order + 1];
   P velocity[batch_order + 1];
-  P exponent[batch_order + 1];
-  P slope[batch_order + 1];
-  P stribeck_decay[batch_order + 1];
+  friction::StribeckSeriesOf<P[batch_order + 1]> curve;
   theta[0] = at.load(m.theta);
   velocity[0] = omega * h;
   [[maybe_unused]] VaryingTorque<P> applied;
   if constexpr (Varies) load_torque(batch, at, h, one, one, applied);
-  stribeck_decay[0] = stribeck_decay_start;
+  curve.decay[0] = decay_start;
 #pragma GCC unroll 1
   for (int k = 0; k < batch_order; ++k) {
     P force = k == 0 ? driving : zero;
@@ -72,53 +65,43 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
       if (k > 0) force = torque_k;
     }
     if constexpr (!Fast) {
-      exponent[k] = -per_step_squared * numerics::square_coefficient(velocity, k);
-      if (k > 0) {
-        slope[k - 1] = P(static_cast<double>(k)) * exponent[k];
-        stribeck_decay[k] = numerics::exponential_coefficient(slope, stribeck_decay, k);
-      }
-      force = force - stribeck * stribeck_decay[k];
+      curve.expand(per_step_squared, velocity, static_cast<std::size_t>(k));
+      force = force - stribeck * curve.decay[k];
     }
     theta[k + 1] = velocity[k] * P(numerics::reciprocal.of[k + 1]);
     velocity[k + 1] = (force_scale * force - damping_scale * velocity[k]) * P(numerics::reciprocal.of[k + 1]);
   }
 
-  const P left_out = (abs(theta[batch_order - 1]) + abs(velocity[batch_order - 1])) +
-                     (abs(theta[batch_order]) + abs(velocity[batch_order]));
-  const P allowed = at.load(time.tolerance) * (h * at.load(time.sample_rate));
-  const Mask inexact = ~(left_out <= allowed);
+  VelocityStep<P> step;
+  step.time_to_stop = time_to_stop;
+  step.h = h;
+  step.left_out = last_terms_of(theta) + last_terms_of(velocity);
+  step.allowed = at.load(time.tolerance) * (h * at.load(time.sample_rate));
+  step.inexact = ~(step.left_out <= step.allowed);
   const P velocity_end = sum_of(velocity, batch_order);
-  const Mask halts = velocity[0] * velocity_end < zero;
+  step.halts = velocity[0] * velocity_end < zero;
   Mask unfit = one < zero;
   if constexpr (!Fast) {
-    P growth = max(exponent[batch_order - 1], zero);
-#pragma GCC unroll 1
-    for (int k = batch_order - 2; k >= 1; --k) growth = growth + max(exponent[k], zero);
-    const Mask grows = growth > max(P(6.0), P(-23.0) - exponent[0]);
     const P curvature = curvature_bound(velocity, batch_order);
-    unfit = grows | (~halts & ~cannot_turn(velocity[0], velocity_end, velocity[1], curvature));
-    if constexpr (Varies) unfit = unfit | (halts & ~crosses_once(velocity, batch_order));
+    unfit = grows_too_much(curve.exponent) |
+            (~step.halts & ~cannot_turn(velocity[0], velocity_end, velocity[1], curvature));
+    if constexpr (Varies) unfit = unfit | (step.halts & ~crosses_once(velocity, batch_order));
   }
   const Mask beyond = omega * direction <= zero;
-  const Mask too_long = (inexact | unfit) & ~beyond;
-  P x = one;
-  const Mask seeks = at.taking_part() & halts & ~too_long;
-  if (seeks.any())
-    x = select(halts, root_between(velocity, batch_order, velocity[0], velocity_end, one, seeks), one);
-
-  const Mask done = ~too_long & ~beyond;
-  const Mask stops_here = ~halts & ~(h < time_to_stop);
-  const P time_to_stop_then = select(stops_here, zero, time_to_stop - x * h);
-  const P factor = P(0.9) * rough_power(allowed, left_out, 1.0 / batch_order);
-  const P shorter = select(inexact, h * min(max(factor, P(0.05)), P(0.8)), h * P(0.5));
-  const P longer = h * min(max(factor, P(0.3)), P(4.0));
-  at.store(time.next_step, select(too_long, shorter, select(done, longer, h)));
-  at.store(time.time_to_stop, select(done, time_to_stop_then, time_to_stop));
-  at.store(time.steps, at.load(time.steps) + one);
-  at.store(m.theta, select(done, value_of(theta, batch_order, x), theta[0]));
-  at.store(m.omega, select(done, select(halts, zero, value_of(velocity, batch_order, x) / h), omega));
+  step.too_long = (step.inexact | unfit) & ~beyond;
+  step.x = one;
+  const Mask seeks = at.taking_part() & step.halts & ~step.too_long;
+  if (seeks.any()) {
+    step.x =
+        select(step.halts, root_between(velocity, batch_order, velocity[0], velocity_end, one, seeks), one);
+  }
+  step.done = ~step.too_long & ~beyond;
+  store_time(batch, at, step);
+  at.store(m.theta, select(step.done, value_of(theta, batch_order, step.x), theta[0]));
+  at.store(m.omega,
+           select(step.done, select(step.halts, zero, value_of(velocity, batch_order, step.x) / h), omega));
   add_events(batch, at,
-             events_where<P>(done & halts, velocity_zero) +
+             events_where<P>(step.done & step.halts, velocity_zero) +
                  events_where<P>(beyond | (at.load(time.steps) > P(max_steps_to_stop)), beyond_kernel));
 }
 

@@ -10,7 +10,12 @@ namespace zerocount::friction {
 BristleParameters bristle_parameters(double stiffness, double bristle_damping, double damping,
                                      const StribeckCurve& level) {
   const double velocity = level.excess != 0.0 ? 1.0 / std::sqrt(level.per_velocity_squared) : 0.0;
-  return {stiffness, bristle_damping, damping, level, 8.0 * velocity, 6.5 * velocity};
+  return {stiffness,
+          bristle_damping,
+          damping,
+          level,
+          fast_by_stribeck_velocity * velocity,
+          slow_by_stribeck_velocity * velocity};
 }
 
 BristleSeries BristleMotion::start() const {
@@ -27,10 +32,8 @@ double BristleMotion::expand(BristleSeries& s, std::size_t k, double torque) con
   if (saturated) return torque - stiffness * s.deflection[k] - damping * s.omega[k];
   if (curve.excess != 0.0) s.level[k] = curve.excess * s.StribeckSeries::expand(curve, s.omega, k);
   if (k == 0) s.level[0] += curve.coulomb;
-  double product = 0.0;
-  for (std::size_t j = 0; j <= k; ++j) product += s.omega[j] * s.deflection[k - j];
-  s.ratio[k] = numerics::quotient_coefficient(product, s.level.data(), s.ratio.data(), k);
-  const double rate = s.omega[k] - direction * stiffness * s.ratio[k];  // of z
+  const double rate = bristle_rate_coefficient(direction * stiffness, s.omega.data(), s.deflection.data(),
+                                               s.level.data(), s.ratio.data(), k);
   s.deflection[k + 1] = rate * numerics::reciprocal[k + 1];
   return torque - stiffness * s.deflection[k] - bristle_damping * rate - damping * s.omega[k];
 }
@@ -62,11 +65,8 @@ Bristle::Bristle(const BristleParameters& parameters, double inertia, const moti
 }
 
 bool Bristle::sliding() const {
-  const double level = level_at(parameters_.level, omega_);
-  const double rate = omega_ - parameters_.stiffness * std::abs(omega_) * deflection_ / level;
-  constexpr double part_of_level = 0.99;
-  return std::abs(parameters_.stiffness * deflection_ + parameters_.bristle_damping * rate) >
-         part_of_level * level;
+  return bristle_slides(deflection_, omega_, parameters_.stiffness, parameters_.bristle_damping,
+                        level_at(parameters_.level, omega_));
 }
 
 /// The sign of ω from now on: that of ω or, at ω = 0, of its first derivative that is not 0.

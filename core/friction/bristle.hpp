@@ -8,7 +8,7 @@
 
 namespace zerocount::friction {
 
-/// Constants of a bristle.
+/// Constants of a bristle; `fast` and `slow` are those of stribeck_series.hpp.
 struct BristleParameters {
   double stiffness;        ///< σ0, N m/rad
   double bristle_damping;  ///< σ1, N m s/rad
@@ -18,7 +18,6 @@ struct BristleParameters {
   double slow;  ///< |ω| above which g(ω) = Fc to 6e-19 of Fs − Fc, rad/s; 0 where g is constant
 };
 
-/// @param fast, slow of BristleParameters: 8·ωs and 6.5·ωs, with exp(−64) = 2e-28 and exp(−42) = 6e-19.
 BristleParameters bristle_parameters(double stiffness, double bristle_damping, double damping,
                                      const StribeckCurve& level);
 
@@ -70,6 +69,10 @@ class Bristle : public WithoutCreepAndReversals {
   static constexpr bool remembers_loading = false;
   static constexpr Breakaway breakaway = Breakaway::gradual;
 
+  /// Starts with z = 0; with `start.sliding` and ω ≠ 0, with that of steady sliding, sgn(ω)·g(ω)/σ0.
+  Bristle(const BristleParameters& parameters, double inertia, const motion::PlantStart& start,
+          const motion::MotionTolerance& tolerance);
+
   double step(const motion::TorqueCourse& torque, double duration);
 
   double theta() const { return theta_; }
@@ -79,11 +82,6 @@ class Bristle : public WithoutCreepAndReversals {
   static std::int64_t breakaways() { return 0; }
   double deflection() const { return deflection_; }  ///< z, rad
   const BristleParameters& parameters() const { return parameters_; }
-
- protected:
-  /// Starts with z = 0; with `start.sliding` and ω ≠ 0, with that of steady sliding, sgn(ω)·g(ω)/σ0.
-  Bristle(const BristleParameters& parameters, double inertia, const motion::PlantStart& start,
-          const motion::MotionTolerance& tolerance);
 
  private:
   double direction_under(const motion::TorqueCourse& torque) const;

@@ -1,9 +1,32 @@
 #pragma once
 
-#include "core/numerics/number.hpp"
+#include <cstddef>
+
+#include "core/numerics/series_recurrences.hpp"
 
 /// Formulas of a bristle for double and for the vectors of the batch engine.
 namespace zerocount::friction {
+
+/// Coefficient k of dz/dt = ω − s·σ0·ω·z/g(ω), and of `ratio`, ω·z/g(ω), from those of ω, z and g up to k.
+/// @param stiffness s·σ0
+template <class Number>
+ZEROCOUNT_ALWAYS_INLINE Number bristle_rate_coefficient(const Number& stiffness, const Number* omega,
+                                                        const Number* deflection, const Number* level,
+                                                        Number* ratio, std::size_t k) {
+  ratio[k] =
+      numerics::quotient_coefficient(numerics::product_coefficient(omega, deflection, k), level, ratio, k);
+  return omega[k] - stiffness * ratio[k];
+}
+
+/// Whether friction without the damping d is above 0.99·g(ω): the bristle counts as sliding.
+/// @param stiffness σ0. @param bristle_damping σ1. @param level g(ω), N m.
+template <class Number>
+ZEROCOUNT_ALWAYS_INLINE auto bristle_slides(const Number& deflection, const Number& omega,
+                                            const Number& stiffness, const Number& bristle_damping,
+                                            const Number& level) {
+  const Number rate = omega - stiffness * abs(omega) * deflection / level;
+  return abs(stiffness * deflection + bristle_damping * rate) > Number(0.99) * level;
+}
 
 /// Whether the bristle of a fast rotor may be set to its end. The distance |z − end|, which decays as
 /// exp(−σ0·∫|ω|dt/Fc), changes ω by Fc·|z − end|/(J·|ω|): here by at most 1e-12 of ω.

@@ -21,6 +21,10 @@ class CoulombFriction : public WithoutCreepAndReversals {
   static constexpr bool has_sliding_damping = true;
   static constexpr bool remembers_loading = false;
   static constexpr Breakaway breakaway = Breakaway::of_hook;
+  static LinearContacts linear_contacts(const motion::PlantParameters& plant, const FrictionAlongRotor&,
+                                        const FrictionParameters&) {
+    return {sliding_contact(plant)};
+  }
 
   /// Slides at the start wherever velocity ≠ 0.
   CoulombFriction(const motion::PlantParameters& plant, FrictionAlongRotor friction,

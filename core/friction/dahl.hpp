@@ -17,17 +17,20 @@ class DahlFriction : public Bristle {
   static constexpr bool has_presliding_damping = true;
   static constexpr bool has_sliding_damping = false;
 
-  /// The parameters are those at the start, wherever the rotor goes.
-  DahlFriction(const motion::PlantParameters& plant, const FrictionAlongRotor& friction,
-               const motion::PlantStart& start, const motion::MotionTolerance& tolerance)
-      : Bristle(constants(plant, friction_at(friction, start.position)), plant.inertia, start, tolerance) {}
-
- private:
-  static BristleParameters constants(const motion::PlantParameters& plant,
-                                     const FrictionParameters& contact) {
+  static LinearContacts linear_contacts(const motion::PlantParameters& plant, const FrictionAlongRotor&,
+                                        const FrictionParameters& contact) {
+    return {{"at sigma0", contact.sigma0, plant.presliding_damping},
+            {"while sliding", 0.0, plant.presliding_damping, true}};
+  }
+  static BristleParameters bristle(const motion::PlantParameters& plant, const FrictionParameters& contact) {
     return bristle_parameters(contact.sigma0, 0.0, plant.presliding_damping,
                               {stribeck_curve(contact).coulomb, 0.0, 0.0});
   }
+
+  /// The parameters are those at the start, wherever the rotor goes.
+  DahlFriction(const motion::PlantParameters& plant, const FrictionAlongRotor& friction,
+               const motion::PlantStart& start, const motion::MotionTolerance& tolerance)
+      : Bristle(bristle(plant, friction_at(friction, start.position)), plant.inertia, start, tolerance) {}
 };
 
 }  // namespace zerocount::friction

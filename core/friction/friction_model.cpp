@@ -33,6 +33,10 @@ std::vector<std::string_view> friction_model_labels() {
   return words;
 }
 
+bool has_friction(FrictionModel model) {
+  return !traits_of(model).contact_parameters.empty();
+}
+
 bool has_spring(FrictionModel model) {
   return uses(traits_of(model), &FrictionParameters::k1);
 }

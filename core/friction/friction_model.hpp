@@ -30,6 +30,9 @@ std::vector<std::string_view> friction_model_labels();
 
 // Derived from the contact parameters that the law uses:
 
+/// Whether there is friction at all.
+bool has_friction(FrictionModel model);
+
 /// Whether the contact is a spring before it slides.
 bool has_spring(FrictionModel model);
 

@@ -128,6 +128,13 @@ void GmsMotion::go_to(const GmsSeries& series, const motion::NextEvent<Event>& n
   omega = next.event == Event::velocity_zero ? 0.0 : numerics::value_at(series.omega, next.time);
 }
 
+LinearContacts GmsFriction::linear_contacts(const motion::PlantParameters& plant,
+                                            const FrictionAlongRotor& friction, const FrictionParameters&) {
+  double stiffness = 0.0;
+  for (const GmsElement& element : gms_elements_of(friction)) stiffness += element.stiffness;
+  return {{"while all elements stick", stiffness, plant.sliding_damping}, sliding_contact(plant)};
+}
+
 GmsFriction::GmsFriction(const motion::PlantParameters& plant, const FrictionAlongRotor& friction,
                          const motion::PlantStart& start, const motion::MotionTolerance& tolerance)
     : plant_(plant), tolerance_(tolerance), omega_(start.velocity) {

@@ -98,6 +98,8 @@ class GmsFriction : public WithoutCreepAndReversals {
   static constexpr bool has_sliding_damping = true;
   static constexpr bool remembers_loading = true;
   static constexpr Breakaway breakaway = Breakaway::gradual;
+  static LinearContacts linear_contacts(const motion::PlantParameters& plant,
+                                        const FrictionAlongRotor& friction, const FrictionParameters&);
 
   /// The parameters are those at the start, wherever the rotor goes. With `start.sliding` and a velocity all
   /// elements slip steadily at first, Fi = sgn(ω)·ηi·g(ω).

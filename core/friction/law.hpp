@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/friction/creep.hpp"
+#include "core/friction/linear_contact.hpp"
 #include "core/friction/parameters.hpp"
 #include "core/motion/parameters.hpp"
 #include "core/motion/plant_start.hpp"
@@ -44,6 +45,9 @@ concept FrictionLaw = std::constructible_from<Law, const motion::PlantParameters
   { Law::has_sliding_damping } -> std::convertible_to<bool>;  // J·dω/dt = u − cs·ω − … at some time
   { Law::remembers_loading } -> std::convertible_to<bool>;    // slow torques before the start have an effect
   { Law::breakaway } -> std::convertible_to<Breakaway>;
+  {
+    Law::linear_contacts(motion::PlantParameters{}, FrictionAlongRotor{}, FrictionParameters{})
+    } -> std::same_as<LinearContacts>;
   { now.theta() } -> std::same_as<double>;  // rad
   { now.omega() } -> std::same_as<double>;  // rad/s
   { now.creep() } -> std::convertible_to<CreepState>;
@@ -62,6 +66,8 @@ struct WithoutCreepAndReversals {
   static void forget_deepest() {}
 };
 
+struct BristleParameters;
+
 /// Properties of a law that do not depend on its state.
 struct LawTraits {
   std::string_view word;
@@ -71,7 +77,16 @@ struct LawTraits {
   bool has_sliding_damping;
   bool remembers_loading;
   Breakaway breakaway;
+  LinearContacts (*linear_contacts)(const motion::PlantParameters&, const FrictionAlongRotor&,
+                                    const FrictionParameters& contact);
+  /// The bristle that the law is; null for the others.
+  BristleParameters (*bristle)(const motion::PlantParameters&, const FrictionParameters& contact);
 };
+
+/// A level of friction that opposes the velocity, with nothing elastic before it: the contact is a relay.
+constexpr bool is_relay(const LawTraits& law) {
+  return law.breakaway == Breakaway::of_hook && !law.has_presliding_motion;
+}
 
 /// Whether the law has this parameter of the contact.
 constexpr bool uses(const LawTraits& law, ContactField field) {
@@ -81,13 +96,17 @@ constexpr bool uses(const LawTraits& law, ContactField field) {
 
 template <FrictionLaw Law>
 constexpr LawTraits traits_of() {
-  return {Law::word,
-          Law::contact_parameters,
-          Law::has_presliding_motion,
-          Law::has_presliding_damping,
-          Law::has_sliding_damping,
-          Law::remembers_loading,
-          Law::breakaway};
+  LawTraits traits{Law::word,
+                   Law::contact_parameters,
+                   Law::has_presliding_motion,
+                   Law::has_presliding_damping,
+                   Law::has_sliding_damping,
+                   Law::remembers_loading,
+                   Law::breakaway,
+                   Law::linear_contacts,
+                   nullptr};
+  if constexpr (requires { &Law::bristle; }) traits.bristle = Law::bristle;
+  return traits;
 }
 
 }  // namespace zerocount::friction

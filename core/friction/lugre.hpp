@@ -19,16 +19,18 @@ class LuGreFriction : public Bristle {
   static constexpr bool has_presliding_damping = false;
   static constexpr bool has_sliding_damping = true;
 
+  static LinearContacts linear_contacts(const motion::PlantParameters& plant, const FrictionAlongRotor&,
+                                        const FrictionParameters& contact) {
+    return {{"at sigma0", contact.sigma0, contact.sigma1 + plant.sliding_damping}, sliding_contact(plant)};
+  }
+  static BristleParameters bristle(const motion::PlantParameters& plant, const FrictionParameters& contact) {
+    return bristle_parameters(contact.sigma0, contact.sigma1, plant.sliding_damping, stribeck_curve(contact));
+  }
+
   /// The parameters are those at the start, wherever the rotor goes.
   LuGreFriction(const motion::PlantParameters& plant, const FrictionAlongRotor& friction,
                 const motion::PlantStart& start, const motion::MotionTolerance& tolerance)
-      : Bristle(constants(plant, friction_at(friction, start.position)), plant.inertia, start, tolerance) {}
-
- private:
-  static BristleParameters constants(const motion::PlantParameters& plant,
-                                     const FrictionParameters& contact) {
-    return bristle_parameters(contact.sigma0, contact.sigma1, plant.sliding_damping, stribeck_curve(contact));
-  }
+      : Bristle(bristle(plant, friction_at(friction, start.position)), plant.inertia, start, tolerance) {}
 };
 
 }  // namespace zerocount::friction

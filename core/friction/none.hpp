@@ -18,6 +18,10 @@ class NoFriction : public WithoutCreepAndReversals {
   static constexpr bool has_sliding_damping = false;
   static constexpr bool remembers_loading = false;
   static constexpr Breakaway breakaway = Breakaway::never;
+  static LinearContacts linear_contacts(const motion::PlantParameters& plant, const FrictionAlongRotor&,
+                                        const FrictionParameters&) {
+    return {{"without friction", 0.0, plant.presliding_damping, true}};
+  }
 
   NoFriction(const motion::PlantParameters& plant, const FrictionAlongRotor&, const motion::PlantStart& start,
              const motion::MotionTolerance& tolerance)

@@ -69,6 +69,7 @@ class PreslidingFriction {
   static constexpr bool has_sliding_damping = true;
   static constexpr bool remembers_loading = true;
   static constexpr Breakaway breakaway = Breakaway::of_hook;
+  static constexpr auto linear_contacts = contacts_of_spring;
 
   PreslidingFriction(const motion::PlantParameters& plant, FrictionAlongRotor friction,
                      const motion::PlantStart& start, motion::MotionTolerance tolerance);

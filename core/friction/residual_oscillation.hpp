@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <numbers>
 
 #include "core/numerics/elementary_functions.hpp"
@@ -31,6 +32,7 @@ struct ResidualOscillation {
   double loss{0.0};       ///< η·a₀, 1/s
   double slowing{0.0};    ///< κ·a₀
   double end{0.0};        ///< time from which q counts as 0, s
+  double amplitude{0.0};  ///< a₀, rad
 
   struct State {
     double elongation;  ///< q, rad
@@ -54,7 +56,9 @@ inline ResidualOscillation residual_oscillation(const OscillationLaw& law, doubl
   const double rate = velocity - law.creep * elongation;
   ResidualOscillation oscillation{elongation, (rate + law.decay * elongation) / law.frequency, law.decay,
                                   law.frequency, law.creep};
-  const double amplitude = numerics::hypot(oscillation.cosine, oscillation.sine);
+  const double amplitude =
+      std::sqrt(oscillation.cosine * oscillation.cosine + oscillation.sine * oscillation.sine);
+  oscillation.amplitude = amplitude;
   oscillation.loss = 2.0 / 3.0 * std::numbers::inv_pi * law.frequency * law.softening * amplitude;
   oscillation.slowing = 0.5 * law.softening * amplitude;
   if (amplitude > min_amplitude) oscillation.end = numerics::log(amplitude / min_amplitude) / law.decay;
@@ -65,8 +69,7 @@ inline ResidualOscillation residual_oscillation(const OscillationLaw& law, doubl
 inline double oscillation_bound(const ResidualOscillation& oscillation, double t) {
   if (!(t < oscillation.end)) return 0.0;
   const double of_creep = 1.0 + 4.0 * oscillation.creep / oscillation.frequency;
-  return of_creep * numerics::hypot(oscillation.cosine, oscillation.sine) *
-         numerics::exp(-oscillation.decay * t);
+  return of_creep * oscillation.amplitude * numerics::exp(-oscillation.decay * t);
 }
 
 inline ResidualOscillation::State oscillation_at(const ResidualOscillation& oscillation, double t) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/friction/parameters.hpp"
+#include "core/friction/stribeck_series.hpp"
 #include "core/numerics/elementary_functions.hpp"
 #include "core/numerics/power_series.hpp"
 
@@ -34,20 +35,13 @@ Number level_at(const StribeckCurveOf<Number>& curve, Number omega) {
 }
 
 /// Taylor series in time of exp(−(ω/ωs)²).
-struct StribeckSeries {
-  numerics::Series exponent{};  ///< −(ω/ωs)², dimensionless
-  numerics::Series slope{};     ///< of the exponent in time, 1/s
-  numerics::Series decay{};     ///< exp(−(ω/ωs)²), dimensionless
+struct StribeckSeries : StribeckSeriesOf<numerics::Series> {
+  StribeckSeries() : StribeckSeriesOf<numerics::Series>{} {}
 
   /// Computes coefficient k from ω[0…k]. @returns that of decay.
   double expand(const StribeckCurve& curve, const numerics::Series& omega, std::size_t k) {
-    exponent[k] = -curve.per_velocity_squared * numerics::square_coefficient(omega.data(), k);
-    if (k > 0) {
-      slope[k - 1] = static_cast<double>(k) * exponent[k];
-      decay[k] = numerics::exponential_coefficient(slope.data(), decay.data(), k);
-    } else {
-      decay[0] = numerics::exp(exponent[0]);
-    }
+    StribeckSeriesOf::expand(curve.per_velocity_squared, omega.data(), k);
+    if (k == 0) decay[0] = numerics::exp(exponent[0]);
     return decay[k];
   }
 };

@@ -5,7 +5,8 @@
 
 namespace zerocount::numerics {
 
-/// 1/c to 24 bits, c about the middle of an interval, and ln c as a sum. The first term is a multiple of 2⁻⁴².
+/// 1/c to 24 bits, c about the middle of an interval, and ln c as a sum. The first term is a multiple of
+/// 2⁻⁴².
 struct LogarithmStep {
   double reciprocal;
   double high;

@@ -35,6 +35,14 @@ ZEROCOUNT_ALWAYS_INLINE Number exponential_coefficient(const Number* derivative,
   return sum * Number(reciprocal.of[k]);
 }
 
+/// Coefficient k of a·b.
+template <class Number>
+ZEROCOUNT_ALWAYS_INLINE Number product_coefficient(const Number* a, const Number* b, std::size_t k) {
+  Number sum = a[0] * b[k];
+  for (std::size_t j = 1; j <= k; ++j) sum = sum + a[j] * b[k - j];
+  return sum;
+}
+
 /// Coefficient k of a/b, b[0] ≠ 0: from q·b = a, given the coefficient a_k, b[0…k] and q[0…k−1].
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number quotient_coefficient(const Number& a_k, const Number* b, const Number* q,

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/friction/stribeck.hpp"
+#include "core/friction/bristle.hpp"
 
 namespace zerocount::theory {
 namespace {
@@ -72,18 +72,8 @@ Complex bristle_ratio(const friction::StribeckCurve& curve, double stiffness, do
 }  // namespace
 
 bool has_describing_function(friction::FrictionModel model) {
-  switch (model) {
-    case friction::FrictionModel::coulomb:
-    case friction::FrictionModel::dahl:
-    case friction::FrictionModel::lugre:
-      return true;
-    case friction::FrictionModel::presliding:
-    case friction::FrictionModel::spring:
-    case friction::FrictionModel::none:
-    case friction::FrictionModel::gms:
-      break;
-  }
-  return false;
+  const friction::LawTraits& law = friction::traits_of(model);
+  return friction::is_relay(law) || law.bristle != nullptr;
 }
 
 double describing_function(const loop::ErrorDeadband& deadband, double amplitude) {
@@ -97,17 +87,15 @@ double describing_function(const loop::ErrorDeadband& deadband, double amplitude
 
 Complex describing_function(friction::FrictionModel model, const friction::FrictionParameters& contact,
                             const motion::PlantParameters& plant, double amplitude, double frequency) {
-  friction::StribeckCurve curve = friction::stribeck_curve(contact);
+  const friction::LawTraits& law = friction::traits_of(model);
   const Complex rate(0.0, frequency);
-  if (model == friction::FrictionModel::coulomb) {
+  if (law.bristle == nullptr) {
+    const friction::StribeckCurve curve = friction::stribeck_curve(contact);
     return rate * plant.sliding_damping + Complex(0.0, relay_damping(curve, amplitude, frequency));
   }
-  const bool dahl = model == friction::FrictionModel::dahl;
-  if (dahl) curve.excess = 0.0;
-  const Complex bristle = bristle_ratio(curve, contact.sigma0, amplitude, frequency);
-  const double bristle_damping = dahl ? 0.0 : contact.sigma1;
-  const double damping = dahl ? plant.presliding_damping : plant.sliding_damping;
-  return (contact.sigma0 + rate * bristle_damping) * bristle + rate * damping;
+  const friction::BristleParameters bristle = law.bristle(plant, contact);
+  const Complex ratio = bristle_ratio(bristle.level, bristle.stiffness, amplitude, frequency);
+  return (bristle.stiffness + rate * bristle.bristle_damping) * ratio + rate * bristle.damping;
 }
 
 }  // namespace zerocount::theory

@@ -16,8 +16,8 @@ namespace zerocount::theory {
 /// McGraw-Hill 1968, section 2.2). Its real part is a stiffness, its imaginary part Ω times a damping, the
 /// viscous damping among it.
 ///
-/// For coulomb, F = sgn(ω)·g(ω) + cs·ω; for dahl and lugre, the bristle follows θ. Defined for these three
-/// models.
+/// For a relay (coulomb), F = sgn(ω)·g(ω) + cs·ω; for a bristle (dahl, lugre), the bristle follows θ. Defined
+/// for these laws alone.
 /// @param amplitude A, rad. @param frequency Ω, rad/s.
 std::complex<double> describing_function(friction::FrictionModel model,
                                          const friction::FrictionParameters& contact,

@@ -21,18 +21,9 @@ struct Stiffness {
 };
 
 Stiffness stiffness_at_rest(friction::FrictionModel model, double k1, double k2, double sigma0) {
-  switch (model) {
-    case friction::FrictionModel::presliding:
-    case friction::FrictionModel::spring:
-      return {k1 + k2, "k1 + k2"};
-    case friction::FrictionModel::dahl:
-    case friction::FrictionModel::lugre:
-      return {sigma0, "sigma0"};
-    case friction::FrictionModel::coulomb:
-    case friction::FrictionModel::none:
-    case friction::FrictionModel::gms:
-      break;
-  }
+  const friction::LawTraits& law = friction::traits_of(model);
+  if (friction::has_spring(model)) return {k1 + k2, "k1 + k2"};
+  if (law.bristle != nullptr) return {sigma0, "sigma0"};
   return {};
 }
 

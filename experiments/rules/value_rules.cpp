@@ -130,7 +130,7 @@ std::vector<ValueRule> rules_of_holding(const std::string& torque_unit) {
        [torque_unit](Limits l, Limits) -> Faults {
          if (l[holding].high == 0.0) return {};
          const auto law = static_cast<friction::FrictionModel>(static_cast<int>(l[model].low));
-         if (law == friction::FrictionModel::none)
+         if (!friction::has_friction(law))
            return {{"nothing holds an axis without friction", "another friction.model, or the key left out"}};
          Faults faults;
          const double largest = max_abs(l[torque]);

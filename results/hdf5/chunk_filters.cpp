@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <new>
 
@@ -133,7 +134,7 @@ std::optional<std::vector<std::byte>> encode_chunk(const ChunkFilters& filters,
     stored.push_back(static_cast<std::byte>(checksum >> shift & 0xffU));
   std::vector<std::byte> decoded(elements.size());
   if (!decode_chunk(filters, stored, decoded) ||
-      !std::equal(decoded.begin(), decoded.end(), elements.begin()))
+      std::memcmp(decoded.data(), elements.data(), elements.size()) != 0)
     return std::nullopt;
   return stored;
 }

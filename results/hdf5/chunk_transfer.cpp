@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <cstring>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -25,6 +26,8 @@ struct ChunkJob {
   ChunkShape shape;
   std::vector<std::byte> stored{};
   bool damaged{false};
+  const ChunkJob* same{nullptr};  ///< an earlier job with the same stored bytes, which has them
+  bool is_shared{false};          ///< with a later job
 };
 
 /// The chunks that are exactly the rows [first, first + rows) of a dataset; none if the library must divide
@@ -87,7 +90,7 @@ void run_jobs(std::vector<ChunkJob>& jobs, const Fetch& fetch, const Work& work,
   const auto third_stage = [&](ChunkJob* job) {
     const std::lock_guard lock(library);
     store(*job);
-    job->stored = {};
+    if (!job->is_shared) job->stored = {};
   };
   const auto pipeline = [&] {
     tbb::parallel_pipeline(
@@ -98,6 +101,38 @@ void run_jobs(std::vector<ChunkJob>& jobs, const Fetch& fetch, const Work& work,
   };
   // A thread that waits here must not begin another task meanwhile, such as a block of trials.
   tbb::this_task_arena::isolate(pipeline);
+}
+
+/// The elements of a job to write.
+std::span<const std::byte> elements_of(const ChunkJob& job, std::span<const RowsToWrite> all) {
+  const auto* const first = static_cast<const std::byte*>(all[job.request].data);
+  return {first + static_cast<std::size_t>(job.offset) * job.shape.row_size, bytes_in(job)};
+}
+
+bool has_one_value(std::span<const std::byte> elements, std::size_t size) {
+  return std::memcmp(elements.data(), elements.data() + size, elements.size() - size) == 0;
+}
+
+/// Lets chunks of the same value in all elements, such as those of measures that no trial has, be encoded
+/// once.
+void share_equal_chunks(std::vector<ChunkJob>& jobs, std::span<const RowsToWrite> all) {
+  std::vector<ChunkJob*> of_one_value;
+  for (ChunkJob& job : jobs) {
+    const std::span<const std::byte> elements = elements_of(job, all);
+    const std::size_t size = job.shape.filters.element_size;
+    if (!has_one_value(elements, size)) continue;
+    const auto is_same = [&](const ChunkJob* other) {
+      return other->shape == job.shape && other->rows == job.rows &&
+             std::memcmp(elements_of(*other, all).data(), elements.data(), size) == 0;
+    };
+    const auto found = std::find_if(of_one_value.begin(), of_one_value.end(), is_same);
+    if (found == of_one_value.end()) {
+      of_one_value.push_back(&job);
+    } else {
+      job.same = *found;
+      (*found)->is_shared = true;
+    }
+  }
 }
 
 }  // namespace
@@ -161,19 +196,20 @@ void write_rows(std::span<const RowsToWrite> all) {
     if (chunks.empty()) all[i].dataset->write_by_library(all[i].first, all[i].rows, all[i].data);
     append(jobs, std::move(chunks));
   }
+  share_equal_chunks(jobs, all);
   const auto encode = [&](ChunkJob& job) {
-    const auto* const data = static_cast<const std::byte*>(all[job.request].data) +
-                             static_cast<std::size_t>(job.offset) * job.shape.row_size;
+    if (job.same != nullptr) return;
     std::vector<std::byte> elements = chunk_of(job);
-    std::copy_n(data, bytes_in(job), elements.begin());
+    std::ranges::copy(elements_of(job, all), elements.begin());
     std::optional<std::vector<std::byte>> stored = encode_chunk(job.shape.filters, elements);
     job.damaged = !stored;
     if (stored) job.stored = std::move(*stored);
   };
   const auto store = [&](const ChunkJob& job) {
     const RowsToWrite& request = all[job.request];
-    if (job.damaged) request.dataset->fail("its values do not decode to what was encoded");
-    request.dataset->store_chunk(request.first + job.offset, job.stored);
+    const ChunkJob& encoded = job.same != nullptr ? *job.same : job;
+    if (encoded.damaged) request.dataset->fail("its values do not decode to what was encoded");
+    request.dataset->store_chunk(request.first + job.offset, encoded.stored);
   };
   run_jobs(
       jobs, [](ChunkJob&) {}, encode, store);

@@ -60,6 +60,14 @@ bool is_computed(const RecordField<Record>& field) {
   return std::holds_alternative<double (*)(const Record&)>(field.member);
 }
 
+template <class Record>
+std::vector<const Record*> pointers_to(const std::vector<Record>& records) {
+  std::vector<const Record*> pointers;
+  pointers.reserve(records.size());
+  for (const Record& record : records) pointers.push_back(&record);
+  return pointers;
+}
+
 /// Writes a field of the records to `to`, as the bytes of its elements.
 template <class Record>
 void gather(const RecordField<Record>& field, std::span<const Record* const> records, std::byte* to) {
@@ -80,6 +88,7 @@ template <class Record>
 std::vector<std::vector<std::byte>> columns_of(const std::vector<RecordField<Record>>& fields,
                                                std::span<const Record* const> records) {
   std::vector<std::vector<std::byte>> columns;
+  columns.reserve(fields.size());
   for (const RecordField<Record>& field : fields)
     columns.emplace_back(records.size() * hdf5::size_of(field.column.element));
   // A few records at a time, which stay in the cache for all of their fields.

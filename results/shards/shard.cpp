@@ -76,14 +76,6 @@ layout::TableIo write_table(hdf5::File& file, const layout::Table& table,
   return io;
 }
 
-template <class Record>
-std::vector<const Record*> pointers_to(const std::vector<Record>& records) {
-  std::vector<const Record*> pointers;
-  pointers.reserve(records.size());
-  for (const Record& record : records) pointers.push_back(&record);
-  return pointers;
-}
-
 std::vector<const trial::MoveOutcome*> move_outcomes(std::span<const TrialResult> results) {
   std::vector<const trial::MoveOutcome*> moves;
   if (!results.empty()) moves.reserve(results.size() * results.front().outcome.moves.size());
@@ -149,12 +141,12 @@ void write_trial_tables(hdf5::File& file, const study::Study& study, std::span<c
   write_table(file, layout::band_table(features.bands), layout::band_fields(),
               band_outcomes(moves, features.bands), study.moves, compression);
   const std::vector<layout::JerkRecord> jerks = jerk_records(trials);
-  write_table(file, layout::jerk_table(), layout::jerk_fields(), pointers_to(jerks), 1, compression)
+  write_table(file, layout::jerk_table(), layout::jerk_fields(), layout::pointers_to(jerks), 1, compression)
       .number_rows(0);
   if (study.retained_trials.empty()) return;
   const std::vector<layout::TraceRecord> trace = trace_records(trials);
-  write_table(file, layout::trace_table(features), layout::trace_fields(features), pointers_to(trace), 1,
-              compression)
+  write_table(file, layout::trace_table(features), layout::trace_fields(features), layout::pointers_to(trace),
+              1, compression)
       .number_rows(0);
 }
 

@@ -91,7 +91,7 @@ bool has_noise(const trial::TrialParameters& p) {
   return p.encoder.fine_errors.noise > 0.0 || p.encoder.coarse_errors.noise > 0.0 || p.dac.noise > 0.0;
 }
 bool has_creep(const trial::TrialParameters& p) {
-  return p.friction.model == friction::FrictionModel::presliding && p.friction.uniform.alpha > 0.0;
+  return friction::has_creep(p.friction.model) && p.friction.uniform.alpha > 0.0;
 }
 bool has_own_controller(const trial::TrialParameters& p) {
   return p.controller.user.plugin || loop::has_coarse_phase(p.controller) ||

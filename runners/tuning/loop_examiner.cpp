@@ -21,28 +21,13 @@ constexpr int places_on_profile = 64;
 constexpr int stiffnesses = 4;  // from the softest to the stiffest
 constexpr double longest_delay = 10.0;
 
-bool has_spring(const trial::TrialParameters& p) {
-  switch (p.friction.model) {
-    case friction::FrictionModel::presliding:
-    case friction::FrictionModel::spring:
-      return true;
-    case friction::FrictionModel::none:
-    case friction::FrictionModel::coulomb:
-    case friction::FrictionModel::dahl:
-    case friction::FrictionModel::lugre:
-    case friction::FrictionModel::gms:
-      break;
-  }
-  return false;
-}
-
 /// The loops of a machine before it slides, with this much more delay.
 std::vector<theory::FrozenLoop> loops_of(trial::TrialParameters p, double softest, double stiffest,
                                          double more_delay) {
   p.controller.delay += more_delay;
   std::vector<theory::FrozenLoop> loops;
-  if (!has_spring(p)) {
-    const bool free = p.friction.model == friction::FrictionModel::none;
+  if (!friction::has_spring(p.friction.model)) {
+    const bool free = !friction::has_friction(p.friction.model);
     for (const theory::TrialLoop& one : theory::trial_loops(p)) {
       if (!one.slides || free) loops.push_back(one.loop);
     }
@@ -134,7 +119,7 @@ std::pair<double, double> stiffness_range(const trial::TrialParameters& p, doubl
 LoopExaminer::LoopExaminer(const study::Study& study, std::int64_t machines) {
   const trial::TrialParameters first = study::study_trial(study, 0, 0).parameters;
   if (theory::has_no_linear_loop(first)) return;
-  const bool alike = has_spring(first) && differ_in_stiffness_alone(study);
+  const bool alike = friction::has_spring(first.friction.model) && differ_in_stiffness_alone(study);
   examined_ = alike ? machines : std::min(machines, most_unlike_machines);
   machines_.resize(static_cast<std::size_t>(examined_));
   oneapi::tbb::parallel_for(std::int64_t{0}, examined_, [&](std::int64_t i) {

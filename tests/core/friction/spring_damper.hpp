@@ -18,6 +18,11 @@ class SpringDamper : public friction::WithoutCreepAndReversals {
   static constexpr bool has_sliding_damping = false;
   static constexpr bool remembers_loading = false;
   static constexpr friction::Breakaway breakaway = friction::Breakaway::never;
+  static friction::LinearContacts linear_contacts(const motion::PlantParameters& plant,
+                                                  const friction::FrictionAlongRotor&,
+                                                  const friction::FrictionParameters& contact) {
+    return {{"at k", contact.k1, plant.presliding_damping}};
+  }
 
   struct Expansion {
     numerics::Series position{};  // θ

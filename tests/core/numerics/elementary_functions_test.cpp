@@ -65,7 +65,7 @@ TEST(ElementaryFunctions, LogarithmsAndPowersAreWithinOneUnitOfTheLastPlace) {
       const double y = draws.uniform(-1.0, 1.0) * std::min(690.0 / std::abs(std::log(x)), 1e6);
       const long double wide_x = x;
       ASSERT_LE(distance(numerics::log(x), std::log(wide_x)), 0.52) << x;
-      ASSERT_LE(distance(numerics::pow(x, y), std::pow(wide_x, static_cast<long double>(y))), 0.52)
+      ASSERT_LE(distance(numerics::pow(x, y), std::pow(wide_x, static_cast<long double>(y))), 0.54)
           << x << ' ' << y;
     }
   }

@@ -124,13 +124,15 @@ TEST(Fields, ScatterIsTheReverseOfGather) {
   std::vector<trial::MoveOutcome> moves_back(moves.size());
   const auto& measures = layout::outcome_fields(layout::format_version, study.features);
   for (const layout::RecordField<trial::MoveOutcome>& field : measures) {
-    layout::scatter(field, layout::gather(field, std::span<const trial::MoveOutcome>(moves)),
+    layout::scatter(field,
+                    layout::columns_of<trial::MoveOutcome>({field}, layout::pointers_to(moves)).front(),
                     std::span(moves_back));
   }
   expect_equal_records(measures, moves, moves_back);
   std::vector<layout::TraceRecord> records_back(records.size());
   for (const layout::RecordField<layout::TraceRecord>& field : layout::trace_fields(study.features)) {
-    layout::scatter(field, layout::gather(field, std::span<const layout::TraceRecord>(records)),
+    layout::scatter(field,
+                    layout::columns_of<layout::TraceRecord>({field}, layout::pointers_to(records)).front(),
                     std::span(records_back));
   }
   expect_equal_records(layout::trace_fields(study.features), records, records_back);

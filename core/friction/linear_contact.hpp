@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "core/friction/parameters.hpp"
+#include "core/motion/parameters.hpp"
+
+namespace zerocount::friction {
+
+/// A contact that does not change: a spring and a damper, or the damper alone.
+struct LinearContact {
+  std::string_view name;
+  double stiffness;    ///< N m/rad
+  double damping;      ///< N m s/rad
+  bool slides{false};  ///< the contact yields: no stiffness
+};
+
+/// The contacts that approximate a law, from the softest to the stiffest before it slides, and while it
+/// slides.
+using LinearContacts = std::vector<LinearContact>;
+
+/// The stiffest contact; one without stiffness and damping where there is none before it slides.
+inline LinearContact stiffest_of(const LinearContacts& contacts) {
+  LinearContact stiffest{"", 0.0, 0.0};
+  for (const LinearContact& contact : contacts)
+    if (contact.stiffness > stiffest.stiffness) stiffest = contact;
+  return stiffest;
+}
+
+/// While a hook slides, with the damping cs.
+inline LinearContact sliding_contact(const motion::PlantParameters& plant) {
+  return {"while sliding", 0.0, plant.sliding_damping, true};
+}
+
+/// Of a hysteretic spring with k1 and k2.
+inline LinearContacts contacts_of_spring(const motion::PlantParameters& plant, const FrictionAlongRotor&,
+                                         const FrictionParameters& contact) {
+  const double damping = plant.presliding_damping;
+  return {{"at k1", contact.k1, damping},
+          {"at k1 + k2", contact.k1 + contact.k2, damping},
+          sliding_contact(plant)};
+}
+
+}  // namespace zerocount::friction

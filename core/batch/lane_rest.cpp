@@ -46,8 +46,7 @@ RestAhead rest_ahead(const LanePlant::Rest& rest) {
 double time_within_count(const BatchState& batch, int lane, const RestAhead& rest, const LanePlant& plant) {
   const LoopLanes& l = batch.loop;
   const double low = (l.count[lane] - l.phase[lane]) * l.resolution[lane];
-  const friction::ResidualOscillation::State oscillation =
-      friction::oscillation_at(rest.oscillation, rest.elapsed);
+  const friction::ResidualOscillation::State& oscillation = plant.oscillation();
   const double slow_theta = plant.theta() - oscillation.elongation - oscillation.extension;
   const double above = low + l.resolution[lane] - slow_theta;
   const double below = slow_theta - low;
@@ -107,8 +106,7 @@ struct SlowMotion {
 SlowMotion slow_motion(const LanePlant& plant) {
   const friction::PlantMotion motion = plant.motion();
   const LanePlant::Rest& rest = *plant.rest();
-  const friction::ResidualOscillation::State oscillation =
-      friction::oscillation_at(rest.oscillation, rest.time);
+  const friction::ResidualOscillation::State& oscillation = plant.oscillation();
   return {motion.elongation - oscillation.elongation, motion.creep.extension - oscillation.extension,
           motion.creep.hardening - rest.creep.sign * oscillation.extension};
 }
@@ -214,19 +212,24 @@ bool rest(BatchState& batch, int lane, LaneTrial& trial, const PassedSample& pas
   double i = 0.0;
   double to_next = to_first;
   bool edge_is_next = false;
-  const auto stays_within = [&](double samples) {
-    return count_at(batch, lane, plant.theta_at_rest(to_next + (samples - 1.0) * sample_time)) == count;
+  const auto point_after = [&](double samples) {
+    return plant.point_at_rest(to_next + (samples - 1.0) * sample_time);
+  };
+  const auto stays_within = [&](const LanePlant::RestPoint& point) {
+    return count_at(batch, lane, plant.theta_at(point)) == count;
   };
   bool same = true;
   while (same && i < max_samples) {
     double ahead = 1.0;
     if (!edge_is_next && max_samples - i > 1.0)
       ahead = std::clamp(samples_within_count(batch, lane, plant, to_next), 1.0, max_samples - i);
+    LanePlant::RestPoint point = point_after(ahead);
     // The edge may be nearer than estimated.
-    for (double back = 1.0; ahead > 1.0 && !stays_within(ahead); back *= 2.0) {
+    for (double back = 1.0; ahead > 1.0 && !stays_within(point); back *= 2.0) {
       ahead = std::max(1.0, ahead - back);
+      point = point_after(ahead);
     }
-    plant.advance(motion::constant_torque(torque), to_next + (ahead - 1.0) * sample_time);
+    plant.go_to(point);
     same = count_at(batch, lane, plant.theta()) == count;
     edge_is_next = ahead > 1.0;
     i += ahead;

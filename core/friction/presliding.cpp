@@ -100,7 +100,7 @@ void PreslidingFriction::re_stick() {
 double PreslidingFriction::stick(const motion::TorqueCourse& torque, double duration) {
   const bool constant = motion::is_steady(torque);
   if (rest_ && constant && torque.now == rest_->torque) {
-    go_on_at_rest(duration);
+    go_to(point_at_rest(duration));
     motion::let_load_follow(torque, omega_);
     return duration;
   }
@@ -113,7 +113,7 @@ double PreslidingFriction::stick(const motion::TorqueCourse& torque, double dura
         motion::load_is_quiet(torque, omega_, plant_.inertia, 0.5 * contact_.k1 * tolerance_.rest,
                               -contact_.alpha * creep_rate_now);
     if (quiet && begin_rest(torque.now, elongation, was_at_rest, torque.load == nullptr)) {
-      go_on_at_rest(duration);
+      go_to(point_at_rest(duration));
       motion::let_load_follow(torque, omega_);
       return duration;
     }

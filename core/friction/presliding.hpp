@@ -101,8 +101,21 @@ class PreslidingFriction {
   bool come_to_rest(double torque, bool at_reversal);
   /// Empty while the rotor is not at rest.
   const std::optional<Rest>& rest() const { return rest_; }
-  /// θ (rad) after another `time` (s) at rest.
-  double theta_at_rest(double time) const;
+  /// The motion at rest at a later time.
+  struct RestPoint {
+    double time;    ///< since the rest began, s
+    double rate;    ///< of creep, rad/s; 0 without it
+    double growth;  ///< of creep since the rest began, rad
+    ResidualOscillation::State oscillation;
+  };
+  /// After another `time` (s) at rest.
+  RestPoint point_at_rest(double time) const;
+  /// θ (rad) there.
+  double theta_at(const RestPoint& point) const;
+  /// Goes on at rest to a point.
+  void go_to(const RestPoint& point);
+  /// The present deviation from quasi-static creep; zero except at rest.
+  const ResidualOscillation::State& oscillation() const { return oscillation_; }
   /// At rest, its elongation is that of quasi-static creep, without the residual oscillation.
   HystereticSpring& spring() { return spring_; }
 
@@ -155,7 +168,6 @@ class PreslidingFriction {
   double elongation() const { return spring_.elongation() + oscillation_.elongation; }
   bool leave_rest();
   double switch_creep();
-  void go_on_at_rest(double duration);
   bool at_rest(const Elongation& elongation) const;
   double time_at_rest(const Elongation& elongation, const motion::TorqueCourse& torque,
                       double duration) const;

@@ -183,37 +183,43 @@ std::optional<CreepAtRest> PreslidingFriction::slow_motion(double torque, double
   return error < 0.1 * tolerance_.rest ? creep : std::nullopt;
 }
 
-double PreslidingFriction::theta_at_rest(double time) const {
-  const CreepAtRest& creep = rest_->creep;
+PreslidingFriction::RestPoint PreslidingFriction::point_at_rest(double time) const {
   const double later = rest_->time + time;
-  double slow = hook_ + spring_.elongation() + slow_creep(creep.sign).extension;
-  if (creep.rate > 0.0 && creeping_) {
-    const double rate = creep_rate_after(creep, later);
-    const double torque = creep.sign * spring_torque_at_rate(creep, rate);
-    const bool moves = creep.sign * (torque - spring_.torque()) > 0.0;
-    const double elongation = moves ? spring_.point_at_torque(torque).elongation : spring_.elongation();
-    slow = hook_ + elongation + rest_->start.extension + creep.sign * creep_until_rate(creep, rate);
+  RestPoint point{later, 0.0, 0.0, oscillation_at(rest_->oscillation, later)};
+  if (rest_->creep.rate > 0.0 && creeping_) {
+    point.rate = creep_rate_after(rest_->creep, later);
+    point.growth = creep_until_rate(rest_->creep, point.rate);
   }
-  const ResidualOscillation::State oscillation = oscillation_at(rest_->oscillation, later);
-  return slow + oscillation.elongation + oscillation.extension;
+  return point;
 }
 
-void PreslidingFriction::go_on_at_rest(double duration) {
-  rest_->time += duration;
+double PreslidingFriction::theta_at(const RestPoint& point) const {
+  const CreepAtRest& creep = rest_->creep;
+  double slow = hook_ + spring_.elongation() + slow_creep(creep.sign).extension;
+  if (creep.rate > 0.0 && creeping_) {
+    const double torque = creep.sign * spring_torque_at_rate(creep, point.rate);
+    const bool moves = creep.sign * (torque - spring_.torque()) > 0.0;
+    const double elongation = moves ? spring_.point_at_torque(torque).elongation : spring_.elongation();
+    slow = hook_ + elongation + rest_->start.extension + creep.sign * point.growth;
+  }
+  return slow + point.oscillation.elongation + point.oscillation.extension;
+}
+
+void PreslidingFriction::go_to(const RestPoint& point) {
+  rest_->time = point.time;
   const CreepAtRest& creep = rest_->creep;
   creep_ = slow_creep(creep.sign);
   double rate = 0.0;
   if (creep.rate > 0.0 && creeping_) {
-    rate = creep_rate_after(creep, rest_->time);
-    const double growth = creep_until_rate(creep, rate);
-    creep_ = {rest_->start.extension + creep.sign * growth, rest_->start.hardening + growth};
+    rate = point.rate;
+    creep_ = {rest_->start.extension + creep.sign * point.growth, rest_->start.hardening + point.growth};
     spring_.move_on_to_torque(creep.sign * spring_torque_at_rate(creep, rate));
     if (rate < 0.5 * tolerance_.elongation * creep.g1) {
       end_creep();
       rate = 0.0;
     }
   }
-  oscillation_ = oscillation_at(rest_->oscillation, rest_->time);
+  oscillation_ = point.oscillation;
   creep_ = {creep_.extension + oscillation_.extension,
             creep_.hardening + creep.sign * oscillation_.extension};
   omega_ = creep.sign * velocity_at_rate(creep, rate) + oscillation_.velocity;

@@ -75,12 +75,12 @@ inline double oscillation_bound(const ResidualOscillation& oscillation, double t
 inline ResidualOscillation::State oscillation_at(const ResidualOscillation& oscillation, double t) {
   if (!(t < oscillation.end)) return {0.0, 0.0, 0.0};
   // a/a₀ = exp(−γt)/(1 + x) and ∫a/a₀ dt = log(1 + x)/(η·a₀), x = η·a₀·(1 − exp(−γt))/γ.
-  const double elapsed = -numerics::expm1(-oscillation.decay * t) / oscillation.decay;
+  const double decayed = -numerics::expm1(-oscillation.decay * t);
+  const double elapsed = decayed / oscillation.decay;
   const double x = oscillation.loss * elapsed;
-  const double amplitude = numerics::exp(-oscillation.decay * t) / (1.0 + x);
+  const double amplitude = (1.0 - decayed) / (1.0 + x);
   const double phase = oscillation.frequency * (t - oscillation.slowing * elapsed * (1.0 - 0.5 * x));
-  const double c = numerics::cos(phase);
-  const double s = numerics::sin(phase);
+  const auto [s, c] = numerics::sine_and_cosine(phase);
   const double q = amplitude * (oscillation.cosine * c + oscillation.sine * s);
   const double decay = oscillation.decay + oscillation.loss * amplitude;
   const double frequency = oscillation.frequency * (1.0 - oscillation.slowing * amplitude);

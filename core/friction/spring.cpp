@@ -19,10 +19,12 @@ SpringBranch virgin_branch(const FrictionParameters& friction, double sign) {
 
 /// u ≥ 0 with k1·u + softening_torque·(1 − exp(−softening_rate·u)) = torque ≥ 0. The law is increasing and
 /// concave, so Newton's iteration from below rises to the root without passing it; it ends when it no longer
-/// rises. It starts at the root for the constant stiffness of the start, or of the end, of the law.
-double travel_at(const SpringBranch& branch, double torque) {
+/// rises. It starts at the root for the constant stiffness of the start, or of the end, of the law, or at
+/// `at_least`: itself if it is above the root.
+double travel_at(const SpringBranch& branch, double torque,
+                 double at_least = -std::numeric_limits<double>::infinity()) {
   const double stiffest = branch.k1 + branch.softening_torque * branch.softening_rate;
-  double travel = std::max(torque / stiffest, (torque - branch.softening_torque) / branch.k1);
+  double travel = std::max({torque / stiffest, (torque - branch.softening_torque) / branch.k1, at_least});
   for (;;) {
     const double softened = -numerics::expm1(-branch.softening_rate * travel);
     const double missing = torque - branch.k1 * travel - branch.softening_torque * softened;
@@ -113,9 +115,10 @@ void HystereticSpring::move_on_to_torque(double torque) {
        end && direction_ * (torque - branch_end_torque()) >= -rounding; end = branch_end()) {
     move_on_branch(*end);
   }
-  const double travel = travel_at(branch_, branch_.sign * (torque - branch_.torque));
+  const double here = travel_ahead(branch_, direction_);
+  const double travel = travel_at(branch_, branch_.sign * (torque - branch_.torque), here);
   const double x = branch_.elongation + branch_.sign * travel;
-  if (direction_ * (x - elongation_) > 0.0) move_on_branch(x);
+  if (travel > here && direction_ * (x - elongation_) > 0.0) move_on_branch(x);
 }
 
 void HystereticSpring::settle_at_torque(double torque) {
@@ -133,9 +136,15 @@ HystereticSpring::PointOnBranch HystereticSpring::point_at_torque(double torque)
   const SpringBranch branch =
       depth > 0 ? branch_from(friction_, point(depth - 1).elongation, point(depth - 1).torque, direction)
                 : virgin_branch(friction_, torque < 0.0 ? -1.0 : 1.0);
-  const double x =
-      branch.elongation + branch.sign * travel_at(branch, branch.sign * (torque - branch.torque));
+  const double x = branch.elongation + branch.sign * travel_at(branch, branch.sign * (torque - branch.torque),
+                                                               travel_ahead(branch, direction));
   return {x, stiffness_on(branch, x)};
+}
+
+/// The travel (rad) on a branch up to the present elongation, if moving in `direction` lengthens it;
+/// otherwise none, below all travels.
+double HystereticSpring::travel_ahead(const SpringBranch& branch, int direction) const {
+  return branch.sign == direction ? travel_on(branch, elongation_) : -std::numeric_limits<double>::infinity();
 }
 
 /// σ at branch_end(), N m.

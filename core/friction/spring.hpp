@@ -103,6 +103,7 @@ class HystereticSpring {
   PointOnBranch point_at_torque(double torque) const;
 
  private:
+  double travel_ahead(const SpringBranch& branch, int direction) const;
   double branch_end_torque() const;
   void select_branch();
   void close_loops();

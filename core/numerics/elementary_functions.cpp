@@ -97,6 +97,42 @@ Sum logarithm(double x) noexcept {
   return exact_sum(sum.high, low);
 }
 
+/// x − n·π/2, |x| < 10⁵, as a sum: π/2 in three parts, of which the first two have 33 bits, so that their
+/// multiples are exact (Cody and Waite, Software Manual for the Elementary Functions, 1980).
+Sum reduced(double x, double n) noexcept {
+  const double first = x - n * 0x1.921fb54400000p+0;
+  const double second = n * 0x1.0b4611a600000p-34;
+  const double high = first - second;
+  const double part = high - first;
+  const double error = (first - (high - part)) - (second + part);
+  const double low = error - n * 0x1.3198a2e037073p-69;
+  return exact_sum(high, low);
+}
+
+/// The series of sin(x + error) to x¹⁷, |x| ≤ π/4.
+double small_sine(const Sum& x) noexcept {
+  const double x2 = x.high * x.high;
+  const double x4 = x2 * x2;
+  const double series = (-1.0 / 6.0 + x2 * (1.0 / 120.0)) +
+                        x4 * ((-1.0 / 5040.0 + x2 * (1.0 / 362880.0)) +
+                              x4 * ((-1.0 / 39916800.0 + x2 * (1.0 / 6227020800.0)) +
+                                    x4 * (-1.0 / 1307674368000.0 + x2 * (1.0 / 355687428096000.0))));
+  return x.high + (x.high * x2 * series + x.low * (1.0 - 0.5 * x2));
+}
+
+/// The series of cos(x + error) to x¹⁸, |x| ≤ π/4.
+double small_cosine(const Sum& x) noexcept {
+  const double x2 = x.high * x.high;
+  const double x4 = x2 * x2;
+  const double series = (1.0 / 24.0 - x2 * (1.0 / 720.0)) +
+                        x4 * ((1.0 / 40320.0 - x2 * (1.0 / 3628800.0)) +
+                              x4 * ((1.0 / 479001600.0 - x2 * (1.0 / 87178291200.0)) +
+                                    x4 * (1.0 / 20922789888000.0 - x2 * (1.0 / 6402373705728000.0))));
+  const double half = 0.5 * x2;
+  const double high = 1.0 - half;
+  return high + (((1.0 - high) - half) + (x4 * series - x.high * x.low));
+}
+
 }  // namespace
 
 double exp(double x) noexcept {
@@ -164,6 +200,26 @@ double tan(double x) noexcept {
 }
 double asin(double x) noexcept {
   return Sleef_cinz_asind1_u10purec(x);
+}
+
+SineAndCosine sine_and_cosine(double x) noexcept {
+  constexpr double quarters = 0x1.45f306dc9c883p-1;  // 2/π
+  if (!(std::abs(x) < 1e5)) return {sin(x), cos(x)};
+  constexpr double to_whole = 0x1.8p52;
+  const double n = (x * quarters + to_whole) - to_whole;
+  const Sum r = reduced(x, n);
+  const double sine = small_sine(r);
+  const double cosine = small_cosine(r);
+  switch (static_cast<int>(n) & 3) {
+    case 0:
+      return {sine, cosine};
+    case 1:
+      return {cosine, -sine};
+    case 2:
+      return {-sine, -cosine};
+    default:
+      return {-cosine, sine};
+  }
 }
 
 }  // namespace zerocount::numerics

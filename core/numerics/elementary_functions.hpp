@@ -25,4 +25,11 @@ double cos(double x) noexcept;
 double tan(double x) noexcept;
 double asin(double x) noexcept;
 
+struct SineAndCosine {
+  double sine;
+  double cosine;
+};
+/// Both, in less than the time of sin alone.
+SineAndCosine sine_and_cosine(double x) noexcept;
+
 }  // namespace zerocount::numerics

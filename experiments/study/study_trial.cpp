@@ -157,7 +157,9 @@ StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int
   check_exists(study, point, index);
   const StudyPlan& plan = *study.plan;
   const TrialDraws draws = draws_of(study, point, index, given);
-  const std::vector<const Value*> values = values_at(plan, static_cast<std::size_t>(point));
+  const auto value_of = [&](std::size_t slot) -> const Value& {
+    return *value_at_point(plan, slot, static_cast<std::size_t>(point));
+  };
   std::vector<double> numbers = plan.numbers;
 
   StudyTrial trial{.parameters = plan.common, .inputs = {}};
@@ -169,7 +171,7 @@ StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int
     if (const auto& set_field = plan.table.rows[slot].set) set_field(trial.parameters, number);
   };
   for (const std::uint32_t slot : plan.input_slots) {
-    const Value& value = *values[slot];
+    const Value& value = value_of(slot);
     if (value.kind == Value::Kind::number) {
       set(slot, value.number);
     } else if (value.kind == Value::Kind::distribution) {
@@ -181,7 +183,7 @@ StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int
   }
   // Profiles come last, because they depend on the start position.
   for (const std::uint32_t slot : plan.input_slots) {
-    const Value& value = *values[slot];
+    const Value& value = value_of(slot);
     if (value.kind != Value::Kind::profile) continue;
     const std::shared_ptr<const friction::Profile> profile =
         plan.profiles[value.index]->rotor(static_cast<std::int64_t>(rotor_of(draws, value)));
@@ -192,7 +194,7 @@ StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int
   set_resolution(numbers, trial.parameters.dac);
   trial.inputs.reserve(plan.inputs.size());
   for (const InputSource& source : plan.inputs) {
-    trial.inputs.push_back(source.profile_mean ? profile_mean(draws, *values[source.slot])
+    trial.inputs.push_back(source.profile_mean ? profile_mean(draws, value_of(source.slot))
                                                : numbers[source.slot]);
   }
   return trial;

@@ -83,6 +83,9 @@ void gather(const RecordField<Record>& field, std::span<const Record* const> rec
       field.member);
 }
 
+/// So few records stay in the cache while all of their fields are copied.
+inline constexpr std::size_t records_at_a_time = 32;
+
 /// [field] The columns of the records, as the bytes of their elements.
 template <class Record>
 std::vector<std::vector<std::byte>> columns_of(const std::vector<RecordField<Record>>& fields,
@@ -91,10 +94,8 @@ std::vector<std::vector<std::byte>> columns_of(const std::vector<RecordField<Rec
   columns.reserve(fields.size());
   for (const RecordField<Record>& field : fields)
     columns.emplace_back(records.size() * hdf5::size_of(field.column.element));
-  // A few records at a time, which stay in the cache for all of their fields.
-  constexpr std::size_t at_a_time = 32;
-  for (std::size_t first = 0; first < records.size(); first += at_a_time) {
-    const auto some = records.subspan(first, std::min(at_a_time, records.size() - first));
+  for (std::size_t first = 0; first < records.size(); first += records_at_a_time) {
+    const auto some = records.subspan(first, std::min(records_at_a_time, records.size() - first));
     for (std::size_t i = 0; i < fields.size(); ++i)
       gather(fields[i], some, columns[i].data() + first * hdf5::size_of(fields[i].column.element));
   }
@@ -118,6 +119,20 @@ void scatter(const RecordField<Record>& field, std::span<const std::byte> bytes,
         }
       },
       field.member);
+}
+
+/// The reverse of columns_of().
+template <class Record>
+void scatter_all(const std::vector<RecordField<Record>>& fields,
+                 const std::vector<std::vector<std::byte>>& columns, std::span<Record> records) {
+  for (std::size_t first = 0; first < records.size(); first += records_at_a_time) {
+    const std::span<Record> some =
+        records.subspan(first, std::min(records_at_a_time, records.size() - first));
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      const std::size_t size = hdf5::size_of(fields[i].column.element);
+      scatter(fields[i], std::span(columns[i]).subspan(first * size, some.size() * size), some);
+    }
+  }
 }
 
 }  // namespace zerocount::layout

@@ -107,8 +107,8 @@ std::vector<Record> read_records(const TableIo& io, const std::vector<RecordFiel
   hdf5::read_rows(columns);
   for (std::size_t index = 0; index < fields.size(); ++index) {
     if (fields[index].column.element == hdf5::Element::flag) require_flags(io, index, first, bytes[index]);
-    scatter(fields[index], bytes[index], std::span(records));
   }
+  scatter_all(fields, bytes, std::span(records));
   return records;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -69,6 +70,20 @@ TEST(ElementaryFunctions, LogarithmsAndPowersAreWithinOneUnitOfTheLastPlace) {
           << x << ' ' << y;
     }
   }
+}
+
+TEST(ElementaryFunctions, SineAndCosineAreWithinOneUnitOfTheLastPlace) {
+  Draws draws(1806);
+  const auto expect_both = [](double x) {
+    const long double wide = x;
+    const numerics::SineAndCosine both = numerics::sine_and_cosine(x);
+    ASSERT_LE(distance(both.sine, std::sin(wide)), 1.0) << x;
+    ASSERT_LE(distance(both.cosine, std::cos(wide)), 1.0) << x;
+  };
+  for (const double range : {1e-9, 0.1, 0.79, 1.6, 100.0, 99999.0, 1e7})
+    for (int round = 0; round < 20000; ++round) expect_both(draws.uniform(-range, range));
+  // Beside the zeros.
+  for (int quarter = -60000; quarter < 60000; quarter += 7) expect_both(quarter * 0.5 * std::numbers::pi);
 }
 
 TEST(ElementaryFunctions, OfTwoArgumentsAreTooAndPowersOfWholeNumbersAreExact) {

@@ -131,7 +131,7 @@ void PointAccumulator::add_measures(std::span<const trial::MoveOutcome> moves, s
 
 void PointAccumulator::add_measures_in_tasks(std::span<const trial::MoveOutcome> moves,
                                              std::size_t moves_of_trial) {
-  // So many moves stay in the cache while all measures are added.
+  // Few enough moves to stay in the cache while all measures are added.
   constexpr std::size_t moves_at_a_time = 1024;
   const std::size_t trials_at_a_time = std::max<std::size_t>(1, moves_at_a_time / moves_of_trial);
   while (!moves.empty()) {

@@ -33,7 +33,7 @@ struct Travel {
 
 Travel travel_of(const trial::TrialParameters& p) {
   Travel travel;
-  if (p.command.profile.shape != loop::ReferenceShape::step || !why_outside_theory(p).empty()) return travel;
+  if (p.command.profile.shape != loop::ReferenceShape::step || is_outside_theory(p)) return travel;
   std::int64_t before = 0;
   for (const std::int64_t target : p.command.targets) {
     travel.step = std::max(travel.step, static_cast<double>(std::abs(target - before)));

@@ -14,8 +14,8 @@ namespace zerocount::theory {
 
 TrialPrediction predict(const trial::TrialParameters& parameters) {
   TrialPrediction prediction;
-  prediction.applies = why_outside_theory(parameters).empty() &&
-                       left_out_of_criteria(parameters.plant, parameters.controller).empty();
+  prediction.applies =
+      !is_outside_theory(parameters) && left_out_of_criteria(parameters.plant, parameters.controller).empty();
   if (!prediction.applies) return prediction;
   const friction::FrictionParameters contact =
       friction::friction_at(parameters.friction, parameters.initial.position);

@@ -18,7 +18,7 @@ namespace zerocount::theory {
 /// k1 and k2 are those at the start of the trial: within one pre-sliding range they do not change (paper,
 /// QN2). The paper's advice to use the lowest k1 of the working area is for a design.
 struct TrialPrediction {
-  /// Whether the criteria apply: why_outside_theory() and left_out_of_criteria() are empty.
+  /// Whether the criteria apply: not is_outside_theory(), and left_out_of_criteria() is empty.
   bool applies{true};
   IntegralGainBounds bounds;  ///< N m/count
   bool stable{false};         ///< (6): 0 < ki < bounds.stable_below

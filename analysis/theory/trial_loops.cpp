@@ -13,11 +13,15 @@ bool has_no_linear_loop(const trial::TrialParameters& parameters) {
   return parameters.controller.user.plugin || !parameters.command.torque.levels.empty();
 }
 
+bool is_outside_theory(const trial::TrialParameters& parameters) {
+  return has_no_linear_loop(parameters) || !friction::has_spring(parameters.friction.model);
+}
+
 std::string why_outside_theory(const trial::TrialParameters& parameters) {
+  if (!is_outside_theory(parameters)) return "";
   if (parameters.controller.user.plugin)
     return "the controller is a plugin, whose transfer function is not known";
   if (!parameters.command.torque.levels.empty()) return "the loop is open";
-  if (friction::has_spring(parameters.friction.model)) return {};
   if (friction::traits_of(parameters.friction.model).has_presliding_motion)
     return "the spring of this friction.model yields by degrees, from its full stiffness to none, not to k1";
   return fmt::format("friction.model {} has no spring, which criteria (6) and (7) are about",

@@ -12,8 +12,11 @@ namespace zerocount::theory {
 /// Whether the loop is open, or the controller a plugin, whose transfer function is not known.
 bool has_no_linear_loop(const trial::TrialParameters& parameters);
 
-/// Why criteria (6) and (7) do not apply to this trial: "the loop is open", …; empty where its loop is linear
-/// about a pre-sliding spring. It is equal in all trials of a point.
+/// Whether criteria (6) and (7) do not apply to this trial, because its loop is not linear about a
+/// pre-sliding spring. It is equal in all trials of a point.
+bool is_outside_theory(const trial::TrialParameters& parameters);
+
+/// Why it is outside: "the loop is open", …; empty if it is not.
 std::string why_outside_theory(const trial::TrialParameters& parameters);
 
 /// The linear model of the trial's converter and amplifier.

@@ -68,7 +68,7 @@ std::string_view lacking(const trial::CommandParameters& command) {
   return targets.empty() ? "no moves" : "";
 }
 
-/// Of a trial whose friction model has lanes.
+/// What lanes lack for a trial, empty if nothing; its friction model has lanes.
 std::string_view lacking(const trial::TrialParameters& p, LaneMotion motion) {
   [[maybe_unused]] const auto& [plant, friction, encoder, dac, amplifier, controller, command, initial,
                                 verdict, randomness, disturbance] = p;

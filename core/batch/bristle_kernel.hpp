@@ -84,7 +84,7 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
     const P unbalanced = torque - stiffness * deflection_start - bristle_damping * rate - damping * omega;
     h = min(h, stribeck_step(omega, abs(unbalanced) * per_inertia, stribeck_velocity, per_velocity_squared));
   }
-  h = without_small_rest(h, time_to_stop);
+  h = without_short_remainder(h, time_to_stop);
   const P force_scale = h * h * per_inertia;
   const P damping_scale = h * per_inertia;
   const P per_step_squared = per_velocity_squared / (h * h);

@@ -43,7 +43,7 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
     h = min(min(at.load(time.next_step),
                 stribeck_step(omega, acceleration, stribeck_velocity, per_velocity_squared)),
             time_to_stop);
-    h = without_small_rest(h, time_to_stop);
+    h = without_short_remainder(h, time_to_stop);
   }
   const P force_scale = h * h * per_inertia;
   const P damping_scale = damping * h * per_inertia;

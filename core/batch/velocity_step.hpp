@@ -34,9 +34,9 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask grows_too_much(const P* exponent) {
   return growth > max(P(6.0), P(-23.0) - exponent[0]);
 }
 
-/// Half of the time to the stop where a whole step would leave only a little of it.
+/// The step h, or half of the time to the stop where h would leave only a little of it.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE P without_small_rest(const P& h, const P& time_to_stop) {
+ZEROCOUNT_ALWAYS_INLINE P without_short_remainder(const P& h, const P& time_to_stop) {
   return select((h < time_to_stop) & (time_to_stop < P(1.4) * h), time_to_stop * P(0.5), h);
 }
 

@@ -8,7 +8,7 @@
 
 namespace zerocount::friction {
 
-/// Constants of a bristle; `fast` and `slow` are those of stribeck_series.hpp.
+/// Constants of a bristle; `fast` and `slow` are 8·ωs and 6.5·ωs (stribeck_series.hpp).
 struct BristleParameters {
   double stiffness;        ///< σ0, N m/rad
   double bristle_damping;  ///< σ1, N m s/rad
@@ -81,7 +81,6 @@ class Bristle : public WithoutCreepAndReversals {
   bool sliding() const;
   static std::int64_t breakaways() { return 0; }
   double deflection() const { return deflection_; }  ///< z, rad
-  const BristleParameters& parameters() const { return parameters_; }
 
  private:
   double direction_under(const motion::TorqueCourse& torque) const;

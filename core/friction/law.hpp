@@ -45,6 +45,7 @@ concept FrictionLaw = std::constructible_from<Law, const motion::PlantParameters
   { Law::has_sliding_damping } -> std::convertible_to<bool>;  // J·dω/dt = u − cs·ω − … at some time
   { Law::remembers_loading } -> std::convertible_to<bool>;    // slow torques before the start have an effect
   { Law::breakaway } -> std::convertible_to<Breakaway>;
+  // Springs and dampers that approximate it. A law of one bristle also has bristle(plant, contact).
   {
     Law::linear_contacts(motion::PlantParameters{}, FrictionAlongRotor{}, FrictionParameters{})
     } -> std::same_as<LinearContacts>;

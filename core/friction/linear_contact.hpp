@@ -28,12 +28,12 @@ inline LinearContact stiffest_of(const LinearContacts& contacts) {
   return stiffest;
 }
 
-/// While a hook slides, with the damping cs.
+/// The contact of a sliding hook: the damping cs alone.
 inline LinearContact sliding_contact(const motion::PlantParameters& plant) {
   return {"while sliding", 0.0, plant.sliding_damping, true};
 }
 
-/// Of a hysteretic spring with k1 and k2.
+/// The linear contacts of a hysteretic spring.
 inline LinearContacts contacts_of_spring(const motion::PlantParameters& plant, const FrictionAlongRotor&,
                                          const FrictionParameters& contact) {
   const double damping = plant.presliding_damping;

@@ -108,7 +108,7 @@ class PreslidingFriction {
     double growth;  ///< of creep since the rest began, rad
     ResidualOscillation::State oscillation;
   };
-  /// After another `time` (s) at rest.
+  /// After another `time` (s) at rest. Called at rest only, as the next two.
   RestPoint point_at_rest(double time) const;
   /// θ (rad) there.
   double theta_at(const RestPoint& point) const;

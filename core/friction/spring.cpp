@@ -132,7 +132,9 @@ HystereticSpring::PointOnBranch HystereticSpring::point_at_torque(double torque)
   const auto point = [&](std::size_t i) { return i < stack_.size() ? stack_[i] : here; };
   std::size_t depth = stack_.size() + (reverses ? 1 : 0);
   while (depth >= 2 && direction * (torque - point(depth - 2).torque) >= 0.0) depth -= 2;
-  if (depth == 1 && direction * (torque + point(0).torque) >= 0.0) depth = 0;
+  // The virgin curve goes on beyond the mirror image of the first reversal point, where that lies ahead.
+  const bool mirrored = depth == 1 && direction * point(0).torque <= 0.0;
+  if (mirrored && direction * (torque + point(0).torque) >= 0.0) depth = 0;
   const SpringBranch branch =
       depth > 0 ? branch_from(friction_, point(depth - 1).elongation, point(depth - 1).torque, direction)
                 : virgin_branch(friction_, torque < 0.0 ? -1.0 : 1.0);

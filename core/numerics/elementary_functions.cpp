@@ -181,6 +181,9 @@ double pow(double x, double y) noexcept {
       return e.scale + e.scale * e.excess;
     }
   }
+  return pow_of_draws(x, y);
+}
+double pow_of_draws(double x, double y) noexcept {
   return Sleef_cinz_powd1_u10purec(x, y);
 }
 double cbrt(double x) noexcept {

@@ -34,8 +34,8 @@ class Real : boost::ordered_field_operators<Real> {
   friend std::ostream& operator<<(std::ostream& stream, Real a) { return stream << a.value_; }
 
   friend Real exp(Real x) { return numerics::exp_of_draws(x.value_); }
-  friend Real log(Real x) { return numerics::log(x.value_); }
-  friend Real pow(Real x, Real y) { return numerics::pow(x.value_, y.value_); }
+  friend Real log(Real x) { return numerics::log_of_draws(x.value_); }
+  friend Real pow(Real x, Real y) { return numerics::pow_of_draws(x.value_, y.value_); }
   friend Real sin(Real x) { return numerics::sin(x.value_); }
   friend Real asin(Real x) { return numerics::asin(x.value_); }
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <memory>
 #include <new>
+#include <string_view>
 
 #include <libdeflate.h>
 
@@ -57,23 +57,28 @@ void unshuffle(std::size_t element_size, std::span<const std::byte> shuffled, st
   }
 }
 
-/// Whether the bytes look like random ones, which deflate cannot compress: the χ² of their frequencies is
-/// that of random bytes (255 ± 23), neither larger nor, as in a sequence that repeats, smaller.
-bool look_random(std::span<const std::byte> bytes) {
+constexpr std::size_t page = 4096;
+
+/// Whether the first page looks random, so that deflate cannot compress it: the χ² of the frequencies of its
+/// bytes is that of random ones (255 ± 23), and its start does not come again within the distance at which
+/// deflate finds repetitions. (The draws of a trial come again at each design point.)
+bool starts_randomly(std::span<const std::byte> bytes) {
   std::array<std::uint32_t, 256> counts{};
-  for (const std::byte byte : bytes) ++counts[std::to_integer<std::size_t>(byte)];
-  const double expected = static_cast<double>(bytes.size()) / 256.0;
+  for (const std::byte byte : bytes.first(page)) ++counts[std::to_integer<std::size_t>(byte)];
+  constexpr double expected = static_cast<double>(page) / 256.0;
   double chi_square = 0.0;
   for (const std::uint32_t count : counts) chi_square += (count - expected) * (count - expected) / expected;
-  return 140.0 < chi_square && chi_square < 1700.0;
+  if (chi_square < 110.0 || chi_square > 400.0) return false;
+  constexpr std::size_t window = 32768;
+  constexpr std::size_t sample = 8;
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), std::min(bytes.size(), window));
+  return text.find(text.substr(0, sample), 1) == std::string_view::npos;
 }
-
-constexpr std::size_t page = 4096;
 
 /// Length of the pages at the front that look random: after shuffle, those of the low digits of doubles.
 std::size_t random_front(std::span<const std::byte> bytes) {
   std::size_t length = 0;
-  while (length + page <= bytes.size() && look_random(bytes.subspan(length, page))) length += page;
+  while (length + page <= bytes.size() && starts_randomly(bytes.subspan(length))) length += page;
   return length;
 }
 
@@ -133,9 +138,7 @@ std::optional<std::vector<std::byte>> encode_chunk(const ChunkFilters& filters,
   for (const unsigned shift : {0U, 8U, 16U, 24U})
     stored.push_back(static_cast<std::byte>(checksum >> shift & 0xffU));
   std::vector<std::byte> decoded(elements.size());
-  if (!decode_chunk(filters, stored, decoded) ||
-      std::memcmp(decoded.data(), elements.data(), elements.size()) != 0)
-    return std::nullopt;
+  if (!decode_chunk(filters, stored, decoded) || !std::ranges::equal(decoded, elements)) return std::nullopt;
   return stored;
 }
 

@@ -83,7 +83,7 @@ void gather(const RecordField<Record>& field, std::span<const Record* const> rec
       field.member);
 }
 
-/// So few records stay in the cache while all of their fields are copied.
+/// Few enough to stay in the cache while all of their fields are copied.
 inline constexpr std::size_t records_at_a_time = 32;
 
 /// [field] The columns of the records, as the bytes of their elements.

@@ -125,5 +125,12 @@ TEST(Distribution, OnlyIntegersAndChoicesOfThemAreWhole) {
   EXPECT_FALSE(whole_numbers_only(Uniform{0, 1}));
 }
 
+// A manifest keeps its trials: these bits are those of every version and processor.
+TEST(Distribution, HasTheSameBitsForEver) {
+  EXPECT_EQ(quantile(Normal{0, 1}, 0x1.8a65fb35a9954p-1), 0x1.7acfb2d51491dp-1);
+  EXPECT_EQ(quantile(Normal{0, 1}, 1e-6), -0x1.30381a9799f7ep+2);
+  EXPECT_EQ(quantile(Normal{0, 1}, 0.999), 0x1.8b8cbb720447p+1);
+}
+
 }  // namespace
 }  // namespace zerocount::distributions

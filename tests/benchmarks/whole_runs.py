@@ -5,8 +5,8 @@
 
 Each build runs the same manifests with one thread, by turns. A time is the CPU time of the user, for drawing, trials, statistics and
 files, less that of a run of one trial: the smallest, and the median of the ratios of each turn. The workloads are transient, creep and
-marginal (experiments/bench-*.yaml), each with three sets of distributions: as shipped; `uniform`, which no lever was chosen on; and
-`spread`, as in the manifest paper-gains. Another --seed draws them anew.
+marginal (experiments/bench-*.yaml), each with three sets of distributions: as shipped; `uniform`, with n = 2; and `spread`, with
+most spreads of the manifest paper-gains. Another --seed draws them anew.
 """
 
 import argparse

@@ -83,11 +83,9 @@ std::string second_mass_text(const Identification& identification) {
   if (!identification.residual_line) return "";
   const record_fit::ResidualLine& line = *identification.residual_line;
   return fmt::format(
-      "The residuals of the ring-downs of {} have a spectral line at {:.3g} Hz; the fitted axis itself rings "
-      "at "
-      "{:.3g} to {:.3g} Hz. A second mass on a spring is likely, such as a load (plant.load), a coupling or "
-      "the "
-      "base",
+      "The residuals of the ring-downs of {} have a spectral line at {:.3g} Hz; the fitted axis itself "
+      "rings at {:.3g} to {:.3g} Hz. A second mass on a spring is likely, such as a load (plant.load), "
+      "a coupling or the base",
       text::printable(identification.records[line.record].name), line.frequency,
       identification.own_ringing.low, identification.own_ringing.high);
 }

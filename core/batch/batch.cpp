@@ -68,7 +68,7 @@ std::string_view lacking(const trial::CommandParameters& command) {
   return targets.empty() ? "no moves" : "";
 }
 
-/// What lanes lack for a trial, empty if nothing; its friction model has lanes.
+/// The first feature of the trial that the lanes of its friction model lack; empty if they have all.
 std::string_view lacking(const trial::TrialParameters& p, LaneMotion motion) {
   [[maybe_unused]] const auto& [plant, friction, encoder, dac, amplifier, controller, command, initial,
                                 verdict, randomness, disturbance] = p;

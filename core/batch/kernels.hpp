@@ -18,8 +18,8 @@ struct MotionKernels {
 
 /// The kernels, compiled for one instruction set.
 struct Kernels {
-  LaneSet (*lanes_at_stop)(const BatchState&);
-  LaneSet (*fast_lanes)(const BatchState&);
+  LaneSet (*lanes_at_stop)(const BatchState&);         ///< and those without a trial
+  LaneSet (*fast_lanes)(const BatchState&);            ///< faster than ContactLanes::fast_velocity
   void (*sample)(BatchState&, const LaneSet&);         ///< with the PID law alone
   void (*sample_blocks)(BatchState&, const LaneSet&);  ///< with the blocks of the controller
   void (*sample_given)(BatchState&, const LaneSet&);   ///< what LaneLoop has decided

@@ -46,21 +46,22 @@ ZEROCOUNT_ALWAYS_INLINE P last_terms_of(const P* c) {
   return abs(c[batch_order - 1]) + abs(c[batch_order]);
 }
 
-/// A step of h seconds, of which the fraction x is used.
+/// A step and its control.
 template <class P>
 struct VelocityStep {
   using Mask = typename P::Mask;
   P time_to_stop;  ///< at its start, s
   P h;             ///< s
-  P x;
-  P left_out;     ///< truncation error
-  P allowed;      ///< largest truncation error
-  Mask inexact;   ///< left_out > allowed
-  Mask too_long;  ///< for this or another reason: nothing moves
-  Mask done;      ///< the motion goes on to x
-  Mask halts;     ///< ω is 0 at x
+  P x;             ///< fraction of the step that is used
+  P left_out;      ///< truncation error, rad
+  P allowed;       ///< largest truncation error, rad
+  Mask inexact;    ///< left_out > allowed
+  Mask too_long;   ///< for this or another reason: nothing moves
+  Mask done;       ///< the motion goes on to x
+  Mask halts;      ///< ω is 0 at x
 };
 
+/// Stores the time to the next stop after the step, and the length of the next one.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void store_time(BatchState& batch, const At& at, const VelocityStep<P>& s) {
   TimeLanes& time = batch.time;

@@ -33,7 +33,7 @@ std::vector<std::string_view> friction_model_labels();
 /// Whether there is friction at all.
 bool has_friction(FrictionModel model);
 
-/// Whether the contact is a spring before it slides.
+/// Whether the contact is a hysteretic spring (k1) before it slides, to which criteria (6) and (7) apply.
 bool has_spring(FrictionModel model);
 
 /// Whether the contact creeps before it slides.

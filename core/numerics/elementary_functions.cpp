@@ -148,13 +148,17 @@ double exp_of_draws(double x) noexcept {
 double expm1(double x) noexcept {
   constexpr double small = 0.02;
   if (std::abs(x) < small) return small_expm1(x);
-  if (!(std::abs(x) < max_table_argument)) return Sleef_cinz_expm1d1_u10purec(x);
+  if (!(std::abs(x) < max_table_argument)) return expm1_of_draws(x);
   const ScaledExponential e = scaled_exponential(x);
   // scale − 1 as a sum of two numbers (Knuth, The Art of Computer Programming 2, 4.2.2, theorem B).
   const double high = e.scale - 1.0;
   const double one = high - e.scale;
   const double low = (e.scale - (high - one)) - (1.0 + one);
   return high + (low + e.scale * e.excess);
+}
+
+double expm1_of_draws(double x) noexcept {
+  return Sleef_cinz_expm1d1_u10purec(x);
 }
 
 double log(double x) noexcept {

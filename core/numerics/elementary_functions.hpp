@@ -12,9 +12,9 @@ namespace zerocount::numerics {
 double exp(double x) noexcept;
 double expm1(double x) noexcept;
 double log(double x) noexcept;
-/// SLEEF's exp, log and pow. Parameters are drawn with them, so that a manifest keeps the trials of earlier
-/// versions.
+/// SLEEF's functions. What differs between trials is drawn with them, so that a manifest keeps its draws.
 double exp_of_draws(double x) noexcept;
+double expm1_of_draws(double x) noexcept;
 double log_of_draws(double x) noexcept;
 double pow_of_draws(double x, double y) noexcept;
 double log1p(double x) noexcept;
@@ -30,7 +30,7 @@ struct SineAndCosine {
   double sine;
   double cosine;
 };
-/// The sine and the cosine of x, in less time than sin(x) alone.
+/// The sine and the cosine of x (rad), in less time than sin(x) alone.
 SineAndCosine sine_and_cosine(double x) noexcept;
 
 }  // namespace zerocount::numerics

@@ -16,8 +16,9 @@ constexpr double two_pi = 2.0 * std::numbers::pi;
 /// S at the frequency f (Hz) between two points.
 double density_between(const SpectrumPoint& a, const SpectrumPoint& b, double f) {
   if (a.density > 0.0 && b.density > 0.0) {
-    const double part = numerics::log(f / a.frequency) / numerics::log(b.frequency / a.frequency);
-    return a.density * numerics::exp(part * numerics::log(b.density / a.density));
+    const double part =
+        numerics::log_of_draws(f / a.frequency) / numerics::log_of_draws(b.frequency / a.frequency);
+    return a.density * numerics::exp_of_draws(part * numerics::log_of_draws(b.density / a.density));
   }
   return a.density + (b.density - a.density) * (f - a.frequency) / (b.frequency - a.frequency);
 }
@@ -28,10 +29,11 @@ double mean_square_between(const SpectrumPoint& a, const SpectrumPoint& b, doubl
   const double at_high = density_between(a, b, high);
   if (a.density > 0.0 && b.density > 0.0) {
     // S = S₀·(f/f₀)^m, so ∫S df = S₀·f₀·L·(e^x − 1)/x, x = (m + 1)·L, L = ln(f₁/f₀).
-    const double length = numerics::log(high / low);
-    const double slope = numerics::log(b.density / a.density) / numerics::log(b.frequency / a.frequency);
+    const double length = numerics::log_of_draws(high / low);
+    const double slope =
+        numerics::log_of_draws(b.density / a.density) / numerics::log_of_draws(b.frequency / a.frequency);
     const double x = (slope + 1.0) * length;
-    const double mean = std::abs(x) < 1e-8 ? 1.0 + 0.5 * x : numerics::expm1(x) / x;
+    const double mean = std::abs(x) < 1e-8 ? 1.0 + 0.5 * x : numerics::expm1_of_draws(x) / x;
     return at_low * low * length * mean;
   }
   return 0.5 * (at_low + at_high) * (high - low);
@@ -44,9 +46,11 @@ void add_lines(const SpectrumParameters& spectrum, const random::TrialRandomness
     return random::open_uniform(random::random_bits_at(stream, randomness.trial, k));
   };
   const double from = spectrum.density.front().frequency;
-  const double range = numerics::log(spectrum.density.back().frequency / from);
+  const double range = numerics::log_of_draws(spectrum.density.back().frequency / from);
   for (int i = 0; i < spectrum.lines; ++i) {
-    const auto edge = [&](double line) { return from * numerics::exp(range * line / spectrum.lines); };
+    const auto edge = [&](double line) {
+      return from * numerics::exp_of_draws(range * line / spectrum.lines);
+    };
     const double power = mean_square(spectrum, edge(i), edge(i + 1));
     if (power == 0.0) continue;
     const std::uint64_t number = first + 2 * static_cast<std::uint64_t>(i);

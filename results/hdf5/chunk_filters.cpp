@@ -60,8 +60,8 @@ void unshuffle(std::size_t element_size, std::span<const std::byte> shuffled, st
 constexpr std::size_t page = 4096;
 
 /// Whether the first page looks random, so that deflate cannot compress it: the χ² of the frequencies of its
-/// bytes is that of random ones (255 ± 23), and its start does not come again within the distance at which
-/// deflate finds repetitions. (The draws of a trial come again at each design point.)
+/// bytes is that of random ones (255 ± 23), and its start does not recur within the distance at which deflate
+/// finds repetitions. (Each design point repeats the draws of the one before.)
 bool starts_randomly(std::span<const std::byte> bytes) {
   std::array<std::uint32_t, 256> counts{};
   for (const std::byte byte : bytes.first(page)) ++counts[std::to_integer<std::size_t>(byte)];

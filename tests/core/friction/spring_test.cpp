@@ -267,5 +267,21 @@ TEST_EACH_SEED(SpringProperties, TorqueTakesAStretchedVirginSpringThroughItsOrig
   EXPECT_EQ(spring.depth(), 0u);
 }
 
+// Also where a virgin curve is run inwards and then outwards again.
+TEST_EACH_SEED(SpringProperties, PointAtATorqueIsWhereTheMoveToItEnds) {
+  std::normal_distribution<double> normal(0.0, torque_scale_);
+  for (int history = 0; history < 50; ++history) {
+    HystereticSpring spring(friction_);
+    for (const double x : random_targets(random_, friction_.beta, 1 + history % 6)) {
+      spring.move_to(x);
+      const double torque = normal(random_);
+      HystereticSpring moved = spring;
+      moved.move_to_torque(torque);
+      EXPECT_NEAR(spring.point_at_torque(torque).elongation, moved.elongation(), 1e-9 * length_)
+          << history << " at " << x << " to " << torque;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace zerocount::friction

@@ -34,8 +34,8 @@ TEST(ChunkFilters, RandomDigitsTakeLittleMoreThanTheirOwnSize) {
   for (int round = 0; round < 10; ++round) EXPECT_LE(ratio_of(draws_with_period(elements, draws)), 0.88);
 }
 
-// The same draws come again at each design point, or on each rig.
-TEST(ChunkFilters, DrawsThatComeAgainAreCompressed) {
+// Each design point, or each trial of a rig, has the same draws.
+TEST(ChunkFilters, RepeatedDrawsAreCompressed) {
   Draws draws(20260106);
   for (const std::size_t period : {100U, 1000U, 2000U, 4096U, 5000U, 8192U}) {
     const double once = static_cast<double>(period) / elements;

@@ -5,8 +5,8 @@
 
 Each build runs the same manifests with one thread, by turns. A time is the CPU time of the user, for drawing, trials, statistics and
 files, less that of a run of one trial: the smallest, and the median of the ratios of each turn. The workloads are transient, creep and
-marginal (experiments/bench-*.yaml), each with three sets of distributions: as shipped; `uniform`, with n = 2; and `spread`, with
-most spreads of the manifest paper-gains. Another --seed draws them anew.
+marginal (experiments/bench-*.yaml), each with three sets of distributions: as shipped, with most spreads of the manifest paper-gains;
+`uniform`; and `narrow`, both with n = 2. Another --seed draws them anew.
 """
 
 import argparse
@@ -26,13 +26,15 @@ DISTRIBUTIONS = {
         "friction.beta={uniform: [1.0e+5, 2.0e+5]}",
         "friction.alpha={uniform: [0.1, 2]}",
         "friction.lambda={uniform: [5, 20]}",
+        "friction.n=2",
     ],
-    "spread": [
-        "friction.k1={lognormal: {median: 110, cv: 0.1}}",
-        "friction.beta={lognormal: {median: 1.0e+5, cv: 0.2}}",
-        "friction.alpha={log_uniform: [0.1, 2]}",
-        "friction.lambda={lognormal: {median: 10, cv: 0.3}}",
-        "friction.n={uniform: [1.5, 2.5]}",
+    "narrow": [
+        "friction.k1={truncated_normal: {mean: 110, sd: 15, low: 90, high: 130}}",
+        "friction.k2={truncated_normal: {mean: 750, sd: 110, low: 600, high: 900}}",
+        "friction.beta={lognormal: {median: 2.0e+5, cv: 0.2}}",
+        "friction.alpha={log_uniform: [0.25, 1.0]}",
+        "friction.lambda={log_uniform: [5, 20]}",
+        "friction.n=2",
     ],
 }
 

@@ -22,7 +22,7 @@ enum class PeerEvent {
   stop        ///< the slide ends
 };
 
-inline constexpr double rest_limit = 8e-13;                ///< ε of the rest rule, rad
+inline constexpr double rest_limit = 4e-13;                ///< ε of the rest rule, rad
 inline constexpr double tolerance_after_breakaway = 30.0;  ///< over that before the first breakaway
 
 /// The contact of a trial, for an integrator of the ordinary kind: on which branch it is, what can happen

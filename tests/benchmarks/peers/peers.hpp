@@ -17,7 +17,7 @@ struct Peer {
 };
 
 /// Boost.odeint. @param tolerance largest local error of a step before the first breakaway, rad.
-Peer odeint_peer(double tolerance = 5e-13);
+Peer odeint_peer(double tolerance = 2.5e-13);
 
 /// The peers whose libraries this was built with, each at its best settings.
 std::vector<Peer> all_peers();

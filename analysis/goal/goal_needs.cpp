@@ -64,9 +64,41 @@ std::int64_t smallest(std::int64_t low, std::int64_t high, const Decides& decide
   return decided;
 }
 
+/// Whether a world is expected to be found below the goal.
+bool is_below(const study::Goal& goal, const measures::MoveCounts& counts) {
+  if (!goal.machines) return static_cast<double>(counts.met) < goal.moves * static_cast<double>(counts.moves);
+  const auto meeting = std::count_if(counts.rigs.begin(), counts.rigs.end(), [&](const auto& rig) {
+    return static_cast<double>(rig.met) >= goal.moves * static_cast<double>(rig.moves);
+  });
+  return static_cast<double>(meeting) < *goal.machines * static_cast<double>(counts.rigs.size());
+}
+
+/// One world below the goal decides it: the cheapest of these. Where there is none, every world must be
+/// decided.
+Needs needs_of_worlds(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points) {
+  Needs cheapest;
+  Needs dearest;
+  bool some_below = false;
+  bool all_decided = true;
+  for (const measures::MoveCounts& world : measures::in_worlds(counts)) {
+    const Needs one = needs_of(goal, world, points * static_cast<std::size_t>(counts.worlds));
+    all_decided = all_decided && one.trials > 0;
+    if (one.trials == 0) continue;
+    if (is_below(goal, world)) {
+      if (!some_below || one.trials < cheapest.trials) cheapest = one;
+      some_below = true;
+    }
+    dearest = {std::max(dearest.rigs, one.rigs), std::max(dearest.trials, one.trials)};
+  }
+  if (!some_below && !all_decided) return {};
+  const Needs needs = some_below ? cheapest : dearest;
+  return {needs.rigs * counts.worlds, needs.trials * counts.worlds};
+}
+
 }  // namespace
 
 Needs needs_of(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points) {
+  if (counts.worlds > 0) return needs_of_worlds(goal, counts, points);
   const auto decided = [&](const measures::MoveCounts& larger) {
     return judge_goal(goal, larger, points).status != Status::undecided;
   };

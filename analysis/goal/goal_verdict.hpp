@@ -27,7 +27,17 @@ struct BoundedProportion {
   double high{1.0};
 };
 
-/// Verdict on the goal at one design point, for all axes that the manifest describes.
+/// The moves, or machines, of one world that meet the goal.
+struct WorldVerdict {
+  Status status{Status::undecided};
+  BoundedProportion moves;
+  BoundedProportion machines;
+};
+
+/// Verdict on the goal at one design point, for all axes that the manifest describes. With worlds the
+/// proportions are those of the worst world, with bounds that hold for the lowest of all: the lowest of the
+/// bounds of each world, with the confidence 1 − (1 − γ)/worlds (Bonferroni). So the goal is met if it is met
+/// in every world, and missed if it is missed in one.
 struct Verdict {
   Status status{Status::undecided};
   BoundedProportion moves;       ///< of all moves of all axes that meet the goal (clustered_proportion.hpp)
@@ -35,12 +45,20 @@ struct Verdict {
                                  ///< NaN, 0 and 1 where the goal does not ask for machines
   std::int64_t rigs_meeting{0};  ///< rigs that meet it in Goal::moves of their moves, as observed
   std::int64_t rigs_without_miss{0};  ///< rigs all of whose moves meet the goal
+  std::vector<WorldVerdict> worlds{};  ///< [world]; empty without worlds
 };
 
 /// The verdict by Goal::machines, or by Goal::moves where the goal does not ask for machines.
 /// @param points number of design points from which the point was chosen by its trials; 1 if it was chosen
 /// before. The bounds have the confidence 1 − (1 − γ)/points (Bonferroni).
 Verdict judge_goal(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points);
+
+/// The worlds in order of their proportions, the worst first: of machines that meet the goal where it asks for
+/// them, else of moves.
+std::vector<std::size_t> worst_worlds_first(const study::Goal& goal, const Verdict& verdict);
+
+/// The worlds of which the verdict says this, in order.
+std::vector<std::size_t> worlds_that(Status status, const Verdict& verdict);
 
 /// Study size that is expected to decide the goal.
 struct Needs {

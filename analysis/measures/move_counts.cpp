@@ -5,12 +5,32 @@
 
 namespace zerocount::measures {
 
+namespace {
+
+bool has_valid_worlds(const MoveCounts& counts) {
+  if (counts.worlds == 0) return counts.of_worlds.empty();
+  if (std::ssize(counts.of_worlds) != counts.worlds) return false;
+  std::int64_t events = 0;
+  std::int64_t hits = 0;
+  for (const statistics::ClusterSums& world : counts.of_worlds) {
+    if (world.events < 0 || world.events > counts.of_trials.events - events) return false;
+    events += world.events;
+    hits += world.hits;
+  }
+  return events == counts.of_trials.events && hits == counts.of_trials.hits;
+}
+
+}  // namespace
+
 void MoveCounts::add(std::int64_t trial, std::int64_t rig_count, std::int64_t of_trial,
                      std::int64_t meeting) {
   moves += of_trial;
   met += meeting;
   if (rig_count == 0) {
     of_trials.add(meeting, of_trial);
+    if (worlds == 0) return;
+    of_worlds.resize(static_cast<std::size_t>(worlds));
+    of_worlds[static_cast<std::size_t>(trial % worlds)].add(meeting, of_trial);
     return;
   }
   rigs.resize(static_cast<std::size_t>(rig_count));
@@ -24,6 +44,10 @@ MoveCounts& MoveCounts::operator+=(const MoveCounts& other) {
   moves += other.moves;
   met += other.met;
   of_trials += other.of_trials;
+  worlds = std::max(worlds, other.worlds);
+  of_worlds.resize(std::max(of_worlds.size(), other.of_worlds.size()));
+  for (std::size_t world = 0; world < other.of_worlds.size(); ++world)
+    of_worlds[world] += other.of_worlds[world];
   rigs.resize(std::max(rigs.size(), other.rigs.size()));
   for (std::size_t rig = 0; rig < other.rigs.size(); ++rig) {
     rigs[rig].trials += other.rigs[rig].trials;
@@ -35,7 +59,10 @@ MoveCounts& MoveCounts::operator+=(const MoveCounts& other) {
 
 bool MoveCounts::is_valid(std::int64_t trials, std::int64_t moves_of_trial, std::int64_t rig_count) const {
   if (moves != trials * moves_of_trial || met < 0 || met > moves) return false;
-  if (rig_count == 0) return rigs.empty() && of_trials.events == moves && of_trials.hits == met;
+  if (rig_count == 0) {
+    return rigs.empty() && of_trials.events == moves && of_trials.hits == met && has_valid_worlds(*this);
+  }
+  if (!of_worlds.empty()) return false;
   if (of_trials.clusters != 0 || std::ssize(rigs) != rig_count) return false;
   std::int64_t rig_trials = 0, rig_met = 0;
   for (const statistics::RigMoves& rig : rigs) {
@@ -52,6 +79,28 @@ statistics::ClusterSums clusters_of(const MoveCounts& counts) {
   statistics::ClusterSums sums = counts.of_trials;
   for (const statistics::RigMoves& rig : counts.rigs) sums.add(rig.met, rig.moves);
   return sums;
+}
+
+std::vector<MoveCounts> in_worlds(const MoveCounts& counts) {
+  std::vector<MoveCounts> worlds(static_cast<std::size_t>(counts.worlds));
+  for (std::size_t world = 0; world < counts.of_worlds.size(); ++world) {
+    worlds[world].of_trials = counts.of_worlds[world];
+    worlds[world].moves = counts.of_worlds[world].events;
+    worlds[world].met = counts.of_worlds[world].hits;
+  }
+  for (std::size_t rig = 0; counts.worlds > 0 && rig < counts.rigs.size(); ++rig) {
+    MoveCounts& world = worlds[rig % worlds.size()];
+    world.rigs.push_back(counts.rigs[rig]);
+    world.moves += counts.rigs[rig].moves;
+    world.met += counts.rigs[rig].met;
+  }
+  return worlds;
+}
+
+std::int64_t trials_of(const MoveCounts& counts) {
+  std::int64_t trials = counts.of_trials.clusters;
+  for (const statistics::RigMoves& rig : counts.rigs) trials += rig.trials;
+  return trials;
 }
 
 }  // namespace zerocount::measures

@@ -69,6 +69,14 @@ void add_each(std::vector<Summand>& sums, const std::vector<Summand>& added) {
 
 }  // namespace
 
+MoveKind move_kind(const study::Study& study, std::int64_t version) {
+  return {.open_loop = study.open_loop,
+          .version = version,
+          .rigs = study.rigs,
+          .goal = counted_goal(study),
+          .worlds = study.worlds};
+}
+
 OutcomeCounts& OutcomeCounts::operator+=(const OutcomeCounts& other) {
   zero_count += other.zero_count;
   one_count += other.one_count;
@@ -114,7 +122,11 @@ std::int64_t OutcomeCounts::*counter_of(trial::Outcome outcome) {
 
 PointAccumulator::PointAccumulator(const MoveKind& kind, const layout::MeasureTable& table,
                                    std::int64_t first_trial)
-    : kind_(kind), first_trial_(first_trial), table_(&table), trial_settling_times_(kind.rigs) {
+    : kind_(kind),
+      first_trial_(first_trial),
+      table_(&table),
+      trial_settling_times_(kind.rigs) {
+  for (MoveCounts* counts : {&goal_, &worlds_.succeeded, &worlds_.meeting}) counts->worlds = kind.worlds;
   for (const layout::Measure& measure : table) measures_.emplace_back(measure, measure.point, kind);
 }
 
@@ -176,7 +188,17 @@ void PointAccumulator::add_moves(std::span<const trial::MoveOutcome> moves) {
   if (kind_.open_loop) return;
   if (kind_.rigs > 0) add_to_rig(moves);
   if (kind_.goal) count_moves(goal_, *kind_.goal, first_trial_ + counted_.trials, kind_.rigs, moves);
+  if (kind_.worlds > 0) add_to_world(moves);
   add_trial_settling_time(moves);
+}
+
+void PointAccumulator::add_to_world(std::span<const trial::MoveOutcome> moves) {
+  const std::int64_t trial = first_trial_ + counted_.trials;
+  worlds_.succeeded.add(trial, kind_.rigs, 1, trial::succeeded(moves) ? 1 : 0);
+  if (!kind_.goal) return;
+  const bool meeting = std::all_of(moves.begin(), moves.end(),
+                                   [&](const trial::MoveOutcome& move) { return meets(*kind_.goal, move); });
+  worlds_.meeting.add(trial, kind_.rigs, 1, meeting ? 1 : 0);
 }
 
 void PointAccumulator::add_level(std::size_t level, std::span<const trial::MoveOutcome> move) {
@@ -261,6 +283,8 @@ PointAccumulator& PointAccumulator::operator+=(const PointAccumulator& next) {
   if (rigs_.size() < next.rigs_.size()) rigs_.resize(next.rigs_.size());
   add_each(rigs_, next.rigs_);
   goal_ += next.goal_;
+  worlds_.succeeded += next.worlds_.succeeded;
+  worlds_.meeting += next.worlds_.meeting;
   trial_settling_times_ += next.trial_settling_times_;
   jerks_ += next.jerks_;
   jerk_intervals_ += next.jerk_intervals_;
@@ -280,6 +304,7 @@ void PointAccumulator::transfer(Self& self, Archive& archive) {
     while (self.kind_.open_loop && self.levels_.size() < self.counted_.by_move.size())
       self.add_level_accumulators();
   }
+  if (self.kind_.worlds > 0) archive(self.worlds_);
   for (auto& measure : self.measures_) archive(measure);
   for (std::size_t level = 0; level < self.levels_.size(); ++level) {
     archive(self.lost_in_levels_[level]);
@@ -293,7 +318,8 @@ bool PointAccumulator::is_valid(std::int64_t moves) const {
     return std::all_of(measures.begin(), measures.end(),
                        [&](const auto& one) { return one.is_valid(trials, moves_of_trial); });
   };
-  if (!has_valid_counts(moves) || !has_valid_jerks() || !has_valid_rigs()) return false;
+  if (!has_valid_counts(moves) || !has_valid_jerks() || !has_valid_rigs() || !has_valid_worlds())
+    return false;
   if (kind_.goal && !goal_.is_valid(counted_.trials, moves, kind_.rigs)) return false;
   for (std::size_t level = 0; level < levels_.size(); ++level) {
     const std::int64_t lost = lost_in_levels_[level];
@@ -338,6 +364,13 @@ bool PointAccumulator::has_valid_rigs() const {
   }
   return sum.trials == counted_.trials && sum.successes == counted_.outcomes.zero_count &&
          sum.moves == counted_.moves;
+}
+
+bool PointAccumulator::has_valid_worlds() const {
+  if (kind_.worlds == 0 || kind_.open_loop) return true;
+  return worlds_.succeeded.is_valid(counted_.trials, 1, kind_.rigs) &&
+         worlds_.succeeded.met == counted_.outcomes.zero_count &&
+         (!kind_.goal || worlds_.meeting.is_valid(counted_.trials, 1, kind_.rigs));
 }
 
 statistics::State PointAccumulator::state() const {
@@ -395,6 +428,7 @@ PointSummary PointAccumulator::statistics(const StatisticsOptions& options) cons
     result.rigs = statistics::rig_statistics(rigs_, options.confidence);
   result.claim = claim(result, options);
   if (kind_.goal) result.goal = goal_;
+  if (kind_.worlds > 0 && result.judged > 0) result.worlds = worlds_;
   if (options.stopped_by_outcomes)
     result.rigs.tolerance = {};  // it takes a number of trials that was fixed beforehand
   result.settles_within = tolerance_limits(trial_settling_times_.sample(), options);

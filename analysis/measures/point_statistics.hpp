@@ -88,6 +88,17 @@ struct PointCounts {
   }
 };
 
+/// Trials of a design point, each as one move, told apart by worlds (in_worlds).
+struct WorldTrials {
+  MoveCounts succeeded;  ///< all their moves ended at zero error
+  MoveCounts meeting;    ///< all their moves meet the goal; empty without one
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    archive(self.succeeded, self.meeting);
+  }
+};
+
 /// All statistics of a design point.
 struct PointSummary : StatisticsOfMeasures, PointCounts {
   double hold{statistics::unknown};  ///< of a move, s, in a summary; NaN where trials differ
@@ -104,6 +115,7 @@ struct PointSummary : StatisticsOfMeasures, PointCounts {
   double jerk_one_count_share{statistics::unknown};  ///< jerks of magnitude 1 / jerks
   UndecidedMoves undecided;                          ///< only off_target is known without the study
   std::optional<MoveCounts> goal;                    ///< of a study with a goal
+  std::optional<WorldTrials> worlds;                 ///< of a study with worlds and targets
   std::vector<LevelStatistics> levels;               ///< [move] in an open-loop study, otherwise empty
 
   /// The proportion of trials all of whose moves ended at zero error.

@@ -122,9 +122,9 @@ FigureData sector_data(const Sectors& sectors) {
 
 /// The rig that succeeds least often at the point.
 std::int64_t worst_rig(const ReportedStudy& reported, std::int64_t point) {
-  const reading::StoredRigs rigs = reported.file.rigs().value();
-  const auto of_point = rigs.success.begin() + point * rigs.rigs;
-  return std::min_element(of_point, of_point + rigs.rigs) - of_point;
+  const reading::StoredGroups rigs = reported.file.rigs().value();
+  const auto of_point = rigs.success.begin() + point * rigs.count;
+  return std::min_element(of_point, of_point + rigs.count) - of_point;
 }
 
 reading::StoredProfile rotor_of_rig(const reading::StoredProfile& profile, std::int64_t rig) {

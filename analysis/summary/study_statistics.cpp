@@ -111,6 +111,32 @@ void require_all_trials(const reading::StudyFile& file) {
                          file.rows().end() - 1, header.points * header.trials));
 }
 
+/// The trials of the worlds at each point; of an open loop none is judged.
+layout::WorldCounts world_counts(const std::vector<measures::PointSummary>& points,
+                                 const study::Study& study) {
+  layout::WorldCounts counts;
+  const auto of_worlds = [&](const std::optional<measures::WorldTrials>& point,
+                             measures::MoveCounts measures::WorldTrials::*which,
+                             std::int64_t measures::MoveCounts::*number) {
+    std::vector<std::int64_t> numbers;
+    if (point) {
+      for (const measures::MoveCounts& world : measures::in_worlds((*point).*which))
+        numbers.push_back(world.*number);
+    }
+    numbers.resize(static_cast<std::size_t>(study.worlds));  // none in an open loop
+    return numbers;
+  };
+  using measures::MoveCounts;
+  using measures::WorldTrials;
+  for (const measures::PointSummary& point : points) {
+    counts.trials.push_back(of_worlds(point.worlds, &WorldTrials::succeeded, &MoveCounts::moves));
+    counts.success.push_back(of_worlds(point.worlds, &WorldTrials::succeeded, &MoveCounts::met));
+    if (study.goal)
+      counts.goal_met.push_back(of_worlds(point.worlds, &WorldTrials::meeting, &MoveCounts::met));
+  }
+  return counts;
+}
+
 }  // namespace
 
 StudyAccumulator::StudyAccumulator(const study::Study& study, double confidence, bool bootstrap)
@@ -119,8 +145,7 @@ StudyAccumulator::StudyAccumulator(const study::Study& study, double confidence,
 }
 
 void StudyAccumulator::add(const reading::StudyFile& file, layout::RowRange rows) {
-  const measures::MoveKind kind{study_.open_loop, file.header().version, study_.rigs,
-                                measures::counted_goal(study_)};
+  const measures::MoveKind kind = measures::move_kind(study_, file.header().version);
   JerkStream jerks(file, rows);
   using Outcomes = std::span<const trial::MoveOutcome>;
   measures::visit_blocks(file, rows, [&](layout::RowRange block, Outcomes rest) {
@@ -177,6 +202,7 @@ layout::StoredStatistics stored_statistics(const std::vector<measures::PointSumm
     stored.rig_successes.push_back(points[point].rigs.successes_of_rigs);
     stored.rig_successes.back().resize(static_cast<std::size_t>(study.rigs));  // empty in an open loop
   }
+  if (study.worlds > 0) stored.worlds = world_counts(points, study);
   if (!study.sequence.empty()) {
     stored.groups = [&study](hdf5::File& part) { iso230::write_repeatability(part, study); };
   }

@@ -14,10 +14,6 @@
 namespace zerocount::summary {
 namespace {
 
-measures::MoveKind kind_of(const study::Study& study) {
-  return {.open_loop = study.open_loop, .rigs = study.rigs, .goal = measures::counted_goal(study)};
-}
-
 bool is_possible(const theory::PointPrediction& prediction) {
   return statistics::are_counts(std::array{prediction.stable, prediction.unstable, prediction.outside},
                                 prediction.trials);
@@ -36,7 +32,7 @@ bool is_possible(const UndecidedSums& sums, std::int64_t moves) {
 SummedPoint::SummedPoint(const study::Study& study, std::int64_t point, std::int64_t first_trial)
     : study_(&study),
       point_(point),
-      trials_(kind_of(study), layout::measure_table(study.features.bands), first_trial) {}
+      trials_(measures::move_kind(study), layout::measure_table(study.features.bands), first_trial) {}
 
 void SummedPoint::add(std::int64_t row, const trial::TrialOutcome& outcome,
                       std::span<const trial::Jerk> jerks) {

@@ -100,6 +100,11 @@ std::vector<DistributionForm> make_forms() {
        make_integers,
        true},
       {"choice", list, {}, "each value of the list equally likely", make_choice},
+      {interval_name,
+       list,
+       {"low", "high"},
+       "from low to high without a distribution; only per: world, spread evenly over the worlds",
+       make<Uniform, 0, 1>},
   };
 }
 

@@ -11,6 +11,9 @@
 
 namespace zerocount::distributions {
 
+/// Name of the form of a value that has bounds and no distribution: it is spread evenly over the worlds.
+inline constexpr std::string_view interval_name = "interval";
+
 /// Syntax of one distribution in a manifest: a map with the single key `name`.
 struct DistributionForm {
   enum class Syntax {

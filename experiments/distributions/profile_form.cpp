@@ -28,6 +28,11 @@ std::optional<Distribution> read_drawn_mean(const yaml::Field& field, yaml::Prob
   }
   const DistributionForm* form = find_form(field, entries.front(), {}, expected, problems);
   if (form == nullptr) return std::nullopt;
+  if (form->name == interval_name) {
+    problems.add(field, "an interval is drawn for each world, and the mean as often as the profile",
+                 "a distribution, such as uniform");
+    return std::nullopt;
+  }
   auto distribution = read_distribution(*form, yaml::entry_of(field, entries.front()), problems);
   if (!distribution) return std::nullopt;
   if (!numerics::contains(numerics::above(0.0), support(*distribution)) ||

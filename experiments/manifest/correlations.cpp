@@ -39,6 +39,7 @@ std::string fault_of(const study::Value& value) {
       break;
   }
   switch (value.per) {
+    case study::Per::world:
     case study::Per::rig:
     case study::Per::trial:
       return "";
@@ -93,7 +94,7 @@ std::optional<std::uint32_t> read_drawn(const yaml::Field& field, Reading& readi
     const std::string fault = fault_of(*value);
     if (fault.empty()) continue;
     reading.problems.add(field, fmt::format("{} cannot be correlated: {}", *name, fault),
-                         "a distribution drawn for each rig or each trial");
+                         "a distribution drawn for each world, rig or trial");
     return std::nullopt;
   }
   return static_cast<std::uint32_t>(slots->first);
@@ -157,7 +158,7 @@ void make_copula(const yaml::Field& list, const std::vector<Pair>& pairs, Readin
   copula.slots = slots_of(pairs, reading.plan);
   const auto per = common_per(copula.slots, reading.plan);
   if (!per) {
-    reading.problems.add(list, "some of these parameters are drawn for each rig and others for each trial",
+    reading.problems.add(list, "these parameters are not drawn equally often: for each world, rig or trial",
                          fmt::format("the same `{}` for all of them", per_key));
     return;
   }

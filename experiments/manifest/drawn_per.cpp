@@ -8,19 +8,28 @@ struct Misfit {
   std::string_view expected;
 };
 
+constexpr Misfit profile_of_rotor{"a profile belongs to a rotor, which trials share",
+                                  "study or rig (for a rotor per trial: as many rigs as trials)"};
+constexpr Misfit no_worlds{"the study has no worlds", "the key worlds, or study, rig, trial or contact here"};
+
 // The reason if the parameter cannot be drawn this often.
 std::optional<Misfit> misfit_of(study::Per per, const parameters::Parameter& parameter, Drawn drawn,
-                                bool has_rigs) {
+                                const TrialGroups& groups) {
+  if (drawn == Drawn::interval && per != study::Per::world) {
+    return Misfit{"an interval has no distribution to draw from", "world, or uniform in place of interval"};
+  }
   switch (per) {
     case study::Per::study:
       return std::nullopt;
+    case study::Per::world:
+      if (drawn == Drawn::profile) return profile_of_rotor;
+      return groups.worlds ? std::nullopt : std::optional(no_worlds);
     case study::Per::rig:
-      if (has_rigs) return std::nullopt;
+      if (groups.rigs) return std::nullopt;
       return Misfit{"the study has no rigs", "the key rigs, or study, trial or contact here"};
     case study::Per::trial:
       if (drawn == Drawn::value) return std::nullopt;
-      return Misfit{"a profile belongs to a rotor, which trials share",
-                    "study or rig (for a rotor per trial: as many rigs as trials)"};
+      return profile_of_rotor;
     case study::Per::contact:
       if (drawn == Drawn::profile) {
         return Misfit{"a profile belongs to a rotor; a contact takes the value at its position",
@@ -34,17 +43,24 @@ std::optional<Misfit> misfit_of(study::Per per, const parameters::Parameter& par
 
 }  // namespace
 
-study::Per usual_per(const parameters::Parameter& parameter, Drawn drawn, bool has_rigs) {
-  if (!has_rigs) return drawn == Drawn::profile ? study::Per::study : study::Per::trial;
-  return parameter.of_machine ? study::Per::rig : study::Per::trial;
+study::Per usual_per(const parameters::Parameter& parameter, Drawn drawn, const TrialGroups& groups) {
+  switch (drawn) {
+    case Drawn::interval:
+      return study::Per::world;
+    case Drawn::profile:
+      return groups.rigs && parameter.of_machine ? study::Per::rig : study::Per::study;
+    case Drawn::value:
+      break;
+  }
+  return groups.rigs && parameter.of_machine ? study::Per::rig : study::Per::trial;
 }
 
 std::optional<study::Per> read_per(const yaml::Field& field, const parameters::Parameter& parameter,
-                                   Drawn drawn, bool has_rigs, yaml::Problems& problems) {
+                                   Drawn drawn, const TrialGroups& groups, yaml::Problems& problems) {
   const auto label = yaml::read_label(field, per_labels, problems);
   if (!label) return std::nullopt;
   const auto per = static_cast<study::Per>(*label);
-  const auto misfit = misfit_of(per, parameter, drawn, has_rigs);
+  const auto misfit = misfit_of(per, parameter, drawn, groups);
   if (!misfit) return per;
   problems.add(field, std::string(misfit->what), misfit->expected);
   return std::nullopt;

@@ -14,18 +14,32 @@ namespace zerocount::manifest {
 constexpr std::string_view per_key = "per";
 
 /// Its values, in the order of the enumeration Per.
-inline constexpr std::array<std::string_view, 4> per_labels{"study", "rig", "trial", "contact"};
+inline constexpr std::array<std::string_view, 5> per_labels{"study", "world", "rig", "trial", "contact"};
+
+/// Those that a profile may have.
+inline constexpr std::array<std::string_view, 2> per_labels_of_profiles{"study", "rig"};
+
+/// The groups of trials that a study has.
+struct TrialGroups {
+  bool rigs{false};
+  bool worlds{false};
+};
 
 /// Kind of draw: a single value, or a profile along the rotor.
-enum class Drawn { value, profile };
+enum class Drawn {
+  value,
+  profile,
+  interval  ///< a value without a distribution
+};
 
 /// Default of `per`. With rigs, parameters of the machine are drawn for every rig and others for every trial.
-/// Without rigs, values are drawn for every trial and profiles once for the study.
-study::Per usual_per(const parameters::Parameter& parameter, Drawn drawn, bool has_rigs);
+/// Without rigs, values are drawn for every trial and profiles once for the study. Intervals are drawn for
+/// every world.
+study::Per usual_per(const parameters::Parameter& parameter, Drawn drawn, const TrialGroups& groups);
 
 /// The value of the key `per` in `field`. Reports an unknown value or one that the parameter does not allow,
 /// and returns nothing then.
 std::optional<study::Per> read_per(const yaml::Field& field, const parameters::Parameter& parameter,
-                                   Drawn drawn, bool has_rigs, yaml::Problems& problems);
+                                   Drawn drawn, const TrialGroups& groups, yaml::Problems& problems);
 
 }  // namespace zerocount::manifest

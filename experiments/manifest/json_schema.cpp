@@ -72,8 +72,9 @@ Json form_schema(const distributions::DistributionForm& form) {
 
 Json profile_schema() {
   Json means = Json::array({number_in(numerics::above(0))});
-  for (const distributions::DistributionForm& form : distributions::distribution_forms())
-    means.push_back(form_schema(form));
+  for (const distributions::DistributionForm& form : distributions::distribution_forms()) {
+    if (form.name != distributions::interval_name) means.push_back(form_schema(form));
+  }
   return object_of({{"mean", {{"anyOf", std::move(means)}}},
                     {"cv", number_in({.low = 0, .high = 10, .high_included = true})},
                     {"correlation_length", number_in(numerics::above(0))},
@@ -93,11 +94,13 @@ Json definitions() {
   for (const distributions::DistributionForm& form : distributions::distribution_forms()) {
     const std::string name(form.name);
     all[name] = form_schema(form);
-    all[name]["properties"][per] = per_schema(per_labels);
+    all[name]["properties"][per] = form.name == distributions::interval_name
+                                       ? per_schema(std::span(&per_labels[1], 1))
+                                       : per_schema(per_labels);
     all[name]["description"] = form.meaning;
   }
   all["profile"] = object_of(
-      {{"profile", profile_schema()}, {per, per_schema(std::span(per_labels).first(2))}}, {"profile"});
+      {{"profile", profile_schema()}, {per, per_schema(per_labels_of_profiles)}}, {"profile"});
   all["profile"]["description"] = "friction along the rotor: a periodic random field";
   return all;
 }
@@ -288,6 +291,7 @@ Json general_schemas() {
       {"seed", {{"type", "integer"}, {"minimum", 0}, {"maximum", std::numeric_limits<std::uint64_t>::max()}}},
       {"trials", {{"type", "integer"}, {"minimum", 1}, {"maximum", std::int64_t{1} << 53}}},
       {"rigs", {{"type", "integer"}, {"minimum", min_rigs}, {"maximum", max_rigs}}},
+      {"worlds", {{"type", "integer"}, {"minimum", min_worlds}, {"maximum", max_worlds}}},
       {"design", {{"enum", design_labels}}},
       {"independent_points", {{"type", "boolean"}}},
       {"retain",
@@ -321,7 +325,7 @@ Json general_schemas() {
           {"maxItems", 3}}}}},
       {"samples",
        {{"anyOf",
-         {text, object_of({{"file", text}, {std::string(per_key), {{"enum", {"study", "rig", "trial"}}}}},
+         {text, object_of({{"file", text}, {std::string(per_key), {{"enum", {"study", "world", "rig", "trial"}}}}},
                           {"file"})}}}},
       {"observed",
        {{"type", "object"},

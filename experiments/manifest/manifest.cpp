@@ -87,8 +87,12 @@ void read_numbers(Manifest& m) {
     m.study.trials = yaml::read_whole(*field, 1, max_study_trials, m.problems()).value_or(0);
   }
   if (const auto field = yaml::find_field(m.root, "rigs")) {
-    m.reading.has_rigs = true;
+    m.reading.groups.rigs = true;
     m.study.rigs = yaml::read_whole(*field, min_rigs, max_rigs, m.problems()).value_or(0);
+  }
+  if (const auto field = yaml::find_field(m.root, "worlds")) {
+    m.reading.groups.worlds = true;
+    m.study.worlds = yaml::read_whole(*field, min_worlds, max_worlds, m.problems()).value_or(0);
   }
   if (const auto field = yaml::find_field(m.root, "independent_points")) {
     m.study.independent_points = yaml::read_truth(*field, m.problems()).value_or(false);
@@ -207,6 +211,39 @@ void check_rigs(Manifest& m) {
   }
 }
 
+// Every world must have the same number of rigs, or of trials.
+void check_worlds(Manifest& m) {
+  if (m.study.worlds == 0) return;
+  const yaml::Field field = yaml::find_field(m.root, "worlds").value();
+  const std::int64_t units = m.study.rigs > 0 ? m.study.rigs : m.study.trials;
+  const std::string_view name = m.study.rigs > 0 ? "rigs" : "trials";
+  if (m.study.rigs > 0 && units % m.study.worlds != 0) {
+    m.problems().add(field,
+                     fmt::format("{} rigs cannot be divided equally among {} worlds", units, m.study.worlds),
+                     fmt::format("a divisor of the number of rigs, or {} rigs",
+                                 nearest_multiples(units, m.study.worlds)));
+  } else if (units > 0 && units < m.study.worlds) {
+    m.problems().add(field, fmt::format("the study has only {} {}", units, name),
+                     fmt::format("at most {}", units));
+  }
+  if (m.study.design == study::Design::saltelli) {
+    m.problems().add(yaml::find_field(m.root, "design").value(),
+                     "this design changes one factor at a time, but the trials of a world share factors",
+                     "monte_carlo, latin_hypercube or sobol with worlds");
+  }
+}
+
+// Warns if the worlds do not differ.
+void warn_of_equal_worlds(Manifest& m) {
+  if (m.study.worlds == 0) return;
+  for (const study::InputColumn& column : m.study.input_columns) {
+    if (column.per == study::Per::world) return;
+  }
+  const yaml::Field field = yaml::find_field(m.root, "worlds").value();
+  m.reading.warnings.push_back(yaml::at_place(field.node->place, field.path,
+                                              "the worlds are all alike: no value is drawn `per: world`"));
+}
+
 void read_retained(Manifest& m) {
   const auto field = yaml::find_field(m.root, "retain");
   if (!field || !yaml::check_map(*field, "retain: {trials: [..]}", m.problems())) return;
@@ -284,6 +321,7 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, con
   if (const auto field = yaml::find_field(m.root, "tune")) read_tuning(*field, m.plan(), m.study, problems);
   check_trial_count(m);
   check_rigs(m);
+  check_worlds(m);
   read_observed(m);
   realise_profiles(m.reading.profiles, m.study, companions.rotors, *plan);
   check_profiles(m.reading);
@@ -292,6 +330,7 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, con
   if (problems.empty()) check_rows(m);
   if (problems.empty()) check_kept(m);
   if (problems.empty()) assemble_study(m.reading.profiles, m.axes, *plan, m.study);
+  if (problems.empty()) warn_of_equal_worlds(m);
   m.study.warnings = std::move(m.reading.warnings);
   m.study.plugin = plan->plugin;
   m.study.plan = std::move(plan);

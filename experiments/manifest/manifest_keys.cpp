@@ -34,7 +34,7 @@ std::vector<std::string_view> value_paths() {
 }  // namespace
 
 std::span<const GeneralKey> general_keys() {
-  static constexpr std::array<GeneralKey, 30> keys{{
+  static constexpr std::array<GeneralKey, 31> keys{{
       {"zerocount", "version of the manifest's format: 1", true},
       {"name", "name of the study", true},
       {"description", "what the study is for", false},
@@ -48,6 +48,10 @@ std::span<const GeneralKey> general_keys() {
       {"rigs",
        "number of rigs; trial i runs on rig i mod rigs, and `trials` must be a multiple of it (default: no "
        "trials share a rig)",
+       false},
+      {"worlds",
+       "number of worlds, which differ in what all machines share and nobody knows (`per: world`); rig r lives "
+       "in world r mod worlds, without rigs trial i in world i mod worlds (default: none)",
        false},
       {"design", "sampling design: monte_carlo (default), latin_hypercube, sobol or saltelli", false},
       {"independent_points",
@@ -83,7 +87,7 @@ std::span<const GeneralKey> general_keys() {
       {"samples",
        "joint draws of several parameters, such as those of zerocount identify --posterior: path of a CSV "
        "table from the folder of the manifest, or {file: FILE, per: rig}; its header has the dotted paths of "
-       "the parameters, and each rig or trial takes one row",
+       "the parameters, and each world, rig or trial takes one row",
        false},
       {"observed", "observations on the real rig, by case or point label: texts or counts", false},
       {"sweep", "design points: grid (product of lists), cases (named), or both (product)", false},

@@ -156,9 +156,14 @@ void add_column(const study::InputColumn& column, const study::InputSource& sour
                 study::StudyPlan& plan, study::Study& study) {
   study.input_columns.push_back(column);
   plan.inputs.push_back(source);
-  if (column.per != study::Per::rig || swept) return;
-  study.rig_columns.push_back(column);
-  plan.rig_inputs.push_back(source);
+  if (swept) return;
+  if (column.per == study::Per::rig) {
+    study.rig_columns.push_back(column);
+    plan.rig_inputs.push_back(source);
+  } else if (column.per == study::Per::world) {
+    study.world_columns.push_back(column);
+    plan.world_inputs.push_back(source);
+  }
 }
 
 void list_input_columns(const std::vector<bool>& swept, study::StudyPlan& plan, study::Study& study) {

@@ -126,7 +126,9 @@ study::Value read_map(const yaml::Field& field, std::size_t slot, Reading& readi
     return refuse(reading, field, fmt::format("found a map with {} keys", field.node->entries.size()),
                   expected);
   }
-  const Drawn drawn = entry->key == profile_name ? Drawn::profile : Drawn::value;
+  const Drawn drawn = entry->key == profile_name                   ? Drawn::profile
+                      : entry->key == distributions::interval_name ? Drawn::interval
+                                                                   : Drawn::value;
   if (drawn == Drawn::profile && parameter.profiled == nullptr) {
     reading.problems.add(
         entry->value->place, yaml::entry_of(field, *entry).path,
@@ -134,9 +136,12 @@ study::Value read_map(const yaml::Field& field, std::size_t slot, Reading& readi
         "a number or a distribution other than profile");
     return unreadable_value();
   }
-  study::Per per = usual_per(parameter, drawn, reading.has_rigs);
+  study::Per per = usual_per(parameter, drawn, reading.groups);
   if (const auto given = yaml::find_field(field, per_key)) {
-    per = read_per(*given, parameter, drawn, reading.has_rigs, reading.problems).value_or(per);
+    per = read_per(*given, parameter, drawn, reading.groups, reading.problems).value_or(per);
+  } else if (drawn == Drawn::interval && !reading.groups.worlds) {
+    return refuse(reading, field, "a value without a distribution is drawn for each world, and the study has none",
+                  "the key worlds, or uniform in place of interval");
   }
   if (drawn == Drawn::profile) return read_profile_value(yaml::entry_of(field, *entry), slot, per, reading);
   const distributions::DistributionForm* form =

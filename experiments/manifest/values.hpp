@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "experiments/distributions/profile_form.hpp"
+#include "experiments/manifest/drawn_per.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/yaml/scalars.hpp"
@@ -24,7 +25,7 @@ struct Reading {
   yaml::Problems& problems;
   study::StudyPlan& plan;                  ///< gets the distributions
   std::int64_t version;                    ///< of the results files whose defaults apply
-  bool has_rigs{false};                    ///< the study has the key `rigs`
+  TrialGroups groups{};                    ///< the study has the keys `rigs`, `worlds`
   bool plugin_failed{false};               ///< the user's controller could not be loaded
   std::vector<ProfileRequest> profiles{};  ///< [index of a value of kind profile]
   std::vector<std::string> warnings{};     ///< allowed but possibly unintended

@@ -15,7 +15,7 @@ using SquareMatrix = std::vector<std::vector<double>>;  ///< [row][column]
 /// distribution of each value stays its own (Nelsen, An Introduction to Copulas, 2nd ed., 2006, section 2.3).
 struct GaussianCopula {
   std::vector<std::uint32_t> slots;  ///< in the order of columns
-  Per per{Per::trial};               ///< how often all of them are drawn: rig or trial
+  Per per{Per::trial};               ///< how often all of them are drawn: world, rig or trial
   SquareMatrix factor;               ///< L, lower triangular, R = L·Lᵀ
 };
 

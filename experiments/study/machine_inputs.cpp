@@ -14,6 +14,7 @@ bool is_of_the_move(std::string_view name) {
 bool differs_between_machines(const Study& study, const Value& value, std::string_view name) {
   if (value.kind != Value::Kind::distribution) return false;
   switch (value.per) {
+    case Per::world:
     case Per::rig:
       return true;
     case Per::trial:

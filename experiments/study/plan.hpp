@@ -84,6 +84,7 @@ struct StudyPlan {
   std::vector<std::uint32_t> input_slots;    ///< slots whose values differ between trials
   std::vector<InputSource> inputs;           ///< [input column]
   std::vector<InputSource> rig_inputs;       ///< [rig column]
+  std::vector<InputSource> world_inputs;     ///< [world column]
   TrialFactors factors;                      ///< used by the design `saltelli`
   std::vector<std::uint32_t> factor_of;      ///< [slot] its factor; used by the design `saltelli`
   trial::TrialParameters common;             ///< parameters of a trial, without the input slots

@@ -20,9 +20,10 @@ namespace zerocount::study {
 
 enum class Design { monte_carlo, latin_hypercube, sobol, saltelli };
 
-/// How often a random value is drawn: once per study, rig, trial or contact.
+/// How often a random value is drawn: once per study, world, rig, trial or contact. In order of frequency.
 enum class Per : std::uint8_t {
   study,
+  world,  ///< what all machines share, and nobody knows
   rig,
   trial,
   contact  ///< friction only: at t = 0 and at each re-stick of a trial
@@ -169,6 +170,7 @@ struct Study {
   std::uint64_t seed{0};
   std::int64_t trials{0};            ///< per design point; the maximum with `stop`
   std::int64_t rigs{0};              ///< number of rigs; 0: no trials share a rig
+  std::int64_t worlds{0};            ///< number of worlds, which divides `rigs`; 0: nothing is drawn for each
   std::optional<StoppingRule> stop;  ///< set for sequential stopping
   std::optional<Goal> goal{};
   std::optional<Tuning> tuning{};
@@ -192,6 +194,7 @@ struct Study {
   std::vector<InputColumn> input_columns;
   std::vector<InputColumn>
       rig_columns;  ///< columns drawn for each rig, the same at all points; empty without rigs
+  std::vector<InputColumn> world_columns;  ///< likewise of each world
   std::vector<RealisedProfile> profiles;
   std::map<std::string, std::string>
       observed;  ///< point label → observation on the real rig (the text of a case for all its points)
@@ -238,6 +241,12 @@ inline std::int64_t rig_of(const Study& study, std::int64_t trial_index) {
   return trial_index % study.rigs;
 }
 
+/// The world (0 … worlds − 1) of trial `trial_index` at every point, for a study with worlds: that of its rig
+/// r is r mod worlds.
+inline std::int64_t world_of(const Study& study, std::int64_t trial_index) {
+  return trial_index % study.worlds;
+}
+
 /// Whether existing trials stay the same when `trials` is increased. False for a Latin hypercube, whose
 /// strata depend on the number of trials.
 bool trials_stay_when_extended(Design design);
@@ -265,5 +274,8 @@ void complete_trial(const parameters::StudyUnits& units, trial::TrialParameters&
 
 /// The inputs of rig `rig` (0 … rigs − 1): [rig column], in that column's unit.
 std::vector<double> rig_inputs(const Study& study, std::int64_t rig);
+
+/// The inputs of world `world` (0 … worlds − 1): [world column], in that column's unit.
+std::vector<double> world_inputs(const Study& study, std::int64_t world);
 
 }  // namespace zerocount::study

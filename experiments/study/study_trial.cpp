@@ -21,6 +21,7 @@ struct TrialDraws {
   std::uint64_t index;   ///< of the trial
   std::uint64_t place;   ///< index of its point in the design
   std::uint64_t rig;     ///< 0 without rigs
+  std::uint64_t world;   ///< 0 without worlds
   std::uint32_t stream;  ///< of values drawn per trial, not per rig
   const GivenUniforms& given;
 
@@ -35,6 +36,7 @@ TrialDraws draws_of(const Study& study, std::int64_t point, std::int64_t index, 
           trial,
           shuffled ? sobol_place(study.plan->sobol_places, trial, rigs) : trial,
           rigs > 0 ? static_cast<std::uint64_t>(rig_of(study, index)) : 0,
+          study.worlds > 0 ? static_cast<std::uint64_t>(world_of(study, index)) : 0,
           study.independent_points ? static_cast<std::uint32_t>(point) + 1 : 0,
           given};
 }
@@ -52,6 +54,9 @@ double drawn_uniform(const TrialDraws& draws, std::uint32_t slot, Per per) {
   switch (per) {
     case Per::study:
       return design_uniform(study.design, randomness, 0, 0, 1);
+    case Per::world:
+      return design_uniform(Design::latin_hypercube, randomness, 0, draws.world,
+                            static_cast<std::uint64_t>(study.worlds));
     case Per::rig:
       return design_uniform(study.design, randomness, 0, draws.rig, static_cast<std::uint64_t>(study.rigs));
     case Per::trial:
@@ -150,6 +155,28 @@ void check_exists(const Study& study, std::int64_t point, std::int64_t index) {
   }
 }
 
+/// The inputs that all trials of one rig (or world) share, of its first trial, which has its index.
+std::vector<double> inputs_of(const Study& study, std::string_view unit, std::int64_t index,
+                              std::int64_t count, const std::vector<InputSource>& sources) {
+  if (index < 0 || index >= count) {
+    throw Failure(ExitCode::bad_input, fmt::format("study {} has no {} {}; expected 0 to {}", study.name,
+                                                   unit, index, count - 1));
+  }
+  const StudyPlan& plan = *study.plan;
+  const GivenUniforms none;
+  const TrialDraws draws = draws_of(study, 0, index, none);
+  std::vector<double> inputs;
+  inputs.reserve(sources.size());
+  for (const InputSource& source : sources) {
+    const Value& value = plan.base[source.slot];
+    inputs.push_back(source.profile_mean
+                         ? profile_mean(draws, value)
+                         : distributions::quantile(plan.distributions[value.index],
+                                                   uniform_of(draws, source.slot, value.per)));
+  }
+  return inputs;
+}
+
 }  // namespace
 
 StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int64_t index,
@@ -213,23 +240,11 @@ StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t inde
 }
 
 std::vector<double> rig_inputs(const Study& study, std::int64_t rig) {
-  if (rig < 0 || rig >= study.rigs) {
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("study {} has no rig {}; expected 0 to {}", study.name, rig, study.rigs - 1));
-  }
-  const StudyPlan& plan = *study.plan;
-  const GivenUniforms none;
-  const TrialDraws draws = draws_of(study, 0, rig, none);  // the first trial on it
-  std::vector<double> inputs;
-  inputs.reserve(plan.rig_inputs.size());
-  for (const InputSource& source : plan.rig_inputs) {
-    const Value& value = plan.base[source.slot];
-    inputs.push_back(source.profile_mean
-                         ? profile_mean(draws, value)
-                         : distributions::quantile(plan.distributions[value.index],
-                                                   uniform_of(draws, source.slot, value.per)));
-  }
-  return inputs;
+  return inputs_of(study, "rig", rig, study.rigs, study.plan->rig_inputs);
+}
+
+std::vector<double> world_inputs(const Study& study, std::int64_t world) {
+  return inputs_of(study, "world", world, study.worlds, study.plan->world_inputs);
 }
 
 }  // namespace zerocount::study

@@ -148,6 +148,13 @@ struct StatisticTable {
   std::vector<PointColumn> columns;      ///< values[point·width + index]
 };
 
+/// Trials of the worlds at the design points, [point][world].
+struct WorldCounts {
+  std::vector<std::vector<std::int64_t>> trials;    ///< that were judged: none in an open loop
+  std::vector<std::vector<std::int64_t>> success;   ///< all of whose moves ended with a zero count
+  std::vector<std::vector<std::int64_t>> goal_met;  ///< all of whose moves meet the goal; empty without one
+};
+
 /// Everything that is stored of the statistics of a study.
 struct StoredStatistics {
   std::vector<PointColumn> points;
@@ -155,6 +162,7 @@ struct StoredStatistics {
   std::function<void(hdf5::File&)> groups;  ///< writes further groups; may be empty
   /// [point][rig] trials of which all moves ended with a zero count; empty without rigs
   std::vector<std::vector<std::int64_t>> rig_successes{};
+  std::optional<WorldCounts> worlds{};
 };
 
 /// Number of angles at which a profile is tabulated, over one revolution, where all trials are on one rotor.
@@ -190,6 +198,11 @@ Table rig_table(const std::vector<study::InputColumn>& inputs);
 /// Successes of the rigs at the design points: [point, rig]. It shares the group and the
 /// dimension scale of rig_table.
 Table rig_count_table();
+/// The inputs that differ between the worlds: [world].
+Table world_table(const std::vector<study::InputColumn>& inputs);
+/// Trials of the worlds at the design points: [point, world]. It shares the group and the dimension scale of
+/// world_table.
+Table world_count_table(bool has_goal);
 
 /// How many of the whole and real numbers in /sums belong to each design point: [point].
 Table sums_table();

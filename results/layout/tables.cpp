@@ -15,6 +15,10 @@ Column rig_scale() {
   return whole_numbers("rig", "index of the rig");
 }
 
+Column world_scale() {
+  return whole_numbers("world", "index of the world");
+}
+
 Column theta_scale() {
   return {"theta", "rad", "$rotor_angle from the origin of the profile", hdf5::Element::float64};
 }
@@ -182,6 +186,24 @@ Table rig_count_table() {
           rig_scale(),
           {whole_numbers("success", "trials of the rig at the point that succeeded, in all their moves"),
            whole_numbers("trials", "trials of the rig at the point that were judged, 0 in an open loop")}};
+}
+
+Table world_table(const std::vector<study::InputColumn>& inputs) {
+  return {"world", world_scale(), {}, input_columns(inputs)};
+}
+
+Table world_count_table(bool has_goal) {
+  Table table{
+      "world",
+      whole_numbers("point", "index of the design point"),
+      world_scale(),
+      {whole_numbers("success", "trials in the world at the point that succeeded, in all their moves"),
+       whole_numbers("trials", "trials in the world at the point that were judged, 0 in an open loop")}};
+  if (has_goal) {
+    table.columns.push_back(
+        whole_numbers("goal_met", "trials in the world at the point all of whose moves meet the goal"));
+  }
+  return table;
 }
 
 Table sums_table() {

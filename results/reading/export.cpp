@@ -148,25 +148,40 @@ void export_profiles(const ResultsFile& file, CsvFile& csv) {
   }
 }
 
-void export_rigs(const StoredRigs& rigs, CsvFile& csv) {
-  csv.add("rig");
-  for (const study::InputColumn& column : rigs.columns) csv.add(head_with_unit(column.name, column.unit));
+/// The inputs of rigs or worlds. @param name of one
+void export_groups(std::string_view name, const StoredGroups& groups, CsvFile& csv) {
+  csv.add(name);
+  for (const study::InputColumn& column : groups.columns) csv.add(head_with_unit(column.name, column.unit));
   csv.end_row();
-  for (std::int64_t rig = 0; rig < rigs.rigs; ++rig) {
-    csv.add(rig);
-    for (const std::vector<double>& values : rigs.inputs) csv.add(values[static_cast<std::size_t>(rig)]);
+  for (std::int64_t group = 0; group < groups.count; ++group) {
+    csv.add(group);
+    for (const std::vector<double>& values : groups.inputs) csv.add(values[static_cast<std::size_t>(group)]);
     csv.end_row();
   }
 }
 
-void export_rig_counts(const StoredRigs& rigs, CsvFile& csv) {
-  csv.add("point", "rig", "success", "trials");
+void export_group_counts(std::string_view name, const StoredGroups& groups, CsvFile& csv) {
+  csv.add("point", name, "success", "trials");
+  if (!groups.goal_met.empty()) csv.add("goal_met");
   csv.end_row();
-  for (std::size_t i = 0; i < rigs.success.size(); ++i) {
-    csv.add(static_cast<std::int64_t>(i) / rigs.rigs, static_cast<std::int64_t>(i) % rigs.rigs,
-            rigs.success[i], rigs.trials[i]);
+  for (std::size_t i = 0; i < groups.success.size(); ++i) {
+    csv.add(static_cast<std::int64_t>(i) / groups.count, static_cast<std::int64_t>(i) % groups.count,
+            groups.success[i], groups.trials[i]);
+    if (!groups.goal_met.empty()) csv.add(groups.goal_met[i]);
     csv.end_row();
   }
+}
+
+void add_groups(std::vector<ExportedTable>& tables, const std::string& name,
+                const std::optional<StoredGroups>& groups) {
+  if (!groups) return;
+  tables.push_back({name + "s.csv", [name, groups](const ResultsFile&, CsvFile& csv) {
+                      export_groups(name, *groups, csv);
+                    }});
+  if (groups->success.empty()) return;
+  tables.push_back({name + "_counts.csv", [name, groups](const ResultsFile&, CsvFile& csv) {
+                      export_group_counts(name, *groups, csv);
+                    }});
 }
 
 void export_trace(const TrialTables& trials, CsvFile& csv) {
@@ -190,13 +205,8 @@ void export_statistics(const layout::StatisticTable& table, CsvFile& csv) {
 
 void add_study_tables(std::vector<ExportedTable>& tables, const ResultsFile& file) {
   if (file.has_profiles()) tables.push_back({"profiles.csv", export_profiles});
-  if (const auto rigs = file.rigs()) {
-    tables.push_back({"rigs.csv", [rigs](const ResultsFile&, CsvFile& csv) { export_rigs(*rigs, csv); }});
-    if (!rigs->success.empty()) {
-      tables.push_back(
-          {"rig_counts.csv", [rigs](const ResultsFile&, CsvFile& csv) { export_rig_counts(*rigs, csv); }});
-    }
-  }
+  add_groups(tables, "rig", file.rigs());
+  add_groups(tables, "world", file.worlds());
 }
 
 void add_statistic_tables(std::vector<ExportedTable>& tables, const ResultsFile& file) {

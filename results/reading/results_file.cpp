@@ -101,6 +101,18 @@ std::vector<Number> numbers_of(const layout::TableIo& io, const std::vector<std:
   return numbers;
 }
 
+/// The inputs of the rigs or worlds of a file.
+StoredGroups read_groups(const hdf5::File& file, const std::string& name,
+                         layout::Table (*table)(const std::vector<study::InputColumn>&)) {
+  StoredGroups stored;
+  stored.columns = read_input_columns(file.open_group(name));
+  const layout::TableIo io = layout::TableIo::open(file, table(stored.columns));
+  stored.count = io.rows();
+  for (std::size_t column = 0; column < stored.columns.size(); ++column)
+    stored.inputs.push_back(layout::read_column<double>(io, column));
+  return stored;
+}
+
 }  // namespace
 
 ResultsFile::ResultsFile(const std::filesystem::path& path, Require require,
@@ -174,21 +186,28 @@ std::vector<StoredProfile> ResultsFile::profiles() const {
   return profiles;
 }
 
-std::optional<StoredRigs> ResultsFile::rigs() const {
+std::optional<StoredGroups> ResultsFile::rigs() const {
   if (!file_.contains("rig")) return std::nullopt;
-  StoredRigs stored;
-  const hdf5::Group group = file_.open_group("rig");
-  stored.columns = read_input_columns(group);
-  const layout::TableIo io = layout::TableIo::open(file_, layout::rig_table(stored.columns));
-  stored.rigs = io.rows();
-  for (std::size_t column = 0; column < stored.columns.size(); ++column) {
-    stored.inputs.push_back(layout::read_column<double>(io, column));
-  }
-  if (!group.contains("success")) return stored;
+  StoredGroups stored = read_groups(file_, "rig", layout::rig_table);
+  if (!file_.open_group("rig").contains("success")) return stored;
   const layout::TableIo counts = layout::TableIo::open(file_, layout::rig_count_table());
   stored.success = layout::read_column<std::int64_t>(counts, 0);
   stored.trials = layout::read_column<std::int64_t>(counts, 1);
   validate_rigs(header_, counts, stored.success, stored.trials);
+  return stored;
+}
+
+std::optional<StoredGroups> ResultsFile::worlds() const {
+  if (!file_.contains("world")) return std::nullopt;
+  StoredGroups stored = read_groups(file_, "world", layout::world_table);
+  const hdf5::Group group = file_.open_group("world");
+  if (!group.contains("success")) return stored;
+  const bool has_goal = group.contains("goal_met");
+  const layout::TableIo counts = layout::TableIo::open(file_, layout::world_count_table(has_goal));
+  stored.success = layout::read_column<std::int64_t>(counts, 0);
+  stored.trials = layout::read_column<std::int64_t>(counts, 1);
+  if (has_goal) stored.goal_met = layout::read_column<std::int64_t>(counts, 2);
+  validate_worlds(header_, counts, stored.success, stored.trials, stored.goal_met);
   return stored;
 }
 

@@ -33,13 +33,14 @@ struct StoredProfile {
   std::string theta_unit{"rad"};
 };
 
-/// The rigs of a study as they stand in a results file.
-struct StoredRigs {
-  std::int64_t rigs{0};
+/// The rigs, or worlds, of a study as they stand in a results file.
+struct StoredGroups {
+  std::int64_t count{0};
   std::vector<study::InputColumn> columns;  ///< what differs between them
-  std::vector<std::vector<double>> inputs;  ///< [column][rig]
-  std::vector<std::int64_t> success;  ///< [point][rig] trials that succeeded, flattened; empty in a part
-  std::vector<std::int64_t> trials;   ///< [point][rig] trials that were judged, flattened; empty in a part
+  std::vector<std::vector<double>> inputs;  ///< [column][group]
+  std::vector<std::int64_t> success;   ///< [point][group] trials that succeeded, flattened; empty in a part
+  std::vector<std::int64_t> trials;    ///< [point][group] trials that were judged, flattened; likewise
+  std::vector<std::int64_t> goal_met;  ///< [point][world] trials that meet the goal; empty without one
 };
 
 /// A results file, part or shard, open to be read: the description of the study, the tables by design point
@@ -71,7 +72,9 @@ class ResultsFile {
   std::vector<StoredProfile> profiles() const;
 
   /// Nothing in a study without rigs, and in a shard.
-  std::optional<StoredRigs> rigs() const;
+  std::optional<StoredGroups> rigs() const;
+  /// Likewise without worlds.
+  std::optional<StoredGroups> worlds() const;
 
   /// Nothing with `keep: statistics`.
   const std::optional<TrialTables>& trials() const { return trials_; }

@@ -211,4 +211,21 @@ void validate_rigs(const layout::FileHeader& header, const layout::TableIo& coun
   }
 }
 
+void validate_worlds(const layout::FileHeader& header, const layout::TableIo& counts,
+                     std::span<const std::int64_t> success, std::span<const std::int64_t> trials,
+                     std::span<const std::int64_t> goal_met) {
+  const std::int64_t worlds = counts.width();
+  if (counts.rows() != header.points) counts.column(0).fail("its size differs from the points of the study");
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const std::int64_t world = static_cast<std::int64_t>(i) % worlds;
+    const std::int64_t most = (header.trials - world + worlds - 1) / worlds;
+    const auto within = [&](std::int64_t count, std::int64_t limit) { return count >= 0 && count <= limit; };
+    if (within(trials[i], most) && within(success[i], trials[i]) &&
+        (goal_met.empty() || within(goal_met[i], trials[i])))
+      continue;
+    counts.column(0).fail(fmt::format("row {}: impossible counts of world {}; expected 0 to {} trials",
+                                      static_cast<std::int64_t>(i) / worlds, world, most));
+  }
+}
+
 }  // namespace zerocount::reading

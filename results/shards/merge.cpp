@@ -148,6 +148,7 @@ hdf5::WrittenValues write_trials_of(std::span<const ShardInfo> shards, const stu
   }
   write_profiles(file, study);
   if (study.rigs > 0) write_rigs(file, study);
+  if (study.worlds > 0) write_worlds(file, study);
   if (!study.retained_trials.empty())
     join(layout::on_axis(layout::trace_table(study.features), study.units.axis), 1, 0, options.renumber);
   return file.close();
@@ -183,6 +184,7 @@ void write_statistics(hdf5::File& file, const study::Study& study,
   }
   if (statistics.groups) statistics.groups(file);
   if (!statistics.rig_successes.empty()) write_rig_counts(file, study, statistics.rig_successes);
+  if (statistics.worlds) write_world_counts(file, study, *statistics.worlds);
 }
 
 /// The shards in order of rows. @throws Failure unless they cover `rows`.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -55,6 +56,20 @@ void write_rotors(hdf5::File& file, const study::RealisedProfile& realised, cons
   }
 }
 
+/// Writes a table of inputs. @param inputs_of its row → [column]
+void write_inputs(hdf5::File& file, const layout::Table& table, std::int64_t rows,
+                  const std::function<std::vector<double>(std::int64_t)>& inputs_of) {
+  std::vector<std::vector<double>> values(table.columns.size());
+  for (std::int64_t row = 0; row < rows; ++row) {
+    const std::vector<double> inputs = inputs_of(row);
+    for (std::size_t column = 0; column < values.size(); ++column) values[column].push_back(inputs[column]);
+  }
+  layout::TableIo io = layout::TableIo::create(file, table, rows, 1);
+  io.number_rows(0);
+  for (std::size_t column = 0; column < values.size(); ++column)
+    io.column(column).write(0, rows, values[column].data());
+}
+
 }  // namespace
 
 void write_profiles(hdf5::File& file, const study::Study& study) {
@@ -68,15 +83,25 @@ void write_profiles(hdf5::File& file, const study::Study& study) {
 }
 
 void write_rigs(hdf5::File& file, const study::Study& study) {
-  std::vector<std::vector<double>> values(study.rig_columns.size());
-  for (std::int64_t rig = 0; rig < study.rigs; ++rig) {
-    const std::vector<double> inputs = study::rig_inputs(study, rig);
-    for (std::size_t column = 0; column < values.size(); ++column) values[column].push_back(inputs[column]);
-  }
-  layout::TableIo io = layout::TableIo::create(file, layout::rig_table(study.rig_columns), study.rigs, 1);
+  write_inputs(file, layout::rig_table(study.rig_columns), study.rigs,
+               [&](std::int64_t rig) { return study::rig_inputs(study, rig); });
+}
+
+void write_worlds(hdf5::File& file, const study::Study& study) {
+  write_inputs(file, layout::world_table(study.world_columns), study.worlds,
+               [&](std::int64_t world) { return study::world_inputs(study, world); });
+}
+
+void write_world_counts(hdf5::File& file, const study::Study& study, const layout::WorldCounts& counts) {
+  const bool has_goal = !counts.goal_met.empty();
+  layout::TableIo io =
+      layout::TableIo::create(file, layout::world_count_table(has_goal), std::ssize(counts.trials), study.worlds);
   io.number_rows(0);
-  for (std::size_t column = 0; column < values.size(); ++column) {
-    io.column(column).write(0, study.rigs, values[column].data());
+  for (std::size_t point = 0; point < counts.trials.size(); ++point) {
+    const auto row = static_cast<std::int64_t>(point);
+    io.column(0).write(row, 1, counts.success[point].data());
+    io.column(1).write(row, 1, counts.trials[point].data());
+    if (has_goal) io.column(2).write(row, 1, counts.goal_met[point].data());
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "experiments/study/study.hpp"
 #include "results/hdf5/hdf5.hpp"
+#include "results/layout/layout.hpp"
 
 namespace zerocount::shards {
 
@@ -17,5 +18,11 @@ void write_rigs(hdf5::File& file, const study::Study& study);
 /// Writes the trials that were judged and those that succeeded to /rig. @param successes [point][rig]
 void write_rig_counts(hdf5::File& file, const study::Study& study,
                       const std::vector<std::vector<std::int64_t>>& successes);
+
+/// Writes the inputs that differ between the worlds of a study to /world.
+void write_worlds(hdf5::File& file, const study::Study& study);
+
+/// Writes the trials of the worlds to /world.
+void write_world_counts(hdf5::File& file, const study::Study& study, const layout::WorldCounts& counts);
 
 }  // namespace zerocount::shards

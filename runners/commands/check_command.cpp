@@ -75,6 +75,7 @@ void print_what_differs(const study::Study& study) {
   print_columns(study, "differing between trials", {study::Per::trial, study::Per::contact});
   print_columns(study, "of these, drawn anew at each contact", {study::Per::contact});
   print_columns(study, "differing between rigs", {study::Per::rig});
+  print_columns(study, "differing between worlds", {study::Per::world});
   print_columns(study, "the same in all trials of a point", {study::Per::study});
   if (study.samples) standard_output::show("  sampled together: {}\n", study::samples_text(*study.samples));
   if (!study.correlations.empty())

@@ -13,7 +13,8 @@ namespace {
 
 constexpr const char* export_help =
     "Writes the tables of a results file as CSV: points.csv, trials.csv, outcomes.csv and jerks.csv;\n"
-    "profiles.csv if there are profiles, rigs.csv and rig_counts.csv if there are rigs, trace.csv if the\n"
+    "profiles.csv if there are profiles, rigs.csv and rig_counts.csv if there are rigs, likewise\n"
+    "worlds.csv and world_counts.csv, trace.csv if the\n"
     "study retains trials, levels.csv for an open-loop study, and four tables repeatability_….csv for one\n"
     "with a sequence of moves. A file without its trials (keep) gives the tables that it has. The header row "
     "has\n"

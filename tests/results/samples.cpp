@@ -198,16 +198,16 @@ std::vector<shards::ShardInfo> write_sample_shards(const std::filesystem::path& 
 
 /// [point][rig] as if trial i were on rig i mod 8; empty without rigs.
 std::vector<std::vector<std::int64_t>> sample_rig_successes(const reading::StudyFile& file) {
-  const std::optional<reading::StoredRigs> rigs = file.rigs();
+  const std::optional<reading::StoredGroups> rigs = file.rigs();
   if (!rigs) return {};
   const std::vector<trial::MoveOutcome> outcomes = file.outcomes(file.rows());
   std::vector<std::vector<std::int64_t>> successes(
       static_cast<std::size_t>(file.header().points),
-      std::vector<std::int64_t>(static_cast<std::size_t>(rigs->rigs), 0));
+      std::vector<std::int64_t>(static_cast<std::size_t>(rigs->count), 0));
   for (std::int64_t row = 0; row < file.rows().count; ++row) {
     const std::span moves(outcomes.begin() + row * file.moves(), static_cast<std::size_t>(file.moves()));
     successes[static_cast<std::size_t>(row / file.header().trials)]
-             [static_cast<std::size_t>(row % file.header().trials % rigs->rigs)] += trial::succeeded(moves);
+             [static_cast<std::size_t>(row % file.header().trials % rigs->count)] += trial::succeeded(moves);
   }
   return successes;
 }

@@ -17,7 +17,7 @@ TEST(RigTables, HaveWhatDiffersBetweenTheRigs) {
   const TemporaryFolder directory;
   const study::Study study = sample_study_with_rigs();
   const reading::StudyFile file(write_sample_file(directory.path(), study));
-  const reading::StoredRigs stored = file.rigs().value();
+  const reading::StoredGroups stored = file.rigs().value();
   ASSERT_EQ(stored.columns.size(), 1U);
   EXPECT_EQ(stored.columns[0].name, "friction.k1");
   EXPECT_EQ(stored.columns[0].unit, "N m/rad");

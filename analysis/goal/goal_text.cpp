@@ -15,6 +15,24 @@ std::string with_bounds(const BoundedProportion& proportion) {
                      text::percent_at_most(proportion.high));
 }
 
+/// The readings of a study with worlds: the worst world, and the worlds by their verdicts.
+std::string readings_of_worlds(const study::Goal& goal, const Verdict& verdict) {
+  const std::size_t worst = worst_worlds_first(goal, verdict).front();
+  std::string text = fmt::format(
+      "  it must hold in each of {} worlds: met in {}, missed in {}, undecided in {} (each of them with a part "
+      "of the error probability)\n",
+      verdict.worlds.size(), worlds_that(Status::met, verdict).size(),
+      worlds_that(Status::missed, verdict).size(), worlds_that(Status::undecided, verdict).size());
+  if (goal.machines) {
+    text += fmt::format("  machines that meet it: {} in world {}, the worst; in the worst of all {}\n",
+                        text::percent_near(verdict.worlds[worst].machines.value), worst,
+                        with_bounds(verdict.machines));
+  }
+  return text + fmt::format("  moves that meet it: {} in world {}, the worst; in the worst of all {}\n",
+                            text::percent_near(verdict.worlds[worst].moves.value), worst,
+                            with_bounds(verdict.moves));
+}
+
 }  // namespace
 
 std::string goal_sentence(const study::Goal& goal) {
@@ -29,6 +47,7 @@ std::string goal_sentence(const study::Goal& goal) {
 
 std::string readings_text(const study::Goal& goal, const measures::MoveCounts& counts,
                           const Verdict& verdict) {
+  if (!verdict.worlds.empty()) return readings_of_worlds(goal, verdict);
   std::string text = fmt::format("  of all moves of all machines, {} meet it: {} of {}, {}\n",
                                  text::percentage(counts.met, counts.moves), counts.met, counts.moves,
                                  with_bounds(verdict.moves));

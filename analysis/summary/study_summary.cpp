@@ -18,6 +18,7 @@
 #include "analysis/summary/summary_parts.hpp"
 #include "analysis/summary/summed_point.hpp"
 #include "analysis/summary/undecided.hpp"
+#include "analysis/worlds/world_statistics.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/manifest_keys.hpp"
 #include "experiments/study/study.hpp"
@@ -53,6 +54,9 @@ StudySummary summary_of(const study::Study& study, double confidence) {
   summary.confidence = confidence;
   summary.features = study.features;
   summary.goal = study.goal;
+  summary.worlds = study.worlds;
+  summary.world_inputs = worlds::world_inputs(study);
+  summary.seed = study.seed;
   summary.design = manifest::design_labels[static_cast<std::size_t>(study.design)];
   return summary;
 }
@@ -76,6 +80,7 @@ void complete_points(StudySummary& summary, const study::Study& study,
 /// The claims about all axes. They count independent trials.
 void add_claims(StudySummary& summary) {
   if (summary.goal) summary.sections.push_back(goal_section(summary));
+  if (summary.worlds > 0 && !summary.features.open_loop) summary.sections.push_back(worlds_section(summary));
   if (summary.features.open_loop || summary.features.dependent_trials) return;
   summary.sections.push_back(
       tolerance_section(summary.points, short_labels(summary.labels, summary.axes), summary.features));

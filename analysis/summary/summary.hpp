@@ -11,6 +11,7 @@
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/measures/summary_section.hpp"
 #include "analysis/theory/theory_prediction.hpp"
+#include "analysis/worlds/world_rule.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"
 #include "results/reading/results_file.hpp"
@@ -37,6 +38,9 @@ struct StudySummary {
   std::vector<theory::PointPrediction> predictions{};  ///< [point], or empty where not computed
   study::StudyFeatures features{};                     ///< what the table has columns for
   std::optional<study::Goal> goal{};                   ///< of the study
+  std::int64_t worlds{0};                              ///< number of worlds of the study; 0: none
+  std::vector<worlds::WorldInput> world_inputs{};      ///< what differs between them
+  std::uint64_t seed{0};                               ///< of the study
   std::optional<UnfinishedStudy> unfinished{};         ///< where the run has not ended
   std::vector<measures::SummarySection> sections{};
 

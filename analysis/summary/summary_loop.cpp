@@ -77,7 +77,8 @@ void add_goal(std::vector<text::TextColumn>& columns, const StudySummary& summar
     status.cells.emplace_back(verdict ? goal::text_of(verdict->status) : "–");
   columns.push_back(std::move(status));
   if (summary.goal->machines) add_proportion(columns, "machines in goal", verdicts, &goal::Verdict::machines);
-  add_proportion(columns, "moves in goal", verdicts, &goal::Verdict::moves);
+  add_proportion(columns, summary.worlds > 0 ? "moves in goal (worst world)" : "moves in goal", verdicts,
+                 &goal::Verdict::moves);
 }
 
 void add_success(std::vector<text::TextColumn>& columns, const StudySummary& summary) {
@@ -254,10 +255,15 @@ std::string design_line(const StudySummary& summary) {
         "narrow them only so far",
         rigs_of(summary));
   }
+  if (summary.worlds > 0) {
+    line += fmt::format(
+        ", {} worlds: rates over all trials are averages over the worlds; those of a goal are of the worst world",
+        summary.worlds);
+  }
   if (features.spread_trials) {
     line += fmt::format(
         "{} bounds are conservative: made for trials by chance, which vary more than those of this design",
-        features.rigs ? ";" : ":");
+        features.rigs || summary.worlds > 0 ? ";" : ":");
   }
   return line;
 }

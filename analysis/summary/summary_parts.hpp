@@ -10,6 +10,7 @@
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/summary/summary.hpp"
 #include "analysis/text/text.hpp"
+#include "analysis/worlds/world_statistics.hpp"
 #include "experiments/study/study.hpp"
 
 /// Parts of the summary of a study, which summary_table, summary_json and summary_csv put together.
@@ -108,6 +109,25 @@ nlohmann::ordered_json verdict_json(const study::Goal& goal, const goal::Verdict
 /// Its JSON is verdict_json(). Its columns are goal_rate, goal_rate_low, goal_rate_high, and goal_machines…
 /// likewise; its cells are columns of the main table.
 measures::SummarySection goal_section(const StudySummary& summary);
+
+/// The worlds of the points of a study with worlds; nothing for a point without trials.
+std::vector<std::optional<worlds::PointWorlds>> worlds_of_points(const StudySummary& summary);
+
+/// "5 of 30 worlds fall short of the goal: where friction.alpha > 1.4 1/s (5 of these 5, and 1 of the other
+/// 25; by chance with probability 0.0025)".
+std::string bad_worlds_sentence(const worlds::PointWorlds& point,
+                                const std::vector<worlds::WorldInput>& inputs, bool has_goal);
+
+/// {"n", "success": {"worst", "worst_low", "worst_high", "median", "best", "worst_world", "best_world"},
+/// "success_rates": [world], with a goal "goal_rates": [world], "goal_status": [world], "met", "missed",
+/// "undecided" (numbers of worlds), "bad_worlds": […], "rule": null or {"text", "conditions": [{"parameter",
+/// "relation", "value"}], "joined_by", "bad_named", "others_named", "error_rate", "p_value"}}
+nlohmann::ordered_json worlds_json(const worlds::PointWorlds& point,
+                                   const std::vector<worlds::WorldInput>& inputs);
+
+/// The section "worlds" of a summary of a study with worlds. Its JSON is worlds_json(); its columns are
+/// worlds_success_worst, …; its text is a table and a sentence a point on what bad worlds have in common.
+measures::SummarySection worlds_section(const StudySummary& summary);
 
 /// The section "assurance" of a summary: what the trials of each point show of all axes that the manifest
 /// describes, as tolerance statements.

@@ -93,6 +93,11 @@ void print_plan(const study::Study& study) {
     standard_output::show("  at each point {} rigs × {} trials of each\n", study.rigs,
                           study.trials / study.rigs);
   }
+  if (study.worlds > 0) {
+    standard_output::show("  in {} worlds, {} in each\n", study.worlds,
+                          study.rigs > 0 ? counted(study.rigs / study.worlds, "rig")
+                                         : fmt::format("about {} trials", study.trials / study.worlds));
+  }
   if (study.stop) {
     standard_output::show(
         "  or fewer: after every {} at each point it ends if all success rates are known to ± {:.4g}\n",

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "analysis/summary/judged_point.hpp"
+#include "analysis/summary/summary_parts.hpp"
 #include "analysis/text/report_json.hpp"
 #include "results/shards/pieces.hpp"
 #include "runners/command_line/option_values.hpp"
@@ -42,6 +43,10 @@ nlohmann::ordered_json judgement_json(const summary::StudySummary& summary,
   json["needed"] = nullptr;
   if (judged.needs && judged.needs->trials > 0)
     json["needed"] = {{"rigs", judged.needs->rigs}, {"trials", judged.needs->trials}};
+  if (summary.worlds > 0) {
+    const auto worlds = summary::worlds_of_points(summary)[static_cast<std::size_t>(judged.chosen.point)];
+    json["worlds"] = summary::worlds_json(worlds.value(), summary.world_inputs);
+  }
   return json;
 }
 

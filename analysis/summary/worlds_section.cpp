@@ -1,0 +1,194 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "analysis/summary/shown_points.hpp"
+#include "analysis/summary/summary_parts.hpp"
+#include "analysis/text/percent.hpp"
+
+namespace zerocount::summary {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Worlds = std::optional<worlds::PointWorlds>;
+
+std::int64_t worlds_with(goal::Status status, const worlds::PointWorlds& point) {
+  return std::ssize(goal::worlds_that(status, *point.goal));
+}
+
+void add_column(std::vector<layout::PointColumn>& columns, std::string name, std::string meaning,
+                const std::vector<Worlds>& points, const auto& value) {
+  layout::PointColumn column{std::move(name), "1", std::move(meaning), {}};
+  for (const Worlds& point : points)
+    column.values.push_back(point ? static_cast<double>(value(*point)) : statistics::unknown);
+  columns.push_back(std::move(column));
+}
+
+std::vector<layout::PointColumn> columns_of(const std::vector<Worlds>& points, bool has_goal) {
+  using Point = const worlds::PointWorlds&;
+  std::vector<layout::PointColumn> columns;
+  add_column(columns, "worlds_success_worst", "success rate of the world with the lowest", points,
+             [](Point p) { return p.success.lowest.value; });
+  add_column(columns, "worlds_success_worst_low",
+             "one-sided lower bound of the lowest success rate of a world", points,
+             [](Point p) { return p.success.lowest.low; });
+  add_column(columns, "worlds_success_worst_high",
+             "one-sided upper bound of the lowest success rate of a world", points,
+             [](Point p) { return p.success.lowest.high; });
+  add_column(columns, "worlds_success_median", "median of the success rates of the worlds", points,
+             [](Point p) { return p.success.median; });
+  add_column(columns, "worlds_success_best", "success rate of the world with the highest", points,
+             [](Point p) { return p.success.worlds[p.success.best].value; });
+  if (!has_goal) return columns;
+  add_column(columns, "worlds_goal_met", "worlds in which the goal is met", points,
+             [](Point p) { return worlds_with(goal::Status::met, p); });
+  add_column(columns, "worlds_goal_missed", "worlds in which the goal is missed", points,
+             [](Point p) { return worlds_with(goal::Status::missed, p); });
+  return columns;
+}
+
+void add_cells(std::vector<text::TextColumn>& columns, std::string head, const std::vector<Worlds>& points,
+               const auto& cell) {
+  text::TextColumn column{std::move(head), true, {}};
+  for (const Worlds& point : points) {
+    if (point) column.cells.push_back(cell(*point));
+  }
+  columns.push_back(std::move(column));
+}
+
+text::PointTable table_of(const std::vector<Worlds>& points, const std::vector<std::string>& labels,
+                          bool has_goal) {
+  using Point = const worlds::PointWorlds&;
+  text::PointTable table{{{"point", false, {}}}, {}};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i]) continue;
+    table.columns[0].cells.push_back(text::printable(labels[i]));
+    table.points.push_back(static_cast<std::int64_t>(i));
+  }
+  std::vector<text::TextColumn>& columns = table.columns;
+  add_cells(columns, "zero-count worst", points,
+            [](Point p) { return text::percent_near(p.success.lowest.value); });
+  add_cells(columns, "bounds", points, [](Point p) {
+    return fmt::format("[{}]", text::percent_bounds(p.success.lowest.low, p.success.lowest.high));
+  });
+  add_cells(columns, "median", points, [](Point p) { return text::percent_near(p.success.median); });
+  add_cells(columns, "best", points,
+            [](Point p) { return text::percent_near(p.success.worlds[p.success.best].value); });
+  if (!has_goal) return table;
+  for (const goal::Status status : {goal::Status::met, goal::Status::missed, goal::Status::undecided}) {
+    add_cells(columns, fmt::format("goal {}", goal::text_of(status)), points,
+              [status](Point p) { return fmt::format("{}", worlds_with(status, p)); });
+  }
+  return table;
+}
+
+}  // namespace
+
+std::vector<Worlds> worlds_of_points(const StudySummary& summary) {
+  std::vector<Worlds> points;
+  for (const measures::PointSummary& point : summary.points) {
+    points.emplace_back();
+    if (point.worlds)
+      points.back() =
+          worlds::point_worlds(point, summary.goal, summary.world_inputs, summary.seed, summary.confidence);
+  }
+  return points;
+}
+
+std::string bad_worlds_sentence(const worlds::PointWorlds& point,
+                                const std::vector<worlds::WorldInput>& inputs, bool has_goal) {
+  const auto bad = std::count(point.bad.begin(), point.bad.end(), true);
+  const std::int64_t all = std::ssize(point.bad);
+  const std::string what = has_goal ? "fall short of the goal" : "succeed less often than the median world";
+  if (bad == 0 || bad == all) return fmt::format("{} of {} worlds {}", bad == 0 ? "none" : "all", all, what);
+  if (!point.rule) {
+    return fmt::format(
+        "{} of {} worlds {}, and no rule on one or two parameters tells them from the others (at a "
+        "significance of {})",
+        bad, all, what, text::percent(worlds::significance_of_rules));
+  }
+  return fmt::format(
+      "{} of {} worlds {}: where {} ({} of these {}, and {} of the other {}; by chance with probability "
+      "{:.2g})",
+      bad, all, what, worlds::text_of(*point.rule, inputs), point.rule->bad_named, point.rule->bad,
+      point.rule->good_named, point.rule->good, point.rule->p_value);
+}
+
+Json worlds_json(const worlds::PointWorlds& point, const std::vector<worlds::WorldInput>& inputs) {
+  const worlds::RatesOfWorlds& success = point.success;
+  Json json{{"n", point.bad.size()},
+            {"success",
+             {{"worst", success.lowest.value},
+              {"worst_low", success.lowest.low},
+              {"worst_high", success.lowest.high},
+              {"median", success.median},
+              {"best", success.worlds[success.best].value},
+              {"worst_world", success.worst},
+              {"best_world", success.best}}}};
+  json["success_rates"] = Json::array();
+  for (const goal::BoundedProportion& world : success.worlds) json["success_rates"].push_back(world.value);
+  if (point.goal) {
+    json["goal_rates"] = Json::array();
+    for (const goal::WorldVerdict& world : point.goal->worlds)
+      json["goal_rates"].push_back(world.moves.value);
+    json["goal_status"] = Json::array();
+    for (const goal::WorldVerdict& world : point.goal->worlds)
+      json["goal_status"].push_back(goal::text_of(world.status));
+    for (const goal::Status status : {goal::Status::met, goal::Status::missed, goal::Status::undecided})
+      json[std::string(goal::text_of(status))] = worlds_with(status, point);
+  }
+  json["bad_worlds"] = Json::array();
+  for (std::size_t world = 0; world < point.bad.size(); ++world) {
+    if (point.bad[world]) json["bad_worlds"].push_back(world);
+  }
+  json["rule"] = nullptr;
+  if (point.rule) {
+    const worlds::WorldRule& rule = *point.rule;
+    Json conditions = Json::array();
+    for (const worlds::Condition& one : rule.conditions) {
+      conditions.push_back({{"parameter", inputs[one.input].name},
+                            {"relation", one.above ? ">" : "<"},
+                            {"value", one.threshold}});
+    }
+    json["rule"] = {{"text", worlds::text_of(rule, inputs)},
+                    {"conditions", std::move(conditions)},
+                    {"joined_by", rule.all ? "and" : "or"},
+                    {"bad_named", rule.bad_named},
+                    {"others_named", rule.good_named},
+                    {"error_rate", rule.error_rate()},
+                    {"p_value", rule.p_value}};
+  }
+  return json;
+}
+
+measures::SummarySection worlds_section(const StudySummary& summary) {
+  const std::vector<Worlds> points = worlds_of_points(summary);
+  const bool has_goal = summary.goal.has_value();
+  const std::vector<std::string> labels = short_labels(summary.labels, summary.axes);
+  measures::SummarySection section{
+      .key = "worlds",
+      .json = {},
+      .columns = columns_of(points, has_goal),
+      .title = fmt::format("by world: the lowest, median and highest rate of {} worlds", summary.worlds)};
+  section.tables.push_back(table_of(points, labels, has_goal));
+  constexpr std::size_t most_sentences = 12;
+  std::size_t sentences = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    section.json.push_back(points[i] ? worlds_json(*points[i], summary.world_inputs) : Json());
+    if (points[i] && ++sentences <= most_sentences) {
+      section.note += fmt::format("{}: {}\n", text::printable(labels[i]),
+                                  bad_worlds_sentence(*points[i], summary.world_inputs, has_goal));
+    }
+  }
+  section.note +=
+      fmt::format("bounds of one side each, of the lowest rate of all worlds, with {} confidence\n",
+                  text::percent(summary.confidence));
+  section.open = true;
+  return section;
+}
+
+}  // namespace zerocount::summary

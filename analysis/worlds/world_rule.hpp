@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What bad worlds have in common.
+namespace zerocount::worlds {
+
+/// A parameter that differs between worlds, and its value in each.
+struct WorldInput {
+  std::string name;  ///< dotted path
+  std::string unit;
+  std::vector<double> values;  ///< [world]
+};
+
+/// "friction.alpha > 1.4".
+struct Condition {
+  std::size_t input{0};
+  bool above{false};
+  double threshold{0.0};  ///< halfway between the values of two worlds
+};
+
+/// A rule on one or two parameters that tells bad worlds from the others.
+struct WorldRule {
+  std::vector<Condition> conditions;
+  bool all{true};              ///< worlds are named where all conditions hold; otherwise where one holds
+  std::int64_t bad{0};         ///< bad worlds
+  std::int64_t bad_named{0};   ///< of them, those that the rule names
+  std::int64_t good{0};        ///< other worlds
+  std::int64_t good_named{0};  ///< of them, those that the rule names wrongly
+  /// Probability of such a rule if the worlds' rates had nothing to do with these parameters: twice the
+  /// smaller of two p-values, of as good a rule, and of as strong a trend (Spearman) of the rates over each
+  /// parameter of the rule, in its direction.
+  double p_value{1.0};
+
+  double error_rate() const {
+    return static_cast<double>(bad - bad_named + good_named) / static_cast<double>(bad + good);
+  }
+};
+
+/// Largest p-value of a rule that is told.
+inline constexpr double significance_of_rules = 0.05;
+
+/// The rule with the lowest mean of the two error rates, of bad worlds that it does not name and of others
+/// that it names. Two conditions take the place of one if they name at least two worlds fewer wrongly.
+/// Thresholds lie between the values of neighbouring worlds, and at 31 quantiles where there are more. The
+/// p-values are those of 399 permutations of the worlds' rates; they choose their rules, and the parameter
+/// with the strongest trend, likewise.
+/// @param rates [world] @param bad [world] those with rates too low @param seed of the permutations
+/// @returns nothing if all worlds are bad or none is, or the p-value is above significance_of_rules
+std::optional<WorldRule> find_rule(const std::vector<WorldInput>& inputs, const std::vector<double>& rates,
+                                   const std::vector<bool>& bad, std::uint64_t seed);
+
+/// Whether the rule names the world.
+bool names(const WorldRule& rule, const std::vector<WorldInput>& inputs, std::size_t world);
+
+/// "friction.alpha > 1.4 1/s and friction.beta < 8e+04 1/rad".
+std::string text_of(const WorldRule& rule, const std::vector<WorldInput>& inputs);
+
+}  // namespace zerocount::worlds

@@ -1,0 +1,82 @@
+#include "analysis/worlds/world_statistics.hpp"
+
+#include <algorithm>
+
+#include "analysis/statistics/clustered_proportion.hpp"
+#include "analysis/statistics/proportion.hpp"
+
+namespace zerocount::worlds {
+namespace {
+
+double median_of(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+bool is_bad(const study::Goal& goal, const goal::WorldVerdict& world) {
+  return goal.machines ? world.machines.value < *goal.machines : world.moves.value < goal.moves;
+}
+
+}  // namespace
+
+std::vector<WorldInput> world_inputs(const study::Study& study) {
+  std::vector<WorldInput> inputs;
+  for (const study::InputColumn& column : study.world_columns)
+    inputs.push_back({column.name, column.unit, {}});
+  for (std::int64_t world = 0; world < study.worlds; ++world) {
+    const std::vector<double> values = study::world_inputs(study, world);
+    for (std::size_t i = 0; i < inputs.size(); ++i) inputs[i].values.push_back(values[i]);
+  }
+  return inputs;
+}
+
+RatesOfWorlds rates_of_worlds(const measures::MoveCounts& counts, double confidence) {
+  RatesOfWorlds rates;
+  std::vector<double> values;
+  const double each = statistics::confidence_of_each(confidence, static_cast<std::size_t>(counts.worlds));
+  for (const measures::MoveCounts& world : measures::in_worlds(counts)) {
+    const statistics::ClusterSums sums = measures::clusters_of(world);
+    const double value = statistics::rate(world.met, world.moves);
+    const double low = statistics::clustered_at_least(sums, each);
+    const double high = statistics::clustered_at_most(sums, each);
+    const std::size_t index = rates.worlds.size();
+    if (index == 0 || value < values[rates.worst]) rates.worst = index;
+    if (index == 0 || value > values[rates.best]) rates.best = index;
+    rates.lowest = index == 0 ? goal::BoundedProportion{value, low, high}
+                              : goal::BoundedProportion{std::min(rates.lowest.value, value),
+                                                        std::min(rates.lowest.low, low),
+                                                        std::min(rates.lowest.high, high)};
+    values.push_back(value);
+    rates.worlds.push_back({value, statistics::clustered_at_least(sums, confidence),
+                            statistics::clustered_at_most(sums, confidence)});
+  }
+  rates.median = median_of(values);
+  return rates;
+}
+
+PointWorlds point_worlds(const measures::PointSummary& point, const std::optional<study::Goal>& goal,
+                         std::span<const WorldInput> inputs, std::uint64_t seed, double confidence) {
+  PointWorlds result;
+  const measures::MoveCounts& succeeded = point.worlds.value().succeeded;
+  result.success = rates_of_worlds(succeeded, confidence);
+  if (goal && point.goal) result.goal = goal::judge_goal(*goal, *point.goal, 1);
+  const double each = statistics::confidence_of_each(confidence, static_cast<std::size_t>(succeeded.worlds));
+  const std::vector<measures::MoveCounts> counts = measures::in_worlds(succeeded);
+  for (std::size_t world = 0; world < counts.size(); ++world) {
+    result.bad.push_back(result.goal ? is_bad(*goal, result.goal->worlds[world])
+                                     : statistics::clustered_at_most(measures::clusters_of(counts[world]),
+                                                                     each) < result.success.median);
+  }
+  std::vector<double> rates;
+  for (std::size_t world = 0; world < counts.size(); ++world) {
+    const goal::BoundedProportion& rate = !result.goal     ? result.success.worlds[world]
+                                          : goal->machines ? result.goal->worlds[world].machines
+                                                           : result.goal->worlds[world].moves;
+    rates.push_back(rate.value);
+  }
+  result.rule = find_rule({inputs.begin(), inputs.end()}, rates, result.bad, seed);
+  return result;
+}
+
+}  // namespace zerocount::worlds

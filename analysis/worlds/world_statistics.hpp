@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "analysis/goal/goal_verdict.hpp"
+#include "analysis/measures/point_statistics.hpp"
+#include "analysis/worlds/world_rule.hpp"
+#include "experiments/study/study.hpp"
+
+/// Statistics of a design point by world.
+namespace zerocount::worlds {
+
+/// The parameters that differ between the worlds of a study, [parameter]; empty without worlds.
+std::vector<WorldInput> world_inputs(const study::Study& study);
+
+/// The proportion in each world, and its worst, median and best.
+struct RatesOfWorlds {
+  std::vector<goal::BoundedProportion> worlds;  ///< [world], each bound alone
+  std::size_t worst{0};                         ///< world of the lowest rate
+  std::size_t best{0};
+  double median{0.0};  ///< of the rates
+  /// Bounds of the lowest rate of all worlds: the lowest of the bounds of each world (Bonferroni).
+  goal::BoundedProportion lowest{};
+};
+
+/// The rate of each world. @param confidence of each one-sided bound
+RatesOfWorlds rates_of_worlds(const measures::MoveCounts& counts, double confidence);
+
+/// A design point by world.
+struct PointWorlds {
+  RatesOfWorlds success;              ///< trials all of whose moves ended at zero error
+  std::optional<goal::Verdict> goal;  ///< of a study with a goal
+  std::vector<bool> bad;              ///< [world]
+  std::optional<WorldRule> rule;      ///< what the bad worlds have in common
+};
+
+/// A world is bad if fewer of its moves (or machines) than the goal asks for meet it. Without a goal it is
+/// bad if its rate of success is shown to be below the median.
+/// @param point of a study with worlds @param seed of the study
+PointWorlds point_worlds(const measures::PointSummary& point, const std::optional<study::Goal>& goal,
+                         std::span<const WorldInput> inputs, std::uint64_t seed, double confidence);
+
+}  // namespace zerocount::worlds

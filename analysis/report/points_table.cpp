@@ -115,7 +115,9 @@ std::vector<HtmlColumn> goal_columns(const ReportedStudy& reported, std::size_t 
   if (!summary.goal) return {};
   const std::vector<std::optional<goal::Verdict>> verdicts = summary::goal_verdicts(summary);
   const std::string bounds = text::percent(summary.goal->confidence) + " bounds";
-  std::vector<HtmlColumn> columns{{"goal", "", true, {}}, {"moves in goal", bounds, false, {}}};
+  std::vector<HtmlColumn> columns{
+      {"goal", "", true, {}},
+      {summary.worlds > 0 ? "moves in goal (worst world)" : "moves in goal", bounds, false, {}}};
   const auto add = [](HtmlColumn& column, const goal::BoundedProportion& proportion) {
     column.cells.push_back(text::percent_near(proportion.value));
     column.below.push_back(text::percent_bounds(proportion.low, proportion.high, 1, " … "));

@@ -116,6 +116,7 @@ StudyReport study_report(const reading::StudyFile& file, const ReportOptions& op
   if (options.comparison) add(page, comparison_section(*options.comparison));
   if (options.history) add(page, history_section(*options.history, max_history_figures));
   add(page, success_section(reported));
+  add(page, {"worlds", "Worlds", "", world_figures(reported)});
   add(page, {"settling", "Arrival and settling", "", distribution_figures(reported)});
   add(page,
       {"jerks", "Jerks", "", reported.study.open_loop ? std::vector<Figure>{} : jerk_figures(reported)});

@@ -21,6 +21,10 @@ std::vector<Figure> stability_maps(const ReportedStudy& reported);
 /// error of the chosen point stays within each band.
 std::vector<Figure> distribution_figures(const ReportedStudy& reported);
 
+/// At the chosen point of a study with worlds: the times of settling in each, and the rates over each
+/// parameter that differs between them (at most six).
+std::vector<Figure> world_figures(const ReportedStudy& reported);
+
 /// Jerks of single moves, and the rate of jerks, at the point with the most jerks.
 std::vector<Figure> jerk_figures(const ReportedStudy& reported);
 

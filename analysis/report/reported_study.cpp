@@ -57,7 +57,7 @@ ShownRate shown_rate(const ReportedStudy& reported, std::int64_t point) {
       verdict.moves.value, {verdict.moves.low, verdict.moves.high}, summary.goal->met, summary.goal->moves};
 }
 
-std::string_view rate_meaning(const ReportedStudy& reported) {
+std::string rate_meaning(const ReportedStudy& reported) {
   return reported.summary.goal ? "moves that meet the goal" : "trials that end at zero counts";
 }
 

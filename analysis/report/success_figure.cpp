@@ -22,7 +22,8 @@ constexpr std::int64_t max_series = 8;  ///< number of colours
 
 std::string bounds_note(const ReportedStudy& reported) {
   if (reported.summary.goal) {
-    return fmt::format("The bars or bands are one-sided {} bounds, for each point separately.",
+    return fmt::format("{}The bars or bands are one-sided {} bounds, for each point separately.",
+                       reported.summary.worlds > 0 ? "Rates are those of the worst world. " : "",
                        text::percent(reported.summary.goal->confidence));
   }
   return fmt::format(

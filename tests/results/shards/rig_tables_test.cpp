@@ -70,7 +70,7 @@ TEST(RigTables, APartHasTheRigsAndNoCounts) {
   const std::filesystem::path path = directory.path() / "part.h5";
   shards::merge_shards(shards, study, path, rows, {}, {sample_provenance()});
   const reading::StudyFile part(path, reading::Require::any_part);
-  EXPECT_EQ(part.rigs().value().rigs, 8);
+  EXPECT_EQ(part.rigs().value().count, 8);
   EXPECT_TRUE(part.rigs().value().success.empty());
   EXPECT_EQ(reading::StudyFile(shards[0].path, reading::Require::any_part).rigs(), std::nullopt);
 }

@@ -192,6 +192,7 @@ AlsoRead needed_by(const GateRules& rules, const reading::StudyFile& file, std::
   if (!requires_goal(rules)) return also;
   const study::Study study = layout::recorded_study(file.header(), file.path());
   also.goal = study.goal;
+  also.worlds = study.worlds;
   also.counted = measures::counted_goal(study);
   if (also.goal) return also;
   throw Failure(

@@ -54,6 +54,7 @@ PointTrials read_point_trials(const reading::StudyFile& file, std::int64_t point
   result.goal = also.goal;
   result.counted = also.counted;
   result.rigs = also.rigs;
+  result.goal_counts.worlds = also.worlds;
   measures::visit_blocks(
       file, {point * file.header().trials, trials},
       [&](layout::RowRange, std::span<const trial::MoveOutcome> outcomes) { add_trials(result, outcomes); });

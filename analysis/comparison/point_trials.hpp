@@ -50,7 +50,8 @@ struct AlsoRead {
   std::vector<GateMeasure> bands{};  ///< measures of error bands, which the file has
   std::optional<study::Goal> goal{};
   std::optional<measures::CountedGoal> counted{};
-  std::int64_t rigs{0};  ///< as PointTrials::rigs
+  std::int64_t rigs{0};    ///< as PointTrials::rigs
+  std::int64_t worlds{0};  ///< of the study
 };
 
 /// The first `trials` trials of design point `point` of a whole study.

@@ -130,7 +130,13 @@ Needs needs_of(const study::Goal& goal, const measures::MoveCounts& counts, std:
 }
 
 std::vector<Needs> smallest_studies(const study::Goal& goal, bool on_rigs, std::int64_t moves,
-                                    std::size_t points) {
+                                    std::size_t points, std::int64_t worlds) {
+  if (worlds > 0) {
+    std::vector<Needs> studies =
+        smallest_studies(goal, on_rigs, moves, points * static_cast<std::size_t>(worlds));
+    for (Needs& one : studies) one = {one.rigs * worlds, one.trials * worlds};
+    return studies;
+  }
   const auto met = [&](const measures::MoveCounts& counts) {
     return judge_goal(goal, counts, points).status == Status::met;
   };

@@ -44,7 +44,7 @@ struct Verdict {
   BoundedProportion machines;    ///< of axes that meet it in Goal::moves of their moves (rig_proportion.hpp);
                                  ///< NaN, 0 and 1 where the goal does not ask for machines
   std::int64_t rigs_meeting{0};  ///< rigs that meet it in Goal::moves of their moves, as observed
-  std::int64_t rigs_without_miss{0};  ///< rigs all of whose moves meet the goal
+  std::int64_t rigs_without_miss{0};   ///< rigs all of whose moves meet the goal
   std::vector<WorldVerdict> worlds{};  ///< [world]; empty without worlds
 };
 
@@ -53,8 +53,8 @@ struct Verdict {
 /// before. The bounds have the confidence 1 − (1 − γ)/points (Bonferroni).
 Verdict judge_goal(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points);
 
-/// The worlds in order of their proportions, the worst first: of machines that meet the goal where it asks for
-/// them, else of moves.
+/// The worlds in order of their proportions, the worst first: of machines that meet the goal where it asks
+/// for them, else of moves.
 std::vector<std::size_t> worst_worlds_first(const study::Goal& goal, const Verdict& verdict);
 
 /// The worlds of which the verdict says this, in order.
@@ -76,7 +76,8 @@ Needs needs_of(const study::Goal& goal, const measures::MoveCounts& counts, std:
 /// numbers of trials on each, without them one study. Empty if none of up to 10⁹ trials, or 10⁵ rigs, can.
 /// @param moves of a trial
 /// @param points that the best is chosen from
+/// @param worlds of the study, in each of which the goal must be met; 0: none
 std::vector<Needs> smallest_studies(const study::Goal& goal, bool on_rigs, std::int64_t moves,
-                                    std::size_t points);
+                                    std::size_t points, std::int64_t worlds = 0);
 
 }  // namespace zerocount::goal

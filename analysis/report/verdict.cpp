@@ -15,6 +15,7 @@
 #include "analysis/summary/best_point.hpp"
 #include "analysis/summary/judged_point.hpp"
 #include "analysis/summary/shown_points.hpp"
+#include "analysis/summary/summary_parts.hpp"
 #include "analysis/summary/undecided.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
@@ -110,6 +111,8 @@ void add_goal(std::vector<std::string>& lines, const ReportedStudy& reported,
   lines.push_back(fmt::format("The goal: {}.", goal::goal_sentence(goal)));
   add_sentences(lines,
                 goal::readings_text(goal, *point_of(reported, judged.chosen.point).goal, judged.verdict));
+  if (const auto worlds = summary::worlds_of_point(reported.summary, judged.chosen.point))
+    add_sentences(lines, summary::bad_worlds_sentence(*worlds, reported.summary.world_inputs, true));
   if (judged.needs)
     lines.push_back(goal::needs_sentence(goal, *judged.needs, reported.summary.features.rigs) + ".");
 }

@@ -138,11 +138,10 @@ Figure rate_figure(const ReportedStudy& reported, const worlds::PointWorlds& poi
 
 std::vector<Figure> world_figures(const ReportedStudy& reported) {
   std::vector<Figure> figures;
-  const measures::PointSummary& summary = point_of(reported, reported.chosen.point);
-  if (!summary.worlds) return figures;
   const summary::StudySummary& study = reported.summary;
-  const worlds::PointWorlds point =
-      worlds::point_worlds(summary, study.goal, study.world_inputs, study.seed, study.confidence);
+  const std::optional<worlds::PointWorlds> found = summary::worlds_of_point(study, reported.chosen.point);
+  if (!found) return figures;
+  const worlds::PointWorlds& point = *found;
   if (std::optional<Figure> curves = curves_figure(reported, point)) figures.push_back(std::move(*curves));
   for (std::size_t input = 0; input < std::min(study.world_inputs.size(), max_parameters); ++input)
     figures.push_back(rate_figure(reported, point, input));

@@ -43,12 +43,8 @@ std::string judgement_text(const StudySummary& summary, const JudgedPoint& judge
                   verdict_words(judged.verdict.status),
                   goal::readings_text(*summary.goal, counts_of(summary, chosen.point), judged.verdict));
   if (chosen.chosen_from > 1) text += "  the bounds allow for the choice of the point by these trials\n";
-  if (summary.worlds > 0) {
-    const measures::PointSummary& point = summary.points[static_cast<std::size_t>(chosen.point)];
-    const worlds::PointWorlds by_world =
-        worlds::point_worlds(point, summary.goal, summary.world_inputs, summary.seed, summary.confidence);
-    text += fmt::format("  {}\n", bad_worlds_sentence(by_world, summary.world_inputs, true));
-  }
+  if (const auto worlds = worlds_of_point(summary, chosen.point))
+    text += fmt::format("  {}\n", bad_worlds_sentence(*worlds, summary.world_inputs, true));
   if (judged.needs)
     text += fmt::format("  {}\n", goal::needs_sentence(*summary.goal, *judged.needs, summary.features.rigs));
   return text + competition_text(summary, chosen);

@@ -110,8 +110,8 @@ nlohmann::ordered_json verdict_json(const study::Goal& goal, const goal::Verdict
 /// likewise; its cells are columns of the main table.
 measures::SummarySection goal_section(const StudySummary& summary);
 
-/// The worlds of the points of a study with worlds; nothing for a point without trials.
-std::vector<std::optional<worlds::PointWorlds>> worlds_of_points(const StudySummary& summary);
+/// The worlds at a point; nothing for a study without worlds, or a point without trials.
+std::optional<worlds::PointWorlds> worlds_of_point(const StudySummary& summary, std::int64_t point);
 
 /// "5 of 30 worlds fall short of the goal: where friction.alpha > 1.4 1/s (5 of these 5, and 1 of the other
 /// 25; by chance with probability 0.0025)".

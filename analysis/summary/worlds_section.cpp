@@ -88,15 +88,10 @@ text::PointTable table_of(const std::vector<Worlds>& points, const std::vector<s
 
 }  // namespace
 
-std::vector<Worlds> worlds_of_points(const StudySummary& summary) {
-  std::vector<Worlds> points;
-  for (const measures::PointSummary& point : summary.points) {
-    points.emplace_back();
-    if (point.worlds)
-      points.back() =
-          worlds::point_worlds(point, summary.goal, summary.world_inputs, summary.seed, summary.confidence);
-  }
-  return points;
+Worlds worlds_of_point(const StudySummary& summary, std::int64_t point) {
+  const measures::PointSummary& one = summary.points[static_cast<std::size_t>(point)];
+  if (!one.worlds) return std::nullopt;
+  return worlds::point_worlds(one, summary.goal, summary.world_inputs, summary.seed, summary.confidence);
 }
 
 std::string bad_worlds_sentence(const worlds::PointWorlds& point,
@@ -166,7 +161,9 @@ Json worlds_json(const worlds::PointWorlds& point, const std::vector<worlds::Wor
 }
 
 measures::SummarySection worlds_section(const StudySummary& summary) {
-  const std::vector<Worlds> points = worlds_of_points(summary);
+  std::vector<Worlds> points;
+  for (std::int64_t point = 0; point < std::ssize(summary.points); ++point)
+    points.push_back(worlds_of_point(summary, point));
   const bool has_goal = summary.goal.has_value();
   const std::vector<std::string> labels = short_labels(summary.labels, summary.axes);
   measures::SummarySection section{

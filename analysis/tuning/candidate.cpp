@@ -20,6 +20,18 @@ double quantile_of(std::vector<double>& values, double quantile) {
   return values[static_cast<std::size_t>(rank)];
 }
 
+/// Sums over the units of a world.
+struct Tally {
+  std::int64_t units{0};
+  std::int64_t moves{0};
+  std::int64_t met{0};
+  std::int64_t machines{0};  ///< units that meet the goal
+};
+
+std::size_t worlds_of(const Aim& aim) {
+  return static_cast<std::size_t>(std::max<std::int64_t>(aim.worlds, 1));
+}
+
 std::size_t common_units(const Candidate& a, const Candidate& b) {
   return std::min(a.units.size(), b.units.size());
 }
@@ -27,25 +39,33 @@ std::size_t common_units(const Candidate& a, const Candidate& b) {
 }  // namespace
 
 Estimate estimate_of(const Aim& aim, const Candidate& candidate, std::int64_t units) {
-  Estimate estimate;
-  std::int64_t moves = 0;
-  std::int64_t met = 0;
-  std::int64_t machines = 0;
+  const std::int64_t worlds = std::max<std::int64_t>(aim.worlds, 1);
+  std::vector<Tally> tallies(static_cast<std::size_t>(worlds));
   std::vector<double> values;
-  estimate.units = std::min<std::int64_t>(units, std::ssize(candidate.units));
-  for (std::int64_t i = 0; i < estimate.units; ++i) {
+  units = std::min<std::int64_t>(units, std::ssize(candidate.units));
+  for (std::int64_t i = 0; i < units; ++i) {
     const UnitResult& unit = candidate.units[static_cast<std::size_t>(i)];
-    moves += unit.moves;
-    met += unit.met;
-    machines += machine_meets(aim, unit) ? 1 : 0;
+    Tally& tally = tallies[static_cast<std::size_t>(i % worlds)];
+    tally.moves += unit.moves;
+    tally.met += unit.met;
+    tally.machines += machine_meets(aim, unit) ? 1 : 0;
+    ++tally.units;
     values.insert(values.end(), unit.values.begin(), unit.values.end());
   }
-  if (moves == 0) return estimate;
-  estimate.moves = static_cast<double>(met) / static_cast<double>(moves);
-  estimate.rate =
-      aim.machines ? static_cast<double>(machines) / static_cast<double>(estimate.units) : estimate.moves;
-  estimate.criterion = quantile_of(values, aim.quantile);
-  return estimate;
+  Estimate worst;
+  bool none = true;
+  for (const Tally& tally : tallies) {
+    if (tally.moves == 0) continue;
+    const double moves = static_cast<double>(tally.met) / static_cast<double>(tally.moves);
+    const double rate =
+        aim.machines ? static_cast<double>(tally.machines) / static_cast<double>(tally.units) : moves;
+    worst.moves = none ? moves : std::min(worst.moves, moves);
+    worst.rate = none ? rate : std::min(worst.rate, rate);
+    none = false;
+  }
+  worst.units = worlds == 1 ? units : std::max<std::int64_t>(units / worlds, none ? 0 : 1);
+  if (!none) worst.criterion = quantile_of(values, aim.quantile);
+  return worst;
 }
 
 bool seems_to_meet(const Aim& aim, const Estimate& estimate) {
@@ -88,22 +108,31 @@ double evidence_of_increase(std::span<const double> differences) {
 }
 
 bool surely_meets(const Aim& aim, const Candidate& candidate, double alpha) {
-  std::vector<double> differences;
-  for (const UnitResult& unit : candidate.units)
-    differences.push_back(1.0 - wanted_rate(aim) - goal_loss(aim, unit));
-  return evidence_of_increase(differences) > 1.0 / alpha;
+  const std::size_t worlds = worlds_of(aim);
+  for (std::size_t world = 0; world < worlds; ++world) {
+    std::vector<double> differences;
+    for (std::size_t i = world; i < candidate.units.size(); i += worlds)
+      differences.push_back(1.0 - wanted_rate(aim) - goal_loss(aim, candidate.units[i]));
+    if (evidence_of_increase(differences) <= 1.0 / alpha) return false;
+  }
+  return true;
 }
 
 bool surely_misses(const Aim& aim, const Candidate& candidate, const Candidate& reliable, double alpha) {
-  std::vector<double> beyond_goal;
-  std::vector<double> beyond_reliable;
-  for (std::size_t i = 0; i < common_units(candidate, reliable); ++i) {
-    const double loss = goal_loss(aim, candidate.units[i]);
-    beyond_goal.push_back(loss - (1.0 - wanted_rate(aim)));
-    beyond_reliable.push_back(loss - goal_loss(aim, reliable.units[i]));
+  const std::size_t worlds = worlds_of(aim);
+  const double wanted = static_cast<double>(worlds) / alpha;
+  for (std::size_t world = 0; world < worlds; ++world) {
+    std::vector<double> beyond_goal;
+    std::vector<double> beyond_reliable;
+    for (std::size_t i = world; i < common_units(candidate, reliable); i += worlds) {
+      const double loss = goal_loss(aim, candidate.units[i]);
+      beyond_goal.push_back(loss - (1.0 - wanted_rate(aim)));
+      beyond_reliable.push_back(loss - goal_loss(aim, reliable.units[i]));
+    }
+    if (evidence_of_increase(beyond_goal) > wanted && evidence_of_increase(beyond_reliable) > wanted)
+      return true;
   }
-  return evidence_of_increase(beyond_goal) > 1.0 / alpha &&
-         evidence_of_increase(beyond_reliable) > 1.0 / alpha;
+  return false;
 }
 
 bool surely_later(const Aim& aim, const Candidate& candidate, const Candidate& best, double alpha) {

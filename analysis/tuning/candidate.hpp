@@ -27,6 +27,8 @@ struct Aim {
   double moves{0.99};                ///< study::Goal::moves
   std::optional<double> machines{};  ///< study::Goal::machines
   double quantile{0.95};             ///< the criterion is this quantile of the values; 0 to 1
+  /// Unit i is in world i mod worlds, and the goal must be met in each; 0: no worlds.
+  std::int64_t worlds{0};
 };
 
 /// A point of the search and its results on the units 0, 1, ….
@@ -36,12 +38,13 @@ struct Candidate {
   std::vector<UnitResult> units;
 };
 
-/// Estimates from a candidate's first units.
+/// Estimates from a candidate's first units; with worlds the rates are those of the worst, and the criterion
+/// is of all.
 struct Estimate {
   double rate{0.0};       ///< of moves that meet the goal; with Aim::machines of units that do
   double moves{0.0};      ///< rate of moves that meet the goal
   double criterion{0.0};  ///< infinite for never
-  std::int64_t units{0};
+  std::int64_t units{0};  ///< that the rates are of; with worlds those of each
 };
 
 /// @param units how many; all if there are fewer
@@ -72,11 +75,11 @@ double late_part(const UnitResult& unit, double limit);
 /// Waudby-Smith and Ramdas, "Estimating means of bounded random variables by betting", 2024).
 double evidence_of_increase(std::span<const double> differences);
 
-/// Whether the candidate meets the goal by its units, with this probability of an error at most, at all
-/// numbers of units together.
+/// Whether the candidate meets the goal by its units (in every world), with this probability of an error at
+/// most, at all numbers of units together.
 bool surely_meets(const Aim& aim, const Candidate& candidate, double alpha);
 
-/// Whether it misses the goal more often than allowed, and more often than `reliable` does.
+/// Whether it misses the goal more often than allowed (in some world), and more often than `reliable` does.
 bool surely_misses(const Aim& aim, const Candidate& candidate, const Candidate& reliable, double alpha);
 
 /// Whether its values are more often above the criterion of `best`, by the units of both, than those of

@@ -33,11 +33,13 @@ Json needs_json(const goal::Needs& needs) {
 void print_plan_of_study(const study::Study& study, bool json) {
   const bool on_rigs = study.rigs > 0;
   const std::size_t points = study.point_labels.size();
-  const std::vector<goal::Needs> studies = goal::smallest_studies(*study.goal, on_rigs, study.moves, points);
+  const std::vector<goal::Needs> studies =
+      goal::smallest_studies(*study.goal, on_rigs, study.moves, points, study.worlds);
   if (json) {
     Json plans = Json::array();
     for (const goal::Needs& one : studies) plans.push_back(needs_json(one));
-    standard_output::write(text::json_text({{"goal", goal::goal_sentence(*study.goal)}, {"plans", plans}}));
+    standard_output::write(text::json_text(
+        {{"goal", goal::goal_sentence(*study.goal)}, {"worlds", study.worlds}, {"plans", plans}}));
     return;
   }
   std::string text = fmt::format("goal: {}\n", goal::goal_sentence(*study.goal));
@@ -56,6 +58,8 @@ void print_plan_of_study(const study::Study& study, bool json) {
     text += "the fewest rigs with which it can be met, if no move misses it:\n\n" +
             text::aligned_table(columns) + "\n";
   }
+  if (study.worlds > 0)
+    text += fmt::format("in each of the {} worlds, a part of them in each\n", study.worlds);
   if (points > 1) text += fmt::format("at the best of the {} points\n", points);
   text +=
       "Moves that miss it take more: 'zerocount plan PILOT' says how many, from the results of a small "

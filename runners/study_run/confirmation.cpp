@@ -40,7 +40,10 @@ study::Study fresh_study(const reading::ResultsFile& file, std::int64_t trials,
   };
   set("seed", fresh_seed(recorded.seed));
   const std::int64_t each = recorded.goal && recorded.rigs > 0 ? recorded.trials / recorded.rigs : 1;
-  const std::int64_t rigs = std::max<std::int64_t>(2, trials / each);
+  const std::int64_t least = std::max<std::int64_t>(recorded.worlds, 2);
+  const std::int64_t per_world = std::max<std::int64_t>(recorded.worlds, 1);
+  const std::int64_t rigs = std::max(least, trials / each / per_world * per_world);
+  if (recorded.rigs == 0) trials = std::max(trials, recorded.worlds);
   if (recorded.rigs > 0) {
     set("rigs", rigs);
     trials = rigs * each;
@@ -60,7 +63,7 @@ study::Study fresh_study(const reading::ResultsFile& file, std::int64_t trials,
 Confirmation counted_in(const study::Study& study, layout::RowRange rows) {
   const std::optional<measures::CountedGoal> goal = measures::counted_goal(study);
   Confirmation counts;
-  if (goal) counts.goal.emplace();
+  if (goal) counts.goal.emplace().worlds = study.worlds;
   for (const shards::TrialResult& result : TrialRunner(study).run(rows)) {
     counts.successes += trial::succeeded(result.outcome.moves) ? 1 : 0;
     if (goal)

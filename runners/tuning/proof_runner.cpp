@@ -25,12 +25,14 @@ constexpr std::int64_t least_units = 500;
 std::int64_t least_units_of(const study::Study& study, std::int64_t each, std::size_t points) {
   std::int64_t least = least_units;
   if (study.rigs == 0) {
-    for (const goal::Needs& one : goal::smallest_studies(*study.goal, false, study.moves, points))
+    for (const goal::Needs& one :
+         goal::smallest_studies(*study.goal, false, study.moves, points, study.worlds))
       least = std::max(least, one.trials);
     return least;
   }
   std::int64_t fewest = 0;
-  for (const goal::Needs& one : goal::smallest_studies(*study.goal, true, study.moves, points)) {
+  for (const goal::Needs& one :
+       goal::smallest_studies(*study.goal, true, study.moves, points, study.worlds)) {
     if (one.trials <= each * one.rigs && (fewest == 0 || one.rigs < fewest)) fewest = one.rigs;
   }
   return std::max(least, fewest);
@@ -59,14 +61,16 @@ std::uint64_t fresh_seed(std::uint64_t seed, std::string_view purpose) {
 measures::MoveCounts counts_of(const study::Study& study, const Units& units,
                                std::span<const UnitResult> results) {
   measures::MoveCounts counts;
-  for (const UnitResult& unit : results) {
+  counts.worlds = study.worlds;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const UnitResult& unit = results[i];
+    if (study.rigs == 0) {
+      counts.add(static_cast<std::int64_t>(i), 0, unit.moves, unit.met);
+      continue;
+    }
     counts.moves += unit.moves;
     counts.met += unit.met;
-    if (study.rigs > 0) {
-      counts.rigs.push_back({units.trials_each, unit.moves, unit.met});
-    } else {
-      counts.of_trials.add(unit.met, unit.moves);
-    }
+    counts.rigs.push_back({units.trials_each, unit.moves, unit.met});
   }
   return counts;
 }
@@ -90,7 +94,9 @@ std::int64_t proof_units(const study::Study& study, const measures::MoveCounts& 
   const std::int64_t most = std::max<std::int64_t>(most_trials / each, 2);
   const goal::Needs needs = goal::needs_of(*study.goal, counts, points);
   const std::int64_t wanted = needs.trials == 0 ? most / 8 : (study.rigs > 0 ? needs.rigs : needs.trials);
-  return std::clamp(wanted + wanted / 2, std::min(least_units_of(study, each, points), most), most);
+  const std::int64_t units =
+      std::clamp(wanted + wanted / 2, std::min(least_units_of(study, each, points), most), most);
+  return in_equal_worlds(study, units);
 }
 
 ProofRun run_proof(const study::Study& study, std::vector<std::string> values, const Units& units,

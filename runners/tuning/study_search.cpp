@@ -38,7 +38,8 @@ StudySearch::StudySearch(const study::Study& study, std::vector<study::FreeParam
                          const std::stop_token& stop)
     : study_(study),
       free_(std::move(free)),
-      units_{most_units, std::min(trials_of_machine(study), max_search_trials_of_machine)},
+      units_{in_equal_worlds(study, most_units),
+             std::min(trials_of_machine(study), max_search_trials_of_machine)},
       base_(variant_of(study, overrides_for(study, units_))),
       examiner_(base_, units_.count),
       journal_(journal),

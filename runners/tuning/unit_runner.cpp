@@ -103,6 +103,11 @@ Units units_of(const study::Study& study, std::int64_t point) {
   return {study.rigs, study.trials / study.rigs, point};
 }
 
+std::int64_t in_equal_worlds(const study::Study& study, std::int64_t units) {
+  if (study.worlds == 0) return units;
+  return (units + study.worlds - 1) / study.worlds * study.worlds;
+}
+
 std::vector<std::string> overrides_for(const study::Study& study, const Units& units) {
   std::vector<std::string> overrides{fmt::format("trials={}", units.count * units.trials_each),
                                      "design=monte_carlo"};
@@ -166,7 +171,7 @@ Criterion criterion_of(const study::Study& study) {
 }
 
 Aim aim_of(const study::Study& study) {
-  return {study.goal->moves, study.goal->machines, criterion_of(study).quantile};
+  return {study.goal->moves, study.goal->machines, criterion_of(study).quantile, study.worlds};
 }
 
 UnitResult result_of(const study::Study& study, std::span<const trial::TrialParameters> trials,

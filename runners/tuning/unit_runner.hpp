@@ -35,6 +35,9 @@ struct Units {
 /// The units of a study that is given: its rigs, or its trials.
 Units units_of(const study::Study& study, std::int64_t point);
 
+/// So many units or a few more, as many in each world.
+std::int64_t in_equal_worlds(const study::Study& study, std::int64_t units);
+
 /// Overrides that make a study of these units: independent draws, nothing retained.
 std::vector<std::string> overrides_for(const study::Study& study, const Units& units);
 

@@ -84,7 +84,7 @@ class BoxSearch {
  private:
   static std::vector<std::string> sizes(const study::Study& study, const Units& units) {
     const std::int64_t trials = (trials_of_search + trials_of_verdict) * (study.rigs > 0 ? units.count : 1);
-    std::vector<std::string> overrides = overrides_for(study, {trials, 1});
+    std::vector<std::string> overrides = overrides_for(study, {in_equal_worlds(study, trials), 1});
     if (study.rigs > 0) overrides.push_back(fmt::format("rigs={}", units.count));
     return overrides;
   }

@@ -29,6 +29,11 @@ WorstMachine worst_machine(const study::Study& study, std::int64_t point,
   const std::vector<double> inputs =
       of_rig ? study::rig_inputs(study, machine.rig) : study::study_trial(study, point, machine.rig).inputs;
   for (std::size_t i = 0; i < inputs.size(); ++i) machine.inputs.emplace_back(columns[i].name, inputs[i]);
+  if (of_rig && study.worlds > 0) {
+    const std::vector<double> of_world = study::world_inputs(study, study::world_of(study, machine.rig));
+    for (std::size_t i = 0; i < of_world.size(); ++i)
+      machine.inputs.emplace_back(study.world_columns[i].name, of_world[i]);
+  }
   return machine;
 }
 

@@ -160,6 +160,10 @@ void add_notes(const PointInputs& point, const TrialOutputs& trials, const UsedT
         "some parameters are correlated: an index contains what a parameter shares with the others, and the "
         "indices of correlated parameters may exceed 1 in all");
   }
+  if (point.subject == Subject::trials_in_worlds) {
+    result.notes.emplace_back(
+        "within worlds: what differs between worlds adds to the variance that nothing here explains");
+  }
   if (used.of_rigs > 0) {
     result.notes.push_back(fmt::format(
         "of each of the {} rigs the first trial is used: the others are not independent of it", point.rigs));
@@ -230,7 +234,7 @@ OutputSensitivity output_sensitivity(const PointInputs& inputs, const Sensitivit
     const Varying varying = varying_inputs(inputs, used, result);
     if (from_saltelli) add_design_indices(inputs, trials.values, used, confidence, bootstrap, result);
     add_correlations(varying, y, !from_saltelli, confidence, result);
-    if (output.yes_or_no()) add_log_odds(varying, y, confidence, result);
+    if (output.yes_or_no() && inputs.subject != Subject::worlds) add_log_odds(varying, y, confidence, result);
     rank_factors(from_saltelli, result);
   }
   result.conclusion = sensitivity_conclusion(result, from_saltelli, confidence);

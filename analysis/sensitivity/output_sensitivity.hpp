@@ -18,6 +18,13 @@ struct InputValues {
   std::vector<double> values;  ///< [trial of the point]
 };
 
+/// What has the inputs and outputs.
+enum class Subject {
+  trials,
+  trials_in_worlds,  ///< what differs between worlds is not among the inputs
+  worlds             ///< with the means of their trials
+};
+
 /// The inputs of the trials of a design point.
 struct PointInputs {
   study::Design design{study::Design::monte_carlo};
@@ -25,6 +32,7 @@ struct PointInputs {
   std::vector<InputValues> inputs;   ///< all input columns
   bool correlated{false};            ///< some inputs are drawn together
   std::int64_t rigs{0};  ///< that the trials run on, the first ones each on another; 0: no trials share a rig
+  Subject subject{Subject::trials};
 };
 
 /// Sensitivity of one output. Of a saltelli design the indices come from whole rows, all else from the trials

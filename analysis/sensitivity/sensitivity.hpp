@@ -65,7 +65,8 @@ struct OutputSensitivity {
   std::string output;  ///< as sensitivity_outputs() has it
   std::string unit;
   std::string meaning;               ///< one line, with what was done about trials that have no value
-  std::int64_t trials{0};            ///< used
+  std::int64_t trials{0};            ///< used; worlds where `of_worlds`
+  bool of_worlds{false};             ///< of the means of the trials of each world
   double mean{statistics::unknown};  ///< of the output, in its unit
   double standard_deviation{statistics::unknown};  ///< likewise
   std::vector<FactorSensitivity> factors;          ///< strongest first

@@ -54,8 +54,9 @@ std::string left_out_line(const OutputSensitivity& output) {
 std::string output_text(const OutputSensitivity& output, bool from_saltelli) {
   std::string text = fmt::format("{}{}: {}\n", output.output,
                                  output.unit == "1" ? "" : fmt::format(" ({})", output.unit), output.meaning);
-  text += fmt::format("  {} trials, mean {}, standard deviation {}\n", output.trials,
-                      text::short_number(output.mean), text::short_number(output.standard_deviation));
+  text += fmt::format("  {} {}, mean {}, standard deviation {}\n", output.trials,
+                      output.of_worlds ? "worlds" : "trials", text::short_number(output.mean),
+                      text::short_number(output.standard_deviation));
   text += fmt::format("  {}\n", output.conclusion);
   for (const std::string& note : output.notes) text += fmt::format("  note: {}\n", note);
   text += left_out_line(output);

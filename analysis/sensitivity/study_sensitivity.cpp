@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <numeric>
 
@@ -7,6 +8,8 @@
 #include "analysis/sensitivity/output_sensitivity.hpp"
 #include "analysis/sensitivity/sensitivity.hpp"
 #include "analysis/sensitivity/trial_outputs.hpp"
+#include "analysis/statistics/moments.hpp"
+#include "analysis/text/percent.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/designs/random_key.hpp"
 #include "results/layout/header.hpp"
@@ -60,12 +63,89 @@ PointInputs point_inputs(const reading::StudyFile& file, const study::Study& stu
                      .factors = study.factors,
                      .inputs = {},
                      .correlated = study::has_dependent_parameters(study),
-                     .rigs = study.rigs};
+                     .rigs = study.rigs,
+                     .subject = study.worlds > 0 ? Subject::trials_in_worlds : Subject::trials};
+  const auto is_of_world = [&](const std::string& name) {
+    return std::ranges::any_of(study.world_columns,
+                               [&](const study::InputColumn& c) { return c.name == name; });
+  };
   const layout::RowRange rows{point * file.header().trials, trials};
   for (std::size_t column = 0; column < file.input_columns().size(); ++column) {
-    inputs.inputs.push_back({file.input_columns()[column].name, file.input(column, rows)});
+    const std::string& name = file.input_columns()[column].name;
+    if (!is_of_world(name)) inputs.inputs.push_back({name, file.input(column, rows)});
   }
   return inputs;
+}
+
+/// The values of the worlds in place of trials.
+PointInputs inputs_of_worlds(const study::Study& study) {
+  PointInputs inputs{.design = study::Design::latin_hypercube,
+                     .factors = {},
+                     .inputs = {},
+                     .correlated = study::has_dependent_parameters(study),
+                     .subject = Subject::worlds};
+  for (std::int64_t world = 0; world < study.worlds; ++world) {
+    const std::vector<double> values = study::world_inputs(study, world);
+    inputs.inputs.resize(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      inputs.inputs[i].name = study.world_columns[i].name;
+      inputs.inputs[i].values.push_back(values[i]);
+    }
+  }
+  return inputs;
+}
+
+/// Means of the worlds, and the proportion of the variance of the trials that is between worlds.
+struct WorldMeans {
+  TrialOutputs means;  ///< [world]
+  double between{statistics::unknown};
+};
+
+/// The proportion is that of a random effect: σ²_b/(σ²_b + σ²_w) with σ²_b = (MS_b − MS_w)/n, which is not
+/// below 0 (Searle, Casella and McCulloch, Variance Components, 1992, section 3.6).
+WorldMeans means_of_worlds(const study::Study& study, const TrialOutputs& trials) {
+  std::vector<statistics::Moments> worlds(static_cast<std::size_t>(study.worlds));
+  for (std::size_t i = 0; i < trials.values.size(); ++i) {
+    if (std::isfinite(trials.values[i]))
+      worlds[static_cast<std::size_t>(study::world_of(study, static_cast<std::int64_t>(i)))].add(
+          trials.values[i]);
+  }
+  WorldMeans result;
+  statistics::Moments of_means;
+  double within = 0.0;
+  double trials_used = 0.0;
+  double degrees = 0.0;
+  for (const statistics::Moments& world : worlds) {
+    const auto size = static_cast<double>(world.n);
+    result.means.values.push_back(world.n > 0 ? world.mean : statistics::unknown);
+    if (world.n < 2) continue;
+    of_means.add(world.mean);
+    within += world.sd() * world.sd() * (size - 1.0);
+    degrees += size - 1.0;
+    trials_used += size;
+  }
+  if (of_means.n < 2 || degrees == 0.0) return result;
+  const double of_trial = within / degrees;
+  const double each = trials_used / static_cast<double>(of_means.n);
+  const double of_world = std::max(0.0, of_means.sd() * of_means.sd() - of_trial / each);
+  if (of_world + of_trial > 0.0) result.between = of_world / (of_world + of_trial);
+  return result;
+}
+
+/// Sensitivity of the means of the worlds to what differs between them.
+OutputSensitivity between_worlds(const study::Study& study, const PointInputs& worlds,
+                                 const SensitivityOutput& output, const TrialOutputs& trials,
+                                 double confidence, const random::RandomStream& bootstrap) {
+  const WorldMeans means = means_of_worlds(study, trials);
+  OutputSensitivity result = output_sensitivity(worlds, output, means.means, confidence, bootstrap);
+  result.of_worlds = true;
+  result.output += " between worlds";
+  result.meaning = fmt::format("mean over the trials of a world of: {}", result.meaning);
+  result.notes.insert(
+      result.notes.begin(),
+      fmt::format("{} of the variance of the trials is between worlds",
+                  std::isnan(means.between) ? "an unknown part" : text::percent_near(means.between)));
+  return result;
 }
 
 }  // namespace
@@ -87,17 +167,22 @@ StudySensitivity study_sensitivity(const reading::StudyFile& file, const Sensiti
   const std::int64_t trials = trials_read(study, question);
   const std::int64_t all = std::ssize(points) * std::ssize(outputs);
   std::int64_t done = 0;
+  const PointInputs worlds = study.worlds > 0 ? inputs_of_worlds(study) : PointInputs{};
   for (const std::int64_t point : points) {
     PointSensitivity at_point{point, labels.at(static_cast<std::size_t>(point)), {}};
     const PointInputs inputs = point_inputs(file, study, point, trials);
     for (const SensitivityOutput& output : outputs) {
-      OutputSensitivity result = output_sensitivity(
-          inputs, output, trial_outputs(file, study, point, trials, output), question.confidence, bootstrap);
+      const TrialOutputs values = trial_outputs(file, study, point, trials, output);
+      OutputSensitivity result = output_sensitivity(inputs, output, values, question.confidence, bootstrap);
       if (trials < study.trials && study.rigs == 0)
         result.notes.push_back(fmt::format("the first {} of {} trials are used", trials, study.trials));
       result.unit = parameters::unit_on(study.units.axis, result.unit);
       result.meaning = parameters::text_on(study.units.axis, result.meaning);
       at_point.outputs.push_back(std::move(result));
+      if (study.worlds > 0) {
+        at_point.outputs.push_back(
+            between_worlds(study, worlds, output, values, question.confidence, bootstrap));
+      }
       if (question.progress) question.progress(++done, all);
     }
     sensitivity.points.push_back(std::move(at_point));

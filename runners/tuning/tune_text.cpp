@@ -163,13 +163,22 @@ std::vector<std::string> proof_lines(const TuneAnswer& answer, const study::Stud
   const Proof& proof = *answer.proof;
   const bool on_rigs = study.rigs > 0;
   std::vector<std::string> lines{fmt::format(
-      "proof: {} moves{} that the search never saw, of which {:.5g} % meet the goal, at least {:.5g} %",
+      "proof: {} moves{} that the search never saw, of which {}{:.5g} % meet the goal, at least {:.5g} %",
       proof.study.trials * study.moves,
       on_rigs ? fmt::format(" on {} machines", proof.study.rigs) : std::string(),
+      study.worlds > 0 ? fmt::format("in the worst of {} new worlds ", study.worlds) : std::string(),
       100.0 * proof.verdict.moves.value, 100.0 * proof.verdict.moves.low)};
   if (study.goal->machines)
     lines.push_back(fmt::format("at least {:.5g} % of machines meet it in {:g} % of their moves",
                                 100.0 * proof.verdict.machines.low, 100.0 * study.goal->moves));
+  if (!proof.verdict.worlds.empty()) {
+    lines.push_back(
+        fmt::format("by world: met in {}, missed in {}, undecided in {} ('zerocount summary' of the "
+                    "proof says what the bad ones have in common)",
+                    goal::worlds_that(goal::Status::met, proof.verdict).size(),
+                    goal::worlds_that(goal::Status::missed, proof.verdict).size(),
+                    goal::worlds_that(goal::Status::undecided, proof.verdict).size()));
+  }
   if (proof.attempts > 1)
     lines.push_back(fmt::format("it is attempt {}: the bounds allow for all of them", proof.attempts));
   if (proof.needs) lines.push_back(goal::needs_sentence(*study.goal, *proof.needs, on_rigs));
@@ -240,6 +249,12 @@ std::string json_of(const TuneAnswer& answer) {
                      {"trials", answer.proof->study.trials}, {"seed", answer.proof->study.seed},
                      {"attempts", answer.proof->attempts},   {"criterion", finite_or_null(answer.criterion)}};
     if (!answer.proof->study.goal->machines) json["proof"]["machines_low"] = nullptr;
+    if (!verdict.worlds.empty()) {
+      json["proof"]["worlds"] = Json::object();
+      for (const goal::Status status : {goal::Status::met, goal::Status::missed, goal::Status::undecided})
+        json["proof"]["worlds"][std::string(goal::text_of(status))] =
+            goal::worlds_that(status, verdict).size();
+    }
     json["needed"] = nullptr;
     if (answer.proof->needs && answer.proof->needs->trials > 0)
       json["needed"] = {{"rigs", answer.proof->needs->rigs}, {"trials", answer.proof->needs->trials}};

@@ -77,7 +77,8 @@ bool is_below(const study::Goal& goal, const measures::MoveCounts& counts) {
 /// decided.
 Needs needs_of_worlds(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points) {
   Needs cheapest;
-  Needs dearest;
+  std::int64_t rigs = 0;
+  std::int64_t trials_of_unit = 0;  ///< of a rig; without rigs of the world
   bool some_below = false;
   bool all_decided = true;
   for (const measures::MoveCounts& world : measures::in_worlds(counts)) {
@@ -88,9 +89,11 @@ Needs needs_of_worlds(const study::Goal& goal, const measures::MoveCounts& count
       if (!some_below || one.trials < cheapest.trials) cheapest = one;
       some_below = true;
     }
-    dearest = {std::max(dearest.rigs, one.rigs), std::max(dearest.trials, one.trials)};
+    rigs = std::max(rigs, one.rigs);
+    trials_of_unit = std::max(trials_of_unit, one.rigs > 0 ? one.trials / one.rigs : one.trials);
   }
   if (!some_below && !all_decided) return {};
+  const Needs dearest{rigs, rigs > 0 ? rigs * trials_of_unit : trials_of_unit};
   const Needs needs = some_below ? cheapest : dearest;
   return {needs.rigs * counts.worlds, needs.trials * counts.worlds};
 }

@@ -19,7 +19,8 @@ std::string with_bounds(const BoundedProportion& proportion) {
 std::string readings_of_worlds(const study::Goal& goal, const Verdict& verdict) {
   const std::size_t worst = worst_worlds_first(goal, verdict).front();
   std::string text = fmt::format(
-      "  it must hold in each of {} worlds: met in {}, missed in {}, undecided in {} (each of them with a part "
+      "  it must hold in each of {} worlds: met in {}, missed in {}, undecided in {} (each of them with a "
+      "part "
       "of the error probability)\n",
       verdict.worlds.size(), worlds_that(Status::met, verdict).size(),
       worlds_that(Status::missed, verdict).size(), worlds_that(Status::undecided, verdict).size());

@@ -1,6 +1,7 @@
 #include "analysis/goal/goal_verdict.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -40,7 +41,7 @@ Verdict judge_world(const study::Goal& goal, const measures::MoveCounts& counts,
 
 /// The lowest of the proportions, of their lower bounds, and of their upper bounds.
 BoundedProportion lowest(const BoundedProportion& a, const BoundedProportion& b) {
-  return {std::min(a.value, b.value), std::min(a.low, b.low), std::min(a.high, b.high)};
+  return {std::fmin(a.value, b.value), std::min(a.low, b.low), std::min(a.high, b.high)};
 }
 
 Verdict judge_worlds(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points) {
@@ -55,8 +56,8 @@ Verdict judge_worlds(const study::Goal& goal, const measures::MoveCounts& counts
     verdict.rigs_without_miss += one.rigs_without_miss;
     verdict.worlds.push_back({one.status, one.moves, one.machines});
   }
-  verdict.status = goal.machines ? status_of(verdict.machines, *goal.machines)
-                                 : status_of(verdict.moves, goal.moves);
+  verdict.status =
+      goal.machines ? status_of(verdict.machines, *goal.machines) : status_of(verdict.moves, goal.moves);
   return verdict;
 }
 
@@ -81,9 +82,11 @@ Verdict judge_goal(const study::Goal& goal, const measures::MoveCounts& counts, 
 std::vector<std::size_t> worst_worlds_first(const study::Goal& goal, const Verdict& verdict) {
   std::vector<std::size_t> order(verdict.worlds.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto known = [](double rate) { return std::isnan(rate) ? 2.0 : rate; };  // without trials: the last
   const auto rate = [&](std::size_t world) {
     const WorldVerdict& one = verdict.worlds[world];
-    return goal.machines ? std::pair(one.machines.value, one.moves.value) : std::pair(one.moves.value, 0.0);
+    return goal.machines ? std::pair(known(one.machines.value), known(one.moves.value))
+                         : std::pair(known(one.moves.value), 0.0);
   };
   std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return rate(a) < rate(b); });
   return order;

@@ -122,10 +122,7 @@ std::int64_t OutcomeCounts::*counter_of(trial::Outcome outcome) {
 
 PointAccumulator::PointAccumulator(const MoveKind& kind, const layout::MeasureTable& table,
                                    std::int64_t first_trial)
-    : kind_(kind),
-      first_trial_(first_trial),
-      table_(&table),
-      trial_settling_times_(kind.rigs) {
+    : kind_(kind), first_trial_(first_trial), table_(&table), trial_settling_times_(kind.rigs) {
   for (MoveCounts* counts : {&goal_, &worlds_.succeeded, &worlds_.meeting}) counts->worlds = kind.worlds;
   for (const layout::Measure& measure : table) measures_.emplace_back(measure, measure.point, kind);
 }

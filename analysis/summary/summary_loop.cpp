@@ -257,7 +257,8 @@ std::string design_line(const StudySummary& summary) {
   }
   if (summary.worlds > 0) {
     line += fmt::format(
-        ", {} worlds: rates over all trials are averages over the worlds; those of a goal are of the worst world",
+        ", {} worlds: rates over all trials are averages over the worlds; those of a goal are of the worst "
+        "world",
         summary.worlds);
   }
   if (features.spread_trials) {

@@ -19,6 +19,7 @@ constexpr int permutations = 399;
 constexpr std::int64_t worlds_worth_a_condition = 2;
 
 using Labels = std::vector<std::uint8_t>;  ///< [world] 1: bad
+using Conditions = std::vector<Condition>;
 
 /// The thresholds of one parameter, and the interval between them in which each world lies.
 struct Bins {
@@ -34,7 +35,8 @@ Bins bins_of(const std::vector<double>& values) {
   const std::size_t count = std::min(gaps, most_thresholds);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t gap = count == gaps ? i : (i + 1) * gaps / (count + 1);
-    if (sorted[gap] < sorted[gap + 1]) bins.thresholds.push_back(std::midpoint(sorted[gap], sorted[gap + 1]));
+    const double between = std::midpoint(sorted[gap], sorted[gap + 1]);
+    if (sorted[gap] < between && between < sorted[gap + 1]) bins.thresholds.push_back(between);
   }
   for (const double value : values) {
     const auto above = std::upper_bound(bins.thresholds.begin(), bins.thresholds.end(), value);
@@ -88,12 +90,14 @@ class Search {
   }
 
  private:
-  void consider(Candidate& best, Candidate candidate) const {
-    candidate.wrong = all_.bad - candidate.named.bad + candidate.named.good;
-    candidate.error =
-        0.5 * (static_cast<double>(all_.bad - candidate.named.bad) / static_cast<double>(all_.bad) +
-               static_cast<double>(candidate.named.good) / static_cast<double>(all_.good));
-    if (candidate.is_better_than(best)) best = std::move(candidate);
+  /// Takes the rule for the best if it is better. @param conditions makes its conditions
+  void consider(Candidate& best, const Named& named, bool all, const auto& conditions) const {
+    Candidate candidate{{}, all, named, 1.0, all_.bad - named.bad + named.good};
+    candidate.error = 0.5 * (static_cast<double>(all_.bad - named.bad) / static_cast<double>(all_.bad) +
+                             static_cast<double>(named.good) / static_cast<double>(all_.good));
+    if (!candidate.is_better_than(best)) return;
+    candidate.conditions = conditions();
+    best = std::move(candidate);
   }
 
   Candidate best_single(std::size_t input) const {
@@ -108,9 +112,10 @@ class Search {
     for (std::size_t i = 0; i < bins.thresholds.size(); ++i) {
       below.bad += in_bin[i].bad;
       below.good += in_bin[i].good;
-      consider(best, {{{input, false, bins.thresholds[i]}}, true, below});
-      consider(best,
-               {{{input, true, bins.thresholds[i]}}, true, {all_.bad - below.bad, all_.good - below.good}});
+      for (const bool above : {false, true}) {
+        const Named named = above ? Named{all_.bad - below.bad, all_.good - below.good} : below;
+        consider(best, named, true, [&] { return Conditions{{input, above, bins.thresholds[i]}}; });
+      }
     }
     return best;
   }
@@ -152,12 +157,13 @@ class Search {
               return above_b ? rest - row : row;
             };
             const Named named{quadrant(&Named::bad), quadrant(&Named::good)};
-            const Condition in{first, above_a, a.thresholds[i]};
-            const Condition and_in{second, above_b, b.thresholds[j]};
-            consider(best, {{in, and_in}, true, named});
-            consider(best, {{{first, !above_a, in.threshold}, {second, !above_b, and_in.threshold}},
-                            false,
-                            {all_.bad - named.bad, all_.good - named.good}});
+            const Named others{all_.bad - named.bad, all_.good - named.good};
+            const auto conditions = [&](bool inside) {
+              return Conditions{{first, above_a == inside, a.thresholds[i]},
+                                {second, above_b == inside, b.thresholds[j]}};
+            };
+            consider(best, named, true, [&] { return conditions(true); });
+            consider(best, others, false, [&] { return conditions(false); });
           }
         }
       }

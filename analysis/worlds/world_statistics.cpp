@@ -1,6 +1,7 @@
 #include "analysis/worlds/world_statistics.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "analysis/statistics/clustered_proportion.hpp"
 #include "analysis/statistics/proportion.hpp"
@@ -9,6 +10,8 @@ namespace zerocount::worlds {
 namespace {
 
 double median_of(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return std::isnan(value); });  // of worlds without trials
+  if (values.empty()) return statistics::unknown;
   std::sort(values.begin(), values.end());
   const std::size_t middle = values.size() / 2;
   return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
@@ -41,10 +44,10 @@ RatesOfWorlds rates_of_worlds(const measures::MoveCounts& counts, double confide
     const double low = statistics::clustered_at_least(sums, each);
     const double high = statistics::clustered_at_most(sums, each);
     const std::size_t index = rates.worlds.size();
-    if (index == 0 || value < values[rates.worst]) rates.worst = index;
-    if (index == 0 || value > values[rates.best]) rates.best = index;
+    if (index == 0 || std::isnan(values[rates.worst]) || value < values[rates.worst]) rates.worst = index;
+    if (index == 0 || std::isnan(values[rates.best]) || value > values[rates.best]) rates.best = index;
     rates.lowest = index == 0 ? goal::BoundedProportion{value, low, high}
-                              : goal::BoundedProportion{std::min(rates.lowest.value, value),
+                              : goal::BoundedProportion{std::fmin(rates.lowest.value, value),
                                                         std::min(rates.lowest.low, low),
                                                         std::min(rates.lowest.high, high)};
     values.push_back(value);

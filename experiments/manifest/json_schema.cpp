@@ -99,8 +99,8 @@ Json definitions() {
                                        : per_schema(per_labels);
     all[name]["description"] = form.meaning;
   }
-  all["profile"] = object_of(
-      {{"profile", profile_schema()}, {per, per_schema(per_labels_of_profiles)}}, {"profile"});
+  all["profile"] =
+      object_of({{"profile", profile_schema()}, {per, per_schema(per_labels_of_profiles)}}, {"profile"});
   all["profile"]["description"] = "friction along the rotor: a periodic random field";
   return all;
 }
@@ -325,8 +325,9 @@ Json general_schemas() {
           {"maxItems", 3}}}}},
       {"samples",
        {{"anyOf",
-         {text, object_of({{"file", text}, {std::string(per_key), {{"enum", {"study", "world", "rig", "trial"}}}}},
-                          {"file"})}}}},
+         {text,
+          object_of({{"file", text}, {std::string(per_key), {{"enum", {"study", "world", "rig", "trial"}}}}},
+                    {"file"})}}}},
       {"observed",
        {{"type", "object"},
         {"additionalProperties",

@@ -218,10 +218,9 @@ void check_worlds(Manifest& m) {
   const std::int64_t units = m.study.rigs > 0 ? m.study.rigs : m.study.trials;
   const std::string_view name = m.study.rigs > 0 ? "rigs" : "trials";
   if (m.study.rigs > 0 && units % m.study.worlds != 0) {
-    m.problems().add(field,
-                     fmt::format("{} rigs cannot be divided equally among {} worlds", units, m.study.worlds),
-                     fmt::format("a divisor of the number of rigs, or {} rigs",
-                                 nearest_multiples(units, m.study.worlds)));
+    m.problems().add(
+        field, fmt::format("{} rigs cannot be divided equally among {} worlds", units, m.study.worlds),
+        fmt::format("a divisor of the number of rigs, or {} rigs", nearest_multiples(units, m.study.worlds)));
   } else if (units > 0 && units < m.study.worlds) {
     m.problems().add(field, fmt::format("the study has only {} {}", units, name),
                      fmt::format("at most {}", units));

@@ -170,7 +170,7 @@ bool check_per(const SamplesTable& table, const std::vector<std::uint32_t>& slot
   reading.problems.add(table.field,
                        fmt::format("a row is drawn as a whole, but the defaults of `per` differ: {}, and {}",
                                    text_of(slots.front()), text_of(*other)),
-                       "{file: ..., per: rig} or {file: ..., per: trial}");
+                       "{file: ..., per: rig}, or per: world or trial");
   return false;
 }
 

@@ -57,6 +57,7 @@ void derive_randomness(const study::Study& study, study::StudyPlan& plan) {
     }
   }
   plan.sobol_places = study::sobol_place_key(study.seed);
+  plan.sobol_places_of_worlds = study::sobol_place_key_of_worlds(study.seed);
 }
 
 // The slots of joint draws share one random number, which selects the row. The slash keeps its name apart
@@ -222,6 +223,8 @@ study::DrawnMean mean_of(const ProfileRequest& request, const parameters::Parame
   if (study.design == study::Design::sobol) {
     const std::size_t dimension = parameters::sobol_dimension_of_mean(parameter.sobol_dimension);
     mean.randomness.directions = designs::sobol_directions({&dimension, 1}).front();
+    mean.worlds = static_cast<std::uint64_t>(study.worlds);
+    mean.places = study::sobol_place_key_of_worlds(study.seed);
   }
   return mean;
 }

@@ -140,7 +140,8 @@ study::Value read_map(const yaml::Field& field, std::size_t slot, Reading& readi
   if (const auto given = yaml::find_field(field, per_key)) {
     per = read_per(*given, parameter, drawn, reading.groups, reading.problems).value_or(per);
   } else if (drawn == Drawn::interval && !reading.groups.worlds) {
-    return refuse(reading, field, "a value without a distribution is drawn for each world, and the study has none",
+    return refuse(reading, field,
+                  "a value without a distribution is drawn for each world, and the study has none",
                   "the key worlds, or uniform in place of interval");
   }
   if (drawn == Drawn::profile) return read_profile_value(yaml::entry_of(field, *entry), slot, per, reading);

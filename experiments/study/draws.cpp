@@ -36,10 +36,19 @@ random::RandomKey sobol_place_key(std::uint64_t seed) {
   return designs::random_key(seed, "rigs/places");
 }
 
+random::RandomKey sobol_place_key_of_worlds(std::uint64_t seed) {
+  return designs::random_key(seed, "worlds/places");
+}
+
 std::uint64_t sobol_place(const random::RandomKey& key, std::uint64_t index, std::uint64_t rigs) {
   const std::uint64_t round = index / rigs;
   const random::RandomStream order{.key = key, .stream = static_cast<std::uint32_t>(round)};
   return round * rigs + designs::latin_stratum(index % rigs, rigs, order);
+}
+
+std::uint64_t place_in_groups(Design design, const random::RandomKey& key, std::uint64_t unit,
+                              std::uint64_t groups) {
+  return design == Design::sobol && groups > 0 ? sobol_place(key, unit, groups) : unit;
 }
 
 }  // namespace zerocount::study

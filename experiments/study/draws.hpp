@@ -24,10 +24,17 @@ double design_uniform(Design design, const SlotRandomness& randomness, std::uint
 
 /// Key of sobol_place in a study with this seed. The slash in its name keeps it apart from parameter names.
 random::RandomKey sobol_place_key(std::uint64_t seed);
+/// Likewise of the order in which worlds take trials or rigs.
+random::RandomKey sobol_place_key_of_worlds(std::uint64_t seed);
 
 /// Index of the Sobol point of trial `index` in a study with `rigs` rigs. The trials k·rigs … (k + 1)·rigs −
 /// 1 use the points with the same indices, in a random order for every k. Without this permutation a rig
 /// would get every rigs-th point, and for rigs = 2^m all of these lie in one of 2^m equal intervals.
 std::uint64_t sobol_place(const random::RandomKey& key, std::uint64_t index, std::uint64_t rigs);
+
+/// Index in the design of one of the units (rigs, or trials) that are dealt to so many groups (worlds, or
+/// rigs) in turns: sobol_place() in the design sobol, otherwise its own.
+std::uint64_t place_in_groups(Design design, const random::RandomKey& key, std::uint64_t unit,
+                              std::uint64_t groups);
 
 }  // namespace zerocount::study

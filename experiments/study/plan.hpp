@@ -77,18 +77,19 @@ struct StudyPlan {
   std::vector<PlanAxis> axes;  ///< the last axis changes fastest, and takes precedence over the others
   std::vector<distributions::Distribution> distributions;
   std::vector<std::shared_ptr<const Rotors>> profiles;
-  std::optional<GaussianCopula> copula;      ///< of correlated values
-  std::vector<std::uint32_t> sampled_slots;  ///< slots whose values share one random number: `samples`
-  std::vector<SlotRandomness> randomness;    ///< [slot]
-  random::RandomKey sobol_places{};          ///< used by the design `sobol` with rigs
-  std::vector<std::uint32_t> input_slots;    ///< slots whose values differ between trials
-  std::vector<InputSource> inputs;           ///< [input column]
-  std::vector<InputSource> rig_inputs;       ///< [rig column]
-  std::vector<InputSource> world_inputs;     ///< [world column]
-  TrialFactors factors;                      ///< used by the design `saltelli`
-  std::vector<std::uint32_t> factor_of;      ///< [slot] its factor; used by the design `saltelli`
-  trial::TrialParameters common;             ///< parameters of a trial, without the input slots
-  std::vector<double> numbers;               ///< [slot] numbers of the base; undefined for input slots
+  std::optional<GaussianCopula> copula;        ///< of correlated values
+  std::vector<std::uint32_t> sampled_slots;    ///< slots whose values share one random number: `samples`
+  std::vector<SlotRandomness> randomness;      ///< [slot]
+  random::RandomKey sobol_places{};            ///< used by the design `sobol` with rigs
+  random::RandomKey sobol_places_of_worlds{};  ///< likewise with worlds
+  std::vector<std::uint32_t> input_slots;      ///< slots whose values differ between trials
+  std::vector<InputSource> inputs;             ///< [input column]
+  std::vector<InputSource> rig_inputs;         ///< [rig column]
+  std::vector<InputSource> world_inputs;       ///< [world column]
+  TrialFactors factors;                        ///< used by the design `saltelli`
+  std::vector<std::uint32_t> factor_of;        ///< [slot] its factor; used by the design `saltelli`
+  trial::TrialParameters common;               ///< parameters of a trial, without the input slots
+  std::vector<double> numbers;                 ///< [slot] numbers of the base; undefined for input slots
 };
 
 /// The option of `axis` at the design point.

@@ -32,8 +32,10 @@ bool Rotors::is_same(const Rotors& other) const {
 
 double Rotors::mean(std::int64_t rotor) const {
   if (!mean_) return description_.mean;
-  const double u = design_uniform(mean_->design, mean_->randomness, 0, static_cast<std::uint64_t>(rotor),
-                                  static_cast<std::uint64_t>(count_));
+  const std::uint64_t place =
+      place_in_groups(mean_->design, mean_->places, static_cast<std::uint64_t>(rotor), mean_->worlds);
+  const double u =
+      design_uniform(mean_->design, mean_->randomness, 0, place, static_cast<std::uint64_t>(count_));
   return distributions::quantile(mean_->distribution, u);
 }
 

@@ -20,6 +20,8 @@ struct DrawnMean {
   distributions::Distribution distribution;
   Design design{Design::monte_carlo};
   SlotRandomness randomness;
+  std::uint64_t worlds{0};     ///< that the rotors are dealt to
+  random::RandomKey places{};  ///< of their order, in the design sobol
 
   bool operator==(const DrawnMean&) const = default;
 };

@@ -20,7 +20,7 @@ struct TrialDraws {
   const Study& study;
   std::uint64_t index;   ///< of the trial
   std::uint64_t place;   ///< index of its point in the design
-  std::uint64_t rig;     ///< 0 without rigs
+  std::uint64_t rig;     ///< index of its rig in the design, as `place`; 0 without rigs
   std::uint64_t world;   ///< 0 without worlds
   std::uint32_t stream;  ///< of values drawn per trial, not per rig
   const GivenUniforms& given;
@@ -31,12 +31,15 @@ struct TrialDraws {
 TrialDraws draws_of(const Study& study, std::int64_t point, std::int64_t index, const GivenUniforms& given) {
   const auto trial = static_cast<std::uint64_t>(index);
   const auto rigs = static_cast<std::uint64_t>(study.rigs);
-  const bool shuffled = study.design == Design::sobol && rigs > 0;
+  const auto worlds = static_cast<std::uint64_t>(study.worlds);
+  const std::uint64_t rig = rigs > 0 ? trial % rigs : 0;
+  const StudyPlan& plan = *study.plan;
   return {study,
           trial,
-          shuffled ? sobol_place(study.plan->sobol_places, trial, rigs) : trial,
-          rigs > 0 ? static_cast<std::uint64_t>(rig_of(study, index)) : 0,
-          study.worlds > 0 ? static_cast<std::uint64_t>(world_of(study, index)) : 0,
+          rigs > 0 ? place_in_groups(study.design, plan.sobol_places, trial, rigs)
+                   : place_in_groups(study.design, plan.sobol_places_of_worlds, trial, worlds),
+          rigs > 0 ? place_in_groups(study.design, plan.sobol_places_of_worlds, rig, worlds) : 0,
+          worlds > 0 ? trial % worlds : 0,
           study.independent_points ? static_cast<std::uint32_t>(point) + 1 : 0,
           given};
 }
@@ -93,7 +96,7 @@ friction::ContactParameter contact_parameter(const TrialDraws& draws, std::uint3
 }
 
 std::uint64_t rotor_of(const TrialDraws& draws, const Value& profile) {
-  return profile.per == Per::rig ? draws.rig : 0;
+  return profile.per == Per::rig ? draws.index % static_cast<std::uint64_t>(draws.study.rigs) : 0;
 }
 
 double profile_mean(const TrialDraws& draws, const Value& value) {
@@ -159,8 +162,8 @@ void check_exists(const Study& study, std::int64_t point, std::int64_t index) {
 std::vector<double> inputs_of(const Study& study, std::string_view unit, std::int64_t index,
                               std::int64_t count, const std::vector<InputSource>& sources) {
   if (index < 0 || index >= count) {
-    throw Failure(ExitCode::bad_input, fmt::format("study {} has no {} {}; expected 0 to {}", study.name,
-                                                   unit, index, count - 1));
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("study {} has no {} {}; expected 0 to {}", study.name, unit, index, count - 1));
   }
   const StudyPlan& plan = *study.plan;
   const GivenUniforms none;

@@ -175,9 +175,8 @@ void export_group_counts(std::string_view name, const StoredGroups& groups, CsvF
 void add_groups(std::vector<ExportedTable>& tables, const std::string& name,
                 const std::optional<StoredGroups>& groups) {
   if (!groups) return;
-  tables.push_back({name + "s.csv", [name, groups](const ResultsFile&, CsvFile& csv) {
-                      export_groups(name, *groups, csv);
-                    }});
+  tables.push_back({name + "s.csv",
+                    [name, groups](const ResultsFile&, CsvFile& csv) { export_groups(name, *groups, csv); }});
   if (groups->success.empty()) return;
   tables.push_back({name + "_counts.csv", [name, groups](const ResultsFile&, CsvFile& csv) {
                       export_group_counts(name, *groups, csv);

@@ -94,8 +94,8 @@ void write_worlds(hdf5::File& file, const study::Study& study) {
 
 void write_world_counts(hdf5::File& file, const study::Study& study, const layout::WorldCounts& counts) {
   const bool has_goal = !counts.goal_met.empty();
-  layout::TableIo io =
-      layout::TableIo::create(file, layout::world_count_table(has_goal), std::ssize(counts.trials), study.worlds);
+  layout::TableIo io = layout::TableIo::create(file, layout::world_count_table(has_goal),
+                                               std::ssize(counts.trials), study.worlds);
   io.number_rows(0);
   for (std::size_t point = 0; point < counts.trials.size(); ++point) {
     const auto row = static_cast<std::int64_t>(point);

@@ -34,6 +34,7 @@ Command baseline_command();
 Command history_command();
 Command jerks_command();
 Command judge_command();
+Command learn_command();
 Command tune_command();
 Command limits_command();
 Command controller_command();

@@ -86,7 +86,7 @@ class RoundTripPage : public ::testing::Test {
   /// point.
   std::string predicted_range(std::size_t point) {
     const std::optional<reading::StoredGroups> rigs = reading::StudyFile(folder_ / "predicted.h5").rigs();
-    const auto count = static_cast<std::ptrdiff_t>(rigs.value().rigs);
+    const auto count = static_cast<std::ptrdiff_t>(rigs.value().count);
     std::vector<std::int64_t> successes = rigs->success;
     successes = {successes.begin() + static_cast<std::ptrdiff_t>(point) * count,
                  successes.begin() + static_cast<std::ptrdiff_t>(point + 1) * count};

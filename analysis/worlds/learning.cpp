@@ -1,0 +1,86 @@
+#include "analysis/worlds/learning.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace zerocount::worlds {
+namespace {
+
+/// The other worlds that remain possible if `world` is the truth.
+std::vector<std::size_t> possible_worlds(const std::vector<double>& values, std::size_t world,
+                                         double precision) {
+  std::vector<std::size_t> others(values.size());
+  std::iota(others.begin(), others.end(), std::size_t{0});
+  std::erase(others, world);
+  const auto distance = [&](std::size_t other) { return std::abs(values[other] - values[world]); };
+  std::stable_sort(others.begin(), others.end(), [&](auto a, auto b) { return distance(a) < distance(b); });
+  const auto near = std::ranges::count_if(
+      others, [&](std::size_t other) { return distance(other) <= precision * std::abs(values[world]); });
+  others.resize(
+      std::min(others.size(), std::max<std::size_t>(static_cast<std::size_t>(near), least_worlds_near)));
+  return others;
+}
+
+Learned learned_of(const WorldInput& input, const std::vector<bool>& bad, double precision) {
+  Learned learned;
+  for (std::size_t world = 0; world < bad.size(); ++world) {
+    const std::vector<std::size_t> possible = possible_worlds(input.values, world, precision);
+    const auto of_them = std::ranges::count_if(possible, [&](std::size_t other) { return bad[other]; });
+    if (of_them != 0 && of_them != std::ssize(possible)) {
+      ++learned.open;
+    } else if ((of_them != 0) != bad[world]) {
+      ++learned.misjudged;
+    } else {
+      ++(bad[world] ? learned.decided_bad : learned.decided_good);
+    }
+  }
+  return learned;
+}
+
+struct RecordedParameter {
+  std::string_view parameter;
+  std::string_view record;
+};
+
+constexpr std::string_view loading = "slow loading and unloading before it slides (identify)";
+constexpr std::string_view step = "a step of the torque, then a hold (identify)";
+constexpr std::string_view creep = "constant torques at two levels, each held until it creeps (identify)";
+constexpr std::string_view sliding = "strokes that slide (identify --sliding)";
+constexpr std::string_view other_laws = "loading before it slides (identify --model)";
+
+}  // namespace
+
+std::vector<Learned> what_to_learn(const std::vector<WorldInput>& inputs, const std::vector<bool>& bad,
+                                   double precision) {
+  std::vector<Learned> learned;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    learned.push_back(learned_of(inputs[i], bad, precision));
+    learned.back().input = i;
+  }
+  std::stable_sort(learned.begin(), learned.end(),
+                   [](const Learned& a, const Learned& b) { return a.decided() > b.decided(); });
+  return learned;
+}
+
+std::string_view record_of(std::string_view parameter) {
+  static constexpr std::array<RecordedParameter, 14> records{{{"friction.k1", loading},
+                                                              {"friction.k2", loading},
+                                                              {"friction.beta", loading},
+                                                              {"plant.inertia", step},
+                                                              {"plant.presliding_damping", step},
+                                                              {"friction.alpha", creep},
+                                                              {"friction.lambda", creep},
+                                                              {"friction.n", creep},
+                                                              {"plant.sliding_damping", sliding},
+                                                              {"friction.breakaway", sliding},
+                                                              {"friction.coulomb_ratio", sliding},
+                                                              {"friction.stribeck_velocity", sliding},
+                                                              {"friction.sigma0", other_laws},
+                                                              {"friction.sigma1", other_laws}}};
+  const auto found = std::ranges::find(records, parameter, &RecordedParameter::parameter);
+  return found == records.end() ? std::string_view{} : found->record;
+}
+
+}  // namespace zerocount::worlds

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "analysis/worlds/world_rule.hpp"
+
+/// Which unknown to measure next.
+namespace zerocount::worlds {
+
+/// Worlds near a value that stand for what is left after a measurement, at least.
+inline constexpr std::size_t least_worlds_near = 4;
+
+/// How far a measurement of one parameter would decide whether the goal is reached.
+struct Learned {
+  std::size_t input{0};
+  std::int64_t decided_good{0};  ///< worlds in which the goal is reached, and in all that remain possible
+  std::int64_t decided_bad{0};   ///< worlds that fall short, as all that remain possible
+  std::int64_t misjudged{0};     ///< worlds that are unlike all that remain possible
+  std::int64_t open{0};          ///< worlds with both kinds among those that remain possible
+
+  std::int64_t decided() const { return decided_good + decided_bad; }
+};
+
+/// The parameters in order of the worlds that their measurement would decide, the most first. If a world is
+/// the truth, the worlds whose values lie within ±`precision` of its own remain possible, but at least the
+/// four nearest; the world itself does not judge itself, so that chance is not taken for knowledge.
+/// @param bad [world] @param precision relative error of the measurement, above 0
+std::vector<Learned> what_to_learn(const std::vector<WorldInput>& inputs, const std::vector<bool>& bad,
+                                   double precision);
+
+/// What measures the parameter: "constant torques at two levels (identify)"; empty where no record of
+/// `zerocount identify` does.
+std::string_view record_of(std::string_view parameter);
+
+}  // namespace zerocount::worlds

@@ -1,0 +1,284 @@
+// The verdict by a goal in a study with worlds: the goal has to be met in every one.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "analysis/goal/goal_verdict.hpp"
+#include "analysis/statistics/proportion.hpp"
+#include "tests/support/draws.hpp"
+#include "tests/support/each_seed.hpp"
+
+namespace zerocount::goal {
+namespace {
+
+/// Trials of one move in each world, of which met[world] meet the goal.
+/// @param rigs of each world; 0: no trials share a rig
+measures::MoveCounts counts_in_worlds(const std::vector<std::int64_t>& met, std::int64_t trials,
+                                      std::int64_t rigs = 0) {
+  measures::MoveCounts counts;
+  counts.worlds = std::ssize(met);
+  for (std::int64_t i = 0; i < trials * counts.worlds; ++i) {
+    const std::int64_t wanted = met[static_cast<std::size_t>(i % counts.worlds)];
+    counts.add(i, rigs * counts.worlds, 1, i / counts.worlds < wanted ? 1 : 0);
+  }
+  return counts;
+}
+
+void expect_equal_bounds(const BoundedProportion& one, const BoundedProportion& other) {
+  EXPECT_EQ(one.low, other.low);
+  EXPECT_EQ(one.high, other.high);
+  if (!std::isnan(one.value) || !std::isnan(other.value)) {
+    EXPECT_EQ(one.value, other.value);
+  }
+}
+
+TEST(GoalInWorlds, IsMetIfItIsMetInEachAndMissedIfItIsMissedInOne) {
+  const study::Goal goal{.within = 0.05, .moves = 0.95, .confidence = 0.9};
+  const auto status = [&](const std::vector<std::int64_t>& met) {
+    return judge_goal(goal, counts_in_worlds(met, 1000), 1).status;
+  };
+  EXPECT_EQ(status({1000, 1000, 1000}), Status::met);
+  EXPECT_EQ(status({990, 980, 990}), Status::met);
+  EXPECT_EQ(status({990, 950, 990}), Status::undecided);
+  EXPECT_EQ(status({990, 900, 990}), Status::missed);
+  EXPECT_EQ(status({990, 900, 950}), Status::missed);
+}
+
+// Clopper and Pearson's bounds of the worst world, with the confidence that each of three must have.
+TEST(GoalInWorlds, HasBoundsOfTheWorstWorld) {
+  const study::Goal goal{.within = 0.05, .moves = 0.95, .confidence = 0.9};
+  const double each = 1.0 - 0.1 / 3.0;
+  const Verdict verdict = judge_goal(goal, counts_in_worlds({990, 940, 970}, 1000), 1);
+  EXPECT_EQ(verdict.moves.value, 0.94);
+  EXPECT_NEAR(verdict.moves.low, statistics::proportion_at_least(940, 1000, each), 1e-9);
+  EXPECT_NEAR(verdict.moves.high, statistics::proportion_at_most(940, 1000, each), 1e-9);
+  EXPECT_EQ(worst_worlds_first(goal, verdict), (std::vector<std::size_t>{1, 2, 0}));
+}
+
+/// Worlds of different random rates, on rigs or not, and a goal near these rates.
+struct RatesInWorlds {
+  static constexpr unsigned seeds = 200;
+  explicit RatesInWorlds(unsigned seed) : draws(seed) {
+    if (rigs > 0 && draws.chance(0.5)) goal.machines = draws.uniform(0.5, 0.9);
+    counts.worlds = worlds;
+    std::vector<double> rates;
+    for (std::int64_t world = 0; world < worlds; ++world) rates.push_back(draws.uniform(0.7, 1.0));
+    for (std::int64_t i = 0; i < trials * worlds; ++i) {
+      const auto world = static_cast<std::size_t>(i % worlds);
+      std::int64_t met = 0;
+      for (std::int64_t move = 0; move < moves; ++move) met += draws.chance(rates[world]) ? 1 : 0;
+      counts.add(i, rigs * worlds, moves, met);
+      alone[world].add(i / worlds, rigs, moves, met);
+    }
+  }
+
+  testing::Draws draws;
+  std::int64_t worlds{draws.integer(2, 6)};
+  std::int64_t rigs{draws.chance(0.5) ? 0 : draws.integer(5, 30)};  ///< of each world
+  std::int64_t trials{rigs > 0 ? rigs* draws.integer(2, 20) : draws.integer(50, 400)};
+  std::int64_t moves{draws.integer(1, 2)};  ///< of a trial
+  std::size_t points{static_cast<std::size_t>(draws.integer(1, 4))};
+  study::Goal goal{.within = 0.05,
+                   .moves = draws.uniform(0.7, 0.95),
+                   .machines = {},
+                   .confidence = draws.uniform(0.8, 0.99)};
+  measures::MoveCounts counts;
+  std::vector<measures::MoveCounts> alone{static_cast<std::size_t>(worlds)};  ///< [world] a study of its own
+};
+
+TEST_EACH_SEED(RatesInWorlds, AreJudgedAsTheLowestOfSoManyStudies) {
+  const Verdict verdict = judge_goal(goal, counts, points);
+  ASSERT_EQ(verdict.worlds.size(), alone.size());
+  BoundedProportion lowest_moves{1.0, 1.0, 1.0};
+  BoundedProportion lowest_machines{1.0, 1.0, 1.0};
+  const auto lower = [](BoundedProportion& lowest, const BoundedProportion& one) {
+    lowest.value = std::min(lowest.value, one.value);
+    lowest.low = std::min(lowest.low, one.low);
+    lowest.high = std::min(lowest.high, one.high);
+  };
+  std::int64_t rigs_meeting = 0;
+  std::int64_t rigs_without_miss = 0;
+  std::vector<std::size_t> met_in;
+  std::vector<std::size_t> missed_in;
+  for (std::size_t world = 0; world < alone.size(); ++world) {
+    const Verdict one = judge_goal(goal, alone[world], points * alone.size());
+    EXPECT_EQ(verdict.worlds[world].status, one.status);
+    expect_equal_bounds(verdict.worlds[world].moves, one.moves);
+    expect_equal_bounds(verdict.worlds[world].machines, one.machines);
+    lower(lowest_moves, one.moves);
+    lower(lowest_machines, one.machines);
+    rigs_meeting += one.rigs_meeting;
+    rigs_without_miss += one.rigs_without_miss;
+    if (one.status == Status::met) met_in.push_back(world);
+    if (one.status == Status::missed) missed_in.push_back(world);
+  }
+  expect_equal_bounds(verdict.moves, lowest_moves);
+  if (goal.machines) expect_equal_bounds(verdict.machines, lowest_machines);
+  EXPECT_EQ(verdict.rigs_meeting, rigs_meeting);
+  EXPECT_EQ(verdict.rigs_without_miss, rigs_without_miss);
+  EXPECT_EQ(worlds_that(Status::met, verdict), met_in);
+  EXPECT_EQ(worlds_that(Status::missed, verdict), missed_in);
+  EXPECT_EQ(verdict.status == Status::met, met_in.size() == alone.size());
+  EXPECT_EQ(verdict.status == Status::missed, !missed_in.empty());
+}
+
+TEST_EACH_SEED(RatesInWorlds, HaveAnOrderFromTheWorst) {
+  const Verdict verdict = judge_goal(goal, counts, points);
+  const std::vector<std::size_t> order = worst_worlds_first(goal, verdict);
+  ASSERT_EQ(order.size(), verdict.worlds.size());
+  const auto rate = [&](std::size_t world) {
+    return goal.machines ? verdict.worlds[world].machines.value : verdict.worlds[world].moves.value;
+  };
+  for (std::size_t i = 1; i < order.size(); ++i) EXPECT_LE(rate(order[i - 1]), rate(order[i]));
+  std::vector<std::size_t> sorted = order;
+  std::sort(sorted.begin(), sorted.end());
+  for (std::size_t world = 0; world < sorted.size(); ++world) EXPECT_EQ(sorted[world], world);
+}
+
+/// Verdicts on 2000 studies of 200 trials in each world, which succeed with these probabilities.
+struct JudgedStudies {
+  static constexpr int studies = 2000;
+
+  JudgedStudies(const study::Goal& goal, const std::vector<double>& rates, std::uint64_t seed) {
+    testing::Draws draws(seed);
+    for (int study = 0; study < studies; ++study) {
+      std::vector<std::int64_t> met(rates.size(), 0);
+      for (std::size_t world = 0; world < rates.size(); ++world) {
+        for (int trial = 0; trial < 200; ++trial) met[world] += draws.chance(rates[world]) ? 1 : 0;
+      }
+      const measures::MoveCounts counts = counts_in_worlds(met, 200);
+      const Verdict verdict = judge_goal(goal, counts, 1);
+      if (verdict.status == Status::met) ++claimed_met;
+      if (verdict.status == Status::missed) ++claimed_missed;
+      const std::vector<measures::MoveCounts> alone = measures::in_worlds(counts);
+      if (std::ranges::any_of(alone, [&](const measures::MoveCounts& world) {
+            return judge_goal(goal, world, 1).status == Status::missed;
+          }))
+        ++missed_by_one_bound;
+    }
+  }
+
+  /// The largest number of wrong claims that a probability of 1 − γ leaves likely: three standard deviations.
+  static double largest_number(double probability) {
+    return studies * probability + 3.0 * std::sqrt(studies * probability * (1.0 - probability));
+  }
+
+  int claimed_met{0};
+  int claimed_missed{0};
+  int missed_by_one_bound{0};  ///< by the bound of some world with the confidence γ itself
+};
+
+TEST(GoalInWorlds, IsRarelyClaimedToBeMetIfOneWorldIsAtTheGoal) {
+  const study::Goal goal{.within = 0.05, .moves = 0.95};
+  const JudgedStudies judged(goal, {0.97, 0.98, 0.99, 0.999, 0.95, 0.99, 0.98, 0.999, 0.99, 0.97}, 5);
+  EXPECT_LE(judged.claimed_met, JudgedStudies::largest_number(0.05));
+}
+
+// Some world is often seen below a goal that it meets, if there are many.
+TEST(GoalInWorlds, IsRarelyClaimedToBeMissedIfAllWorldsAreAtTheGoal) {
+  const study::Goal goal{.within = 0.05, .moves = 0.95};
+  const JudgedStudies judged(goal, std::vector<double>(10, 0.95), 6);
+  EXPECT_LE(judged.claimed_missed, JudgedStudies::largest_number(0.05));
+  EXPECT_GE(judged.missed_by_one_bound, 0.2 * JudgedStudies::studies);
+}
+
+/// A study of 50 or 100 trials in each world that decides nothing.
+struct UndecidedStudy {
+  std::vector<std::int64_t> met;  ///< [world]
+  std::int64_t trials;            ///< in each world
+  double goal;
+  Status expected;  ///< of a larger study with the same rates
+};
+
+// The world that is easiest to be found below the goal decides; where none is below, every world has to be
+// found above.
+TEST(GoalNeedsInWorlds, DecideIfTheRatesAreThoseObserved) {
+  for (const UndecidedStudy& observed : {UndecidedStudy{{97, 98, 96}, 100, 0.94, Status::met},
+                                         UndecidedStudy{{99, 99}, 100, 0.98, Status::met},
+                                         UndecidedStudy{{99, 91, 99}, 100, 0.95, Status::missed},
+                                         UndecidedStudy{{49, 46, 45}, 50, 0.95, Status::missed},
+                                         UndecidedStudy{{95, 99, 93}, 100, 0.95, Status::missed}}) {
+    const study::Goal goal{.within = 0.05, .moves = observed.goal};
+    const measures::MoveCounts counts = counts_in_worlds(observed.met, observed.trials);
+    ASSERT_EQ(judge_goal(goal, counts, 1).status, Status::undecided);
+    const Needs needs = needs_of(goal, counts, 1);
+    EXPECT_EQ(needs.rigs, 0);
+    ASSERT_GT(needs.trials, trials_of(counts));
+    ASSERT_EQ(needs.trials % counts.worlds, 0);
+    const auto status_of = [&](std::int64_t trials) {
+      const double factor = static_cast<double>(trials) / static_cast<double>(observed.trials);
+      std::vector<std::int64_t> met;
+      for (const std::int64_t one : observed.met)
+        met.push_back(std::llround(static_cast<double>(one) * factor));
+      return judge_goal(goal, counts_in_worlds(met, trials), 1).status;
+    };
+    EXPECT_EQ(status_of(needs.trials / counts.worlds), observed.expected);
+    EXPECT_EQ(status_of(needs.trials / counts.worlds / 2), Status::undecided);
+  }
+}
+
+TEST(GoalNeedsInWorlds, AreNotKnownIfTheWorstWorldIsAtTheGoal) {
+  const study::Goal goal{.within = 0.05, .moves = 0.95};
+  EXPECT_EQ(needs_of(goal, counts_in_worlds({95, 99, 99}, 100), 1).trials, 0);
+}
+
+/// The rigs of all worlds. @param worlds [world][rig]
+measures::MoveCounts counts_on_rigs(const std::vector<std::vector<statistics::RigMoves>>& worlds) {
+  measures::MoveCounts counts;
+  counts.worlds = std::ssize(worlds);
+  for (std::size_t rig = 0; rig < worlds.front().size(); ++rig) {
+    for (const std::vector<statistics::RigMoves>& world : worlds) {
+      counts.rigs.push_back(world[rig]);
+      counts.moves += world[rig].moves;
+      counts.met += world[rig].met;
+    }
+  }
+  return counts;
+}
+
+/// So many rigs with so many trials each, with the rates of the rigs observed.
+std::vector<statistics::RigMoves> rigs_with_rates_of(const std::vector<statistics::RigMoves>& observed,
+                                                     std::int64_t rigs, std::int64_t trials) {
+  std::vector<statistics::RigMoves> larger;
+  for (std::int64_t rig = 0; rig < rigs; ++rig) {
+    const double place = (static_cast<double>(rig) + 0.5) / static_cast<double>(rigs);
+    const statistics::RigMoves& like =
+        observed[static_cast<std::size_t>(place * static_cast<double>(observed.size()))];
+    larger.push_back(
+        {trials, trials,
+         std::llround(static_cast<double>(like.met * trials) / static_cast<double>(like.trials))});
+  }
+  return larger;
+}
+
+// The rigs of one world need more trials each, to be told from rigs below the goal; the other world needs
+// more rigs, because some are below it.
+TEST(GoalNeedsInWorlds, HaveRigsAndTrialsForTheWorldThatNeedsMost) {
+  const study::Goal goal{.within = 0.05, .moves = 0.85, .machines = 0.8};
+  const std::vector<statistics::RigMoves> close(20, {10, 10, 9});
+  std::vector<statistics::RigMoves> mixed(20, {10, 10, 10});
+  mixed[0] = mixed[1] = {10, 10, 5};
+  for (const auto& worlds :
+       {std::vector{close, close}, std::vector{mixed, mixed}, std::vector{close, mixed}}) {
+    const measures::MoveCounts counts = counts_on_rigs(worlds);
+    ASSERT_EQ(judge_goal(goal, counts, 1).status, Status::undecided);
+    const Needs needs = needs_of(goal, counts, 1);
+    ASSERT_GT(needs.rigs, 40);
+    EXPECT_EQ(needs.rigs % 2, 0);
+    ASSERT_EQ(needs.trials % needs.rigs, 0) << needs.trials << " trials on " << needs.rigs << " rigs";
+    const std::int64_t of_a_rig = needs.trials / needs.rigs;
+    EXPECT_EQ(judge_goal(goal,
+                         counts_on_rigs({rigs_with_rates_of(worlds[0], needs.rigs / 2, of_a_rig),
+                                         rigs_with_rates_of(worlds[1], needs.rigs / 2, of_a_rig)}),
+                         1)
+                  .status,
+              Status::met);
+  }
+}
+
+}  // namespace
+}  // namespace zerocount::goal

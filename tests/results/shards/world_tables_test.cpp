@@ -1,0 +1,198 @@
+// What a results file says of the worlds of its study: their inputs, and the counts of their trials.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/failure/failure.hpp"
+#include "experiments/study/plan.hpp"
+#include "results/hdf5/hdf5.hpp"
+#include "results/reading/export.hpp"
+#include "results/reading/first_difference.hpp"
+#include "results/shards/rig_tables.hpp"
+#include "results/storage/checksum_trailer.hpp"
+#include "tests/results/failures.hpp"
+#include "tests/results/samples.hpp"
+#include "tests/support/raw_hdf5.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+/// Seven worlds, of which five have six of the 40 trials at a point, and two have five.
+study::Study study_in_worlds() {
+  study::Study study = sample_study(3, 40, 2);
+  study.worlds = 7;
+  auto plan = std::make_shared<study::StudyPlan>();
+  plan->base = {{.kind = study::Value::Kind::distribution, .index = 0, .per = study::Per::world}};
+  plan->distributions = {distributions::Uniform{100.0, 120.0}};
+  plan->randomness.resize(1);
+  plan->world_inputs = {{0, false}};
+  study.plan = std::move(plan);
+  study.world_columns = {{"friction.k1", "N m/rad", "lowest stiffness", study::Per::world}};
+  return study;
+}
+
+/// Counts of the trials in the file. A trial is taken to meet the goal if its first move arrived.
+layout::WorldCounts counted_worlds(const reading::StudyFile& file, std::int64_t worlds) {
+  const std::vector<std::vector<std::int64_t>> none(
+      static_cast<std::size_t>(file.header().points),
+      std::vector<std::int64_t>(static_cast<std::size_t>(worlds), 0));
+  layout::WorldCounts counts{none, none, none};
+  const std::vector<trial::MoveOutcome> outcomes = file.outcomes(file.rows());
+  for (std::int64_t row = 0; row < file.rows().count; ++row) {
+    const auto point = static_cast<std::size_t>(row / file.header().trials);
+    const auto world = static_cast<std::size_t>(row % file.header().trials % worlds);
+    const std::span moves(outcomes.begin() + row * file.moves(), static_cast<std::size_t>(file.moves()));
+    ++counts.trials[point][world];
+    counts.success[point][world] += trial::succeeded(moves) ? 1 : 0;
+    counts.goal_met[point][world] += moves.front().arrived ? 1 : 0;
+  }
+  return counts;
+}
+
+std::filesystem::path write_file_in_worlds(const std::filesystem::path& directory, const study::Study& study,
+                                           bool has_goal = true, std::int64_t size = 17) {
+  const std::filesystem::path path = directory / "worlds.h5";
+  const std::vector<shards::ShardInfo> shards =
+      write_sample_shards(directory / "shards", study, layout::all_rows(study), size);
+  const auto statistics = [&](const reading::StudyFile& file) {
+    layout::StoredStatistics stored = sample_statistics(file);
+    stored.worlds = counted_worlds(file, study.worlds);
+    if (!has_goal) stored.worlds->goal_met.clear();
+    return stored;
+  };
+  shards::merge_shards(shards, study, path, layout::all_rows(study), statistics, {sample_provenance()});
+  return path;
+}
+
+std::vector<std::int64_t> flattened(const std::vector<std::vector<std::int64_t>>& rows) {
+  std::vector<std::int64_t> values;
+  for (const std::vector<std::int64_t>& row : rows) values.insert(values.end(), row.begin(), row.end());
+  return values;
+}
+
+TEST(WorldTables, HaveWhatDiffersBetweenTheWorlds) {
+  const TemporaryFolder directory;
+  const study::Study study = study_in_worlds();
+  const reading::StudyFile file(write_file_in_worlds(directory.path(), study));
+  const reading::StoredGroups stored = file.worlds().value();
+  EXPECT_EQ(stored.count, 7);
+  ASSERT_EQ(stored.columns.size(), 1U);
+  EXPECT_EQ(stored.columns[0].name, "friction.k1");
+  EXPECT_EQ(stored.columns[0].unit, "N m/rad");
+  for (std::int64_t world = 0; world < 7; ++world) {
+    EXPECT_EQ(stored.inputs[0][static_cast<std::size_t>(world)], study::world_inputs(study, world)[0]);
+  }
+}
+
+TEST(WorldTables, HaveTheTrialsOfEveryWorldAtEveryPoint) {
+  const TemporaryFolder directory;
+  const study::Study study = study_in_worlds();
+  const reading::StudyFile file(write_file_in_worlds(directory.path(), study));
+  const layout::WorldCounts counts = counted_worlds(file, 7);
+  EXPECT_EQ(counts.trials[1], (std::vector<std::int64_t>{6, 6, 6, 6, 6, 5, 5}));
+  const reading::StoredGroups stored = file.worlds().value();
+  EXPECT_EQ(stored.trials, flattened(counts.trials));
+  EXPECT_EQ(stored.success, flattened(counts.success));
+  EXPECT_EQ(stored.goal_met, flattened(counts.goal_met));
+}
+
+TEST(WorldTables, HaveNoGoalIfTheStudyHasNone) {
+  const TemporaryFolder directory;
+  const study::Study study = study_in_worlds();
+  const reading::StudyFile file(write_file_in_worlds(directory.path(), study, false));
+  const reading::StoredGroups stored = file.worlds().value();
+  EXPECT_EQ(stored.success, flattened(counted_worlds(file, 7).success));
+  EXPECT_TRUE(stored.goal_met.empty());
+}
+
+TEST(WorldTables, DoNotDependOnHowTheRowsAreDividedAmongTheShards) {
+  const TemporaryFolder first;
+  const TemporaryFolder second;
+  const study::Study study = study_in_worlds();
+  const reading::StudyFile one(write_file_in_worlds(first.path(), study, true, 7));
+  const reading::StudyFile other(write_file_in_worlds(second.path(), study, true, 50));
+  EXPECT_EQ(reading::first_difference(one.root(), other.root()), std::nullopt);
+}
+
+TEST(WorldTables, OfAPartHaveNoCounts) {
+  const TemporaryFolder directory;
+  const study::Study study = study_in_worlds();
+  const layout::RowRange rows{0, 60};
+  const std::vector<shards::ShardInfo> shards =
+      write_sample_shards(directory.path() / "shards", study, rows, 20);
+  const std::filesystem::path path = directory.path() / "part.h5";
+  shards::merge_shards(shards, study, path, rows, {}, {sample_provenance()});
+  const reading::StoredGroups stored = reading::StudyFile(path, reading::Require::any_part).worlds().value();
+  EXPECT_EQ(stored.count, 7);
+  EXPECT_EQ(stored.inputs[0].size(), 7U);
+  EXPECT_TRUE(stored.success.empty());
+  EXPECT_FALSE(reading::StudyFile(shards[0].path, reading::Require::any_part).worlds().has_value());
+}
+
+TEST(WorldTables, AreNoneWithoutWorlds) {
+  const TemporaryFolder directory;
+  EXPECT_FALSE(reading::StudyFile(write_sample_file(directory.path(), sample_study())).worlds().has_value());
+}
+
+TEST(WorldTables, AreExported) {
+  const TemporaryFolder directory;
+  const study::Study study = study_in_worlds();
+  const std::filesystem::path out = directory.path() / "tables";
+  reading::export_csv(reading::StudyFile(write_file_in_worlds(directory.path(), study)), out);
+  const std::string worlds = read_bytes(out / "worlds.csv");
+  EXPECT_TRUE(worlds.starts_with("world,friction.k1 [N m/rad]\n0,")) << worlds;
+  EXPECT_EQ(std::count(worlds.begin(), worlds.end(), '\n'), 1 + 7);
+  const std::string counts = read_bytes(out / "world_counts.csv");
+  EXPECT_TRUE(counts.starts_with("point,world,success,trials,goal_met\n0,0,")) << counts;
+  EXPECT_EQ(std::count(counts.begin(), counts.end(), '\n'), 1 + 3 * 7);
+}
+
+/// A copy of the file with another count of a world at a point, and a new checksum trailer.
+std::filesystem::path with_world_count(const std::filesystem::path& original, const std::string& dataset,
+                                       std::int64_t point, std::size_t world, std::int64_t count) {
+  const std::filesystem::path path = original.parent_path() / "forged.h5";
+  std::filesystem::copy_file(original, path, std::filesystem::copy_options::overwrite_existing);
+  unseal(path);
+  hdf5::File file = hdf5::File::open_to_change(path);
+  {
+    hdf5::Dataset counts = file.open_dataset(dataset);
+    std::vector<std::int64_t> row(7);
+    counts.read(point, 1, row.data());
+    row[world] = count;
+    counts.write(point, 1, row.data());
+  }
+  file.close();
+  storage::append_checksum(path);
+  return path;
+}
+
+// World 4 has six trials at each point, and world 5 has five.
+TEST(WorldTables, WithImpossibleCountsAreRefused) {
+  const TemporaryFolder directory;
+  const std::filesystem::path original = write_file_in_worlds(directory.path(), study_in_worlds());
+  const auto expect_refused = [&](const std::string& dataset, std::size_t world, std::int64_t count) {
+    const reading::StudyFile file(with_world_count(original, dataset, 1, world, count));
+    const std::string words = "row 1: impossible counts of world " + std::to_string(world) +
+                              "; expected 0 to " + (world < 5 ? "6" : "5") + " trials";
+    expect_failure(ExitCode::bad_data, words, [&] { file.worlds(); });
+  };
+  for (const std::string dataset : {"world/trials", "world/success", "world/goal_met"}) {
+    SCOPED_TRACE(dataset);
+    for (const std::size_t world : {std::size_t{4}, std::size_t{5}}) {
+      expect_refused(dataset, world, -1);
+      expect_refused(dataset, world, world == 4 ? 7 : 6);
+    }
+  }
+  EXPECT_NO_THROW(reading::StudyFile(with_world_count(original, "world/success", 1, 4, 0)).worlds());
+}
+
+}  // namespace
+}  // namespace zerocount::testing

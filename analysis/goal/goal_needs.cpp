@@ -64,6 +64,59 @@ std::int64_t smallest(std::int64_t low, std::int64_t high, const Decides& decide
   return decided;
 }
 
+constexpr std::int64_t most_trials_of_rig = 1024;  ///< times those observed
+
+/// The rigs with `more` times the trials each that decide; 0 if none of up to max_rigs do.
+std::int64_t rigs_needed(const study::Goal& goal, const measures::MoveCounts& counts, std::int64_t more,
+                         std::size_t points) {
+  std::vector<statistics::RigMoves> rigs = counts.rigs;
+  std::sort(rigs.begin(), rigs.end(), [](const statistics::RigMoves& a, const statistics::RigMoves& b) {
+    return a.met * b.moves < b.met * a.moves;
+  });
+  for (statistics::RigMoves& rig : rigs) {
+    rig.trials *= more;
+    rig.moves *= more;
+    rig.met *= more;
+  }
+  const std::int64_t needed = smallest(2, max_rigs, [&](std::int64_t n) {
+    return judge_goal(goal, rigs_like(rigs, n), points).status != Status::undecided;
+  });
+  return needed <= max_trials / std::max<std::int64_t>(rigs.front().trials, 1) ? needed : 0;
+}
+
+/// The trials without rigs that decide; 0 if none of up to max_trials do.
+std::int64_t trials_needed(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points) {
+  const std::int64_t trials = counts.of_trials.clusters;
+  if (trials == 0) return 0;
+  return smallest(2, max_trials, [&](std::int64_t n) {
+    const double factor = static_cast<double>(n) / static_cast<double>(trials);
+    return judge_goal(goal, larger_study(counts, factor), points).status != Status::undecided;
+  });
+}
+
+/// What decides all of these worlds, if each gets as many rigs and trials as the others; of one.
+Needs needs_of_each(const study::Goal& goal, const std::vector<measures::MoveCounts>& worlds,
+                    std::size_t points) {
+  const auto most_of_all = [&](const auto& needed_in) {
+    std::int64_t most = 0;
+    for (const measures::MoveCounts& world : worlds) {
+      const std::int64_t needed = needed_in(world);
+      if (needed == 0) return std::int64_t{0};
+      most = std::max(most, needed);
+    }
+    return most;
+  };
+  if (worlds.front().rigs.empty())
+    return {0, most_of_all([&](const auto& world) { return trials_needed(goal, world, points); })};
+  // More trials on each rig are needed where these cannot tell rigs below and above Goal::moves apart.
+  for (std::int64_t more = 1; more <= most_trials_of_rig; more *= 2) {
+    const std::int64_t rigs =
+        most_of_all([&](const auto& world) { return rigs_needed(goal, world, more, points); });
+    if (rigs > 0) return {rigs, rigs * more * worlds.front().rigs.front().trials};
+  }
+  return {};
+}
+
 /// Whether a world is expected to be found below the goal.
 bool is_below(const study::Goal& goal, const measures::MoveCounts& counts) {
   if (!goal.machines) return static_cast<double>(counts.met) < goal.moves * static_cast<double>(counts.moves);
@@ -76,60 +129,22 @@ bool is_below(const study::Goal& goal, const measures::MoveCounts& counts) {
 /// One world below the goal decides it: the cheapest of these. Where there is none, every world must be
 /// decided.
 Needs needs_of_worlds(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points) {
+  const std::vector<measures::MoveCounts> worlds = measures::in_worlds(counts);
+  points *= worlds.size();
   Needs cheapest;
-  std::int64_t rigs = 0;
-  std::int64_t trials_of_unit = 0;  ///< of a rig; without rigs of the world
-  bool some_below = false;
-  bool all_decided = true;
-  for (const measures::MoveCounts& world : measures::in_worlds(counts)) {
-    const Needs one = needs_of(goal, world, points * static_cast<std::size_t>(counts.worlds));
-    all_decided = all_decided && one.trials > 0;
-    if (one.trials == 0) continue;
-    if (is_below(goal, world)) {
-      if (!some_below || one.trials < cheapest.trials) cheapest = one;
-      some_below = true;
-    }
-    rigs = std::max(rigs, one.rigs);
-    trials_of_unit = std::max(trials_of_unit, one.rigs > 0 ? one.trials / one.rigs : one.trials);
+  for (const measures::MoveCounts& world : worlds) {
+    if (!is_below(goal, world)) continue;
+    const Needs one = needs_of_each(goal, {world}, points);
+    if (one.trials > 0 && (cheapest.trials == 0 || one.trials < cheapest.trials)) cheapest = one;
   }
-  if (!some_below && !all_decided) return {};
-  const Needs dearest{rigs, rigs > 0 ? rigs * trials_of_unit : trials_of_unit};
-  const Needs needs = some_below ? cheapest : dearest;
+  const Needs needs = cheapest.trials > 0 ? cheapest : needs_of_each(goal, worlds, points);
   return {needs.rigs * counts.worlds, needs.trials * counts.worlds};
 }
 
 }  // namespace
 
 Needs needs_of(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points) {
-  if (counts.worlds > 0) return needs_of_worlds(goal, counts, points);
-  const auto decided = [&](const measures::MoveCounts& larger) {
-    return judge_goal(goal, larger, points).status != Status::undecided;
-  };
-  if (counts.rigs.empty()) {
-    const std::int64_t trials = counts.of_trials.clusters;
-    if (trials == 0) return {};
-    const auto factor = [&](std::int64_t n) { return static_cast<double>(n) / static_cast<double>(trials); };
-    return {
-        0, smallest(2, max_trials, [&](std::int64_t n) { return decided(larger_study(counts, factor(n))); })};
-  }
-  std::vector<statistics::RigMoves> sorted = counts.rigs;
-  std::sort(sorted.begin(), sorted.end(), [](const statistics::RigMoves& a, const statistics::RigMoves& b) {
-    return a.met * b.moves < b.met * a.moves;
-  });
-  // More trials on each rig are needed where these cannot tell rigs below and above Goal::moves apart.
-  for (std::int64_t more = 1; more <= 1024; more *= 2) {
-    std::vector<statistics::RigMoves> rigs = sorted;
-    for (statistics::RigMoves& rig : rigs) {
-      rig.trials *= more;
-      rig.moves *= more;
-      rig.met *= more;
-    }
-    const std::int64_t needed =
-        smallest(2, max_rigs, [&](std::int64_t n) { return decided(rigs_like(rigs, n)); });
-    if (needed > 0 && needed <= max_trials / std::max<std::int64_t>(rigs.front().trials, 1))
-      return {needed, needed * rigs.front().trials};
-  }
-  return {};
+  return counts.worlds > 0 ? needs_of_worlds(goal, counts, points) : needs_of_each(goal, {counts}, points);
 }
 
 std::vector<Needs> smallest_studies(const study::Goal& goal, bool on_rigs, std::int64_t moves,

@@ -16,8 +16,8 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::size_t max_parameters = 6;
-constexpr std::size_t max_curves = 200;  ///< worlds with a curve
-constexpr std::int64_t max_steps = 80;   ///< of a curve
+constexpr std::size_t max_world_curves = 200;  ///< worlds with a curve
+constexpr std::int64_t max_world_steps = 80;   ///< of a curve
 
 /// The parameter of a rule, or the first.
 std::size_t leading_input(const worlds::PointWorlds& point) {
@@ -55,7 +55,7 @@ void add_curve(FigureData& data, std::size_t world, const statistics::Histogram<
   std::int64_t shown = 0;
   for (const auto& [time, count] : times.counts) {
     settled += count;
-    if (settled < times.size && (settled - shown) * max_steps < times.size) continue;
+    if (settled < times.size && (settled - shown) * max_world_steps < times.size) continue;
     row(time, settled);
     shown = settled;
   }
@@ -82,7 +82,7 @@ std::optional<Figure> curves_figure(const ReportedStudy& reported, const worlds:
                    {"share", "proportion of moves", "1"},
                    {"bad", "bad world", ""},
                    {"value", parameter, colours ? inputs[input].unit : "1"}}};
-  for (std::size_t world = 0; world < std::min(times.size(), max_curves); ++world) {
+  for (std::size_t world = 0; world < std::min(times.size(), max_world_curves); ++world) {
     add_curve(data, world, times[world], moves_of_world(reported, world), end, point.bad[world],
               colours ? inputs[input].values[world] : static_cast<double>(world));
   }
@@ -93,7 +93,7 @@ std::optional<Figure> curves_figure(const ReportedStudy& reported, const worlds:
           "on. {}. Bad worlds are coloured by {}{}.",
           label_of(reported, reported.chosen.point), bands.values()[slot],
           summary::bad_worlds_sentence(point, inputs, reported.summary.goal.has_value()), parameter,
-          times.size() > max_curves ? fmt::format("; shown are the first {}", max_curves) : ""),
+          times.size() > max_world_curves ? fmt::format("; shown are the first {}", max_world_curves) : ""),
       {std::move(data)});
   figure.specification["layer"][1]["encoding"]["color"]["title"] =
       colours && inputs[input].unit != "1" ? fmt::format("{} ({})", parameter, inputs[input].unit)

@@ -257,4 +257,51 @@ std::filesystem::path write_sample_file(const std::filesystem::path& directory, 
   return path;
 }
 
+/// Seven worlds, of which five have six of the 40 trials at a point, and two have five.
+study::Study sample_study_in_worlds() {
+  study::Study study = sample_study(3, 40, 2);
+  study.worlds = 7;
+  auto plan = std::make_shared<study::StudyPlan>();
+  plan->base = {{.kind = study::Value::Kind::distribution, .index = 0, .per = study::Per::world}};
+  plan->distributions = {distributions::Uniform{100.0, 120.0}};
+  plan->randomness.resize(1);
+  plan->world_inputs = {{0, false}};
+  study.plan = std::move(plan);
+  study.world_columns = {{"friction.k1", "N m/rad", "lowest stiffness", study::Per::world}};
+  return study;
+}
+
+/// Counts of the trials in the file. A trial is taken to meet the goal if its first move arrived.
+layout::WorldCounts counted_worlds(const reading::StudyFile& file, std::int64_t worlds) {
+  const std::vector<std::vector<std::int64_t>> none(
+      static_cast<std::size_t>(file.header().points),
+      std::vector<std::int64_t>(static_cast<std::size_t>(worlds), 0));
+  layout::WorldCounts counts{none, none, none};
+  const std::vector<trial::MoveOutcome> outcomes = file.outcomes(file.rows());
+  for (std::int64_t row = 0; row < file.rows().count; ++row) {
+    const auto point = static_cast<std::size_t>(row / file.header().trials);
+    const auto world = static_cast<std::size_t>(row % file.header().trials % worlds);
+    const std::span moves(outcomes.begin() + row * file.moves(), static_cast<std::size_t>(file.moves()));
+    ++counts.trials[point][world];
+    counts.success[point][world] += trial::succeeded(moves) ? 1 : 0;
+    counts.goal_met[point][world] += moves.front().arrived ? 1 : 0;
+  }
+  return counts;
+}
+
+std::filesystem::path write_file_in_worlds(const std::filesystem::path& directory, const study::Study& study,
+                                           bool has_goal, std::int64_t size) {
+  const std::filesystem::path path = directory / "worlds.h5";
+  const std::vector<shards::ShardInfo> shards =
+      write_sample_shards(directory / "shards", study, layout::all_rows(study), size);
+  const auto statistics = [&](const reading::StudyFile& file) {
+    layout::StoredStatistics stored = sample_statistics(file);
+    stored.worlds = counted_worlds(file, study.worlds);
+    if (!has_goal) stored.worlds->goal_met.clear();
+    return stored;
+  };
+  shards::merge_shards(shards, study, path, layout::all_rows(study), statistics, {sample_provenance()});
+  return path;
+}
+
 }  // namespace zerocount::testing

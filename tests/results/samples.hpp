@@ -44,4 +44,15 @@ layout::StatisticTable sample_table(const reading::StudyFile& file);
 std::filesystem::path write_sample_file(const std::filesystem::path& directory, const study::Study& study,
                                         std::int64_t size = 17);
 
+/// Seven worlds, of which five have six of the 40 trials at a point, and two have five.
+study::Study sample_study_in_worlds();
+
+/// Counts of the trials in the file. A trial is taken to meet the goal if its first move arrived.
+layout::WorldCounts counted_worlds(const reading::StudyFile& file, std::int64_t worlds);
+
+/// A results file of a study with worlds. A trial is taken to meet the goal if its first move arrived.
+/// @param size trials of a shard
+std::filesystem::path write_file_in_worlds(const std::filesystem::path& directory, const study::Study& study,
+                                           bool has_goal = true, std::int64_t size = 17);
+
 }  // namespace zerocount::testing

@@ -87,6 +87,7 @@ TEST(Documentation, DescribesEveryDatasetOfAFileAndNoOther) {
   const TemporaryFolder directory;
   const TemporaryFolder directory_with_rigs;
   const TemporaryFolder directory_with_companions;
+  const TemporaryFolder directory_with_worlds;
   study::Study with_companions = sample_study();
   with_companions.features.own_controller = true;
   with_companions.plugin = std::make_shared<const plugin::ControllerPlugin>(
@@ -117,6 +118,7 @@ TEST(Documentation, DescribesEveryDatasetOfAFileAndNoOther) {
   for_each_dataset(write_sample_file(directory.path(), sample_study()), look_up);
   for_each_dataset(write_sample_file(directory_with_rigs.path(), sample_study_with_rigs()), look_up);
   for_each_dataset(write_sample_file(directory_with_companions.path(), with_companions), look_up);
+  for_each_dataset(write_file_in_worlds(directory_with_worlds.path(), sample_study_in_worlds()), look_up);
   for (std::size_t i = 0; i < rows.size(); ++i)
     EXPECT_TRUE(used.contains(i)) << rows[i][0] << " is in no file";
 }

@@ -25,53 +25,6 @@
 namespace zerocount::testing {
 namespace {
 
-/// Seven worlds, of which five have six of the 40 trials at a point, and two have five.
-study::Study study_in_worlds() {
-  study::Study study = sample_study(3, 40, 2);
-  study.worlds = 7;
-  auto plan = std::make_shared<study::StudyPlan>();
-  plan->base = {{.kind = study::Value::Kind::distribution, .index = 0, .per = study::Per::world}};
-  plan->distributions = {distributions::Uniform{100.0, 120.0}};
-  plan->randomness.resize(1);
-  plan->world_inputs = {{0, false}};
-  study.plan = std::move(plan);
-  study.world_columns = {{"friction.k1", "N m/rad", "lowest stiffness", study::Per::world}};
-  return study;
-}
-
-/// Counts of the trials in the file. A trial is taken to meet the goal if its first move arrived.
-layout::WorldCounts counted_worlds(const reading::StudyFile& file, std::int64_t worlds) {
-  const std::vector<std::vector<std::int64_t>> none(
-      static_cast<std::size_t>(file.header().points),
-      std::vector<std::int64_t>(static_cast<std::size_t>(worlds), 0));
-  layout::WorldCounts counts{none, none, none};
-  const std::vector<trial::MoveOutcome> outcomes = file.outcomes(file.rows());
-  for (std::int64_t row = 0; row < file.rows().count; ++row) {
-    const auto point = static_cast<std::size_t>(row / file.header().trials);
-    const auto world = static_cast<std::size_t>(row % file.header().trials % worlds);
-    const std::span moves(outcomes.begin() + row * file.moves(), static_cast<std::size_t>(file.moves()));
-    ++counts.trials[point][world];
-    counts.success[point][world] += trial::succeeded(moves) ? 1 : 0;
-    counts.goal_met[point][world] += moves.front().arrived ? 1 : 0;
-  }
-  return counts;
-}
-
-std::filesystem::path write_file_in_worlds(const std::filesystem::path& directory, const study::Study& study,
-                                           bool has_goal = true, std::int64_t size = 17) {
-  const std::filesystem::path path = directory / "worlds.h5";
-  const std::vector<shards::ShardInfo> shards =
-      write_sample_shards(directory / "shards", study, layout::all_rows(study), size);
-  const auto statistics = [&](const reading::StudyFile& file) {
-    layout::StoredStatistics stored = sample_statistics(file);
-    stored.worlds = counted_worlds(file, study.worlds);
-    if (!has_goal) stored.worlds->goal_met.clear();
-    return stored;
-  };
-  shards::merge_shards(shards, study, path, layout::all_rows(study), statistics, {sample_provenance()});
-  return path;
-}
-
 std::vector<std::int64_t> flattened(const std::vector<std::vector<std::int64_t>>& rows) {
   std::vector<std::int64_t> values;
   for (const std::vector<std::int64_t>& row : rows) values.insert(values.end(), row.begin(), row.end());
@@ -80,7 +33,7 @@ std::vector<std::int64_t> flattened(const std::vector<std::vector<std::int64_t>>
 
 TEST(WorldTables, HaveWhatDiffersBetweenTheWorlds) {
   const TemporaryFolder directory;
-  const study::Study study = study_in_worlds();
+  const study::Study study = sample_study_in_worlds();
   const reading::StudyFile file(write_file_in_worlds(directory.path(), study));
   const reading::StoredGroups stored = file.worlds().value();
   EXPECT_EQ(stored.count, 7);
@@ -94,7 +47,7 @@ TEST(WorldTables, HaveWhatDiffersBetweenTheWorlds) {
 
 TEST(WorldTables, HaveTheTrialsOfEveryWorldAtEveryPoint) {
   const TemporaryFolder directory;
-  const study::Study study = study_in_worlds();
+  const study::Study study = sample_study_in_worlds();
   const reading::StudyFile file(write_file_in_worlds(directory.path(), study));
   const layout::WorldCounts counts = counted_worlds(file, 7);
   EXPECT_EQ(counts.trials[1], (std::vector<std::int64_t>{6, 6, 6, 6, 6, 5, 5}));
@@ -106,7 +59,7 @@ TEST(WorldTables, HaveTheTrialsOfEveryWorldAtEveryPoint) {
 
 TEST(WorldTables, HaveNoGoalIfTheStudyHasNone) {
   const TemporaryFolder directory;
-  const study::Study study = study_in_worlds();
+  const study::Study study = sample_study_in_worlds();
   const reading::StudyFile file(write_file_in_worlds(directory.path(), study, false));
   const reading::StoredGroups stored = file.worlds().value();
   EXPECT_EQ(stored.success, flattened(counted_worlds(file, 7).success));
@@ -116,7 +69,7 @@ TEST(WorldTables, HaveNoGoalIfTheStudyHasNone) {
 TEST(WorldTables, DoNotDependOnHowTheRowsAreDividedAmongTheShards) {
   const TemporaryFolder first;
   const TemporaryFolder second;
-  const study::Study study = study_in_worlds();
+  const study::Study study = sample_study_in_worlds();
   const reading::StudyFile one(write_file_in_worlds(first.path(), study, true, 7));
   const reading::StudyFile other(write_file_in_worlds(second.path(), study, true, 50));
   EXPECT_EQ(reading::first_difference(one.root(), other.root()), std::nullopt);
@@ -124,7 +77,7 @@ TEST(WorldTables, DoNotDependOnHowTheRowsAreDividedAmongTheShards) {
 
 TEST(WorldTables, OfAPartHaveNoCounts) {
   const TemporaryFolder directory;
-  const study::Study study = study_in_worlds();
+  const study::Study study = sample_study_in_worlds();
   const layout::RowRange rows{0, 60};
   const std::vector<shards::ShardInfo> shards =
       write_sample_shards(directory.path() / "shards", study, rows, 20);
@@ -144,7 +97,7 @@ TEST(WorldTables, AreNoneWithoutWorlds) {
 
 TEST(WorldTables, AreExported) {
   const TemporaryFolder directory;
-  const study::Study study = study_in_worlds();
+  const study::Study study = sample_study_in_worlds();
   const std::filesystem::path out = directory.path() / "tables";
   reading::export_csv(reading::StudyFile(write_file_in_worlds(directory.path(), study)), out);
   const std::string worlds = read_bytes(out / "worlds.csv");
@@ -177,7 +130,7 @@ std::filesystem::path with_world_count(const std::filesystem::path& original, co
 // World 4 has six trials at each point, and world 5 has five.
 TEST(WorldTables, WithImpossibleCountsAreRefused) {
   const TemporaryFolder directory;
-  const std::filesystem::path original = write_file_in_worlds(directory.path(), study_in_worlds());
+  const std::filesystem::path original = write_file_in_worlds(directory.path(), sample_study_in_worlds());
   const auto expect_refused = [&](const std::string& dataset, std::size_t world, std::int64_t count) {
     const reading::StudyFile file(with_world_count(original, dataset, 1, world, count));
     const std::string words = "row 1: impossible counts of world " + std::to_string(world) +

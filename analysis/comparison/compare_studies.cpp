@@ -77,9 +77,19 @@ void require_independent_trials(const reading::StudyFile& file, const ManifestVa
                             file.path().string()));
 }
 
-/// The number of rigs that the trials of a study run on, 0 without.
-std::int64_t rigs_of(const ManifestValues& values) {
-  return std::stoll(value_or(values, "rigs", "0"));
+/// The number of rigs that the trials of a study run on, 0 without. Where two studies have different worlds,
+/// these are the groups of trials that are not independent.
+std::int64_t rigs_of(const ManifestValues& values, bool other_worlds) {
+  const std::int64_t worlds = std::stoll(value_or(values, "worlds", "0"));
+  return other_worlds && worlds > 0 ? worlds : std::stoll(value_or(values, "rigs", "0"));
+}
+
+/// Whether studies have worlds, and not the same ones.
+bool have_other_worlds(const reading::StudyFile& baseline, const ManifestValues& old_values,
+                       const reading::StudyFile& current, const ManifestValues& new_values) {
+  const std::string before = value_or(old_values, "worlds", "0");
+  const std::string after = value_or(new_values, "worlds", "0");
+  return before != after || (after != "0" && baseline.header().seed != current.header().seed);
 }
 
 PointComparison compare_point(const StudyComparison& comparison, const GateRules& rules,
@@ -156,6 +166,8 @@ struct ComparedData {
   std::vector<MatchedPoint> points;
   std::int64_t baseline_rigs{0};
   std::int64_t current_rigs{0};
+  bool in_worlds{false};            ///< a study has worlds
+  bool other_worlds{false};         ///< and not the same ones: these take the place of rigs
   std::int64_t baseline_trials{0};  ///< of each point that are compared, its first
   std::int64_t current_trials{0};   ///< of the current file
   AlsoRead of_current{};            ///< what the requirements need
@@ -193,6 +205,7 @@ AlsoRead needed_by(const GateRules& rules, const reading::StudyFile& file, std::
   const study::Study study = layout::recorded_study(file.header(), file.path());
   also.goal = study.goal;
   also.worlds = study.worlds;
+  also.goal_rigs = study.rigs;
   also.counted = measures::counted_goal(study);
   if (also.goal) return also;
   throw Failure(
@@ -205,7 +218,11 @@ AlsoRead needed_by(const GateRules& rules, const reading::StudyFile& file, std::
 ComparedData compared_data(const reading::StudyFile& baseline, const ManifestValues& old_values,
                            const reading::StudyFile& current, const ManifestValues& new_values,
                            std::vector<MatchedPoint> points, const GateRules& rules) {
-  ComparedData data{baseline, current, std::move(points), rigs_of(old_values), rigs_of(new_values)};
+  const bool other = have_other_worlds(baseline, old_values, current, new_values);
+  ComparedData data{baseline, current, std::move(points), rigs_of(old_values, other),
+                    rigs_of(new_values, other)};
+  data.other_worlds = other;
+  data.in_worlds = value_or(new_values, "worlds", "0") != "0" || value_or(old_values, "worlds", "0") != "0";
   data.baseline_trials = compared_trials(rules, baseline, data.baseline_rigs);
   data.current_trials = compared_trials(rules, current, data.current_rigs);
   data.of_current = needed_by(rules, current, data.current_rigs);
@@ -384,10 +401,19 @@ void judge(StudyComparison& result, const GateRules& rules, const ComparedData& 
   note_trials(result, data);
   judge_points(result, rules, data);
   note_undecided_moves(result);
-  if (data.baseline_rigs > 0 || data.current_rigs > 0) {
+  if (data.other_worlds) {
+    result.notes.push_back(
+        "the trials of a world are not independent, and the worlds differ: tests and bounds are over worlds, "
+        "and "
+        "what decides is more worlds");
+  } else if (data.baseline_rigs > 0 || data.current_rigs > 0) {
     result.notes.push_back(
         "the trials of a rig are not independent: tests and bounds are over rigs, and what decides is more "
         "trials on more rigs, in the same proportion");
+  }
+  if (data.in_worlds) {
+    result.notes.push_back(
+        "means and rates are averages over the worlds, but for a goal, which is judged in the worst");
   }
   if (result.equal_to_the_bit) pass_equal_data(result);
   result.verdict = verdict_of(result);

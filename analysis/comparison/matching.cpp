@@ -150,6 +150,7 @@ DrawComparison compare_draws(const reading::StudyFile& baseline, const reading::
   if (baseline.header().seed != current.header().seed) return {false, "the seeds differ", {}};
   for (const auto& [key, absent] : {std::pair<std::string, std::string>{"design", "monte_carlo"},
                                     {"independent_points", "false"},
+                                    {"worlds", "0"},
                                     {"rigs", "0"}}) {
     if (value_or(old_values, key, absent) != value_or(new_values, key, absent)) {
       return {false, fmt::format("the manifests differ in {}", key), {}};

@@ -15,7 +15,8 @@ void add_trials(PointTrials& trials, std::span<const trial::MoveOutcome> outcome
     std::int64_t index = trials.trials;
     for (auto move = outcomes.begin(); move != outcomes.end(); move += trials.moves) {
       const std::int64_t before = trials.goal_counts.met;
-      count_moves(trials.goal_counts, *trials.counted, index++, trials.rigs, {move, move + trials.moves});
+      count_moves(trials.goal_counts, *trials.counted, index++, trials.goal_rigs,
+                  {move, move + trials.moves});
       trials.moves_in_goal.push_back(static_cast<double>(trials.goal_counts.met - before));
     }
   }
@@ -54,6 +55,7 @@ PointTrials read_point_trials(const reading::StudyFile& file, std::int64_t point
   result.goal = also.goal;
   result.counted = also.counted;
   result.rigs = also.rigs;
+  result.goal_rigs = also.goal_rigs;
   result.goal_counts.worlds = also.worlds;
   measures::visit_blocks(
       file, {point * file.header().trials, trials},

@@ -24,7 +24,8 @@ struct PointTrials {
   /// [trial][move], flattened, NaN where a move has no value.
   std::map<std::string, std::vector<double>, std::less<>> values{};
   measures::UndecidedMoves undecided{};  ///< of all moves
-  std::int64_t rigs{0};  ///< number of rigs, trial i on rig i mod rigs; 0: no trials share a rig
+  std::int64_t rigs{0};  ///< number of rigs, or of worlds: trial i on rig i mod rigs; 0: no trials share one
+  std::int64_t goal_rigs{0};  ///< number of rigs, also of a study with worlds
   const layout::MeasureTable* table{&layout::measure_table()};
   std::vector<GateMeasure> bands{};                ///< measures of error bands that have values, too
   std::optional<study::Goal> goal{};               ///< that the trials are counted by
@@ -50,8 +51,9 @@ struct AlsoRead {
   std::vector<GateMeasure> bands{};  ///< measures of error bands, which the file has
   std::optional<study::Goal> goal{};
   std::optional<measures::CountedGoal> counted{};
-  std::int64_t rigs{0};    ///< as PointTrials::rigs
-  std::int64_t worlds{0};  ///< of the study
+  std::int64_t rigs{0};       ///< as PointTrials::rigs
+  std::int64_t goal_rigs{0};  ///< likewise
+  std::int64_t worlds{0};     ///< of the study
 };
 
 /// The first `trials` trials of design point `point` of a whole study.

@@ -116,25 +116,38 @@ void judge_goal(RequirementResult& result, const PointTrials& trials) {
                                                             : GateVerdict::inconclusive;
 }
 
+/// The sample in so many groups, unit i in group i mod groups; 0: unchanged.
+RequirementSample by_group(RequirementSample sample, std::int64_t groups) {
+  const auto count = static_cast<std::size_t>(groups);
+  if (count == 0 || count >= sample.hits.size()) return sample;
+  for (std::size_t i = count; i < sample.hits.size(); ++i) {
+    sample.hits[i % count] += sample.hits[i];
+    sample.events[i % count] += sample.events[i];
+  }
+  sample.hits.resize(count);
+  sample.events.resize(count);
+  return sample;
+}
+
 /// The moves of each rig or trial that meet the goal; if the goal asks for machines, whether the rig meets
 /// it.
 RequirementSample goal_sample(const PointTrials& trials) {
   const study::Goal& goal = *trials.goal;
   RequirementSample sample{RequirementKind::goal, true, goal.machines.value_or(goal.moves), true, {}, {}};
   const std::size_t units =
-      trials.rigs > 0 ? static_cast<std::size_t>(trials.rigs) : trials.moves_in_goal.size();
+      trials.goal_rigs > 0 ? static_cast<std::size_t>(trials.goal_rigs) : trials.moves_in_goal.size();
   sample.hits.assign(units, 0.0);
   sample.events.assign(units, 0.0);
   for (std::size_t trial = 0; trial < trials.moves_in_goal.size(); ++trial) {
     sample.hits[trial % units] += trials.moves_in_goal[trial];
     sample.events[trial % units] += static_cast<double>(trials.moves);
   }
-  if (!goal.machines) return sample;
+  if (!goal.machines) return by_group(std::move(sample), trials.rigs);
   for (std::size_t rig = 0; rig < units; ++rig) {
     sample.hits[rig] = sample.hits[rig] >= goal.moves * sample.events[rig] ? 1.0 : 0.0;
     sample.events[rig] = 1.0;
   }
-  return sample;
+  return by_group(std::move(sample), trials.rigs);
 }
 
 /// [trial] 1 for each trial that meets the requirement by itself, otherwise 0.

@@ -53,8 +53,12 @@ ShownRate shown_rate(const ReportedStudy& reported, std::int64_t point) {
     return {summary.success_rate().value, bounds_of(reported, point), summary.outcomes.zero_count,
             summary.trials};
   const goal::Verdict verdict = goal::judge_goal(*reported.summary.goal, *summary.goal, 1);
-  return {
-      verdict.moves.value, {verdict.moves.low, verdict.moves.high}, summary.goal->met, summary.goal->moves};
+  const measures::MoveCounts& counts = *summary.goal;
+  const measures::MoveCounts shown =
+      counts.worlds > 0
+          ? measures::in_worlds(counts)[goal::worst_worlds_first(*reported.summary.goal, verdict).front()]
+          : counts;
+  return {verdict.moves.value, {verdict.moves.low, verdict.moves.high}, shown.met, shown.moves};
 }
 
 std::string rate_meaning(const ReportedStudy& reported) {

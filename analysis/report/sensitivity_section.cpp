@@ -82,7 +82,10 @@ std::optional<PageSection> sensitivity_section(const ReportedStudy& reported) {
   const sensitivity::PointSensitivity& point = answer.points.front();
   for (const sensitivity::OutputSensitivity& output : point.outputs) {
     if (!output.estimated) continue;
-    section.html += fmt::format("<p>{}</p>\n", html_prose(output.conclusion));
+    const std::string within = output.of_worlds            ? "Between worlds: "
+                               : reported.study.worlds > 0 ? "Within worlds: "
+                                                           : "";
+    section.html += fmt::format("<p>{}{}</p>\n", within, html_prose(output.conclusion));
     section.figures.push_back(figure_for(output, point.label, answer.from_saltelli));
   }
   return section;

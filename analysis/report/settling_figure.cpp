@@ -217,6 +217,8 @@ std::optional<Figure> band_figure(const ReportedStudy& reported) {
   ordered_json& encoding = figure.specification["encoding"];
   encoding["x"]["title"] = "within the band for good from (s)";
   figure.specification["layer"][0]["encoding"]["y"]["title"] = "proportion of moves";
+  if (reported.study.worlds > 0)
+    figure.caption += "It is an average over the worlds, and a goal must be met in each. ";
   if (reported.study.goal) add_goal(figure, *reported.study.goal);
   return figure;
 }

@@ -22,8 +22,7 @@ constexpr std::int64_t max_series = 8;  ///< number of colours
 
 std::string bounds_note(const ReportedStudy& reported) {
   if (reported.summary.goal) {
-    return fmt::format("{}The bars or bands are one-sided {} bounds, for each point separately.",
-                       reported.summary.worlds > 0 ? "Rates are those of the worst world. " : "",
+    return fmt::format("The bars or bands are one-sided {} bounds, for each point separately.",
                        text::percent(reported.summary.goal->confidence));
   }
   return fmt::format(
@@ -73,7 +72,9 @@ std::vector<std::int64_t> points_with_lines(const ReportedStudy& reported) {
 
 Figure line_per_point(const ReportedStudy& reported) {
   const std::vector<std::int64_t> shown = points_with_lines(reported);
-  std::string caption = fmt::format("Proportion of the {}, of all of each point. ", rate_meaning(reported));
+  std::string caption =
+      fmt::format("Proportion of the {}, of all of each point{}. ", rate_meaning(reported),
+                  reported.summary.worlds > 0 && reported.summary.goal ? " in its worst world" : "");
   if (!reported.summary.features.dependent_trials) {
     caption +=
         "Points whose bounds do not overlap differ significantly. A dot at 100 % does not exclude failures: "

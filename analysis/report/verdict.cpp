@@ -90,7 +90,8 @@ std::string of_chosen(const ReportedStudy& reported, const std::string& claim) {
 
 std::string headline(const ReportedStudy& reported, const std::optional<summary::JudgedPoint>& judged) {
   if (judged) return of_chosen(reported, std::string(summary::verdict_words(judged->verdict.status)));
-  return of_chosen(reported, claim_text(reported, reported.chosen.point));
+  return of_chosen(reported, (reported.summary.worlds > 0 ? "on average over the worlds " : "") +
+                                 claim_text(reported, reported.chosen.point));
 }
 
 /// A line per line of the text, as a sentence.
@@ -112,15 +113,17 @@ void add_goal(std::vector<std::string>& lines, const ReportedStudy& reported,
   add_sentences(lines,
                 goal::readings_text(goal, *point_of(reported, judged.chosen.point).goal, judged.verdict));
   if (const auto worlds = summary::worlds_of_point(reported.summary, judged.chosen.point))
-    add_sentences(lines, summary::bad_worlds_sentence(*worlds, reported.summary.world_inputs, true));
+    add_sentences(lines, summary::bad_worlds_sentence(
+                             *worlds, summary::world_inputs_of(reported.summary, judged.chosen.point), true));
   if (judged.needs)
     lines.push_back(goal::needs_sentence(goal, *judged.needs, reported.summary.features.rigs) + ".");
 }
 
 void add_success(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
   const measures::PointSummary& point = point_of(reported, best);
-  lines.push_back(fmt::format("{} ended at zero counts{}.", of_all(point.outcomes.zero_count, point.trials),
-                              bounds_text(reported, best)));
+  lines.push_back(fmt::format("{} ended at zero counts{}{}.", of_all(point.outcomes.zero_count, point.trials),
+                              bounds_text(reported, best),
+                              reported.summary.worlds > 0 ? ", on average over the worlds" : ""));
   if (point.outcomes.zero_count == point.trials)
     lines.push_back(flawless_text(reported, claim_of_best(reported, best)));
   const measures::OutcomeCounts& outcomes = point.outcomes;

@@ -66,7 +66,8 @@ void add_curve(FigureData& data, std::size_t world, const statistics::Histogram<
 std::optional<Figure> curves_figure(const ReportedStudy& reported, const worlds::PointWorlds& point) {
   const trial::ErrorBands& bands = reported.study.features.bands;
   if (bands.count == 0) return std::nullopt;
-  const std::vector<worlds::WorldInput>& inputs = reported.summary.world_inputs;
+  const std::vector<worlds::WorldInput>& inputs =
+      summary::world_inputs_of(reported.summary, reported.chosen.point);
   const std::size_t slot = reported.study.goal ? measures::counted_goal(reported.study)->slot : 0;
   const std::vector<statistics::Histogram<double>> times = times_of_worlds(reported, slot);
   double end = 0.0;
@@ -103,7 +104,8 @@ std::optional<Figure> curves_figure(const ReportedStudy& reported, const worlds:
 
 /// The rate of each world over a parameter that differs between them.
 Figure rate_figure(const ReportedStudy& reported, const worlds::PointWorlds& point, std::size_t input) {
-  const worlds::WorldInput& parameter = reported.summary.world_inputs[input];
+  const worlds::WorldInput& parameter =
+      summary::world_inputs_of(reported.summary, reported.chosen.point)[input];
   FigureData data{"worlds",
                   {{"world", "world", ""},
                    {"value", parameter.name, parameter.unit},
@@ -112,16 +114,20 @@ Figure rate_figure(const ReportedStudy& reported, const worlds::PointWorlds& poi
                    {"high", "upper bound", "1"},
                    {"kind", "kind", ""}}};
   for (std::size_t world = 0; world < point.bad.size(); ++world) {
-    const goal::BoundedProportion& rate =
-        point.goal ? point.goal->worlds[world].moves : point.success.worlds[world];
+    const bool machines = reported.summary.goal && reported.summary.goal->machines;
+    const goal::BoundedProportion& rate = !point.goal ? point.success.worlds[world]
+                                          : machines  ? point.goal->worlds[world].machines
+                                                      : point.goal->worlds[world].moves;
     data.rows.push_back(
         ordered_json::array({world, datum(parameter.values[world]), datum(rate.value), datum(rate.low),
                              datum(rate.high), point.bad[world] ? "bad world" : "other world"}));
   }
   Figure figure = figure_of(
       "world-rate", fmt::format("world-rate-{}", input + 1), fmt::format("Rate over {}", parameter.name),
-      fmt::format("Proportion of the {} in each world, at {}, with one-sided bounds of {}.",
-                  rate_meaning(reported), label_of(reported, reported.chosen.point),
+      fmt::format("Proportion of the {} in each world, at {}, with one-sided bounds {}.",
+                  reported.summary.goal && reported.summary.goal->machines ? "machines that meet the goal"
+                                                                           : rate_meaning(reported),
+                  label_of(reported, reported.chosen.point),
                   point.goal ? "which all hold together with the confidence of the goal"
                              : "each world alone, with 95 % confidence"),
       {std::move(data)});
@@ -143,7 +149,8 @@ std::vector<Figure> world_figures(const ReportedStudy& reported) {
   if (!found) return figures;
   const worlds::PointWorlds& point = *found;
   if (std::optional<Figure> curves = curves_figure(reported, point)) figures.push_back(std::move(*curves));
-  for (std::size_t input = 0; input < std::min(study.world_inputs.size(), max_parameters); ++input)
+  const std::size_t inputs = summary::world_inputs_of(study, reported.chosen.point).size();
+  for (std::size_t input = 0; input < std::min(inputs, max_parameters); ++input)
     figures.push_back(rate_figure(reported, point, input));
   return figures;
 }

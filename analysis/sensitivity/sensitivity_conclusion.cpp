@@ -111,9 +111,7 @@ std::vector<std::string> first_order_sentences(const Findings& findings, const s
     parts.push_back(fmt::format("less than {} is explained alone by {}", text::percent(relevant_index),
                                 joined(findings.negligible)));
   }
-  parts.emplace_back(
-      "what a parameter does only together with others these trials cannot show (a study with design: "
-      "saltelli can)");
+  parts.emplace_back("what a parameter does only together with others these trials cannot show");
   return parts;
 }
 

@@ -65,9 +65,9 @@ PointInputs point_inputs(const reading::StudyFile& file, const study::Study& stu
                      .correlated = study::has_dependent_parameters(study),
                      .rigs = study.rigs,
                      .subject = study.worlds > 0 ? Subject::trials_in_worlds : Subject::trials};
+  const std::vector<study::WorldValues> of_worlds = study::world_values(study, point);
   const auto is_of_world = [&](const std::string& name) {
-    return std::ranges::any_of(study.world_columns,
-                               [&](const study::InputColumn& c) { return c.name == name; });
+    return std::ranges::any_of(of_worlds, [&](const study::WorldValues& one) { return one.name == name; });
   };
   const layout::RowRange rows{point * file.header().trials, trials};
   for (std::size_t column = 0; column < file.input_columns().size(); ++column) {
@@ -78,20 +78,14 @@ PointInputs point_inputs(const reading::StudyFile& file, const study::Study& stu
 }
 
 /// The values of the worlds in place of trials.
-PointInputs inputs_of_worlds(const study::Study& study) {
+PointInputs inputs_of_worlds(const study::Study& study, std::int64_t point) {
   PointInputs inputs{.design = study::Design::latin_hypercube,
                      .factors = {},
                      .inputs = {},
                      .correlated = study::has_dependent_parameters(study),
                      .subject = Subject::worlds};
-  for (std::int64_t world = 0; world < study.worlds; ++world) {
-    const std::vector<double> values = study::world_inputs(study, world);
-    inputs.inputs.resize(values.size());
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      inputs.inputs[i].name = study.world_columns[i].name;
-      inputs.inputs[i].values.push_back(values[i]);
-    }
-  }
+  for (study::WorldValues& one : study::world_values(study, point))
+    inputs.inputs.push_back({std::move(one.name), std::move(one.values)});
   return inputs;
 }
 
@@ -132,6 +126,11 @@ WorldMeans means_of_worlds(const study::Study& study, const TrialOutputs& trials
   return result;
 }
 
+void put_on_axis(parameters::AxisKind axis, OutputSensitivity& result) {
+  result.unit = parameters::unit_on(axis, result.unit);
+  result.meaning = parameters::text_on(axis, result.meaning);
+}
+
 /// Sensitivity of the means of the worlds to what differs between them.
 OutputSensitivity between_worlds(const study::Study& study, const PointInputs& worlds,
                                  const SensitivityOutput& output, const TrialOutputs& trials,
@@ -139,8 +138,8 @@ OutputSensitivity between_worlds(const study::Study& study, const PointInputs& w
   const WorldMeans means = means_of_worlds(study, trials);
   OutputSensitivity result = output_sensitivity(worlds, output, means.means, confidence, bootstrap);
   result.of_worlds = true;
-  result.output += " between worlds";
-  result.meaning = fmt::format("mean over the trials of a world of: {}", result.meaning);
+  result.output += "_between_worlds";
+  result.meaning = fmt::format("mean over the trials of each world; {}", result.meaning);
   result.notes.insert(
       result.notes.begin(),
       fmt::format("{} of the variance of the trials is between worlds",
@@ -167,21 +166,21 @@ StudySensitivity study_sensitivity(const reading::StudyFile& file, const Sensiti
   const std::int64_t trials = trials_read(study, question);
   const std::int64_t all = std::ssize(points) * std::ssize(outputs);
   std::int64_t done = 0;
-  const PointInputs worlds = study.worlds > 0 ? inputs_of_worlds(study) : PointInputs{};
   for (const std::int64_t point : points) {
     PointSensitivity at_point{point, labels.at(static_cast<std::size_t>(point)), {}};
     const PointInputs inputs = point_inputs(file, study, point, trials);
+    const PointInputs worlds = inputs_of_worlds(study, point);
     for (const SensitivityOutput& output : outputs) {
       const TrialOutputs values = trial_outputs(file, study, point, trials, output);
       OutputSensitivity result = output_sensitivity(inputs, output, values, question.confidence, bootstrap);
       if (trials < study.trials && study.rigs == 0)
         result.notes.push_back(fmt::format("the first {} of {} trials are used", trials, study.trials));
-      result.unit = parameters::unit_on(study.units.axis, result.unit);
-      result.meaning = parameters::text_on(study.units.axis, result.meaning);
+      put_on_axis(study.units.axis, result);
       at_point.outputs.push_back(std::move(result));
       if (study.worlds > 0) {
         at_point.outputs.push_back(
             between_worlds(study, worlds, output, values, question.confidence, bootstrap));
+        put_on_axis(study.units.axis, at_point.outputs.back());
       }
       if (question.progress) question.progress(++done, all);
     }

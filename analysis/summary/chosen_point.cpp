@@ -141,6 +141,7 @@ std::string verdict_text(const StudySummary& summary, const ChosenPoint& chosen)
   const bool stopped = std::ranges::any_of(
       summary.sections, [](const measures::SummarySection& section) { return section.key == stopping_key; });
   const auto points = static_cast<std::size_t>(chosen.chosen_from);
+  if (summary.worlds > 0) text += "on average over the worlds: ";
   text += statistics::claim_sentence(claim_of_chosen(point, points, stopped)) + "\n";
   if (points > 1) text += "  the bound allows for the choice of the point by these trials\n";
   return text + competition_text(summary, chosen);

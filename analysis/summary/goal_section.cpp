@@ -59,11 +59,12 @@ measures::SummarySection goal_section(const StudySummary& summary) {
         verdicts[i] ? verdict_json(*summary.goal, *verdicts[i], !summary.points[i].goal->rigs.empty())
                     : Json());
   }
-  add_columns(section.columns, "goal_rate", "proportion of moves that meet the goal", verdicts,
+  const std::string where = summary.worlds > 0 ? " in the worst world" : "";
+  add_columns(section.columns, "goal_rate", "proportion of moves that meet the goal" + where, verdicts,
               &goal::Verdict::moves);
   if (summary.goal->machines) {
-    add_columns(section.columns, "goal_machines", "proportion of machines that meet the goal", verdicts,
-                &goal::Verdict::machines);
+    add_columns(section.columns, "goal_machines", "proportion of machines that meet the goal" + where,
+                verdicts, &goal::Verdict::machines);
   }
   return section;
 }

@@ -12,6 +12,10 @@ const measures::MoveCounts& counts_of(const StudySummary& summary, std::int64_t 
   return summary.points[static_cast<std::size_t>(point)].goal.value();
 }
 
+std::size_t points_of(const ChosenPoint& chosen) {
+  return static_cast<std::size_t>(chosen.chosen_from);
+}
+
 }  // namespace
 
 std::string_view verdict_words(goal::Status status) {
@@ -28,7 +32,7 @@ std::string_view verdict_words(goal::Status status) {
 
 JudgedPoint judge_point(const StudySummary& summary, const ChosenPoint& chosen) {
   JudgedPoint judged{chosen, {}, {}};
-  const auto points = static_cast<std::size_t>(chosen.chosen_from);
+  const std::size_t points = points_of(chosen);
   const measures::MoveCounts& counts = counts_of(summary, chosen.point);
   judged.verdict = goal::judge_goal(*summary.goal, counts, points);
   if (judged.verdict.status == goal::Status::undecided)
@@ -43,8 +47,8 @@ std::string judgement_text(const StudySummary& summary, const JudgedPoint& judge
                   verdict_words(judged.verdict.status),
                   goal::readings_text(*summary.goal, counts_of(summary, chosen.point), judged.verdict));
   if (chosen.chosen_from > 1) text += "  the bounds allow for the choice of the point by these trials\n";
-  if (const auto worlds = worlds_of_point(summary, chosen.point))
-    text += fmt::format("  {}\n", bad_worlds_sentence(*worlds, summary.world_inputs, true));
+  if (const auto worlds = worlds_of_point(summary, chosen.point, points_of(chosen)))
+    text += fmt::format("  {}\n", bad_worlds_sentence(*worlds, world_inputs_of(summary, chosen.point), true));
   if (judged.needs)
     text += fmt::format("  {}\n", goal::needs_sentence(*summary.goal, *judged.needs, summary.features.rigs));
   return text + competition_text(summary, chosen);

@@ -16,10 +16,33 @@ struct Comparison {
   study::ObservedCounts counts;
   std::optional<statistics::ObservedTest> test;  ///< empty if the counts cannot be tested
   std::string reason;                            ///< why not
+  bool in_worlds{false};                         ///< with the world that is most like the real rig
 };
+
+/// The real rig lives in one world, which nobody knows: it differs from the simulation if it differs from
+/// each world.
+Comparison compare_with_worlds(const measures::PointSummary& point, const study::ObservedCounts& counts) {
+  const statistics::Successes observed{counts.successes, counts.of};
+  Comparison nearest{counts, std::nullopt, "no trial was simulated", true};
+  for (const measures::MoveCounts& world : measures::in_worlds(point.worlds->succeeded)) {
+    if (world.moves == 0) continue;
+    statistics::ObservedTest test;
+    if (world.rigs.empty()) {
+      test = statistics::fisher_test(observed, {world.met, world.moves});
+    } else {
+      std::vector<std::int64_t> successes;
+      for (const statistics::RigMoves& rig : world.rigs) successes.push_back(rig.met);
+      test = statistics::rig_rank_test(observed, successes, world.rigs.front().trials);
+    }
+    if (!nearest.test || test.p > nearest.test->p) nearest.test = test;
+  }
+  return nearest;
+}
 
 Comparison compare(const measures::PointSummary& point, const study::ObservedCounts& counts) {
   if (point.judged == 0) return {counts, std::nullopt, "no trial was simulated"};
+  if (point.worlds && (point.rigs.n == 0 || counts.of <= point.rigs.trials_of_rig))
+    return compare_with_worlds(point, counts);
   const statistics::Successes observed{counts.successes, counts.of};
   if (point.rigs.n == 0) {
     return {counts, statistics::fisher_test(observed, {point.outcomes.zero_count, point.judged}), {}};
@@ -50,6 +73,11 @@ std::string statement_of(const measures::PointSummary& point, const Comparison& 
                          double confidence) {
   if (!comparison.test) return "not tested: " + comparison.reason;
   const std::string p = text::short_number(comparison.test->p);
+  if (comparison.in_worlds) {
+    return comparison.test->p <= 1.0 - confidence
+               ? fmt::format("differs from every world (p = {} in the nearest)", p)
+               : fmt::format("consistent with some world (p = {})", p);
+  }
   if (comparison.test->p <= 1.0 - confidence) {
     return fmt::format("differs (p = {}): the real rig succeeded {} often than the simulation says", p,
                        is_better(point, comparison.counts) ? "more" : "less");

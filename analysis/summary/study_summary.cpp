@@ -55,7 +55,8 @@ StudySummary summary_of(const study::Study& study, double confidence) {
   summary.features = study.features;
   summary.goal = study.goal;
   summary.worlds = study.worlds;
-  summary.world_inputs = worlds::world_inputs(study);
+  for (std::int64_t point = 0; study.worlds > 0 && point < study::point_count(study); ++point)
+    summary.world_inputs.push_back(study::world_values(study, point));
   summary.seed = study.seed;
   summary.design = manifest::design_labels[static_cast<std::size_t>(study.design)];
   return summary;
@@ -97,7 +98,7 @@ void shorten(StudySummary& summary, std::size_t points) {
 
 /// Whether the statistics of a point need its trials from the first on, without gaps.
 bool depend_on_order(const study::Study& study) {
-  return study.rigs > 0 || study.design != study::Design::monte_carlo;
+  return study.rigs > 0 || study.worlds > 0 || study.design != study::Design::monte_carlo;
 }
 
 /// The finished trials of a study, file after file in order of rows.

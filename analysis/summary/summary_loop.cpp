@@ -76,7 +76,9 @@ void add_goal(std::vector<text::TextColumn>& columns, const StudySummary& summar
   for (const std::optional<goal::Verdict>& verdict : verdicts)
     status.cells.emplace_back(verdict ? goal::text_of(verdict->status) : "–");
   columns.push_back(std::move(status));
-  if (summary.goal->machines) add_proportion(columns, "machines in goal", verdicts, &goal::Verdict::machines);
+  if (summary.goal->machines)
+    add_proportion(columns, summary.worlds > 0 ? "machines in goal (worst world)" : "machines in goal",
+                   verdicts, &goal::Verdict::machines);
   add_proportion(columns, summary.worlds > 0 ? "moves in goal (worst world)" : "moves in goal", verdicts,
                  &goal::Verdict::moves);
 }
@@ -256,10 +258,8 @@ std::string design_line(const StudySummary& summary) {
         rigs_of(summary));
   }
   if (summary.worlds > 0) {
-    line += fmt::format(
-        ", {} worlds: rates over all trials are averages over the worlds; those of a goal are of the worst "
-        "world",
-        summary.worlds);
+    line += fmt::format(", {} worlds: rates over all trials are averages over the worlds{}", summary.worlds,
+                        summary.goal ? "; those of the goal are of the worst world" : "");
   }
   if (features.spread_trials) {
     line += fmt::format(

@@ -110,8 +110,16 @@ nlohmann::ordered_json verdict_json(const study::Goal& goal, const goal::Verdict
 /// likewise; its cells are columns of the main table.
 measures::SummarySection goal_section(const StudySummary& summary);
 
-/// The worlds at a point; nothing for a study without worlds, or a point without trials.
-std::optional<worlds::PointWorlds> worlds_of_point(const StudySummary& summary, std::int64_t point);
+/// The worlds at a point; nothing for a study without worlds, or where a world has no trials yet.
+/// @param chosen_from number of points that it was chosen from
+std::optional<worlds::PointWorlds> worlds_of_point(const StudySummary& summary, std::int64_t point,
+                                                   std::size_t chosen_from = 1);
+
+/// What differs between the worlds at a point of a study with worlds.
+inline const std::vector<worlds::WorldInput>& world_inputs_of(const StudySummary& summary,
+                                                              std::int64_t point) {
+  return summary.world_inputs[static_cast<std::size_t>(point)];
+}
 
 /// "5 of 30 worlds fall short of the goal: where friction.alpha > 1.4 1/s (5 of these 5, and 1 of the other
 /// 25; by chance with probability 0.0025)".

@@ -16,7 +16,8 @@ using Json = nlohmann::ordered_json;
 
 std::string statement(const measures::PointSummary& point) {
   const std::string settling = statistics::settling_sentence(point.settles_within);
-  return statistics::claim_sentence(point.claim) + (settling.empty() ? "" : "; " + settling);
+  return (point.worlds ? "on average over the worlds: " : "") + statistics::claim_sentence(point.claim) +
+         (settling.empty() ? "" : "; " + settling);
 }
 
 Json point_json(const measures::PointSummary& point) {
@@ -94,8 +95,11 @@ text::TextColumn text_column(std::span<const measures::PointSummary> points, std
 
 std::string title_of(std::span<const measures::PointSummary> points) {
   const double confidence = points.empty() ? statistics::summary_confidence : points.front().claim.confidence;
-  return fmt::format("shown with {} confidence of all axes that the manifest describes",
-                     text::percent(confidence));
+  const bool in_worlds =
+      std::ranges::any_of(points, [](const auto& point) { return point.worlds.has_value(); });
+  return fmt::format("shown with {} confidence of all axes that the manifest describes{}",
+                     text::percent(confidence),
+                     in_worlds ? ", on average over its worlds: in some worlds it is less" : "");
 }
 
 /// With one trial per rig, nothing is known of the moves of a rig.

@@ -88,17 +88,22 @@ text::PointTable table_of(const std::vector<Worlds>& points, const std::vector<s
 
 }  // namespace
 
-Worlds worlds_of_point(const StudySummary& summary, std::int64_t point) {
+Worlds worlds_of_point(const StudySummary& summary, std::int64_t point, std::size_t chosen_from) {
   const measures::PointSummary& one = summary.points[static_cast<std::size_t>(point)];
   if (!one.worlds) return std::nullopt;
-  return worlds::point_worlds(one, summary.goal, summary.world_inputs, summary.seed, summary.confidence);
+  for (const measures::MoveCounts& world : measures::in_worlds(one.worlds->succeeded)) {
+    if (world.moves == 0) return std::nullopt;  // of an unfinished run
+  }
+  return worlds::point_worlds(one, summary.goal, summary.world_inputs[static_cast<std::size_t>(point)],
+                              summary.seed, summary.confidence, chosen_from);
 }
 
 std::string bad_worlds_sentence(const worlds::PointWorlds& point,
                                 const std::vector<worlds::WorldInput>& inputs, bool has_goal) {
   const auto bad = std::count(point.bad.begin(), point.bad.end(), true);
   const std::int64_t all = std::ssize(point.bad);
-  const std::string what = has_goal ? "fall short of the goal" : "succeed less often than the median world";
+  const std::string what = has_goal ? "fall short of the goal by their observed rates"
+                                    : "succeed less often than the median world";
   if (bad == 0 || bad == all) return fmt::format("{} of {} worlds {}", bad == 0 ? "none" : "all", all, what);
   if (!point.rule) {
     return fmt::format(
@@ -107,10 +112,11 @@ std::string bad_worlds_sentence(const worlds::PointWorlds& point,
         bad, all, what, text::percent(worlds::significance_of_rules));
   }
   return fmt::format(
-      "{} of {} worlds {}: where {} ({} of these {}, and {} of the other {}; by chance with probability "
-      "{:.2g})",
+      "{} of {} worlds {}: where {} ({} of these {}, and {} of the other {}: {} of worlds named wrongly; by "
+      "chance with probability {:.2g})",
       bad, all, what, worlds::text_of(*point.rule, inputs), point.rule->bad_named, point.rule->bad,
-      point.rule->good_named, point.rule->good, point.rule->p_value);
+      point.rule->good_named, point.rule->good, text::percent_near(point.rule->error_rate()),
+      point.rule->p_value);
 }
 
 Json worlds_json(const worlds::PointWorlds& point, const std::vector<worlds::WorldInput>& inputs) {
@@ -175,10 +181,10 @@ measures::SummarySection worlds_section(const StudySummary& summary) {
   constexpr std::size_t most_sentences = 12;
   std::size_t sentences = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    section.json.push_back(points[i] ? worlds_json(*points[i], summary.world_inputs) : Json());
+    section.json.push_back(points[i] ? worlds_json(*points[i], summary.world_inputs[i]) : Json());
     if (points[i] && ++sentences <= most_sentences) {
       section.note += fmt::format("{}: {}\n", text::printable(labels[i]),
-                                  bad_worlds_sentence(*points[i], summary.world_inputs, has_goal));
+                                  bad_worlds_sentence(*points[i], summary.world_inputs[i], has_goal));
     }
   }
   section.note +=

@@ -61,6 +61,7 @@ Estimate estimate_of(const Aim& aim, const Candidate& candidate, std::int64_t un
         aim.machines ? static_cast<double>(tally.machines) / static_cast<double>(tally.units) : moves;
     worst.moves = none ? moves : std::min(worst.moves, moves);
     worst.rate = none ? rate : std::min(worst.rate, rate);
+    worst.near_goal += std::min(rate, wanted_rate(aim)) / static_cast<double>(worlds);
     none = false;
   }
   worst.units = worlds == 1 ? units : std::max<std::int64_t>(units / worlds, none ? 0 : 1);
@@ -80,6 +81,7 @@ bool is_better(const Aim& aim, const Estimate& a, const Estimate& b) {
   const bool a_meets = seems_to_meet(aim, a);
   if (a_meets != seems_to_meet(aim, b)) return a_meets;
   if (a_meets && a.criterion != b.criterion) return a.criterion < b.criterion;
+  if (aim.worlds > 0 && a.near_goal != b.near_goal) return a.near_goal > b.near_goal;
   if (a.rate != b.rate) return a.rate > b.rate;
   if (a.moves != b.moves) return a.moves > b.moves;
   return a.criterion < b.criterion;

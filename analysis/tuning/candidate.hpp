@@ -45,6 +45,8 @@ struct Estimate {
   double moves{0.0};      ///< rate of moves that meet the goal
   double criterion{0.0};  ///< infinite for never
   std::int64_t units{0};  ///< that the rates are of; with worlds those of each
+  /// Mean over the worlds of their rate, of each at most the one wanted: how near all of them are to it.
+  double near_goal{0.0};
 };
 
 /// @param units how many; all if there are fewer

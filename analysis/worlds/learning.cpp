@@ -5,6 +5,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "analysis/worlds/permutations.hpp"
+#include "experiments/designs/random_key.hpp"
+
 namespace zerocount::worlds {
 namespace {
 
@@ -23,10 +26,13 @@ std::vector<std::size_t> possible_worlds(const std::vector<double>& values, std:
   return others;
 }
 
-Learned learned_of(const WorldInput& input, const std::vector<bool>& bad, double precision) {
+/// [world] the other worlds that remain possible.
+using PossibleWorlds = std::vector<std::vector<std::size_t>>;
+
+Learned learned_of(const PossibleWorlds& possible_of, const std::vector<bool>& bad) {
   Learned learned;
   for (std::size_t world = 0; world < bad.size(); ++world) {
-    const std::vector<std::size_t> possible = possible_worlds(input.values, world, precision);
+    const std::vector<std::size_t>& possible = possible_of[world];
     const auto of_them = std::ranges::count_if(possible, [&](std::size_t other) { return bad[other]; });
     if (of_them != 0 && of_them != std::ssize(possible)) {
       ++learned.open;
@@ -37,6 +43,10 @@ Learned learned_of(const WorldInput& input, const std::vector<bool>& bad, double
     }
   }
   return learned;
+}
+
+std::int64_t net_of(const Learned& learned) {
+  return learned.decided() - learned.misjudged;
 }
 
 struct RecordedParameter {
@@ -53,14 +63,29 @@ constexpr std::string_view other_laws = "loading before it slides (identify --mo
 }  // namespace
 
 std::vector<Learned> what_to_learn(const std::vector<WorldInput>& inputs, const std::vector<bool>& bad,
-                                   double precision) {
+                                   double precision, std::uint64_t seed) {
+  std::vector<PossibleWorlds> possible(inputs.size());
   std::vector<Learned> learned;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    learned.push_back(learned_of(inputs[i], bad, precision));
+    for (std::size_t world = 0; world < bad.size(); ++world)
+      possible[i].push_back(possible_worlds(inputs[i].values, world, precision));
+    learned.push_back(learned_of(possible[i], bad));
     learned.back().input = i;
   }
+  const random::RandomKey key = designs::random_key(seed, "worlds/learning");
+  std::vector<std::int64_t> as_good(inputs.size());
+  for (std::uint32_t number = 0; number < permutations; ++number) {
+    std::vector<bool> permuted;
+    for (const std::size_t world : permutation_of(bad.size(), key, number)) permuted.push_back(bad[world]);
+    for (std::size_t i = 0; i < inputs.size(); ++i)
+      as_good[i] += net_of(learned_of(possible[i], permuted)) >= net_of(learned[i]) ? 1 : 0;
+  }
+  for (Learned& one : learned) {
+    const auto tests = static_cast<double>(inputs.size());  // Bonferroni
+    one.p_value = std::min(1.0, tests * p_value_of_permutations(as_good[one.input]));
+  }
   std::stable_sort(learned.begin(), learned.end(),
-                   [](const Learned& a, const Learned& b) { return a.decided() > b.decided(); });
+                   [](const Learned& a, const Learned& b) { return net_of(a) > net_of(b); });
   return learned;
 }
 

@@ -19,16 +19,20 @@ struct Learned {
   std::int64_t decided_bad{0};   ///< worlds that fall short, as all that remain possible
   std::int64_t misjudged{0};     ///< worlds that are unlike all that remain possible
   std::int64_t open{0};          ///< worlds with both kinds among those that remain possible
+  /// Probability of as many decided, less misjudged, if good and bad worlds had nothing to do with any of the
+  /// parameters: an unknown that does not matter decides too where few worlds are bad.
+  double p_value{1.0};
 
   std::int64_t decided() const { return decided_good + decided_bad; }
 };
 
-/// The parameters in order of the worlds that their measurement would decide, the most first. If a world is
-/// the truth, the worlds whose values lie within ±`precision` of its own remain possible, but at least the
-/// four nearest; the world itself does not judge itself, so that chance is not taken for knowledge.
-/// @param bad [world] @param precision relative error of the measurement, above 0
+/// The parameters in order of the worlds that their measurement would decide less those it would misjudge,
+/// the most first. If a world is the truth, the worlds whose values lie within ±`precision` of its own remain
+/// possible, but at least the four nearest; the world does not judge itself.
+/// @param bad [world] @param precision relative error of the measurement, above 0 @param seed of the
+/// permutations for the p-values, which allow for the number of parameters
 std::vector<Learned> what_to_learn(const std::vector<WorldInput>& inputs, const std::vector<bool>& bad,
-                                   double precision);
+                                   double precision, std::uint64_t seed);
 
 /// What measures the parameter: "constant torques at two levels (identify)"; empty where no record of
 /// `zerocount identify` does.

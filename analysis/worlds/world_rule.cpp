@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "core/random/random_numbers.hpp"
+#include "analysis/worlds/permutations.hpp"
 #include "experiments/designs/random_key.hpp"
 
 namespace zerocount::worlds {
@@ -15,7 +15,6 @@ namespace {
 
 constexpr std::size_t most_thresholds = 31;
 constexpr std::size_t most_inputs_in_pairs = 8;
-constexpr int permutations = 399;
 constexpr std::int64_t worlds_worth_a_condition = 2;
 
 using Labels = std::vector<std::uint8_t>;  ///< [world] 1: bad
@@ -178,19 +177,6 @@ class Search {
   std::vector<Named> below_;
 };
 
-/// Fisher and Yates's shuffle of 0, 1, …, with the numbers of one permutation.
-std::vector<std::size_t> permutation_of(std::size_t size, const random::RandomKey& key,
-                                        std::uint32_t number) {
-  std::vector<std::size_t> order(size);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  for (std::size_t i = size - 1; i > 0; --i) {
-    const double u =
-        random::open_uniform(random::random_bits({.key = key, .stream = number}, i, random::Draw::trial));
-    std::swap(order[i], order[static_cast<std::size_t>(u * static_cast<double>(i + 1))]);
-  }
-  return order;
-}
-
 /// Ranks from 0, of ties their mean, less the mean of all ranks, with the sum of squares 1.
 std::vector<double> scaled_ranks(const std::vector<double>& values) {
   std::vector<std::size_t> order(values.size());
@@ -254,15 +240,12 @@ struct Permuted {
   }
 
   double p_value_of(const Candidate& rule, const RankedWorlds& worlds) const {
-    const auto p_value = [](auto as_good) {
-      return static_cast<double>(1 + as_good) / static_cast<double>(1 + permutations);
-    };
-    const double by_rules = p_value(
+    const double by_rules = p_value_of_permutations(
         std::ranges::count_if(rules, [&](const Candidate& one) { return !rule.is_better_than(one); }));
     double by_trends = 0.0;
     for (const Condition& condition : rule.conditions) {
       const double trend = trend_of(condition, worlds);
-      by_trends = std::max(by_trends, p_value(std::ranges::count_if(
+      by_trends = std::max(by_trends, p_value_of_permutations(std::ranges::count_if(
                                           strongest_trends, [&](double one) { return one >= trend; })));
     }
     return std::min(1.0, 2.0 * std::min(by_rules, by_trends));
@@ -276,7 +259,7 @@ bool holds(const Condition& condition, double value) {
 /// The threshold in as few digits as leave every world on its side.
 std::string number_text(double threshold, const std::vector<double>& values) {
   for (int digits = 2; digits < 17; ++digits) {
-    const std::string text = fmt::format("{:.{}g}", threshold, digits);
+    std::string text = fmt::format("{:.{}g}", threshold, digits);
     const double rounded = std::stod(text);
     const bool same = std::ranges::all_of(
         values, [&](double value) { return (value > threshold) == (value > rounded) && value != rounded; });

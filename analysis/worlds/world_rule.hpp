@@ -5,15 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "experiments/study/study.hpp"
+
 /// What bad worlds have in common.
 namespace zerocount::worlds {
 
-/// A parameter that differs between worlds, and its value in each.
-struct WorldInput {
-  std::string name;  ///< dotted path
-  std::string unit;
-  std::vector<double> values;  ///< [world]
-};
+using WorldInput = study::WorldValues;
 
 /// "friction.alpha > 1.4".
 struct Condition {

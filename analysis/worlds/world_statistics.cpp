@@ -23,17 +23,6 @@ bool is_bad(const study::Goal& goal, const goal::WorldVerdict& world) {
 
 }  // namespace
 
-std::vector<WorldInput> world_inputs(const study::Study& study) {
-  std::vector<WorldInput> inputs;
-  for (const study::InputColumn& column : study.world_columns)
-    inputs.push_back({column.name, column.unit, {}});
-  for (std::int64_t world = 0; world < study.worlds; ++world) {
-    const std::vector<double> values = study::world_inputs(study, world);
-    for (std::size_t i = 0; i < inputs.size(); ++i) inputs[i].values.push_back(values[i]);
-  }
-  return inputs;
-}
-
 RatesOfWorlds rates_of_worlds(const measures::MoveCounts& counts, double confidence) {
   RatesOfWorlds rates;
   std::vector<double> values;
@@ -59,11 +48,12 @@ RatesOfWorlds rates_of_worlds(const measures::MoveCounts& counts, double confide
 }
 
 PointWorlds point_worlds(const measures::PointSummary& point, const std::optional<study::Goal>& goal,
-                         std::span<const WorldInput> inputs, std::uint64_t seed, double confidence) {
+                         std::span<const WorldInput> inputs, std::uint64_t seed, double confidence,
+                         std::size_t points) {
   PointWorlds result;
   const measures::MoveCounts& succeeded = point.worlds.value().succeeded;
   result.success = rates_of_worlds(succeeded, confidence);
-  if (goal && point.goal) result.goal = goal::judge_goal(*goal, *point.goal, 1);
+  if (goal && point.goal) result.goal = goal::judge_goal(*goal, *point.goal, points);
   const double each = statistics::confidence_of_each(confidence, static_cast<std::size_t>(succeeded.worlds));
   const std::vector<measures::MoveCounts> counts = measures::in_worlds(succeeded);
   for (std::size_t world = 0; world < counts.size(); ++world) {

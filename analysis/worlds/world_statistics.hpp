@@ -13,9 +13,6 @@
 /// Statistics of a design point by world.
 namespace zerocount::worlds {
 
-/// The parameters that differ between the worlds of a study, [parameter]; empty without worlds.
-std::vector<WorldInput> world_inputs(const study::Study& study);
-
 /// The proportion in each world, and its worst, median and best.
 struct RatesOfWorlds {
   std::vector<goal::BoundedProportion> worlds;  ///< [world], each bound alone
@@ -39,8 +36,10 @@ struct PointWorlds {
 
 /// A world is bad if fewer of its moves (or machines) than the goal asks for meet it. Without a goal it is
 /// bad if its rate of success is shown to be below the median.
-/// @param point of a study with worlds @param seed of the study
+/// @param point of a study with worlds @param inputs what differs between them there @param seed of the study
+/// @param points that the point was chosen from, as of goal::judge_goal()
 PointWorlds point_worlds(const measures::PointSummary& point, const std::optional<study::Goal>& goal,
-                         std::span<const WorldInput> inputs, std::uint64_t seed, double confidence);
+                         std::span<const WorldInput> inputs, std::uint64_t seed, double confidence,
+                         std::size_t points = 1);
 
 }  // namespace zerocount::worlds

@@ -223,7 +223,7 @@ study::DrawnMean mean_of(const ProfileRequest& request, const parameters::Parame
   if (study.design == study::Design::sobol) {
     const std::size_t dimension = parameters::sobol_dimension_of_mean(parameter.sobol_dimension);
     mean.randomness.directions = designs::sobol_directions({&dimension, 1}).front();
-    mean.worlds = static_cast<std::uint64_t>(study.worlds);
+    if (request.per == study::Per::rig) mean.worlds = static_cast<std::uint64_t>(study.worlds);
     mean.places = study::sobol_place_key_of_worlds(study.seed);
   }
   return mean;

@@ -278,4 +278,15 @@ std::vector<double> rig_inputs(const Study& study, std::int64_t rig);
 /// The inputs of world `world` (0 … worlds − 1): [world column], in that column's unit.
 std::vector<double> world_inputs(const Study& study, std::int64_t world);
 
+/// A value that is drawn for each world.
+struct WorldValues {
+  std::string name;  ///< dotted path
+  std::string unit;
+  std::vector<double> values;  ///< [world]
+};
+
+/// What differs between the worlds of a study at a design point, also where a sweep says so; empty without
+/// worlds.
+std::vector<WorldValues> world_values(const Study& study, std::int64_t point);
+
 }  // namespace zerocount::study

@@ -250,4 +250,23 @@ std::vector<double> world_inputs(const Study& study, std::int64_t world) {
   return inputs_of(study, "world", world, study.worlds, study.plan->world_inputs);
 }
 
+std::vector<WorldValues> world_values(const Study& study, std::int64_t point) {
+  std::vector<WorldValues> found;
+  if (study.worlds == 0) return found;
+  const StudyPlan& plan = *study.plan;
+  const GivenUniforms none;
+  for (const std::uint32_t slot : plan.input_slots) {
+    const Value& value = *value_at_point(plan, slot, static_cast<std::size_t>(point));
+    if (value.kind != Value::Kind::distribution || value.per != Per::world) continue;
+    const parameters::Parameter& parameter = plan.table.rows[slot];
+    WorldValues& values = found.emplace_back(
+        WorldValues{std::string(parameter.name), parameters::unit_of(parameter, plan.units), {}});
+    for (std::int64_t world = 0; world < study.worlds; ++world) {
+      values.values.push_back(distributions::quantile(
+          plan.distributions[value.index], uniform_of(draws_of(study, point, world, none), slot, value.per)));
+    }
+  }
+  return found;
+}
+
 }  // namespace zerocount::study

@@ -59,7 +59,7 @@ void print_plan_of_study(const study::Study& study, bool json) {
             text::aligned_table(columns) + "\n";
   }
   if (study.worlds > 0)
-    text += fmt::format("in each of the {} worlds, a part of them in each\n", study.worlds);
+    text += fmt::format("in all {} worlds together, each with as many as the others\n", study.worlds);
   if (points > 1) text += fmt::format("at the best of the {} points\n", points);
   text +=
       "Moves that miss it take more: 'zerocount plan PILOT' says how many, from the results of a small "

@@ -43,8 +43,9 @@ nlohmann::ordered_json judgement_json(const summary::StudySummary& summary,
   json["needed"] = nullptr;
   if (judged.needs && judged.needs->trials > 0)
     json["needed"] = {{"rigs", judged.needs->rigs}, {"trials", judged.needs->trials}};
-  if (const auto worlds = summary::worlds_of_point(summary, judged.chosen.point))
-    json["worlds"] = summary::worlds_json(*worlds, summary.world_inputs);
+  if (const auto worlds = summary::worlds_of_point(summary, judged.chosen.point,
+                                                   static_cast<std::size_t>(judged.chosen.chosen_from)))
+    json["worlds"] = summary::worlds_json(*worlds, summary::world_inputs_of(summary, judged.chosen.point));
   return json;
 }
 

@@ -107,11 +107,12 @@ std::string confirmation_text(const summary::StudySummary& summary,
                               const study_run::Confirmation& confirmed) {
   std::string text = fmt::format(
       "\nrun anew with seed {}, everything drawn anew, chosen beforehand so that no bound needs a "
-      "correction:\n  {} of {} trials{} succeeded, {}",
+      "correction:\n  {} of {} trials{} succeeded{}, {}",
       confirmed.seed, confirmed.successes, confirmed.trials,
       confirmed.rigs == 0                  ? ""
       : confirmed.rigs == confirmed.trials ? ", each on a rig of its own,"
                                            : fmt::format(" on {} rigs", confirmed.rigs),
+      summary.worlds > 0 ? " on average over new worlds" : "",
       text::percentage(confirmed.successes, confirmed.trials));
   if (const auto bounds = bounds_of(confirmed, summary.confidence)) {
     text += fmt::format(", {} bounds [{}] % (Clopper and Pearson)", text::percent(summary.confidence),

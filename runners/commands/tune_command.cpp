@@ -184,7 +184,8 @@ ExitCode limits(const command_line::Arguments& arguments) {
   if (arguments.choice("format") == "json") {
     standard_output::write(tuning::limits_json(limits));
   } else {
-    standard_output::write_fitted(tuning::limits_text(limits, study.goal->machines.has_value()));
+    standard_output::write_fitted(
+        tuning::limits_text(limits, study.goal->machines.has_value(), study.worlds > 0));
   }
   return ExitCode::success;
 }

@@ -99,9 +99,16 @@ std::string gains_table(const TuneAnswer& answer) {
 
 std::string alternatives_text(const TuneAnswer& answer) {
   if (answer.alternatives.empty()) return "";
-  std::vector<text::TextColumn> columns{{"control", false, {}}, {"best values", false, {}},
-                                        {"goal", false, {}},    {"moves that meet it", true, {}},
-                                        {"at least", true, {}}, {"criterion", true, {}}};
+  std::vector<text::TextColumn> columns{
+      {"control", false, {}},
+      {"best values", false, {}},
+      {"goal", false, {}},
+      {answer.proof && !answer.proof->verdict.worlds.empty() ? "moves that meet it (worst world)"
+                                                             : "moves that meet it",
+       true,
+       {}},
+      {"at least", true, {}},
+      {"criterion", true, {}}};
   for (const Alternative& one : answer.alternatives) {
     const bool added = one.gains.size() > answer.free.size();
     columns[0].cells.push_back(added ? "observer added" : values_text(one.fixed));
@@ -185,10 +192,13 @@ std::vector<std::string> proof_lines(const TuneAnswer& answer, const study::Stud
   return lines;
 }
 
-std::string limits_text(const std::vector<Limit>& limits, bool of_machines) {
+std::string limits_text(const std::vector<Limit>& limits, bool of_machines, bool in_worlds) {
   std::vector<text::TextColumn> columns{
       {"idealisation", false, {}},
-      {of_machines ? "machines that meet the goal" : "moves that meet the goal", true, {}},
+      {fmt::format("{} that meet the goal{}", of_machines ? "machines" : "moves",
+                   in_worlds ? " (worst world)" : ""),
+       true,
+       {}},
       {"of the failures", true, {}}};
   const double base = limits.front().rate;
   for (const Limit& one : limits) {
@@ -318,10 +328,12 @@ std::string text_of(const TuneAnswer& answer, const study::Study& study, const s
   }
   text += headline(answer) + "\n\n" + gains_table(answer) + other_units(answer, study) + "\n";
   for (const std::string& line : proof_lines(answer, study)) text += line + "\n";
-  text += fmt::format("{}: {} by the proof\n", study.tuning->minimise, criterion_number(answer.criterion));
+  text += fmt::format("{}: {} by the proof{}\n", study.tuning->minimise, criterion_number(answer.criterion),
+                      study.worlds > 0 ? ", of all worlds together" : "");
   if (answer.status != goal::Status::met && study.tuning->minimise.starts_with("band_settling_time"))
-    text += fmt::format("  {:g} % of the moves would be within the band for good after {} s\n",
-                        100.0 * study.goal->moves, criterion_number(answer.late_limit));
+    text += fmt::format("  {:g} % of the moves{} would be within the band for good after {} s\n",
+                        100.0 * study.goal->moves, study.worlds > 0 ? ", of all worlds together," : "",
+                        criterion_number(answer.late_limit));
   if (answer.wider_band_rate)
     text += fmt::format("  within ±{} counts {:.4g} % of the {} would meet the goal\n", study.goal->band + 1,
                         100.0 * *answer.wider_band_rate, study.goal->machines ? "machines" : "moves");
@@ -338,7 +350,7 @@ std::string text_of(const TuneAnswer& answer, const study::Study& study, const s
   if (answer.worst) text += worst_text(*answer.worst, study.rigs > 0);
   if (!answer.limits.empty())
     text += "\nwhat limits it, each by simulation on the machines of the search:\n\n" +
-            limits_text(answer.limits, study.goal->machines.has_value());
+            limits_text(answer.limits, study.goal->machines.has_value(), study.worlds > 0);
   text += alternatives_text(answer);
   text += frontier_text(answer);
   return text + "\n" + searched + fmt::format("wrote {}: the proof, with the tuned manifest\n", output);

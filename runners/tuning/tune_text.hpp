@@ -22,7 +22,7 @@ std::string text_of(const TuneAnswer& answer, const study::Study& study, const s
 
 std::string limits_json(const std::vector<Limit>& limits);
 /// A table: each cause, the rate without it, and the part of the failures that it causes.
-std::string limits_text(const std::vector<Limit>& limits, bool of_machines);
+std::string limits_text(const std::vector<Limit>& limits, bool of_machines, bool in_worlds);
 
 std::string worst_json(const WorstMachine& worst, const WorstInBox& in_box);
 std::string worst_text(const WorstInBox& worst);

@@ -244,7 +244,7 @@ class Tuner {
   void judge_alternative(const study::Study& study, const std::vector<study::FreeParameter>& free,
                          const Values& values, Alternative& alternative) const {
     for (std::size_t i = 0; i < free.size(); ++i) alternative.gains.emplace_back(free[i].name, values[i]);
-    const Units units{units_of_alternative, trials_of_machine(study)};
+    const Units units{in_equal_worlds(study, units_of_alternative), trials_of_machine(study)};
     std::vector<std::string> fresh = overrides_of(free, values);
     fresh.push_back(fmt::format("seed={}", fresh_seed(study.seed, "tuning, alternative")));
     for (const std::string& one : overrides_for(study, units)) fresh.push_back(one);

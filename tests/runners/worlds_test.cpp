@@ -1,0 +1,120 @@
+// Studies with worlds, from the manifest to the answers: no rate is averaged over worlds without saying so.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/runners/program.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Twelve worlds of an integral control. The contact creeps the more, the smaller n is.
+constexpr const char* study_in_worlds =
+    "zerocount: 1\n"
+    "name: worlds\n"
+    "seed: 11\n"
+    "worlds: 12\n"
+    "trials: 1200\n"
+    "friction:\n"
+    "  k1: {lognormal: {median: 110, cv: 0.1}}\n"
+    "  n: {interval: [1.2, 2.4]}\n"
+    "  alpha: {log_uniform: [0.2, 2], per: world}\n"
+    "controller: {ki: 3.0e-5}\n"
+    "command: {targets: [{integers: [1, 20]}], hold: 0.5}\n"
+    "initial: {encoder_phase: {uniform: [0, 1]}, hardening: {uniform: [0, 1.0e-4]}}\n"
+    "goal: {band: 0, within: 0.25, moves: 0.7}\n";
+
+class WorldStudy : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_.write("study.yaml", study_in_worlds);
+    const ProgramResult result = program({"run", "study.yaml", "-o", "out.h5"});
+    ASSERT_EQ(result.code, 0) << result.err;
+  }
+  ProgramResult program(const std::vector<std::string>& words) {
+    return zerocount_program(words, folder_.path());
+  }
+  Json json_of(std::vector<std::string> words) {
+    words.insert(words.end(), {"--format", "json"});
+    return Json::parse(program(words).out, nullptr, false);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(WorldStudy, IsJudgedByItsWorstWorld) {
+  const ProgramResult text = program({"judge", "out.h5"});
+  EXPECT_EQ(text.code, 1);
+  EXPECT_NE(text.out.find("it must hold in each of 12 worlds"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("where friction.n < "), std::string::npos) << text.out;
+  const Json judged = json_of({"judge", "out.h5"});
+  const std::vector<double> rates = judged["worlds"]["goal_rates"];
+  ASSERT_EQ(rates.size(), 12U);
+  EXPECT_EQ(judged["rate"].get<double>(), *std::ranges::min_element(rates));
+  EXPECT_LT(judged["rate_high"].get<double>(), 0.7);
+  EXPECT_EQ(judged["worlds"]["rule"]["conditions"][0]["parameter"], "friction.n");
+  EXPECT_GT(judged["worlds"]["missed"].get<int>(), 0);
+  EXPECT_GT(judged["worlds"]["met"].get<int>(), 0);
+}
+
+TEST_F(WorldStudy, HasASummaryByWorld) {
+  const std::string text = program({"summary", "out.h5"}).out;
+  EXPECT_NE(text.find("rates over all trials are averages over the worlds"), std::string::npos) << text;
+  EXPECT_NE(text.find("moves in goal (worst world)"), std::string::npos) << text;
+  EXPECT_NE(text.find("by world: the lowest, median and highest rate of 12 worlds"), std::string::npos);
+  const Json worlds = json_of({"summary", "out.h5"})["points"][0]["worlds"];
+  EXPECT_EQ(worlds["n"], 12);
+  EXPECT_LE(worlds["success"]["worst"], worlds["success"]["median"]);
+  EXPECT_LE(worlds["success"]["median"], worlds["success"]["best"]);
+  EXPECT_NE(program({"summary", "out.h5", "--format", "csv"}).out.find("worlds_goal_missed"),
+            std::string::npos);
+}
+
+TEST_F(WorldStudy, TellsWhatToMeasureNext) {
+  const Json learned = json_of({"learn", "out.h5"});
+  EXPECT_EQ(learned["worlds"], 12);
+  EXPECT_EQ(learned["unknowns"][0]["parameter"], "friction.n") << learned.dump(1);
+  EXPECT_EQ(learned["unknowns"].size(), 2U);
+  const ProgramResult text = program({"learn", "out.h5"});
+  EXPECT_EQ(text.code, 0);
+  EXPECT_NE(text.out.find("friction.n"), std::string::npos) << text.out;
+  folder_.write("plain.yaml", small_manifest(4, ""));
+  ASSERT_EQ(program({"run", "plain.yaml", "-o", "plain.h5"}).code, 0);
+  const ProgramResult refused = program({"learn", "plain.h5"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("nothing differs between worlds"), std::string::npos) << refused.err;
+}
+
+TEST_F(WorldStudy, TellsApartWhatMattersWithinAndBetweenWorlds) {
+  const Json outputs = json_of({"sensitivity", "out.h5"})["points"][0]["outputs"];
+  ASSERT_EQ(outputs.size(), 4U);
+  EXPECT_EQ(outputs[1]["output"], "success_between_worlds");
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    for (const Json& factor : outputs[i]["factors"]) {
+      const std::string name = factor["name"];
+      EXPECT_EQ(name == "friction.n" || name == "friction.alpha", i % 2 == 1) << name;
+    }
+  }
+}
+
+TEST_F(WorldStudy, IsDrawnByWorld) {
+  const std::string figures = program({"plot", "out.h5"}).out;
+  EXPECT_NE(figures.find("worlds\n"), std::string::npos) << figures;
+  EXPECT_NE(figures.find("world-rate-2\n"), std::string::npos) << figures;
+}
+
+TEST_F(WorldStudy, IsPlannedAndConfirmedInEqualWorlds) {
+  const Json plan = json_of({"plan", "study.yaml"});
+  EXPECT_EQ(plan["plans"][0]["trials"].get<std::int64_t>() % 12, 0);
+  const ProgramResult confirmed = program({"summary", "out.h5", "--confirm", "240"});
+  EXPECT_EQ(confirmed.code, 0) << confirmed.err;
+  EXPECT_NE(confirmed.out.find("it must hold in each of 12 worlds"), std::string::npos) << confirmed.out;
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -56,9 +56,9 @@ class UnfinishedSummary : public ::testing::Test {
 };
 
 TEST_F(UnfinishedSummary, HasTheStatisticsOfTheTrialsThatAreFinished) {
-  for (const char* rigs : {"", "rigs: 30\n"}) {
-    SCOPED_TRACE(rigs);
-    folder_.write("study.yaml", small_manifest(60, rigs));
+  for (const char* groups : {"", "rigs: 30\n", "worlds: 7\n"}) {
+    SCOPED_TRACE(groups);
+    folder_.write("study.yaml", small_manifest(60, groups));
     complete("half.h5", {"--set", "trials=30", "--force"});
     complete("whole.h5", {"--force"});
     fs::remove_all(at("out.h5.shards"));
@@ -91,15 +91,20 @@ TEST_F(UnfinishedSummary, TakesTrialsThatOthersAreMissingBefore) {
   EXPECT_EQ(summary["points"][1]["trials"], 30);
 }
 
-TEST_F(UnfinishedSummary, OfRigsLeavesOutTrialsThatOthersAreMissingBefore) {
-  folder_.write("study.yaml", small_manifest(60, "rigs: 30\n"));
-  for (const int quarter : {1, 4}) finish_quarter(quarter);
-  const nlohmann::json summary = json_of("out.h5");
-  EXPECT_EQ(summary["unfinished"]["finished"], 30);
-  ASSERT_EQ(summary["points"].size(), 1U);
-  EXPECT_EQ(summary["points"][0]["label"], "low");
-  EXPECT_NE(program({"summary", "out.h5"}).out.find("1 of 2 points have none yet"), std::string::npos);
-  EXPECT_EQ(summary["points"][0]["trials"], 30);
+// Their numbers tell the rig or world of a trial.
+TEST_F(UnfinishedSummary, OfRigsOrWorldsLeavesOutTrialsThatOthersAreMissingBefore) {
+  for (const char* groups : {"rigs: 30\n", "worlds: 7\n"}) {
+    SCOPED_TRACE(groups);
+    fs::remove_all(at("out.h5.shards"));
+    folder_.write("study.yaml", small_manifest(60, groups));
+    for (const int quarter : {1, 4}) finish_quarter(quarter);
+    const nlohmann::json summary = json_of("out.h5");
+    EXPECT_EQ(summary["unfinished"]["finished"], 30);
+    ASSERT_EQ(summary["points"].size(), 1U);
+    EXPECT_EQ(summary["points"][0]["label"], "low");
+    EXPECT_NE(program({"summary", "out.h5"}).out.find("1 of 2 points have none yet"), std::string::npos);
+    EXPECT_EQ(summary["points"][0]["trials"], 30);
+  }
 }
 
 TEST_F(UnfinishedSummary, WhereAPointHasNoTrialYetItsRatesAreUnknown) {

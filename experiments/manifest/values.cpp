@@ -79,7 +79,9 @@ study::Value read_drawn(const distributions::DistributionForm& form, const yaml:
   if (parameter.kind == parameters::ParameterKind::whole_number &&
       !distributions::whole_numbers_only(*distribution)) {
     return refuse(reading, field, "its values are not whole numbers",
-                  "integers, or a choice of whole numbers");
+                  form.name == distributions::interval_name
+                      ? "integers, or a choice of whole numbers, with per: world"
+                      : "integers, or a choice of whole numbers");
   }
   if (!distributions::extremes_are_inside(*distribution,
                                           parameters::range_of(parameter, reading.plan.units))) {

@@ -19,7 +19,8 @@ namespace zerocount::history {
 namespace {
 
 bool drawn_per_study(const comparison::ManifestValues& values, const study::Study& study) {
-  return std::any_of(
+  return study.worlds > 0 ||  // another seed draws other worlds
+         std::any_of(
              values.begin(), values.end(),
              [](const auto& entry) { return entry.first.ends_with(".per") && entry.second == "study"; }) ||
          std::any_of(study.profiles.begin(), study.profiles.end(),
@@ -43,13 +44,25 @@ RunValue value_of(const comparison::GateMeasure& measure, const measures::PointS
   return value;
 }
 
-/// The proportion of moves that meet the goal, with two-sided bounds as those of other proportions.
+/// The proportion of moves that meet the goal, with two-sided bounds as those of other proportions; with
+/// worlds that of the worst, with bounds of the lowest of all.
 RunValue goal_value(const measures::MoveCounts& goal, const std::string& label, double confidence) {
   RunValue value{label, "goal_rate", "1"};
   value.kind = statistics::MeasurementKind::proportion;
-  value.value = statistics::rate(goal.met, goal.moves);
-  value.bounds = statistics::clustered_proportion(measures::clusters_of(goal), confidence).korn_graubard;
-  value.n = goal.moves;
+  const std::vector<measures::MoveCounts> worlds =
+      goal.worlds > 0 ? measures::in_worlds(goal) : std::vector<measures::MoveCounts>{goal};
+  const double each =
+      goal.worlds > 0 ? statistics::confidence_of_each(confidence, worlds.size()) : confidence;
+  for (const measures::MoveCounts& world : worlds) {
+    const auto found = statistics::clustered_proportion(measures::clusters_of(world), each);
+    const bool first = value.n == 0;
+    value.bounds.low = first ? found.korn_graubard.low : std::min(value.bounds.low, found.korn_graubard.low);
+    value.bounds.high =
+        first ? found.korn_graubard.high : std::min(value.bounds.high, found.korn_graubard.high);
+    if (!first && !(found.value < value.value)) continue;
+    value.value = found.value;
+    value.n = world.moves;
+  }
   return value;
 }
 

@@ -73,9 +73,19 @@ statistics::ClusterSums sums_of(const StudySummary& summary, const measures::Poi
           .events_squared = static_cast<double>(point.judged)};
 }
 
+/// Whether the worst world of `other` is shown to be worse than that of `best`, by the bounds of both.
+bool has_worse_world(const StudySummary& summary, const measures::PointSummary& best,
+                     const measures::PointSummary& other) {
+  const goal::Verdict of_best = goal::judge_goal(*summary.goal, *best.goal, 1);
+  const goal::Verdict of_other = goal::judge_goal(*summary.goal, *other.goal, 1);
+  return summary.goal->machines ? of_other.machines.high < of_best.machines.low
+                                : of_other.moves.high < of_best.moves.low;
+}
+
 /// Whether the trials show that `other` is worse than `best`.
 bool is_shown_worse(const StudySummary& summary, const measures::PointSummary& best,
                     const measures::PointSummary& other) {
+  if (summary.worlds > 0 && summary.goal) return has_worse_world(summary, best, other);
   const std::vector<double> of_best = rates_of_rigs(summary, best);
   const std::vector<double> of_other = rates_of_rigs(summary, other);
   if (!of_best.empty() && of_best.size() == of_other.size()) return differ(of_best, of_other);

@@ -34,7 +34,8 @@ struct ChosenPoint {
 /// zero: the rate of success, or of the goal. With rigs it is Student's bound for the differences of the
 /// rates of each rig, which are the same machines at both points. Without rigs, rates are compared as if
 /// their trials were independent, with one success and one failure added to each (Agresti and Caffo, Amer.
-/// Statist. 54 (2000) 280); trials of the same random numbers differ less.
+/// Statist. 54 (2000) 280); trials of the same random numbers differ less. With worlds and a goal, a point
+/// is shown to be worse if the upper bound of its worst world is below the lower bound of the other's.
 ChosenPoint choose_point(const StudySummary& summary, std::optional<std::int64_t> point = {});
 
 /// "best of 8 points: 3 (kp=400)", or only the name of the point.

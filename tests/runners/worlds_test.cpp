@@ -116,5 +116,55 @@ TEST_F(WorldStudy, IsPlannedAndConfirmedInEqualWorlds) {
   EXPECT_NE(confirmed.out.find("it must hold in each of 12 worlds"), std::string::npos) << confirmed.out;
 }
 
+// Trials of one world are alike: against other worlds, worlds are what is compared.
+TEST_F(WorldStudy, IsComparedOverWorldsWhereTheseDiffer) {
+  ASSERT_EQ(program({"run", "study.yaml", "-o", "other.h5", "--set", "seed=12"}).code, 0);
+  const ProgramResult other = program({"compare", "out.h5", "other.h5"});
+  EXPECT_NE(other.code, 1) << other.out;
+  EXPECT_NE(other.out.find("tests and bounds are over worlds"), std::string::npos) << other.out;
+  ASSERT_EQ(program({"run", "study.yaml", "-o", "same.h5", "--set", "controller.ki=2.9e-5"}).code, 0);
+  const ProgramResult same = program({"compare", "out.h5", "same.h5"});
+  EXPECT_EQ(same.out.find("tests and bounds are over worlds"), std::string::npos) << same.out;
+  EXPECT_NE(same.out.find("averages over the worlds"), std::string::npos) << same.out;
+}
+
+// The real rig lives in one of the worlds.
+TEST_F(WorldStudy, IsLikeARealRigIfOneWorldIs) {
+  const auto verdict_of = [&](const std::string& successes) {
+    folder_.write("observed.yaml", std::string(study_in_worlds) + "observed: {all: {successes: " + successes +
+                                       ", of: 100}}\n");
+    EXPECT_EQ(program({"run", "observed.yaml", "-o", "observed.h5", "--force"}).code, 0);
+    return json_of({"summary", "observed.h5"})["points"][0]["observed_counts"]["verdict"].get<std::string>();
+  };
+  EXPECT_EQ(verdict_of("100"), "consistent");
+  EXPECT_EQ(verdict_of("20"), "differs");
+}
+
+TEST_F(WorldStudy, IsTunedForItsWorstWorld) {
+  const ProgramResult tuned =
+      program({"tune", "study.yaml", "-o", "tuned.h5", "--quiet", "--budget", "20000", "--set",
+               "goal={band: 4, within: 0.2, moves: 0.7}", "--set",
+               "tune={free: {controller.ki: {log: [1.0e-5, 4.0e-5]}}}", "--format", "json"});
+  ASSERT_EQ(tuned.code, 0) << tuned.err;
+  const Json proof = Json::parse(tuned.out)["proof"];
+  EXPECT_EQ(proof["worlds"]["met"], 12);
+  EXPECT_EQ(proof["trials"].get<std::int64_t>() % 12, 0);
+  const Json judged = json_of({"judge", "tuned.h5"});
+  EXPECT_EQ(judged["rate"], proof["rate"]);
+}
+
+// Another seed draws other worlds: it is another series.
+TEST_F(WorldStudy, HasAHistoryOfItsWorstWorldForEachSeed) {
+  ASSERT_EQ(program({"run", "study.yaml", "-o", "other.h5", "--set", "seed=12"}).code, 0);
+  for (const char* file : {"out.h5", "other.h5"})
+    ASSERT_EQ(program({"history", "add", file, "--database", "runs.sqlite"}).code, 0);
+  const Json series = Json::parse(
+      program({"history", "show", "--database", "runs.sqlite", "--measure", "goal_rate", "--format", "json"})
+          .out,
+      nullptr, false)["series"];
+  ASSERT_EQ(series.size(), 2U) << series.dump(1);
+  EXPECT_NE(series.dump().find(json_of({"judge", "out.h5"})["rate"].dump()), std::string::npos);
+}
+
 }  // namespace
 }  // namespace zerocount::testing

@@ -207,7 +207,7 @@ TEST(GoalNeedsInWorlds, DecideIfTheRatesAreThoseObserved) {
     ASSERT_EQ(judge_goal(goal, counts, 1).status, Status::undecided);
     const Needs needs = needs_of(goal, counts, 1);
     EXPECT_EQ(needs.rigs, 0);
-    ASSERT_GT(needs.trials, trials_of(counts));
+    ASSERT_GT(needs.trials, counts.of_trials.clusters);
     ASSERT_EQ(needs.trials % counts.worlds, 0);
     const auto status_of = [&](std::int64_t trials) {
       const double factor = static_cast<double>(trials) / static_cast<double>(observed.trials);

@@ -1,4 +1,4 @@
-// Which unknown to measure next: the one whose worlds are of one kind on either side of a value.
+// A measurement of the parameter that separates good worlds from bad ones decides most of them.
 #include "analysis/worlds/learning.hpp"
 
 #include <vector>

@@ -1,4 +1,4 @@
-// What bad worlds have in common: a rule is found where there is one, and rarely where there is none.
+// A rule that separates bad worlds is found if there is one, and rarely if there is none.
 #include "analysis/worlds/world_rule.hpp"
 
 #include <algorithm>

@@ -404,8 +404,7 @@ void judge(StudyComparison& result, const GateRules& rules, const ComparedData& 
   if (data.other_worlds) {
     result.notes.push_back(
         "the trials of a world are not independent, and the worlds differ: tests and bounds are over worlds, "
-        "and "
-        "what decides is more worlds");
+        "and what decides is more worlds");
   } else if (data.baseline_rigs > 0 || data.current_rigs > 0) {
     result.notes.push_back(
         "the trials of a rig are not independent: tests and bounds are over rigs, and what decides is more "

@@ -64,7 +64,7 @@ std::int64_t smallest(std::int64_t low, std::int64_t high, const Decides& decide
   return decided;
 }
 
-constexpr std::int64_t most_trials_of_rig = 1024;  ///< times those observed
+constexpr std::int64_t max_more_trials = 1024;  ///< times the trials of a rig that are observed
 
 /// The rigs with `more` times the trials each that decide; 0 if none of up to max_rigs do.
 std::int64_t rigs_needed(const study::Goal& goal, const measures::MoveCounts& counts, std::int64_t more,
@@ -94,7 +94,7 @@ std::int64_t trials_needed(const study::Goal& goal, const measures::MoveCounts& 
   });
 }
 
-/// What decides all of these worlds, if each gets as many rigs and trials as the others; of one.
+/// Study size of one world with which the verdicts of all these worlds are expected to be decided.
 Needs needs_of_each(const study::Goal& goal, const std::vector<measures::MoveCounts>& worlds,
                     std::size_t points) {
   const auto most_of_all = [&](const auto& needed_in) {
@@ -109,7 +109,7 @@ Needs needs_of_each(const study::Goal& goal, const std::vector<measures::MoveCou
   if (worlds.front().rigs.empty())
     return {0, most_of_all([&](const auto& world) { return trials_needed(goal, world, points); })};
   // More trials on each rig are needed where these cannot tell rigs below and above Goal::moves apart.
-  for (std::int64_t more = 1; more <= most_trials_of_rig; more *= 2) {
+  for (std::int64_t more = 1; more <= max_more_trials; more *= 2) {
     const std::int64_t rigs =
         most_of_all([&](const auto& world) { return rigs_needed(goal, world, more, points); });
     if (rigs > 0) return {rigs, rigs * more * worlds.front().rigs.front().trials};

@@ -39,11 +39,6 @@ Verdict judge_world(const study::Goal& goal, const measures::MoveCounts& counts,
   return verdict;
 }
 
-/// The lowest of the proportions, of their lower bounds, and of their upper bounds.
-BoundedProportion lowest(const BoundedProportion& a, const BoundedProportion& b) {
-  return {std::fmin(a.value, b.value), std::min(a.low, b.low), std::min(a.high, b.high)};
-}
-
 Verdict judge_worlds(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points) {
   const std::vector<measures::MoveCounts> worlds = measures::in_worlds(counts);
   Verdict verdict;
@@ -62,6 +57,10 @@ Verdict judge_worlds(const study::Goal& goal, const measures::MoveCounts& counts
 }
 
 }  // namespace
+
+BoundedProportion lowest(const BoundedProportion& a, const BoundedProportion& b) {
+  return {std::fmin(a.value, b.value), std::min(a.low, b.low), std::min(a.high, b.high)};
+}
 
 std::string_view text_of(Status status) {
   switch (status) {

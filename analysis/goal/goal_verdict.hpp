@@ -27,6 +27,9 @@ struct BoundedProportion {
   double high{1.0};
 };
 
+/// The lowest of the proportions, of their lower bounds, and of their upper bounds.
+BoundedProportion lowest(const BoundedProportion& a, const BoundedProportion& b);
+
 /// The moves, or machines, of one world that meet the goal.
 struct WorldVerdict {
   Status status{Status::undecided};

@@ -97,10 +97,4 @@ std::vector<MoveCounts> in_worlds(const MoveCounts& counts) {
   return worlds;
 }
 
-std::int64_t trials_of(const MoveCounts& counts) {
-  std::int64_t trials = counts.of_trials.clusters;
-  for (const statistics::RigMoves& rig : counts.rigs) trials += rig.trials;
-  return trials;
-}
-
 }  // namespace zerocount::measures

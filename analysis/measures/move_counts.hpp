@@ -39,7 +39,4 @@ statistics::ClusterSums clusters_of(const MoveCounts& counts);
 /// i div W (its rig r div W). Empty without worlds.
 std::vector<MoveCounts> in_worlds(const MoveCounts& counts);
 
-/// Trials counted.
-std::int64_t trials_of(const MoveCounts& counts);
-
 }  // namespace zerocount::measures

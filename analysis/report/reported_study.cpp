@@ -61,7 +61,7 @@ ShownRate shown_rate(const ReportedStudy& reported, std::int64_t point) {
   return {verdict.moves.value, {verdict.moves.low, verdict.moves.high}, shown.met, shown.moves};
 }
 
-std::string rate_meaning(const ReportedStudy& reported) {
+std::string_view rate_meaning(const ReportedStudy& reported) {
   return reported.summary.goal ? "moves that meet the goal" : "trials that end at zero counts";
 }
 

@@ -51,7 +51,7 @@ struct ShownRate {
 };
 ShownRate shown_rate(const ReportedStudy& reported, std::int64_t point);
 /// What these rates are: "moves that meet the goal", "trials that end at zero counts".
-std::string rate_meaning(const ReportedStudy& reported);
+std::string_view rate_meaning(const ReportedStudy& reported);
 
 /// Note for results of a study with dependent trials (StudyFeatures::dependent_trials).
 inline constexpr std::string_view dependence_sentence =

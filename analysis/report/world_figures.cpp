@@ -39,11 +39,6 @@ std::vector<statistics::Histogram<double>> times_of_worlds(const ReportedStudy& 
   return times;
 }
 
-std::int64_t moves_of_world(const ReportedStudy& reported, std::size_t world) {
-  const auto counts = measures::in_worlds(point_of(reported, reported.chosen.point).worlds->succeeded);
-  return counts[world].moves * reported.file.moves();
-}
-
 void add_curve(FigureData& data, std::size_t world, const statistics::Histogram<double>& times,
                std::int64_t moves, double end, bool bad, double value) {
   const auto row = [&](double time, std::int64_t settled) {
@@ -83,8 +78,11 @@ std::optional<Figure> curves_figure(const ReportedStudy& reported, const worlds:
                    {"share", "proportion of moves", "1"},
                    {"bad", "bad world", ""},
                    {"value", parameter, colours ? inputs[input].unit : "1"}}};
+  const std::vector<measures::MoveCounts> trials =
+      measures::in_worlds(point_of(reported, reported.chosen.point).worlds->succeeded);
   for (std::size_t world = 0; world < std::min(times.size(), max_world_curves); ++world) {
-    add_curve(data, world, times[world], moves_of_world(reported, world), end, point.bad[world],
+    const std::int64_t moves = trials[world].moves * reported.file.moves();
+    add_curve(data, world, times[world], moves, end, point.bad[world],
               colours ? inputs[input].values[world] : static_cast<double>(world));
   }
   Figure figure = figure_of(

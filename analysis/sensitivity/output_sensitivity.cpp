@@ -237,7 +237,7 @@ OutputSensitivity output_sensitivity(const PointInputs& inputs, const Sensitivit
     if (output.yes_or_no() && inputs.subject != Subject::worlds) add_log_odds(varying, y, confidence, result);
     rank_factors(from_saltelli, result);
   }
-  result.conclusion = sensitivity_conclusion(result, from_saltelli, confidence);
+  result.conclusion = sensitivity_conclusion(result, from_saltelli, confidence, inputs.subject);
   return result;
 }
 

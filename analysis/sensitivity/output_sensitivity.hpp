@@ -18,7 +18,7 @@ struct InputValues {
   std::vector<double> values;  ///< [trial of the point]
 };
 
-/// What has the inputs and outputs.
+/// Unit of the sample whose inputs and outputs are compared.
 enum class Subject {
   trials,
   trials_in_worlds,  ///< what differs between worlds is not among the inputs
@@ -44,9 +44,9 @@ OutputSensitivity output_sensitivity(const PointInputs& inputs, const Sensitivit
                                      const random::RandomStream& bootstrap);
 
 /// Which factors matter, which do not, and what the trials leave open. @param from_saltelli they have total
-/// indices.
+/// indices. With worlds there is no saltelli design to advise.
 std::string sensitivity_conclusion(const OutputSensitivity& sensitivity, bool from_saltelli,
-                                   double confidence);
+                                   double confidence, Subject subject);
 
 /// The trials of a point from which the sensitivity of an output comes: those that have a value, of a
 /// saltelli design those whose whole row has.

@@ -85,7 +85,8 @@ std::vector<std::string> total_sentences(const Findings& findings, const std::st
 }
 
 /// Sentences on first-order indices and correlations, which do not see interactions.
-std::vector<std::string> first_order_sentences(const Findings& findings, const std::string& output) {
+std::vector<std::string> first_order_sentences(const Findings& findings, const std::string& output,
+                                               Subject subject) {
   std::vector<std::string> parts;
   if (!findings.influential.empty()) {
     parts.push_back(fmt::format(
@@ -111,19 +112,21 @@ std::vector<std::string> first_order_sentences(const Findings& findings, const s
     parts.push_back(fmt::format("less than {} is explained alone by {}", text::percent(relevant_index),
                                 joined(findings.negligible)));
   }
-  parts.emplace_back("what a parameter does only together with others these trials cannot show");
+  parts.push_back(fmt::format("what a parameter does only together with others these trials cannot show{}",
+                              subject == Subject::trials ? " (a study with design: saltelli can)" : ""));
   return parts;
 }
 
 }  // namespace
 
 std::string sensitivity_conclusion(const OutputSensitivity& sensitivity, bool from_saltelli,
-                                   double confidence) {
+                                   double confidence, Subject subject) {
   if (!sensitivity.estimated) return why_nothing(sensitivity);
   Findings findings;
   for (const FactorSensitivity& factor : sensitivity.factors) sort_in(findings, factor, from_saltelli);
-  const std::vector<std::string> parts = from_saltelli ? total_sentences(findings, sensitivity.output)
-                                                       : first_order_sentences(findings, sensitivity.output);
+  const std::vector<std::string> parts = from_saltelli
+                                             ? total_sentences(findings, sensitivity.output)
+                                             : first_order_sentences(findings, sensitivity.output, subject);
   return fmt::format("By {} bounds, each by itself: {}.", text::percent(confidence), fmt::join(parts, "; "));
 }
 

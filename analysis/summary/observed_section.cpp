@@ -133,7 +133,8 @@ nlohmann::ordered_json json_of(const measures::PointSummary& point, const std::o
 std::string simulated_text(const measures::PointSummary& point) {
   if (point.judged == 0) return "–";
   return fmt::format("{} of {}{}", text::percentage(point.outcomes.zero_count, point.judged), point.judged,
-                     point.rigs.n > 0 ? fmt::format(" on {} rigs", point.rigs.n) : "");
+                     point.rigs.n > 0 ? fmt::format(" on {} rigs", point.rigs.n) : "") +
+         (point.worlds ? ", on average over the worlds" : "");
 }
 
 void add_text(measures::SummarySection& section, std::span<const measures::PointSummary> points,

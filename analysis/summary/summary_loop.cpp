@@ -274,8 +274,10 @@ std::string loop_legend(const StudySummary& summary) {
   std::string legend;
   if (summary.points.size() > 1) legend += "*: the chosen point, of which the last lines speak\n";
   if (summary.goal) {
-    legend += fmt::format("in goal: {}; one-sided {} bounds of each point alone, in %\n",
-                          goal::goal_sentence(*summary.goal), text::percent(summary.goal->confidence));
+    legend += fmt::format("in goal: {}{}; one-sided {} bounds of each point alone, in %\n",
+                          goal::goal_sentence(*summary.goal),
+                          summary.worlds > 0 ? ", in the worst world; bounds of the worst of all worlds" : "",
+                          text::percent(summary.goal->confidence));
   }
   legend += "zero-count: proportion of trials whose moves all ended at zero error; bounds of it after " +
             std::string(features.rigs ? "Korn and Graubard" : "Clopper and Pearson") +

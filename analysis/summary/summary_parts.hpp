@@ -115,7 +115,7 @@ measures::SummarySection goal_section(const StudySummary& summary);
 std::optional<worlds::PointWorlds> worlds_of_point(const StudySummary& summary, std::int64_t point,
                                                    std::size_t chosen_from = 1);
 
-/// What differs between the worlds at a point of a study with worlds.
+/// Parameters that differ between the worlds at a point of a study with worlds.
 inline const std::vector<worlds::WorldInput>& world_inputs_of(const StudySummary& summary,
                                                               std::int64_t point) {
   return summary.world_inputs[static_cast<std::size_t>(point)];

@@ -178,15 +178,18 @@ measures::SummarySection worlds_section(const StudySummary& summary) {
       .columns = columns_of(points, has_goal),
       .title = fmt::format("by world: the lowest, median and highest rate of {} worlds", summary.worlds)};
   section.tables.push_back(table_of(points, labels, has_goal));
-  constexpr std::size_t most_sentences = 12;
+  constexpr std::size_t max_sentences = 12;
   std::size_t sentences = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     section.json.push_back(points[i] ? worlds_json(*points[i], summary.world_inputs[i]) : Json());
-    if (points[i] && ++sentences <= most_sentences) {
+    if (points[i] && ++sentences <= max_sentences) {
       section.note += fmt::format("{}: {}\n", text::printable(labels[i]),
                                   bad_worlds_sentence(*points[i], summary.world_inputs[i], has_goal));
     }
   }
+  if (sentences > max_sentences)
+    section.note +=
+        fmt::format("and {} more points (--format json has their rules)\n", sentences - max_sentences);
   section.note +=
       fmt::format("bounds of one side each, of the lowest rate of all worlds, with {} confidence\n",
                   text::percent(summary.confidence));

@@ -22,7 +22,7 @@ std::vector<std::size_t> possible_worlds(const std::vector<double>& values, std:
   const auto near = std::ranges::count_if(
       others, [&](std::size_t other) { return distance(other) <= precision * std::abs(values[world]); });
   others.resize(
-      std::min(others.size(), std::max<std::size_t>(static_cast<std::size_t>(near), least_worlds_near)));
+      std::min(others.size(), std::max<std::size_t>(static_cast<std::size_t>(near), min_possible_worlds)));
   return others;
 }
 

@@ -6,13 +6,14 @@
 
 #include "analysis/worlds/world_rule.hpp"
 
-/// Which unknown to measure next.
+/// The value of measuring one unknown parameter.
 namespace zerocount::worlds {
 
-/// Worlds near a value that stand for what is left after a measurement, at least.
-inline constexpr std::size_t least_worlds_near = 4;
+/// Smallest number of worlds that remain possible after a measurement.
+inline constexpr std::size_t min_possible_worlds = 4;
 
-/// How far a measurement of one parameter would decide whether the goal is reached.
+/// Numbers of worlds for which a measurement of one parameter decides, or does not, whether the goal is
+/// reached.
 struct Learned {
   std::size_t input{0};
   std::int64_t decided_good{0};  ///< worlds in which the goal is reached, and in all that remain possible
@@ -34,8 +35,8 @@ struct Learned {
 std::vector<Learned> what_to_learn(const std::vector<WorldInput>& inputs, const std::vector<bool>& bad,
                                    double precision, std::uint64_t seed);
 
-/// What measures the parameter: "constant torques at two levels (identify)"; empty where no record of
-/// `zerocount identify` does.
+/// Record from which `zerocount identify` estimates the parameter, such as "strokes that slide (identify
+/// --sliding)"; empty if there is none.
 std::string_view record_of(std::string_view parameter);
 
 }  // namespace zerocount::worlds

@@ -7,7 +7,7 @@
 
 #include "experiments/study/study.hpp"
 
-/// What bad worlds have in common.
+/// A rule that separates bad worlds from the others.
 namespace zerocount::worlds {
 
 using WorldInput = study::WorldValues;

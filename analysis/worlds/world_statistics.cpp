@@ -1,7 +1,7 @@
 #include "analysis/worlds/world_statistics.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include "analysis/statistics/clustered_proportion.hpp"
 #include "analysis/statistics/proportion.hpp"
@@ -10,8 +10,6 @@ namespace zerocount::worlds {
 namespace {
 
 double median_of(std::vector<double> values) {
-  std::erase_if(values, [](double value) { return std::isnan(value); });  // of worlds without trials
-  if (values.empty()) return statistics::unknown;
   std::sort(values.begin(), values.end());
   const std::size_t middle = values.size() / 2;
   return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
@@ -32,18 +30,15 @@ RatesOfWorlds rates_of_worlds(const measures::MoveCounts& counts, double confide
     const double value = statistics::rate(world.met, world.moves);
     const double low = statistics::clustered_at_least(sums, each);
     const double high = statistics::clustered_at_most(sums, each);
-    const std::size_t index = rates.worlds.size();
-    if (index == 0 || std::isnan(values[rates.worst]) || value < values[rates.worst]) rates.worst = index;
-    if (index == 0 || std::isnan(values[rates.best]) || value > values[rates.best]) rates.best = index;
-    rates.lowest = index == 0 ? goal::BoundedProportion{value, low, high}
-                              : goal::BoundedProportion{std::fmin(rates.lowest.value, value),
-                                                        std::min(rates.lowest.low, low),
-                                                        std::min(rates.lowest.high, high)};
+    const goal::BoundedProportion one{value, low, high};
+    rates.lowest = values.empty() ? one : goal::lowest(rates.lowest, one);
     values.push_back(value);
     rates.worlds.push_back({value, statistics::clustered_at_least(sums, confidence),
                             statistics::clustered_at_most(sums, confidence)});
   }
-  rates.median = median_of(values);
+  rates.worst = static_cast<std::size_t>(std::ranges::min_element(values) - values.begin());
+  rates.best = static_cast<std::size_t>(std::ranges::max_element(values) - values.begin());
+  rates.median = median_of(std::move(values));
   return rates;
 }
 

@@ -23,7 +23,7 @@ struct RatesOfWorlds {
   goal::BoundedProportion lowest{};
 };
 
-/// The rate of each world. @param confidence of each one-sided bound
+/// The rate of each world; all of them have trials. @param confidence of each one-sided bound
 RatesOfWorlds rates_of_worlds(const measures::MoveCounts& counts, double confidence);
 
 /// A design point by world.

@@ -51,8 +51,7 @@ std::span<const GeneralKey> general_keys() {
        false},
       {"worlds",
        "number of worlds, which differ in what all machines share and nobody knows (`per: world`); rig r "
-       "lives "
-       "in world r mod worlds, without rigs trial i in world i mod worlds (default: none)",
+       "lives in world r mod worlds, without rigs trial i in world i mod worlds (default: none)",
        false},
       {"design", "sampling design: monte_carlo (default), latin_hypercube, sobol or saltelli", false},
       {"independent_points",

@@ -24,7 +24,7 @@ double design_uniform(Design design, const SlotRandomness& randomness, std::uint
 
 /// Key of sobol_place in a study with this seed. The slash in its name keeps it apart from parameter names.
 random::RandomKey sobol_place_key(std::uint64_t seed);
-/// Likewise of the order in which worlds take trials or rigs.
+/// Key of the order in which rigs (trials where there are no rigs) take Sobol points in a study with worlds.
 random::RandomKey sobol_place_key_of_worlds(std::uint64_t seed);
 
 /// Index of the Sobol point of trial `index` in a study with `rigs` rigs. The trials k·rigs … (k + 1)·rigs −

@@ -285,8 +285,7 @@ struct WorldValues {
   std::vector<double> values;  ///< [world]
 };
 
-/// What differs between the worlds of a study at a design point, also where a sweep says so; empty without
-/// worlds.
+/// The values drawn per world at a design point, those of the sweep included; empty without worlds.
 std::vector<WorldValues> world_values(const Study& study, std::int64_t point);
 
 }  // namespace zerocount::study

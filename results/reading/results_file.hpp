@@ -73,7 +73,7 @@ class ResultsFile {
 
   /// Nothing in a study without rigs, and in a shard.
   std::optional<StoredGroups> rigs() const;
-  /// Likewise without worlds.
+  /// Nothing in a study without worlds, and in a shard.
   std::optional<StoredGroups> worlds() const;
 
   /// Nothing with `keep: statistics`.

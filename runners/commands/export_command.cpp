@@ -13,13 +13,11 @@ namespace {
 
 constexpr const char* export_help =
     "Writes the tables of a results file as CSV: points.csv, trials.csv, outcomes.csv and jerks.csv;\n"
-    "profiles.csv if there are profiles, rigs.csv and rig_counts.csv if there are rigs, likewise\n"
-    "worlds.csv and world_counts.csv, trace.csv if the\n"
-    "study retains trials, levels.csv for an open-loop study, and four tables repeatability_….csv for one\n"
-    "with a sequence of moves. A file without its trials (keep) gives the tables that it has. The header row "
-    "has\n"
-    "the units, such as settling_time [s]; columns without a unit are dimensionless. Numbers read back to\n"
-    "the same double.\n"
+    "profiles.csv if there are profiles, rigs.csv and rig_counts.csv if there are rigs, worlds.csv and\n"
+    "world_counts.csv if there are worlds, trace.csv if the study retains trials, levels.csv for an\n"
+    "open-loop study, and four tables repeatability_….csv for one with a sequence of moves. A file\n"
+    "without its trials (keep) gives the tables that it has. The header row has the units, such as\n"
+    "settling_time [s]; columns without a unit are dimensionless. Numbers read back to the same double.\n"
     "\n"
     "Example: zerocount export gains.h5 -o gains-csv\n";
 

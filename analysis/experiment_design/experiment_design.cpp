@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/record_fit/parallel.hpp"
+#include "analysis/parallel/parallel.hpp"
 #include "core/failure/failure.hpp"
 #include "core/loop/dac.hpp"
 
@@ -101,7 +101,7 @@ std::vector<ExpectedParameter> expected_parameters(const ExperimentDesign& desig
 /// [machine] All infinite where `identify` refuses the record.
 std::vector<Widths> widths_on(const std::vector<Machine>& machines, const TorqueProtocol& protocol) {
   std::vector<Widths> widths(machines.size());
-  record_fit::for_each_index(machines.size(), [&](std::size_t i) {
+  parallel::for_each_index(machines.size(), [&](std::size_t i) {
     try {
       widths[i] = expected_widths(machines[i], protocol, simulate(machines[i], protocol));
     } catch (const Failure&) {

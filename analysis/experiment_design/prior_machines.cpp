@@ -26,9 +26,9 @@ Machine machine_of(const study::Study& study, study::StudyTrial trial) {
 }  // namespace
 
 Machine median_machine(const study::Study& study, std::int64_t point) {
-  study::GivenUniforms medians;
+  study::GivenDraws medians;
   for (const study::MachineInput& input : study::machine_inputs(study, point)) {
-    for (const std::uint32_t slot : input.slots) medians[slot] = 0.5;
+    for (const std::uint32_t slot : input.slots) medians.uniforms[slot] = 0.5;
   }
   return machine_of(study, study::study_trial(study, point, 0, medians));
 }

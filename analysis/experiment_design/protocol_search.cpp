@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/record_fit/parallel.hpp"
+#include "analysis/parallel/parallel.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::experiment_design {
@@ -133,7 +133,7 @@ class ProtocolSearch {
     const std::size_t count = std::min(problem_.judging, problem_.machines.size());
     std::vector<double> spreads(count, infinite);
     std::vector<std::string> refusals(count);
-    record_fit::for_each_index(count, [&](std::size_t i) {
+    parallel::for_each_index(count, [&](std::size_t i) {
       const Machine& machine = problem_.machines[i];
       const SimulatedRecord record = simulate(machine, protocol);
       refusals[i] = danger_in(problem_, record);
@@ -167,7 +167,7 @@ class ProtocolSearch {
 
 Safety safety_of(const SearchProblem& problem, const TorqueProtocol& protocol) {
   std::vector<Safety> safeties(problem.machines.size());
-  record_fit::for_each_index(safeties.size(), [&](std::size_t i) {
+  parallel::for_each_index(safeties.size(), [&](std::size_t i) {
     const SimulatedRecord record = simulate(problem.machines[i], protocol);
     safeties[i] = {danger_in(problem, record), record.travel};
   });

@@ -11,7 +11,7 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
-#include "analysis/record_fit/parallel.hpp"
+#include "analysis/parallel/parallel.hpp"
 #include "core/friction/spring.hpp"
 
 namespace zerocount::identification {
@@ -175,7 +175,7 @@ double squares_at(const SlowPartsResiduals& residuals, const ContactPoint& point
 /// Fits all starts, in parallel; the best of them, at most `most`.
 std::vector<SlowFit> best_fits(std::vector<SlowFit> fits, std::size_t most,
                                const std::function<SlowFit(const ContactPoint&)>& fit) {
-  record_fit::for_each_index(fits.size(), [&](std::size_t i) { fits[i] = fit(fits[i].point); });
+  parallel::for_each_index(fits.size(), [&](std::size_t i) { fits[i] = fit(fits[i].point); });
   std::stable_sort(fits.begin(), fits.end(),
                    [](const SlowFit& one, const SlowFit& other) { return one.squares < other.squares; });
   fits.resize(std::min(fits.size(), most));

@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "analysis/identification/quasistatic_fit.hpp"
+#include "analysis/parallel/parallel.hpp"
 #include "analysis/record_fit/axis_model.hpp"
-#include "analysis/record_fit/parallel.hpp"
 
 namespace zerocount::identification {
 namespace {
@@ -54,7 +54,7 @@ double misfit(const ChosenRecords& records, const ContactPoint& point, double cr
 ContactPoint best_of(const ChosenRecords& records, const ContactPoint& point, double creep_torque,
                      std::span<const ContactPoint> changes, double proportion = 1.0) {
   std::vector<double> left(changes.size());
-  record_fit::for_each_index(
+  parallel::for_each_index(
       changes.size(), [&](std::size_t i) { left[i] = misfit(records, point + changes[i], creep_torque); });
   ContactPoint best = point;
   double least = proportion * misfit(records, point, creep_torque);

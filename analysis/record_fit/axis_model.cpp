@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/record_fit/parallel.hpp"
+#include "analysis/parallel/parallel.hpp"
 #include "analysis/record_fit/record_path.hpp"
 #include "core/friction/law.hpp"
 #include "core/plant/plant.hpp"
@@ -94,7 +94,7 @@ std::vector<RecordMotion> modelled_motions(Records records, const AxisModel& mod
   for (std::size_t r = 0; r < records.size(); ++r) {
     motions[r].sensitivity.setZero(static_cast<Eigen::Index>(sample_count(records[r])), dimension_of(model));
   }
-  for_each_index(records.size() * columns.size(), [&](std::size_t i) {
+  parallel::for_each_index(records.size() * columns.size(), [&](std::size_t i) {
     const std::size_t r = i % records.size();
     const Eigen::Index j = columns[i / records.size()];
     if (j == offset) {

@@ -11,7 +11,7 @@
 #include <ceres/solver.h>
 #include <glog/logging.h>
 
-#include "analysis/record_fit/parallel.hpp"
+#include "analysis/parallel/parallel.hpp"
 #include "analysis/record_fit/residual_checks.hpp"
 
 namespace zerocount::record_fit {
@@ -178,7 +178,7 @@ FitResult fit_from(Records records, const Observations& observations, const FitP
 
 std::vector<FitResult> fits_from(Records records, const Observations& observations,
                                  std::vector<FitResult> starts, const FitSetting& setting) {
-  for_each_index(starts.size(), [&](std::size_t i) {
+  parallel::for_each_index(starts.size(), [&](std::size_t i) {
     starts[i] = fit_from(records, observations, starts[i].point, setting);
   });
   const std::size_t all = starts.size();
@@ -211,8 +211,8 @@ std::vector<FitResult> promising_fits(Records records, const Observations& obser
                                       const SearchWidth& width) {
   constexpr double hopeless = 4.0;
   std::vector<FitResult> fits(starts.size());
-  for_each_index(starts.size(),
-                 [&](std::size_t i) { fits[i] = with_mean_offsets(records, setting.model, starts[i]); });
+  parallel::for_each_index(
+      starts.size(), [&](std::size_t i) { fits[i] = with_mean_offsets(records, setting.model, starts[i]); });
   fits = by_squares(std::move(fits), width.tried);
   setting.max_steps = width.steps;
   fits = by_squares(fits_from(records, observations, std::move(fits), setting), width.continued);

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/parallel/parallel.hpp"
 #include "analysis/record_fit/joint_fit.hpp"
-#include "analysis/record_fit/parallel.hpp"
 #include "core/numerics/dense.hpp"
 
 namespace zerocount::record_fit {
@@ -64,7 +64,7 @@ std::vector<FitResult> better_points(Records records, const Observations& observ
                                      const std::vector<Point>& changes) {
   constexpr double chance = 6.0;  // about 95 % of a sum of squares with two degrees of freedom
   std::vector<FitResult> points(changes.size());
-  for_each_index(changes.size(), [&](std::size_t i) {
+  parallel::for_each_index(changes.size(), [&](std::size_t i) {
     points[i] = linear_fit(records, observations, model, setting, changes[i]);
   });
   const double squares =

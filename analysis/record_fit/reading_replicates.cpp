@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "analysis/record_fit/parallel.hpp"
+#include "analysis/parallel/parallel.hpp"
 #include "core/numerics/dense.hpp"
 #include "core/random/random_numbers.hpp"
 #include "core/random/variates.hpp"
@@ -87,7 +87,7 @@ ReadingReplicates replicate_readings(Records records, const FittedModel& model, 
   ReadingReplicates result;
   result.errors.resize(static_cast<Eigen::Index>(replicates), matrix.rows());
   result.residuals.resize(replicates);
-  for_each_index(replicates, [&](std::size_t i) {
+  parallel::for_each_index(replicates, [&](std::size_t i) {
     ReplicateNoise random(first + i);
     // The textbook covariance is matrix⁻¹. With matrix = L·Lᵀ, L⁻ᵀz has this covariance.
     const Eigen::VectorXd away =

@@ -6,7 +6,7 @@
 
 #include <unsupported/Eigen/FFT>
 
-#include "analysis/record_fit/parallel.hpp"
+#include "analysis/parallel/parallel.hpp"
 #include "analysis/record_fit/reading_replicates.hpp"
 #include "analysis/record_fit/residual_checks.hpp"
 
@@ -86,7 +86,7 @@ struct UsualPower {
 UsualPower usual_power(const TestRecord& record, const Eigen::VectorXd& path, double noise,
                        const std::vector<Window>& windows, const std::vector<Eigen::Index>& bins) {
   std::vector<Eigen::ArrayXd> spectra(replicates);
-  for_each_index(replicates, [&](std::size_t i) {
+  parallel::for_each_index(replicates, [&](std::size_t i) {
     ReplicateNoise random(i);
     const double phase = 0.5 * std::erfc(random.next() / std::numbers::sqrt2);  // between two counts
     const Eigen::VectorXd moved = path.array() + phase;

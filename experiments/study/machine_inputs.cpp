@@ -11,9 +11,10 @@ bool is_of_the_move(std::string_view name) {
   return name.starts_with("initial.") || name.starts_with("command.");
 }
 
-bool differs_between_machines(const Study& study, const Value& value, std::string_view name) {
-  if (value.kind != Value::Kind::distribution) return false;
-  switch (value.per) {
+}  // namespace
+
+bool differs_between_machines(const Study& study, Per per, std::string_view name) {
+  switch (per) {
     case Per::world:
     case Per::rig:
       return true;
@@ -26,8 +27,6 @@ bool differs_between_machines(const Study& study, const Value& value, std::strin
   return false;
 }
 
-}  // namespace
-
 std::vector<MachineInput> machine_inputs(const Study& study, std::int64_t point) {
   const StudyPlan& plan = *study.plan;
   const std::vector<const Value*> values = values_at(plan, static_cast<std::size_t>(point));
@@ -35,7 +34,9 @@ std::vector<MachineInput> machine_inputs(const Study& study, std::int64_t point)
   MachineInput joint;
   for (const std::uint32_t slot : plan.input_slots) {
     const std::string name(plan.table.rows[slot].name);
-    if (!differs_between_machines(study, *values[slot], name)) continue;
+    if (values[slot]->kind != Value::Kind::distribution ||
+        !differs_between_machines(study, values[slot]->per, name))
+      continue;
     if (std::ranges::find(plan.sampled_slots, slot) == plan.sampled_slots.end()) {
       inputs.push_back({name, {slot}});
     } else {

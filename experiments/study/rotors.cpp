@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 
+#include "core/numerics/elementary_functions.hpp"
 #include "experiments/designs/random_key.hpp"
 
 namespace zerocount::study {
@@ -39,9 +41,13 @@ double Rotors::mean(std::int64_t rotor) const {
   return distributions::quantile(mean_->distribution, u);
 }
 
-friction::Profile Rotors::realise(std::int64_t rotor) const {
+double Rotors::mean_at(double quantile) const {
+  return mean_ ? distributions::quantile(mean_->distribution, quantile) : description_.mean;
+}
+
+friction::Profile Rotors::realise(std::int64_t rotor, double mean) const {
   distributions::ProfileDescription description = description_;
-  description.mean = mean(rotor);
+  description.mean = mean;
   return distributions::realise_profile(description, amplitudes_, key_, static_cast<std::uint32_t>(rotor));
 }
 
@@ -51,11 +57,25 @@ std::shared_ptr<const friction::Profile> Rotors::rotor(std::int64_t rotor) const
     const std::scoped_lock lock(mutex_);
     if (kept_[place]) return kept_[place];
   }
-  auto made = std::make_shared<const friction::Profile>(realise(rotor));
+  auto made = std::make_shared<const friction::Profile>(realise(rotor, mean(rotor)));
   if (place >= kept_.size()) return made;
   const std::scoped_lock lock(mutex_);
   if (!kept_[place]) kept_[place] = std::move(made);
   return kept_[place];
+}
+
+friction::Profile Rotors::rotor_with(std::int64_t rotor, std::optional<double> mean_quantile,
+                                     std::optional<double> field, double position) const {
+  friction::Profile profile = realise(rotor, mean_quantile ? mean_at(*mean_quantile) : mean(rotor));
+  if (!field) return profile;
+  const double change = *field - friction::field_at(profile, position);
+  const double angle = position * (2.0 * std::numbers::pi / profile.period);
+  for (std::size_t m = 0; m < amplitudes_.size(); ++m) {
+    const double variance = amplitudes_[m] * amplitudes_[m];
+    profile.cosine[m] += change * variance * numerics::cos(static_cast<double>(m) * angle);
+    profile.sine[m] += change * variance * numerics::sin(static_cast<double>(m) * angle);
+  }
+  return profile;
 }
 
 numerics::Interval Rotors::bounds() const {

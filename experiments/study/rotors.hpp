@@ -46,6 +46,15 @@ class Rotors {
   double mean(std::int64_t rotor) const;
   std::shared_ptr<const friction::Profile> rotor(std::int64_t rotor) const;
 
+  /// The mean at this quantile of its distribution; the fixed mean if it is not drawn.
+  double mean_at(double quantile) const;
+
+  /// The profile of a rotor of which some random numbers are given: the quantile of its mean, and the value
+  /// of its field g at a position. The field is that of the rotor, conditional on this value: Δ = field −
+  /// g(position) is added with the correlation ρ of the field, g(θ) + Δ·ρ(θ − position).
+  friction::Profile rotor_with(std::int64_t rotor, std::optional<double> mean_quantile,
+                               std::optional<double> field, double position) const;
+
   /// Bounds for all random numbers, computed without creating a profile.
   numerics::Interval bounds() const;
 
@@ -53,7 +62,7 @@ class Rotors {
   numerics::Interval all_limits() const;
 
  private:
-  friction::Profile realise(std::int64_t rotor) const;
+  friction::Profile realise(std::int64_t rotor, double mean) const;
 
   static constexpr std::size_t max_kept_bytes = std::size_t{1} << 26;
 

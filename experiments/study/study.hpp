@@ -255,17 +255,31 @@ bool trials_stay_when_extended(Design design);
 /// of the study, safe to call from any thread.
 StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t index);
 
-/// Uniform numbers that stand for the drawn ones: slot of the plan → number in (0, 1).
-using GivenUniforms = std::map<std::uint32_t, double>;
+/// The random numbers of a profile that are given; the others stay as drawn.
+struct GivenProfile {
+  std::optional<double> mean;        ///< quantile of the profile's mean, if that is drawn
+  std::optional<double> field;       ///< the field g of the profile at one position, a standard normal number
+  std::optional<double> position{};  ///< rad or m, where it has this value; default: where the trial begins
+};
 
-/// As study_trial, with these quantiles of some drawn values. Correlations do not apply to them.
-StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t index,
-                       const GivenUniforms& given);
+/// Random numbers that stand for the drawn ones.
+struct GivenDraws {
+  /// Slot of the plan → uniform number in (0, 1). Correlations do not apply to these.
+  std::map<std::uint32_t, double> uniforms{};
+  std::map<std::uint32_t, GivenProfile> profiles{};  ///< slot of the plan → its profile
+  /// In place of the trial's index, for all random numbers that are not given. It may exceed Study::trials.
+  std::optional<std::int64_t> number{};
+  std::optional<std::int64_t> rotor{};  ///< in place of the trial's rig, for profiles drawn per rig
+  std::optional<std::int64_t> world{};  ///< in place of the trial's world
+};
+
+/// As study_trial, with these random numbers.
+StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t index, const GivenDraws& given);
 
 /// As study_trial, with all numbers in the manifest's units, and without targets if these are in SI units.
 /// The caller may change parameters and must then call complete_trial().
 StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int64_t index,
-                                const GivenUniforms& given = {});
+                                const GivenDraws& given = {});
 
 /// Completes the parameters of a trial after all numbers are set in the manifest's units: converts gains from
 /// SI units with the trial's sample time and encoder, and gives the coarse encoder of a linear axis the

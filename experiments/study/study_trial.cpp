@@ -23,13 +23,13 @@ struct TrialDraws {
   std::uint64_t rig;     ///< index of its rig in the design, as `place`; 0 without rigs
   std::uint64_t world;   ///< 0 without worlds
   std::uint32_t stream;  ///< of values drawn per trial, not per rig
-  const GivenUniforms& given;
+  const GivenDraws& given;
 
   const StudyPlan& plan() const { return *study.plan; }
 };
 
-TrialDraws draws_of(const Study& study, std::int64_t point, std::int64_t index, const GivenUniforms& given) {
-  const auto trial = static_cast<std::uint64_t>(index);
+TrialDraws draws_of(const Study& study, std::int64_t point, std::int64_t index, const GivenDraws& given) {
+  const auto trial = static_cast<std::uint64_t>(given.number.value_or(index));
   const auto rigs = static_cast<std::uint64_t>(study.rigs);
   const auto worlds = static_cast<std::uint64_t>(study.worlds);
   const std::uint64_t rig = rigs > 0 ? trial % rigs : 0;
@@ -39,7 +39,7 @@ TrialDraws draws_of(const Study& study, std::int64_t point, std::int64_t index, 
           rigs > 0 ? place_in_groups(study.design, plan.sobol_places, trial, rigs)
                    : place_in_groups(study.design, plan.sobol_places_of_worlds, trial, worlds),
           rigs > 0 ? place_in_groups(study.design, plan.sobol_places_of_worlds, rig, worlds) : 0,
-          worlds > 0 ? trial % worlds : 0,
+          worlds > 0 ? static_cast<std::uint64_t>(given.world.value_or(index % study.worlds)) : 0,
           study.independent_points ? static_cast<std::uint32_t>(point) + 1 : 0,
           given};
 }
@@ -72,8 +72,8 @@ double drawn_uniform(const TrialDraws& draws, std::uint32_t slot, Per per) {
 
 /// The uniform number of a drawn value, with the copula of the study.
 double uniform_of(const TrialDraws& draws, std::uint32_t slot, Per per) {
-  const auto given = draws.given.find(slot);
-  if (given != draws.given.end()) return given->second;
+  const auto given = draws.given.uniforms.find(slot);
+  if (given != draws.given.uniforms.end()) return given->second;
   const std::optional<GaussianCopula>& copula = draws.plan().copula;
   if (!copula) return drawn_uniform(draws, slot, per);
   const auto member = std::find(copula->slots.begin(), copula->slots.end(), slot);
@@ -95,18 +95,36 @@ friction::ContactParameter contact_parameter(const TrialDraws& draws, std::uint3
           trial};
 }
 
-std::uint64_t rotor_of(const TrialDraws& draws, const Value& profile) {
-  return profile.per == Per::rig ? draws.index % static_cast<std::uint64_t>(draws.study.rigs) : 0;
+std::int64_t rotor_of(const TrialDraws& draws, const Value& profile) {
+  if (profile.per != Per::rig) return 0;
+  return draws.given.rotor.value_or(static_cast<std::int64_t>(draws.index) % draws.study.rigs);
 }
 
-double profile_mean(const TrialDraws& draws, const Value& value) {
+const GivenProfile* given_profile(const TrialDraws& draws, std::uint32_t slot) {
+  const auto given = draws.given.profiles.find(slot);
+  return given == draws.given.profiles.end() ? nullptr : &given->second;
+}
+
+double profile_mean(const TrialDraws& draws, std::uint32_t slot, const Value& value) {
   if (value.kind != Value::Kind::profile) return std::numeric_limits<double>::quiet_NaN();
-  return draws.plan().profiles[value.index]->mean(static_cast<std::int64_t>(rotor_of(draws, value)));
+  const GivenProfile* const given = given_profile(draws, slot);
+  const Rotors& rotors = *draws.plan().profiles[value.index];
+  return given != nullptr && given->mean ? rotors.mean_at(*given->mean) : rotors.mean(rotor_of(draws, value));
+}
+
+/// The profile of a trial that begins at this position.
+std::shared_ptr<const friction::Profile> profile_of(const TrialDraws& draws, std::uint32_t slot,
+                                                    const Value& value, double start) {
+  const Rotors& rotors = *draws.plan().profiles[value.index];
+  const GivenProfile* const given = given_profile(draws, slot);
+  if (given == nullptr) return rotors.rotor(rotor_of(draws, value));
+  return std::make_shared<const friction::Profile>(
+      rotors.rotor_with(rotor_of(draws, value), given->mean, given->field, given->position.value_or(start)));
 }
 
 // The trial from which it takes the random numbers used while it runs.
-std::uint64_t numbers_within_trial(const Study& study, std::uint64_t index) {
-  if (study.design != Design::saltelli) return index;
+std::uint64_t numbers_within_trial(const Study& study, std::uint64_t index, const GivenDraws& given) {
+  if (study.design != Design::saltelli || given.number) return index;
   const TrialFactors& factors = study.plan->factors;
   return designs::saltelli_source(index, factors.slots.size(), factor_count(factors));
 }
@@ -166,14 +184,14 @@ std::vector<double> inputs_of(const Study& study, std::string_view unit, std::in
                   fmt::format("study {} has no {} {}; expected 0 to {}", study.name, unit, index, count - 1));
   }
   const StudyPlan& plan = *study.plan;
-  const GivenUniforms none;
+  const GivenDraws none;
   const TrialDraws draws = draws_of(study, 0, index, none);
   std::vector<double> inputs;
   inputs.reserve(sources.size());
   for (const InputSource& source : sources) {
     const Value& value = plan.base[source.slot];
     inputs.push_back(source.profile_mean
-                         ? profile_mean(draws, value)
+                         ? profile_mean(draws, source.slot, value)
                          : distributions::quantile(plan.distributions[value.index],
                                                    uniform_of(draws, source.slot, value.per)));
   }
@@ -183,7 +201,7 @@ std::vector<double> inputs_of(const Study& study, std::string_view unit, std::in
 }  // namespace
 
 StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int64_t index,
-                                const GivenUniforms& given) {
+                                const GivenDraws& given) {
   check_exists(study, point, index);
   const StudyPlan& plan = *study.plan;
   const TrialDraws draws = draws_of(study, point, index, given);
@@ -193,7 +211,7 @@ StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int
   std::vector<double> numbers = plan.numbers;
 
   StudyTrial trial{.parameters = plan.common, .inputs = {}};
-  trial.parameters.randomness.trial = numbers_within_trial(study, draws.index);
+  trial.parameters.randomness.trial = numbers_within_trial(study, draws.index, given);
   trial.parameters.randomness.stream = draws.stream;
   const auto set = [&](std::size_t slot, double number) {
     numbers[slot] = number;
@@ -216,7 +234,7 @@ StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int
     const Value& value = value_of(slot);
     if (value.kind != Value::Kind::profile) continue;
     const std::shared_ptr<const friction::Profile> profile =
-        plan.profiles[value.index]->rotor(static_cast<std::int64_t>(rotor_of(draws, value)));
+        profile_of(draws, slot, value, trial.parameters.initial.position);
     set(slot, friction::value_at(*profile, trial.parameters.initial.position));
     trial.parameters.friction.profiled.push_back({plan.table.rows[slot].profiled, profile});
   }
@@ -224,7 +242,7 @@ StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int
   set_resolution(numbers, trial.parameters.dac);
   trial.inputs.reserve(plan.inputs.size());
   for (const InputSource& source : plan.inputs) {
-    trial.inputs.push_back(source.profile_mean ? profile_mean(draws, value_of(source.slot))
+    trial.inputs.push_back(source.profile_mean ? profile_mean(draws, source.slot, value_of(source.slot))
                                                : numbers[source.slot]);
   }
   return trial;
@@ -234,8 +252,7 @@ StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t inde
   return study_trial(study, point, index, {});
 }
 
-StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t index,
-                       const GivenUniforms& given) {
+StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t index, const GivenDraws& given) {
   StudyTrial trial = study_trial_as_given(study, point, index, given);
   complete_trial(study.units, trial.parameters);
   round_targets(trial);
@@ -254,7 +271,7 @@ std::vector<WorldValues> world_values(const Study& study, std::int64_t point) {
   std::vector<WorldValues> found;
   if (study.worlds == 0) return found;
   const StudyPlan& plan = *study.plan;
-  const GivenUniforms none;
+  const GivenDraws none;
   for (const std::uint32_t slot : plan.input_slots) {
     const Value& value = *value_at_point(plan, slot, static_cast<std::size_t>(point));
     if (value.kind != Value::Kind::distribution || value.per != Per::world) continue;

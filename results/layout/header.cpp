@@ -28,12 +28,20 @@ struct Format {
   std::string_view name;
   FileKind kind;
 };
-constexpr std::array<Format, 3> formats{{{"zerocount-study", FileKind::study},
+constexpr std::array<Format, 4> formats{{{"zerocount-study", FileKind::study},
                                          {"zerocount-statistics", FileKind::study},  // without all trials
-                                         {"zerocount-shard", FileKind::shard}}};
+                                         {"zerocount-shard", FileKind::shard},
+                                         {"zerocount-rare", FileKind::rare}}};
 
 std::string_view format_name(const FileHeader& header) {
-  if (header.kind == FileKind::shard) return formats[2].name;
+  switch (header.kind) {
+    case FileKind::shard:
+      return formats[2].name;
+    case FileKind::rare:
+      return formats[3].name;
+    case FileKind::study:
+      break;
+  }
   return formats[has_sums(header.kept) ? 1 : 0].name;
 }
 
@@ -59,6 +67,8 @@ void write_overrides(hdf5::File& file, const std::vector<std::string>& overrides
   dataset.set_text("long_name", "values given on the command line in place of the manifest's");
 }
 
+}  // namespace
+
 void write_single_text(hdf5::File& file, const std::string& name, const std::string& text,
                        const std::string& meaning) {
   hdf5::Dataset dataset = file.create_dataset(name, {hdf5::Element::text, {}, {}, false});
@@ -67,13 +77,14 @@ void write_single_text(hdf5::File& file, const std::string& name, const std::str
   dataset.set_text("long_name", meaning);
 }
 
-/// Nothing if there is no such dataset.
 std::optional<std::string> read_single_text(const hdf5::File& file, const std::string& name) {
   if (!file.contains(name)) return std::nullopt;
   const std::vector<std::string> texts = file.open_dataset(name).read_texts();
   if (texts.size() != 1) file.fail(fmt::format("/{} is not a single text", name));
   return texts.front();
 }
+
+namespace {
 
 std::optional<plugin::PluginDescription> read_plugin(const hdf5::File& file) {
   const std::optional<std::string> text = read_single_text(file, "controller_plugin");
@@ -195,7 +206,7 @@ FileHeader make_header(const study::Study& study, FileKind kind, RowRange rows, 
 
 void write_header(hdf5::File& file, const FileHeader& header) {
   file.set_text("format", std::string(format_name(header)));
-  if (has_sums(header.kept)) {
+  if (has_sums(header.kept) && header.kind != FileKind::rare) {
     file.set_text("keep", std::string(keep_label(header.kept)));
     file.set_text("sums_form", sums_form());
   }
@@ -231,7 +242,9 @@ void mark_finished(hdf5::File& file) {
   file.set_integer("finished", 1);
 }
 
-FileHeader read_header(const hdf5::File& file) {
+namespace {
+
+FileHeader read_any_header(const hdf5::File& file) {
   FileHeader header;
   header.kind = read_format(file).kind;
   header.kept = read_kept(file);
@@ -258,6 +271,26 @@ FileHeader read_header(const hdf5::File& file) {
   if (hash::sha256_hex(header.manifest) != header.manifest_sha256)
     file.fail("the checksum of the manifest is wrong");
   return header;
+}
+
+}  // namespace
+
+FileHeader read_header(const hdf5::File& file) {
+  FileHeader header = read_any_header(file);
+  if (header.kind != FileKind::rare) return header;
+  throw ForeignFile(file.file_name(),
+                    "an estimate of 'zerocount rare', which holds no trials of the study; expected a results "
+                    "file of 'zerocount run'");
+}
+
+FileHeader read_rare_header(const hdf5::File& file) {
+  FileHeader header = read_any_header(file);
+  if (header.kind == FileKind::rare) return header;
+  throw ForeignFile(file.file_name(), "no estimate of 'zerocount rare'");
+}
+
+bool is_rare(const hdf5::File& file) {
+  return read_format(file).kind == FileKind::rare;
 }
 
 study::Study recorded_study(const FileHeader& header, const std::filesystem::path& path,

@@ -33,7 +33,11 @@ bool same_build(const Provenance& one, const Provenance& other);
 /// Whether the sources had changes that were not committed.
 bool is_dirty(const Provenance& provenance);
 
-enum class FileKind { study, shard };
+enum class FileKind {
+  study,
+  shard,
+  rare  ///< of `zerocount rare`: it has no trials of the study
+};
 
 /// Whether files of a study with this `keep` have the tables of trials: of every trial, or of the failures.
 bool has_trials(study::Kept kept);
@@ -86,9 +90,20 @@ FileHeader make_header(const study::Study& study, FileKind kind, RowRange rows, 
 void write_header(hdf5::File& file, const FileHeader& header);
 void mark_finished(hdf5::File& file);
 
-/// Reads the header, and checks the format, its version and the checksum of the manifest.
+/// A dataset in the root with one text.
+void write_single_text(hdf5::File& file, const std::string& name, const std::string& text,
+                       const std::string& meaning);
+/// Nothing if there is no such dataset. @throws Failure (bad_data)
+std::optional<std::string> read_single_text(const hdf5::File& file, const std::string& name);
+
+/// Reads the header of a study or of a shard, and checks the format, its version and the checksum of the
+/// manifest.
 /// @throws ForeignFile for another format or a newer version, Failure (bad_data) for damage.
 FileHeader read_header(const hdf5::File& file);
+/// Likewise of a file of `zerocount rare`.
+FileHeader read_rare_header(const hdf5::File& file);
+/// Whether the file is one of `zerocount rare`. @throws ForeignFile for a format that is not zerocount's
+bool is_rare(const hdf5::File& file);
 
 /// The study whose trials the file `path` holds: its manifest with its overrides, the defaults of its format
 /// version and its engine. Whoever needs the study of a results file takes it from here.

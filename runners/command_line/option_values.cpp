@@ -1,6 +1,8 @@
 #include "runners/command_line/option_values.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -50,6 +52,36 @@ std::int64_t point_named(const Arguments& arguments, std::string_view option, co
 }
 
 }  // namespace
+
+double number_from(const Arguments& arguments, std::string_view option, std::string_view text, double least) {
+  const std::optional<double> number = parse_number<double>(text);
+  if (!number || !std::isfinite(*number) || *number < least) {
+    arguments.refuse(fmt::format("option '--{}': '{}' is not a number{}", option, text,
+                                 std::isfinite(least) ? fmt::format(" from {} upwards", least) : ""));
+  }
+  return *number;
+}
+
+std::optional<double> number_option(const Arguments& arguments, std::string_view option, double least) {
+  const std::optional<std::string> text = arguments.value(option);
+  return text ? std::optional(number_from(arguments, option, *text, least)) : std::nullopt;
+}
+
+Budget budget_option(const Arguments& arguments) {
+  const std::optional<std::string> text = arguments.value("budget");
+  if (!text) return {};
+  double number = 0.0;
+  const char* const end = text->data() + text->size();
+  const auto [rest, error] = std::from_chars(text->data(), end, number);
+  const std::string_view unit(rest, static_cast<std::size_t>(end - rest));
+  if (error != std::errc() || !(number > 0.0) || !(number < 1e12) ||
+      (!unit.empty() && unit != "s" && unit != "min" && unit != "h"))
+    arguments.refuse(fmt::format(
+        "option '--budget': '{}' is no budget; expected a number of trials, or a time such as 60s or 5min",
+        *text));
+  if (unit.empty()) return {static_cast<std::int64_t>(number), std::nullopt};
+  return {std::nullopt, number * (unit == "s" ? 1.0 : unit == "min" ? 60.0 : 3600.0)};
+}
 
 std::optional<double> probability_option(const Arguments& arguments, std::string_view option) {
   const std::optional<std::string> text = arguments.value(option);

@@ -17,6 +17,23 @@ namespace zerocount::command_line {
 /// @throws Failure (bad_input) for anything else.
 std::optional<double> probability_option(const Arguments& arguments, std::string_view option);
 
+/// The number in the text of an option, finite and at least `least`, which may be −∞.
+/// @throws Failure (bad_input) for anything else.
+double number_from(const Arguments& arguments, std::string_view option, std::string_view text, double least);
+
+/// Likewise of the option's value.
+std::optional<double> number_option(const Arguments& arguments, std::string_view option, double least);
+
+/// The budget of a search: trials, or seconds; neither if the option is missing.
+struct Budget {
+  std::optional<std::int64_t> trials;
+  std::optional<double> seconds;
+};
+
+/// --budget: a number of trials, or a time such as 60s or 5min.
+/// @throws Failure (bad_input) for anything else.
+Budget budget_option(const Arguments& arguments);
+
 /// The design points of --point, given by label or by number from 0; empty if the option is missing. Labels
 /// may be shortened as tables shorten them: "ki=5000" for "controller.ki=5000".
 /// @param labels of all points, in their order

@@ -93,13 +93,14 @@ void print_warnings(const study::Study& study) {
 }
 
 std::vector<Command> commands() {
-  std::vector<Command> all{
-      check_command(),      run_command(),    summary_command(),     trace_command(),    merge_command(),
-      verify_command(),     export_command(), experiment_command(),  identify_command(), judge_command(),
-      learn_command(),      tune_command(),   limits_command(),      worst_command(),    controller_command(),
-      parameters_command(), schema_command(), jerks_command(),       compare_command(),  baseline_command(),
-      history_command(),    plan_command(),   sensitivity_command(), report_command(),   plot_command(),
-      slurm_command(),      status_command(), completion_command(),  manual_command(),   new_command()};
+  std::vector<Command> all{check_command(),      run_command(),     summary_command(), trace_command(),
+                           merge_command(),      verify_command(),  export_command(),  experiment_command(),
+                           identify_command(),   judge_command(),   learn_command(),   tune_command(),
+                           limits_command(),     worst_command(),   rare_command(),    controller_command(),
+                           parameters_command(), schema_command(),  jerks_command(),   compare_command(),
+                           baseline_command(),   history_command(), plan_command(),    sensitivity_command(),
+                           report_command(),     plot_command(),    slurm_command(),   status_command(),
+                           completion_command(), manual_command(),  new_command()};
   for (Command& command : all) command.spec.options.push_back({"help,h", "", "show this text"});
   return all;
 }

@@ -39,6 +39,7 @@ Command tune_command();
 Command limits_command();
 Command controller_command();
 Command worst_command();
+Command rare_command();
 Command plan_command();
 Command experiment_command();
 Command identify_command();

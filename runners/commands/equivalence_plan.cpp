@@ -13,12 +13,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "analysis/comparison/comparison_report.hpp"
 #include "analysis/comparison/forecast.hpp"
 #include "analysis/comparison/measure_comparison.hpp"
 #include "analysis/comparison/point_trials.hpp"
+#include "analysis/parallel/parallel.hpp"
 #include "analysis/text/text.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/study_argument.hpp"
@@ -100,7 +100,7 @@ study::Study planned_study(const command_line::Arguments& arguments) {
 comparison::PointTrials run_point(const study::Study& study, std::int64_t point, std::int64_t trials) {
   std::vector<std::vector<trial::MoveOutcome>> blocks(
       static_cast<std::size_t>((trials + pilot_block - 1) / pilot_block));
-  oneapi::tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t block) {
+  parallel::for_each_index(blocks.size(), [&](std::size_t block) {
     const std::int64_t first = static_cast<std::int64_t>(block) * pilot_block;
     const std::int64_t count = std::min(pilot_block, trials - first);
     for (const shards::TrialResult& result :

@@ -76,22 +76,6 @@ constexpr const char* identify_help =
     "          zerocount identify log.txt --column time=t[ms] --column 'torque=I[A]*0.87' \\\n"
     "            --column 'angle=pos[mm]/10'\n";
 
-double number_from(const command_line::Arguments& arguments, const std::string& option, std::string_view text,
-                   double low) {
-  const std::optional<double> number = command_line::parse_number<double>(text);
-  if (!number || !std::isfinite(*number) || *number < low) {
-    arguments.refuse(fmt::format("option '--{}': '{}' is not a number{}", option, text,
-                                 std::isfinite(low) ? fmt::format(" from {} upwards", low) : ""));
-  }
-  return *number;
-}
-
-std::optional<double> number_option(const command_line::Arguments& arguments, const std::string& option,
-                                    double low) {
-  const std::optional<std::string> text = arguments.value(option);
-  return text ? std::optional(number_from(arguments, option, *text, low)) : std::nullopt;
-}
-
 std::optional<std::string> column_option(const command_line::Arguments& arguments, const char* name,
                                          const std::vector<std::string>& columns) {
   if (!arguments.has(name)) return std::nullopt;
@@ -101,7 +85,7 @@ std::optional<std::string> column_option(const command_line::Arguments& argument
 /// A lower bandwidth is implausible for a positioning drive, and not identifiable from the samples.
 std::optional<double> bandwidth_option(const command_line::Arguments& arguments) {
   constexpr double least = 0.01;
-  const std::optional<double> bandwidth = number_option(arguments, "amplifier-bandwidth", 0.0);
+  const std::optional<double> bandwidth = command_line::number_option(arguments, "amplifier-bandwidth", 0.0);
   if (bandwidth && *bandwidth > 0.0 && *bandwidth < least) {
     arguments.refuse(fmt::format(
         "option '--amplifier-bandwidth': {:g} Hz; expected 0 (ideal amplifier), or {} Hz at least",
@@ -112,7 +96,7 @@ std::optional<double> bandwidth_option(const command_line::Arguments& arguments)
 
 std::optional<double> delay_option(const command_line::Arguments& arguments) {
   constexpr double most = 1e6;
-  const std::optional<double> delay = number_option(arguments, "delay", 0.0);
+  const std::optional<double> delay = command_line::number_option(arguments, "delay", 0.0);
   if (delay && *delay > most)
     arguments.refuse(fmt::format("option '--delay': {:g} samples; expected up to {:g}", *delay, most));
   return delay;
@@ -121,8 +105,9 @@ std::optional<double> delay_option(const command_line::Arguments& arguments) {
 /// The size of a count (rad or m), by the option of the kind of axis.
 std::optional<double> count_size_option(const command_line::Arguments& arguments,
                                         const records::SeriesChoice& choice) {
-  const auto counts = number_option(arguments, "counts-per-revolution", 1.0);
-  const auto resolution = number_option(arguments, "resolution", std::numeric_limits<double>::min());
+  const auto counts = command_line::number_option(arguments, "counts-per-revolution", 1.0);
+  const auto resolution =
+      command_line::number_option(arguments, "resolution", std::numeric_limits<double>::min());
   if (counts && resolution) {
     arguments.refuse("options '--counts-per-revolution' and '--resolution' exclude each other");
   }
@@ -140,8 +125,8 @@ records::SeriesChoice series_choice(const command_line::Arguments& arguments) {
   choice.bandwidth = bandwidth_option(arguments);
   choice.delay = delay_option(arguments);
   choice.dac_bits = arguments.whole_number("dac-bits", 2, 32);
-  choice.preload = number_option(arguments, "preload", any);
-  choice.hardening = number_option(arguments, "hardening", 0.0);
+  choice.preload = command_line::number_option(arguments, "preload", any);
+  choice.hardening = command_line::number_option(arguments, "hardening", 0.0);
   set_columns(arguments, choice);
   choice.linear =
       arguments.choice("axis") == "linear" ||
@@ -171,7 +156,8 @@ identification::KnownParameter known_parameter(const command_line::Arguments& ar
   }
   const auto coordinate =
       static_cast<identification::Coordinate>(found - identification::coordinate_keys.begin());
-  const double value = number_from(arguments, "fix", text.substr(equals + 1), least_known(coordinate));
+  const double value =
+      command_line::number_from(arguments, "fix", text.substr(equals + 1), least_known(coordinate));
   if (coordinate == identification::time_offset && value > identification::max_time_offset) {
     arguments.refuse(
         fmt::format("option '--fix': a time offset of {:g} samples; expected {:g} to {:g}; "
@@ -200,7 +186,7 @@ identification::IdentificationOptions identification_options(const command_line:
     options.draws = static_cast<std::size_t>(arguments.whole_number("draws", least, most).value_or(usual));
   }
   constexpr double least = 0.1;
-  options.effort = number_option(arguments, "effort", least).value_or(1.0);
+  options.effort = command_line::number_option(arguments, "effort", least).value_or(1.0);
   return options;
 }
 

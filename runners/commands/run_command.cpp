@@ -5,8 +5,8 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/global_control.h>
 
+#include "analysis/parallel/parallel.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/study_file.hpp"
@@ -119,9 +119,7 @@ study_run::ForeignShards foreign_shards(const RunRequest& request) {
 
 ExitCode run(const command_line::Arguments& arguments) {
   const RunRequest request = run_request(arguments);
-  const oneapi::tbb::global_control limit(
-      oneapi::tbb::global_control::max_allowed_parallelism,
-      static_cast<std::size_t>(study_run::threads_to_use(request.threads)));
+  const parallel::ThreadLimit limit(study_run::threads_to_use(request.threads));
   print_warnings(request.study);
   if (request.study.plugin && !request.quiet) {
     status::tell("the controller is the plugin {} {}\n", request.study.plugin->description.name,

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/text/percent.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/study/study.hpp"
 #include "experiments/yaml/text_file.hpp"
@@ -20,6 +21,7 @@
 #include "runners/commands/plugin_option.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/commands/trace_writer.hpp"
+#include "runners/rare/rare_file.hpp"
 #include "runners/standard_output/standard_output.hpp"
 #include "runners/status/status.hpp"
 #include "runners/verification/replay.hpp"
@@ -38,7 +40,7 @@ constexpr const char* trace_help =
     "Only if the study uses them: reference (counts), phase (fine or coarse), drive_torque (N m,\n"
     "of the motor; if it differs from the code's torque by more than a delay of the closed\n"
     "loop). A trial that is stopped early ends there. On a linear axis read N for N m and m for\n"
-    "rad.\n"
+    "rad. Of an estimate by 'zerocount rare' it replays a trial that was drawn.\n"
     "\n"
     "Example: zerocount trace gains.h5 --point 2 --trial 17 -o trial.csv\n";
 
@@ -49,6 +51,14 @@ std::int64_t trial_option(const command_line::Arguments& arguments, const study:
                                  study.name, study.trials - 1));
   }
   return value;
+}
+
+void require_loaded_plugin(const command_line::Arguments& arguments, const study::Study& study) {
+  if (!study.plugin || study.plugin->functions != nullptr) return;
+  arguments.refuse(
+      fmt::format("the controller of {} is the plugin {}, which is not loaded from a results file; give "
+                  "its path with --plugin",
+                  arguments.operands()[0], study.plugin->description.name));
 }
 
 /// Runs the trial, writes its samples, and returns the rest of its result.
@@ -80,6 +90,35 @@ shards::TrialResult write_trace_to(const std::filesystem::path& place, const Tra
   return result;
 }
 
+/// Replays a trial of an estimate by 'zerocount rare'.
+ExitCode trace_rare(const command_line::Arguments& arguments, const std::filesystem::path& place, bool json) {
+  const std::string& input = arguments.operands()[0];
+  for (const char* option : {"set", "point"}) {
+    if (arguments.has(option))
+      arguments.refuse(
+          fmt::format("option '--{}': an estimate of 'zerocount rare' is of one point of one "
+                      "manifest; expected --trial alone",
+                      option));
+  }
+  const rare::RareRecord record = rare::read_rare_file(input);
+  const rare::Question question = rare::recorded_question(record, input, plugin_option(arguments));
+  require_loaded_plugin(arguments, question.study);
+  const auto drawn = std::ssize(record.state.drawn);
+  const std::int64_t index = arguments.whole_number("trial", 0, drawn - 1).value_or(0);
+  if (index >= drawn) arguments.refuse(fmt::format("{}: it holds no drawn trials yet", input));
+  const rare::WeightedTrial& trial = record.state.drawn[static_cast<std::size_t>(index)];
+  const study::StudyTrial drawn_trial = rare::trial_at(question, trial.point);
+  const shards::TrialResult replayed =
+      write_trace_to(place, {question.study, question.point, index, drawn_trial}, json);
+  const double failed = rare::result_of(question, replayed.outcome.moves).failed;
+  if (failed == trial.failed) return ExitCode::success;
+  throw Failure(
+      ExitCode::bad_data,
+      fmt::format("{}: trial {}: the event happens to {} of its moves in the replay, and to {} in the "
+                  "recorded trial",
+                  input, index, text::percent(failed), text::percent(trial.failed)));
+}
+
 ExitCode trace(const command_line::Arguments& arguments) {
   const std::string input = arguments.operands()[0];
   const std::optional<std::filesystem::path> output = command_line::text_place(arguments, "output");
@@ -90,6 +129,7 @@ ExitCode trace(const command_line::Arguments& arguments) {
   }
   const std::filesystem::path place = output.value_or("-");
   const bool json = arguments.choice("format") == "json";
+  if (is_results_file(input) && rare::is_rare_file(input)) return trace_rare(arguments, place, json);
   std::optional<reading::ResultsFile> file;
   if (is_results_file(input)) file.emplace(input, reading::Require::any_part);
   if (file && arguments.has("set"))
@@ -100,12 +140,7 @@ ExitCode trace(const command_line::Arguments& arguments) {
 
   const study::Study study = file ? layout::recorded_study(file->header(), input, plugin_option(arguments))
                                   : load_study(input, arguments, std::span(&place, 1));
-  if (study.plugin && study.plugin->functions == nullptr) {
-    arguments.refuse(
-        fmt::format("the controller of {} is the plugin {}, which is not loaded from a results file; give "
-                    "its path with --plugin",
-                    input, study.plugin->description.name));
-  }
+  require_loaded_plugin(arguments, study);
   const std::int64_t point = command_line::point_option(arguments, study.point_labels).value_or(0);
   const std::int64_t index = trial_option(arguments, study);
   const layout::RowRange row{point * study.trials + index, 1};

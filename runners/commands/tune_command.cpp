@@ -1,11 +1,10 @@
-#include <charconv>
 #include <filesystem>
 #include <optional>
 #include <string>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/global_control.h>
 
+#include "analysis/parallel/parallel.hpp"
 #include "analysis/report/embedded_files.hpp"
 #include "analysis/report/page.hpp"
 #include "core/failure/failure.hpp"
@@ -69,24 +68,11 @@ constexpr const char* worst_help =
     "\n"
     "Example: zerocount worst my-axis.yaml -o worst.yaml\n";
 
-/// "60s", "5min", or a number of trials.
 void read_budget(const command_line::Arguments& arguments, tuning::TuneSettings& settings) {
-  const std::optional<std::string> text = arguments.value("budget");
-  if (!text) return;
-  double number = 0.0;
-  const char* const end = text->data() + text->size();
-  const auto [rest, error] = std::from_chars(text->data(), end, number);
-  const std::string_view unit(rest, static_cast<std::size_t>(end - rest));
-  if (error != std::errc() || !(number > 0.0) || !(number < 1e12) ||
-      (!unit.empty() && unit != "s" && unit != "min" && unit != "h"))
-    arguments.refuse(fmt::format(
-        "option '--budget': '{}' is no budget; expected a number of trials, or a time such as 60s or 5min",
-        *text));
-  if (unit.empty()) {
-    settings.max_trials = static_cast<std::int64_t>(number);
-    return;
-  }
-  settings.seconds = number * (unit == "s" ? 1.0 : unit == "min" ? 60.0 : 3600.0);
+  const command_line::Budget budget = command_line::budget_option(arguments);
+  if (budget.trials) settings.max_trials = *budget.trials;
+  if (!budget.seconds) return;
+  settings.seconds = budget.seconds;
   settings.max_trials = std::int64_t{1} << 50;
 }
 
@@ -106,9 +92,7 @@ ExitCode tune(const command_line::Arguments& arguments) {
     report::require_drawing_libraries();
   }
   settings.maps = page.has_value();
-  const oneapi::tbb::global_control limit(
-      oneapi::tbb::global_control::max_allowed_parallelism,
-      static_cast<std::size_t>(study_run::threads_to_use(settings.threads)));
+  const parallel::ThreadLimit limit(study_run::threads_to_use(settings.threads));
   print_warnings(study);
   const std::string engine = study_run::engine_text(study_run::points_on_reference(study));
   if (!engine.empty() && !settings.quiet) status::tell("{}\n", engine);

@@ -6,8 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include <oneapi/tbb/parallel_for.h>
-
+#include "analysis/parallel/parallel.hpp"
 #include "analysis/theory/trial_loops.hpp"
 #include "core/friction/parameters.hpp"
 #include "core/loop/controller.hpp"
@@ -122,10 +121,11 @@ LoopExaminer::LoopExaminer(const study::Study& study, std::int64_t machines) {
   const bool alike = friction::has_spring(first.friction.model) && differ_in_stiffness_alone(study);
   examined_ = alike ? machines : std::min(machines, most_unlike_machines);
   machines_.resize(static_cast<std::size_t>(examined_));
-  oneapi::tbb::parallel_for(std::int64_t{0}, examined_, [&](std::int64_t i) {
+  parallel::for_each_index(machines_.size(), [&](std::size_t i) {
+    const auto trial = static_cast<std::int64_t>(i);
     const auto [softest, stiffest] =
-        stiffness_range(study::study_trial(study, 0, i).parameters, study.period);
-    machines_[static_cast<std::size_t>(i)] = {i, softest, stiffest};
+        stiffness_range(study::study_trial(study, 0, trial).parameters, study.period);
+    machines_[i] = {trial, softest, stiffest};
   });
   if (alike) {
     Machine all = machines_.front();
@@ -153,7 +153,7 @@ bool LoopExaminer::may_keep(const study::Study& candidate, const study::LoopMarg
 
 bool LoopExaminer::keeps(const study::Study& candidate, const study::LoopMargins& margins) {
   std::vector<char> kept(machines_.size(), 1);
-  oneapi::tbb::parallel_for(std::size_t{0}, machines_.size(), [&](std::size_t i) {
+  parallel::for_each_index(machines_.size(), [&](std::size_t i) {
     const Machine& one = machines_[i];
     kept[i] = keeps_margins(study::study_trial(candidate, 0, one.trial).parameters, one.softest, one.stiffest,
                             margins)
@@ -170,7 +170,7 @@ bool LoopExaminer::keeps(const study::Study& candidate, const study::LoopMargins
 SmallestMargins LoopExaminer::margins_of(const study::Study& candidate) const {
   std::vector<SmallestMargins> found(machines_.size());
   constexpr double none = std::numeric_limits<double>::infinity();
-  oneapi::tbb::parallel_for(std::size_t{0}, machines_.size(), [&](std::size_t i) {
+  parallel::for_each_index(machines_.size(), [&](std::size_t i) {
     const Machine& one = machines_[i];
     const trial::TrialParameters p = study::study_trial(candidate, 0, one.trial).parameters;
     SmallestMargins& smallest = found[i];

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include <oneapi/tbb/parallel_for.h>
-
+#include "analysis/parallel/parallel.hpp"
 #include "core/failure/failure.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/study/plan.hpp"
@@ -76,8 +75,8 @@ void StudySearch::evaluate(std::span<Candidate* const> candidates, std::int64_t 
     unknown.push_back(one);
   }
   std::vector<study::Study> studies(unknown.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, unknown.size(),
-                            [&](std::size_t i) { studies[i] = candidate(unknown[i]->values); });
+  parallel::for_each_index(unknown.size(),
+                           [&](std::size_t i) { studies[i] = candidate(unknown[i]->values); });
   std::vector<UnitsToRun> entries;
   entries.reserve(unknown.size());
   for (std::size_t i = 0; i < unknown.size(); ++i)
@@ -91,7 +90,7 @@ void StudySearch::evaluate(std::span<Candidate* const> candidates, std::int64_t 
 
 std::vector<bool> StudySearch::admissible(std::span<const Values> values) {
   std::vector<char> kept(values.size(), 0);
-  oneapi::tbb::parallel_for(std::size_t{0}, values.size(), [&](std::size_t i) {
+  parallel::for_each_index(values.size(), [&](std::size_t i) {
     if (stop_.stop_requested()) return;
     try {
       kept[i] = examiner_.may_keep(candidate(values[i]), study_.tuning->margins);

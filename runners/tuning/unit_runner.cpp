@@ -8,8 +8,6 @@
 #include <string_view>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "analysis/comparison/gate_rules.hpp"
 #include "analysis/measures/goal_counts.hpp"
@@ -17,6 +15,7 @@
 #include "core/batch/batch.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "runners/study_run/parallel_trials.hpp"
 
 namespace zerocount::tuning {
 namespace {
@@ -54,18 +53,6 @@ class TrialCounter {
   Criterion criterion_;
 };
 
-std::vector<trial::TrialOutcome> outcomes_of(std::span<const trial::TrialParameters> trials,
-                                             batch::BatchEngine& engine, const std::stop_token& stop) {
-  std::vector<const trial::TrialParameters*> parameters;
-  parameters.reserve(trials.size());
-  for (const trial::TrialParameters& one : trials) parameters.push_back(&one);
-  std::vector<trial::TrialOutcome> outcomes(trials.size());
-  batch::BatchObservers observers;
-  observers.stop = stop;
-  engine.run(parameters, outcomes, observers);
-  return outcomes;
-}
-
 void run_part(const Part& part, const Units& units, batch::BatchEngine& engine, const std::stop_token& stop) {
   const study::Study& study = *part.entry->study;
   const TrialCounter counter(study);
@@ -76,7 +63,7 @@ void run_part(const Part& part, const Units& units, batch::BatchEngine& engine, 
       if (part.entry->change != nullptr) (*part.entry->change)(trials.back());
     }
   }
-  const std::vector<trial::TrialOutcome> outcomes = outcomes_of(trials, engine, stop);
+  const std::vector<trial::TrialOutcome> outcomes = study_run::outcomes_of(trials, engine, stop);
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const auto unit = static_cast<std::size_t>(part.from) + i / static_cast<std::size_t>(units.trials_each);
     counter.add(outcomes[i].moves, (*part.entry->results)[unit]);
@@ -178,7 +165,7 @@ UnitResult result_of(const study::Study& study, std::span<const trial::TrialPara
                      batch::BatchEngine& engine, const std::stop_token& stop) {
   const TrialCounter counter(study);
   UnitResult result;
-  for (const trial::TrialOutcome& outcome : outcomes_of(trials, engine, stop))
+  for (const trial::TrialOutcome& outcome : study_run::outcomes_of(trials, engine, stop))
     counter.add(outcome.moves, result);
   return result;
 }
@@ -190,10 +177,9 @@ void run_units(std::span<const UnitsToRun> entries, const Units& units, const st
     for (std::int64_t from = entry.from; from < entry.to; from += units_at_once)
       parts.push_back({&entry, from, std::min(from + units_at_once, entry.to)});
   }
-  oneapi::tbb::enumerable_thread_specific<std::unique_ptr<batch::BatchEngine>> engines(
-      [] { return std::make_unique<batch::BatchEngine>(); });
-  oneapi::tbb::parallel_for(std::size_t{0}, parts.size(),
-                            [&](std::size_t i) { run_part(parts[i], units, *engines.local(), stop); });
+  study_run::for_each_with_engine(parts.size(), [&](std::size_t i, batch::BatchEngine& engine) {
+    run_part(parts[i], units, engine, stop);
+  });
 }
 
 std::vector<UnitResult> results_of(const study::Study& study, const Units& units, std::int64_t count,

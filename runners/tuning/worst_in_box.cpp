@@ -5,8 +5,6 @@
 #include <numeric>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "analysis/measures/goal_counts.hpp"
 #include "analysis/tuning/search_space.hpp"
@@ -16,6 +14,7 @@
 #include "core/random/variates.hpp"
 #include "experiments/designs/random_key.hpp"
 #include "experiments/study/machine_inputs.hpp"
+#include "runners/study_run/parallel_trials.hpp"
 #include "runners/tuning/tuned_study.hpp"
 
 namespace zerocount::tuning {
@@ -138,10 +137,10 @@ class BoxSearch {
 
   double quantile_at(double place) const { return tail + (1.0 - 2.0 * tail) * place; }
 
-  study::GivenUniforms given_of(const BoxPoint& point) const {
-    study::GivenUniforms given;
+  study::GivenDraws given_of(const BoxPoint& point) const {
+    study::GivenDraws given;
     for (std::size_t i = 0; i < inputs_.size(); ++i) {
-      for (const std::uint32_t slot : inputs_[i].slots) given[slot] = quantile_at(point.place[i]);
+      for (const std::uint32_t slot : inputs_[i].slots) given.uniforms[slot] = quantile_at(point.place[i]);
     }
     return given;
   }
@@ -152,15 +151,13 @@ class BoxSearch {
   }
 
   void simulate(std::vector<BoxPoint>& points, std::int64_t from, std::int64_t to) const {
-    oneapi::tbb::enumerable_thread_specific<std::unique_ptr<batch::BatchEngine>> engines(
-        [] { return std::make_unique<batch::BatchEngine>(); });
-    oneapi::tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t p) {
-      const study::GivenUniforms given = given_of(points[p]);
+    study_run::for_each_with_engine(points.size(), [&](std::size_t p, batch::BatchEngine& engine) {
+      const study::GivenDraws given = given_of(points[p]);
       std::vector<trial::TrialParameters> trials;
       for (std::int64_t i = from; i < to; ++i)
         trials.push_back(
             study::study_trial(study_, units_.point, trial_of(points[p].rig, i), given).parameters);
-      points[p].result = result_of(study_, trials, *engines.local(), stop_);
+      points[p].result = result_of(study_, trials, engine, stop_);
     });
   }
 

@@ -1,0 +1,115 @@
+#include "analysis/measures/move_event.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "analysis/measures/trial_value.hpp"
+#include "analysis/statistics/unknown.hpp"
+#include "core/failure/failure.hpp"
+#include "experiments/yaml/nearest_name.hpp"
+
+namespace zerocount::measures {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(' ');
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
+
+std::string name_of(const layout::Measure& measure) {
+  const std::string& name = measure.field.column.name;
+  return measure.band ? layout::name_of_band(name, *measure.band) : name;
+}
+
+[[noreturn]] void fail(std::string_view text, std::string_view what) {
+  throw Failure(
+      ExitCode::bad_input,
+      fmt::format("option '--event': '{}' {}; expected a measure of a move, one of > >= < <=, and a "
+                  "number, such as 'settling_time > 0.5'",
+                  text, what));
+}
+
+double value_of(const layout::Measure& measure, const trial::MoveOutcome& move) {
+  const double value = counted_value(measure, move);
+  return std::isnan(value) && measure.values.nan_is_late ? std::numeric_limits<double>::infinity() : value;
+}
+
+layout::Measure measure_named(const study::Study& study, std::string_view text, std::string_view name) {
+  std::vector<std::string> names;
+  for (const layout::Measure& measure : layout::measure_table(study.features.bands)) {
+    if (!layout::is_in_file(measure, layout::format_version, study.features)) continue;
+    names.push_back(name_of(measure));
+    if (names.back() == name) return measure;
+  }
+  const std::string nearest(yaml::nearest_name(name, names));
+  fail(text, fmt::format("names no measure of a move of this study: '{}'{}", name,
+                         nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest)));
+}
+
+}  // namespace
+
+std::optional<MoveEvent> missed_goal(const study::Study& study) {
+  const std::optional<CountedGoal> goal = counted_goal(study);
+  if (!goal) return std::nullopt;
+  MoveEvent event;
+  event.goal = *goal;
+  return event;
+}
+
+MoveEvent parse_event(const study::Study& study, std::string_view text) {
+  const auto sign = text.find_first_of("<>");
+  if (sign == std::string_view::npos) fail(text, "compares nothing");
+  MoveEvent event;
+  event.text = trimmed(text);
+  event.above = text[sign] == '>';
+  event.inclusive = sign + 1 < text.size() && text[sign + 1] == '=';
+  const std::string_view number = trimmed(text.substr(sign + (event.inclusive ? 2 : 1)));
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), event.limit);
+  if (error != std::errc() || end != number.data() + number.size() || !std::isfinite(event.limit))
+    fail(text, "has no number behind the sign");
+  event.measure = measure_named(study, text, trimmed(text.substr(0, sign)));
+  return event;
+}
+
+bool happens(const MoveEvent& event, const trial::MoveOutcome& move) {
+  if (event.text.empty()) return !meets(event.goal, move);
+  const double value = value_of(event.measure, move);
+  if (value == event.limit) return event.inclusive;
+  return event.above ? value > event.limit : value < event.limit;
+}
+
+std::string name_of(MoveScore score, const MoveEvent& event) {
+  switch (score) {
+    case MoveScore::event:
+      return event.text.empty() ? "settling time in the band" : name_of(event.measure);
+    case MoveScore::peak_torque:
+      return "largest torque";
+    case MoveScore::final_error:
+      return "true error at the end";
+    case MoveScore::restlessness:
+      return "time at other counts after arrival";
+  }
+  return "";
+}
+
+double score_of(MoveScore score, const MoveEvent& event, const trial::MoveOutcome& move) {
+  switch (score) {
+    case MoveScore::event:
+      if (event.text.empty()) return move.bands[event.goal.slot].settling_time;
+      return event.above ? value_of(event.measure, move) : -value_of(event.measure, move);
+    case MoveScore::peak_torque:
+      return move.peak_torque;
+    case MoveScore::final_error:
+      return std::abs(move.true_error);
+    case MoveScore::restlessness:
+      return 1.0 - move.zero_fraction;
+  }
+  return statistics::unknown;
+}
+
+}  // namespace zerocount::measures

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "analysis/rare/normal_mixture.hpp"
+#include "analysis/rare/trial_point.hpp"
+#include "analysis/statistics/proportion.hpp"
+
+namespace zerocount::rare {
+
+/// A trial that was drawn from the proposal.
+struct WeightedTrial {
+  TrialPoint point;
+  double weight{0.0};  ///< likelihood_ratio()
+  double failed{0.0};  ///< proportion of its moves that fail
+};
+
+/// How splitting along a score went.
+struct ScoreSearch {
+  std::size_t score{0};
+  bool reached{false};
+  double probability{1.0};  ///< of the last level; of a failure if it was reached
+  int levels{0};
+  std::int64_t trials{0};
+};
+
+/// All that decides how an estimate goes on: what has been learned, and the trials drawn since.
+struct EstimatorState {
+  std::int64_t trials{0};          ///< that were run, all together
+  std::int64_t plain_trials{0};    ///< of these, trials drawn from their own distribution
+  std::int64_t plain_failures{0};  ///< of these, with a move that failed
+  std::vector<ScoreSearch> searches;
+  bool learned{false};        ///< the proposal is ready
+  std::int64_t learnings{0};  ///< how often it was learned
+  Proposal proposal;
+  double cap{0.0};                   ///< no failure should have a larger weight
+  std::vector<WeightedTrial> drawn;  ///< from this proposal
+};
+
+struct EstimatorSettings {
+  std::size_t coordinates{0};
+  std::size_t scores{1};
+  double confidence{0.95};
+  double ratio{2.0};  ///< wanted of the bounds, high / low
+  std::uint64_t seed{0};
+};
+
+enum class EstimateStatus {
+  estimated,
+  no_failure,   ///< no score leads to a failure
+  not_covered,  ///< failures are found again and again that the proposal does not foresee
+  budget        ///< ended before the bounds were narrow enough
+};
+
+struct Estimate {
+  EstimateStatus status{EstimateStatus::budget};
+  double probability{0.0};
+  statistics::ConfidenceInterval bounds{};
+  /// Upper bound that needs no score: Clopper–Pearson, of the trials drawn from their own distribution.
+  double plain_high{1.0};
+};
+
+/// Estimates the expected proportion of failing moves by importance sampling.
+///
+/// Learning: plain trials, then splitting along each score, twice along the first. A mixture of normal
+/// distributions is fitted to the failures found, and one normal distribution to each level on the way, so
+/// that failures which splitting lost on its way have no large weight. One to four rounds of draws from it
+/// improve the fit. Estimation: trials from the mixture, among them a tenth from their own distribution,
+/// weighted by the likelihood ratio w ≤ 10: the mean of w·failed is unbiased. The bounds are
+/// betting_bounds(), whose cap is twice the 99.8 % quantile of the weights of failures. Where a failure has a
+/// larger one, the proposal is learned again with it, and the estimation begins anew. So `low` always holds,
+/// and `high` if the failures that no score leads to are less probable than those it leads to.
+///
+/// @param state empty, or of an interrupted estimate, which then goes on
+/// @param go_on asked between parts of some hundred or thousand trials, with the state; false ends it
+Estimate estimate(EstimatorState& state, const EstimatorSettings& settings, const Simulation& simulate,
+                  const std::function<bool(const EstimatorState&)>& go_on);
+
+/// The answer as far as the state goes.
+Estimate answer_of(const EstimatorState& state, const EstimatorSettings& settings);
+
+}  // namespace zerocount::rare

@@ -1,0 +1,122 @@
+#include "experiments/study/random_coordinates.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "core/numerics/normal_distribution.hpp"
+#include "experiments/study/machine_inputs.hpp"
+#include "experiments/study/plan.hpp"
+
+namespace zerocount::study {
+namespace {
+
+using Kind = RandomCoordinate::Kind;
+
+bool is_drawn_for_trials(Per per) {
+  switch (per) {
+    case Per::rig:
+    case Per::trial:
+    case Per::contact:
+      return true;
+    case Per::study:
+    case Per::world:
+      break;
+  }
+  return false;
+}
+
+bool is_member(const std::vector<std::uint32_t>& slots, std::uint32_t slot) {
+  return std::ranges::find(slots, slot) != slots.end();
+}
+
+/// Adds the coordinates of one value.
+void add_coordinates(const Study& study, std::uint32_t slot, const Value& value,
+                     std::vector<RandomCoordinate>& coordinates) {
+  const std::string name(study.plan->table.rows[slot].name);
+  switch (value.kind) {
+    case Value::Kind::number:
+      break;
+    case Value::Kind::distribution:
+      if (is_drawn_for_trials(value.per))
+        coordinates.push_back({name, Kind::values, {slot}, differs_between_machines(study, value.per, name)});
+      break;
+    case Value::Kind::profile:
+      if (value.per != Per::rig) break;
+      if (study.plan->profiles[value.index]->has_drawn_mean())
+        coordinates.push_back({name + ".mean", Kind::profile_mean, {slot}, true});
+      coordinates.push_back({name, Kind::profile_at_start, {slot}, true});
+      break;
+  }
+}
+
+/// Adds the members of the copula that are fixed at this point: the others depend on their numbers.
+void add_fixed_members(const Study& study, const std::vector<const Value*>& values,
+                       std::vector<RandomCoordinate>& coordinates) {
+  const std::optional<GaussianCopula>& copula = study.plan->copula;
+  if (!copula || !is_drawn_for_trials(copula->per)) return;
+  for (const std::uint32_t slot : copula->slots) {
+    if (values[slot]->kind == Value::Kind::distribution) continue;
+    const std::string name(study.plan->table.rows[slot].name);
+    coordinates.push_back({name + " (of correlations)",
+                           Kind::values,
+                           {slot},
+                           differs_between_machines(study, copula->per, name)});
+  }
+}
+
+/// A uniform number in the open interval, whatever the normal number.
+double uniform_of(double z) {
+  return std::clamp(numerics::normal_probability(z), 0x1p-53, 1.0 - 0x1p-53);
+}
+
+}  // namespace
+
+std::vector<RandomCoordinate> random_coordinates(const Study& study, std::int64_t point) {
+  const StudyPlan& plan = *study.plan;
+  const std::vector<const Value*> values = values_at(plan, static_cast<std::size_t>(point));
+  std::vector<RandomCoordinate> coordinates;
+  RandomCoordinate joint;
+  for (const std::uint32_t slot : plan.input_slots) {
+    if (!is_member(plan.sampled_slots, slot)) {
+      add_coordinates(study, slot, *values[slot], coordinates);
+    } else if (is_drawn_for_trials(values[slot]->per)) {
+      joint.name += (joint.name.empty() ? "" : ", ") + std::string(plan.table.rows[slot].name);
+      joint.of_machine = differs_between_machines(study, values[slot]->per, plan.table.rows[slot].name);
+      joint.slots.push_back(slot);
+    }
+  }
+  if (!joint.slots.empty()) coordinates.push_back(std::move(joint));
+  add_fixed_members(study, values, coordinates);
+  return coordinates;
+}
+
+GivenDraws draws_at(const Study& study, std::span<const RandomCoordinate> coordinates,
+                    std::span<const double> z, std::int64_t number) {
+  GivenDraws draws{.number = number, .rotor = number};
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    const RandomCoordinate& coordinate = coordinates[i];
+    switch (coordinate.kind) {
+      case Kind::values:
+        for (const std::uint32_t slot : coordinate.slots) draws.uniforms[slot] = uniform_of(z[i]);
+        break;
+      case Kind::profile_mean:
+        draws.profiles[coordinate.slots[0]].mean = uniform_of(z[i]);
+        break;
+      case Kind::profile_at_start:
+        draws.profiles[coordinate.slots[0]].field = z[i];
+        break;
+    }
+  }
+  const std::optional<GaussianCopula>& copula = study.plan->copula;
+  if (!copula) return draws;
+  const std::map<std::uint32_t, double> independent = draws.uniforms;
+  for (std::size_t member = 0; member < copula->slots.size(); ++member) {
+    const auto given = draws.uniforms.find(copula->slots[member]);
+    if (given == draws.uniforms.end()) continue;
+    given->second =
+        copula_uniform(*copula, member, [&](std::size_t j) { return independent.at(copula->slots[j]); });
+  }
+  return draws;
+}
+
+}  // namespace zerocount::study

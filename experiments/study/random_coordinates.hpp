@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "experiments/study/study.hpp"
+
+namespace zerocount::study {
+
+/// One random coordinate of a trial: a standard normal number, from which values of the trial follow.
+struct RandomCoordinate {
+  enum class Kind : std::uint8_t {
+    values,           ///< of `slots`: their quantile is Φ(z), after the correlations of the study
+    profile_mean,     ///< of the profile of slots[0]: the quantile of its mean is Φ(z)
+    profile_at_start  ///< of the profile of slots[0]: the field where the trial begins is z
+  };
+  std::string name;  ///< dotted path; of joint samples the paths, joined by ", "
+  Kind kind{Kind::values};
+  std::vector<std::uint32_t> slots;
+  bool of_machine{false};  ///< the same in all trials of a rig; without rigs see differs_between_machines()
+};
+
+/// The random coordinates of the trials of a design point: all that is drawn for each rig, trial or contact
+/// (of a contact, the first of a trial). Independent of each other. What is drawn for the study or for a
+/// world is not among them, nor are the random numbers used while a trial runs.
+std::vector<RandomCoordinate> random_coordinates(const Study& study, std::int64_t point);
+
+/// The random numbers of a trial at these coordinates. The trial has the point's distribution if the
+/// coordinates are independent standard normal numbers.
+/// @param coordinates of the study at the point @param z [coordinate]
+/// @param number of the trial, for all random numbers beside the coordinates; of its rotor too
+GivenDraws draws_at(const Study& study, std::span<const RandomCoordinate> coordinates,
+                    std::span<const double> z, std::int64_t number);
+
+}  // namespace zerocount::study

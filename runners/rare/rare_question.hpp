@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+#include "analysis/measures/move_event.hpp"
+#include "analysis/rare/trial_point.hpp"
+#include "experiments/study/random_coordinates.hpp"
+#include "experiments/study/study.hpp"
+
+/// The probability of a rare failure of the moves of a study: trials by their random coordinates, the results
+/// file, and the report.
+namespace zerocount::rare {
+
+/// The event whose probability is sought, and the trials that decide it: each on a machine of its own.
+struct Question {
+  study::Study study;
+  std::int64_t point{0};
+  std::optional<std::int64_t> world{};  ///< of a study with worlds
+  measures::MoveEvent event;
+  std::vector<study::RandomCoordinate> coordinates;
+};
+
+/// @throws Failure (bad_input) if the study draws nothing for each trial or rig
+Question question_of(study::Study study, std::int64_t point, std::optional<std::int64_t> world,
+                     measures::MoveEvent event);
+
+/// The random numbers of a trial.
+study::GivenDraws draws_at(const Question& question, const TrialPoint& trial);
+
+/// The parameters and inputs of a trial.
+study::StudyTrial trial_at(const Question& question, const TrialPoint& trial);
+
+/// Proportion of the moves to which the event happens, and the scores measures::move_scores.
+PointResult result_of(const Question& question, std::span<const trial::MoveOutcome> moves);
+
+/// Runs trials with these random numbers on all cores; the results in their order.
+/// @throws trial::Interrupted
+std::vector<PointResult> run_trials(const Question& question, std::span<const study::GivenDraws> draws,
+                                    const std::stop_token& stop);
+
+/// Runs trials on all cores. @param question outlives it
+Simulation simulation_of(const Question& question, const std::stop_token& stop);
+
+}  // namespace zerocount::rare

@@ -1,0 +1,147 @@
+#include "runners/rare/rare_run.hpp"
+
+#include <chrono>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "core/failure/failure.hpp"
+#include "core/trial/trial.hpp"
+#include "results/layout/header.hpp"
+#include "runners/rare/rare_file.hpp"
+#include "runners/rare/rare_text.hpp"
+#include "runners/status/status.hpp"
+#include "runners/study_run/deadline.hpp"
+
+namespace zerocount::rare {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr double seconds_between_writes = 60.0;
+
+/// Whether the file answers this question with trials of this build.
+bool answers(const RareRecord& record, const Question& question) {
+  return record.header.study_sha256 == question.study.study_sha256 && record.point == question.point &&
+         record.world == question.world && record.event == question.event.text &&
+         layout::same_build(record.header.provenance, layout::current_provenance());
+}
+
+/// The record from which this run goes on, if there is one.
+std::optional<RareRecord> earlier_record(const Question& question, const RareSettings& settings) {
+  std::error_code error;
+  if (!fs::exists(settings.output, error) || settings.force) return std::nullopt;
+  if (is_rare_file(settings.output)) {
+    RareRecord record = read_rare_file(settings.output);
+    if (answers(record, question)) return record;
+  }
+  throw Failure(ExitCode::bad_input,
+                fmt::format("{}: exists already, and is not an estimate of this probability by this build; "
+                            "expected another FILE, or --force to replace it",
+                            settings.output.string()));
+}
+
+class RareRun {
+ public:
+  RareRun(const Question& question, const RareSettings& settings, const std::stop_token& stop)
+      : question_(question), settings_(settings), stop_(stop), line_(settings.quiet), on_stop_(stop, [this] {
+          end_.request_stop();
+        }) {
+    answer_.confidence = settings.confidence;
+    if (std::optional<RareRecord> earlier = earlier_record(question, settings)) {
+      answer_.state = std::move(earlier->state);
+      earlier_seconds_ = earlier->seconds;
+    }
+    first_trials_ = answer_.state.trials;
+    if (settings.seconds) {
+      deadline_.emplace(std::chrono::duration<double>(*settings.seconds));
+      on_deadline_.emplace(deadline_->token(), [this] { end_.request_stop(); });
+    }
+  }
+
+  RareAnswer run() {
+    const EstimatorSettings settings = estimator_settings();
+    try {
+      estimate(answer_.state, settings, simulation_of(question_, end_.get_token()),
+               [this](const EstimatorState& state) { return goes_on(state); });
+    } catch (const trial::Interrupted&) {
+      // The state is as it was before the trials that were in work.
+    }
+    answer_.estimate = answer_of(answer_.state, settings);
+    answer_.seconds = elapsed();
+    if (stop_.stop_requested()) {
+      if (answer_.state.learned) write();
+      throw Failure(ExitCode::interrupted,
+                    answer_.state.learned
+                        ? fmt::format("interrupted: {} holds the trials so far; the same command goes on",
+                                      settings_.output.string())
+                        : "interrupted while it learned where failures are: nothing was written");
+    }
+    describe();
+    write();
+    line_.finish("");
+    return std::move(answer_);
+  }
+
+ private:
+  EstimatorSettings estimator_settings() const {
+    return {question_.coordinates.size(), measures::move_scores.size(), settings_.confidence, settings_.ratio,
+            question_.study.seed};
+  }
+
+  /// Seconds, those of earlier runs included.
+  double elapsed() const {
+    return earlier_seconds_ + std::chrono::duration<double>(Clock::now() - start_).count();
+  }
+
+  bool goes_on(const EstimatorState& state) {
+    line_.show([&] { return progress_text(answer_of(state, estimator_settings()), state); });
+    if (state.learned && elapsed() - written_ > seconds_between_writes) {
+      answer_.estimate = answer_of(state, estimator_settings());
+      answer_.seconds = elapsed();
+      write();
+      written_ = elapsed();
+    }
+    const bool has_trials = !settings_.max_trials || state.trials - first_trials_ < *settings_.max_trials;
+    return has_trials && !end_.stop_requested();
+  }
+
+  void describe() {
+    try {
+      answer_.inputs = failure_inputs(question_, answer_.state);
+      answer_.machines = carrying_machines(question_, answer_.state, answer_.estimate.probability, stop_);
+    } catch (const trial::Interrupted&) {
+      // An interruption during the last trials leaves the answer as it is.
+    }
+  }
+
+  void write() const {
+    write_rare_file(settings_.output, question_, answer_.state, answer_.seconds, json_of(answer_, question_));
+  }
+
+  const Question& question_;
+  const RareSettings& settings_;
+  std::stop_token stop_;
+  status::StatusLine line_;
+  Clock::time_point start_{Clock::now()};
+  double earlier_seconds_{0.0};
+  double written_{0.0};
+  std::int64_t first_trials_{0};
+  RareAnswer answer_;
+  std::stop_source end_;
+  std::optional<study_run::Deadline> deadline_;
+  std::stop_callback<std::function<void()>> on_stop_;
+  std::optional<std::stop_callback<std::function<void()>>> on_deadline_;
+};
+
+}  // namespace
+
+RareAnswer run_rare(const Question& question, const RareSettings& settings, const std::stop_token& stop) {
+  return RareRun(question, settings, stop).run();
+}
+
+}  // namespace zerocount::rare

@@ -1,0 +1,217 @@
+#include "runners/rare/rare_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "analysis/text/percent.hpp"
+#include "analysis/text/report_json.hpp"
+#include "analysis/text/text.hpp"
+
+namespace zerocount::rare {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double least_shift = 0.3;  // of an input that is shown
+constexpr std::size_t most_inputs = 8;
+constexpr std::int64_t most_replays = 3;
+
+bool is_estimated(const RareAnswer& answer) {
+  return answer.estimate.status == EstimateStatus::estimated;
+}
+
+/// Whether failures were found and weighted, so that there is a number.
+bool has_probability(const RareAnswer& answer) {
+  return !answer.state.drawn.empty() && answer.estimate.probability > 0.0;
+}
+
+std::int64_t failures_drawn(const EstimatorState& state) {
+  return std::ranges::count_if(state.drawn, [](const WeightedTrial& trial) { return trial.failed > 0.0; });
+}
+
+std::string event_text(const Question& question) {
+  if (!question.event.text.empty()) return fmt::format("of a move with {}", question.event.text);
+  const study::Goal& goal = *question.study.goal;
+  return fmt::format("that a move misses the goal (|error| ≤ {} count{} for good after {} s)", goal.band,
+                     goal.band == 1 ? "" : "s", goal.within);
+}
+
+std::string_view reason_of(EstimateStatus status) {
+  switch (status) {
+    case EstimateStatus::estimated:
+      return "the bounds are as narrow as asked";
+    case EstimateStatus::no_failure:
+      return "undecided: no score leads to a failure";
+    case EstimateStatus::not_covered:
+      return "undecided: there are failures that the learned distribution does not foresee";
+    case EstimateStatus::budget:
+      return "undecided: the budget ended first; the same command with a larger --budget goes on";
+  }
+  return "";
+}
+
+std::string probability_text(const RareAnswer& answer, const Question& question) {
+  const Estimate& estimate = answer.estimate;
+  const std::string trials = fmt::format("{} trials, {:.3g} s", answer.state.trials, answer.seconds);
+  if (!has_probability(answer))
+    return fmt::format("probability {}: at most {:.3g} with {} confidence ({})\n{}\n", event_text(question),
+                       estimate.bounds.high, text::percent(answer.confidence), trials,
+                       reason_of(estimate.status));
+  std::string text = fmt::format("probability {}:\n  {:.3g} [{:.3g}, {:.3g}] with {} confidence ({})\n",
+                                 event_text(question), estimate.probability, estimate.bounds.low,
+                                 estimate.bounds.high, text::percent(answer.confidence), trials);
+  text += fmt::format("  one in {:.3g} moves; as many plain trials as would show it: about {:.2g}\n",
+                      1.0 / estimate.probability, 4.0 * 8.0 / estimate.probability);
+  return text + fmt::format("{}\n", reason_of(estimate.status));
+}
+
+std::string premise_text(const RareAnswer& answer) {
+  const EstimatorState& state = answer.state;
+  std::string text = fmt::format(
+      "of {} plain trials {} failed: that alone shows at most {:.2g}\n", state.plain_trials,
+      state.plain_failures == 0 ? "none" : std::to_string(state.plain_failures), answer.estimate.plain_high);
+  if (has_probability(answer))
+    text +=
+        "the upper bound assumes that no failures hide where neither a plain trial nor a score led; the\n"
+        "lower bound holds in any case\n";
+  return text;
+}
+
+std::string scores_table(const RareAnswer& answer, const Question& question) {
+  std::vector<text::TextColumn> columns{{"score", false, {}},
+                                        {"leads to failures", false, {}},
+                                        {"levels", true, {}},
+                                        {"probability reached", true, {}}};
+  for (const ScoreSearch& search : answer.state.searches) {
+    columns[0].cells.push_back(measures::name_of(measures::move_scores[search.score], question.event));
+    columns[1].cells.emplace_back(search.reached ? "yes" : "no");
+    columns[2].cells.push_back(std::to_string(search.levels));
+    columns[3].cells.push_back(fmt::format("{:.2g}", search.probability));
+  }
+  return answer.state.searches.empty() ? "" : "\n" + text::aligned_table(columns);
+}
+
+std::string range_text(const InputRange& range) {
+  return fmt::format("{:.4g} ({:.4g} to {:.4g})", range.median, range.low, range.high);
+}
+
+std::string inputs_table(const RareAnswer& answer) {
+  std::vector<text::TextColumn> columns{{"parameter", false, {}},
+                                        {"unit", false, {}},
+                                        {"failures (5 to 95 %)", false, {}},
+                                        {"all trials", false, {}},
+                                        {"shift", true, {}}};
+  for (const FailureInput& input : answer.inputs) {
+    if (std::abs(input.shift) < least_shift || columns[0].cells.size() == most_inputs) break;
+    columns[0].cells.push_back(input.name);
+    columns[1].cells.push_back(input.unit);
+    columns[2].cells.push_back(range_text(input.failures));
+    columns[3].cells.push_back(range_text(input.usual));
+    columns[4].cells.push_back(fmt::format("{:+.1f}", input.shift));
+  }
+  if (columns[0].cells.empty()) return "";
+  return "\nwhat failures have in common (shift in standard deviations of all trials):\n\n" +
+         text::aligned_table(columns);
+}
+
+std::string machines_text(const RareAnswer& answer) {
+  if (!answer.machines) return "";
+  const CarryingMachines& machines = *answer.machines;
+  std::string text = fmt::format("\nmachines: the median machine that failed fails in {} of its moves",
+                                 text::percent(machines.median_rate));
+  if (machines.mostly_failing > 0.0)
+    text += fmt::format(
+        ";\n  {} of the failures are on machines that fail in most of their moves, about one "
+        "machine in {:.2g}",
+        text::percent(machines.mostly_failing), 1.0 / machines.probability_of_one);
+  return text + "\n";
+}
+
+std::string replays_text(const RareAnswer& answer, const std::string& output) {
+  std::string text;
+  std::int64_t shown = 0;
+  for (std::size_t i = 0; i < answer.state.drawn.size() && shown < most_replays; ++i) {
+    if (!(answer.state.drawn[i].failed > 0.0)) continue;
+    text += fmt::format("{} --trial {}", shown == 0 ? fmt::format("zerocount trace {}", output) : ",", i);
+    ++shown;
+  }
+  if (shown == 0) return "";
+  return fmt::format("\n{} failures are in {}; for example {}\n", failures_drawn(answer.state), output, text);
+}
+
+Json range_json(const InputRange& range) {
+  return {{"low", range.low}, {"median", range.median}, {"high", range.high}};
+}
+
+Json scores_json(const RareAnswer& answer, const Question& question) {
+  Json scores = Json::array();
+  for (const ScoreSearch& search : answer.state.searches)
+    scores.push_back({{"score", measures::name_of(measures::move_scores[search.score], question.event)},
+                      {"reached", search.reached},
+                      {"probability", search.probability},
+                      {"levels", search.levels},
+                      {"trials", search.trials}});
+  return scores;
+}
+
+Json machines_json(const RareAnswer& answer) {
+  if (!answer.machines) return {};
+  const CarryingMachines& machines = *answer.machines;
+  return {{"examined", machines.examined},
+          {"moves_each", machines.moves_each},
+          {"median_rate", machines.median_rate},
+          {"mostly_failing", machines.mostly_failing},
+          {"probability_of_one", machines.probability_of_one}};
+}
+
+}  // namespace
+
+std::string json_of(const RareAnswer& answer, const Question& question) {
+  const Estimate& estimate = answer.estimate;
+  Json inputs = Json::array();
+  for (const FailureInput& input : answer.inputs)
+    inputs.push_back({{"parameter", input.name},
+                      {"unit", input.unit},
+                      {"shift", input.shift},
+                      {"failures", range_json(input.failures)},
+                      {"usual", range_json(input.usual)}});
+  return text::json_text({{"probability", has_probability(answer) ? Json(estimate.probability) : Json()},
+                          {"low", estimate.bounds.low},
+                          {"high", estimate.bounds.high},
+                          {"trials", answer.state.trials},
+                          {"status", is_estimated(answer) ? "estimated" : "undecided"},
+                          {"reason", reason_of(estimate.status)},
+                          {"confidence", answer.confidence},
+                          {"event", question.event.text.empty() ? Json("goal") : Json(question.event.text)},
+                          {"point", question.point},
+                          {"label", question.study.point_labels[static_cast<std::size_t>(question.point)]},
+                          {"world", question.world ? Json(*question.world) : Json()},
+                          {"plain",
+                           {{"trials", answer.state.plain_trials},
+                            {"failures", answer.state.plain_failures},
+                            {"high", estimate.plain_high}}},
+                          {"scores", scores_json(answer, question)},
+                          {"drawn", answer.state.drawn.size()},
+                          {"failures_drawn", failures_drawn(answer.state)},
+                          {"inputs", std::move(inputs)},
+                          {"machines", machines_json(answer)},
+                          {"seconds", answer.seconds}});
+}
+
+std::string text_of(const RareAnswer& answer, const Question& question, const std::string& output) {
+  return probability_text(answer, question) + premise_text(answer) + scores_table(answer, question) +
+         inputs_table(answer) + machines_text(answer) + replays_text(answer, output);
+}
+
+std::string progress_text(const Estimate& estimate, const EstimatorState& state) {
+  if (!state.learned) return fmt::format("learns where failures are: {} trials", state.trials);
+  return fmt::format("{} trials: {:.2g} [{:.2g}, {:.2g}]", state.trials, estimate.probability,
+                     estimate.bounds.low, estimate.bounds.high);
+}
+
+}  // namespace zerocount::rare

@@ -21,11 +21,6 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(' ') - first + 1);
 }
 
-std::string name_of(const layout::Measure& measure) {
-  const std::string& name = measure.field.column.name;
-  return measure.band ? layout::name_of_band(name, *measure.band) : name;
-}
-
 [[noreturn]] void fail(std::string_view text, std::string_view what) {
   throw Failure(
       ExitCode::bad_input,
@@ -43,7 +38,7 @@ layout::Measure measure_named(const study::Study& study, std::string_view text, 
   std::vector<std::string> names;
   for (const layout::Measure& measure : layout::measure_table(study.features.bands)) {
     if (!layout::is_in_file(measure, layout::format_version, study.features)) continue;
-    names.push_back(name_of(measure));
+    names.push_back(measure.field.column.name);
     if (names.back() == name) return measure;
   }
   const std::string nearest(yaml::nearest_name(name, names));
@@ -86,7 +81,7 @@ bool happens(const MoveEvent& event, const trial::MoveOutcome& move) {
 std::string name_of(MoveScore score, const MoveEvent& event) {
   switch (score) {
     case MoveScore::event:
-      return event.text.empty() ? "settling time in the band" : name_of(event.measure);
+      return event.text.empty() ? "settling time in the band" : event.measure.field.column.name;
     case MoveScore::peak_torque:
       return "largest torque";
     case MoveScore::final_error:

@@ -63,8 +63,9 @@ constexpr const char* limits_help =
 constexpr const char* worst_help =
     "Finds the machine that a gain suits worst: of the machines of the study, and in the box of the\n"
     "central 99.9 % of each quantity that differs between machines, where it is sought from the\n"
-    "corners inwards. Its rate is of trials that the search has not used. -o writes a manifest in\n"
-    "which the machine's values are fixed. Of several points --point chooses one.\n"
+    "corners inwards; then in the part of the box that holds 99.9 % of the machines. Rates are of\n"
+    "trials that the search has not used. -o writes a manifest in which the values of the worst\n"
+    "machine of the box are fixed. Of several points --point chooses one.\n"
     "\n"
     "Example: zerocount worst my-axis.yaml -o worst.yaml\n";
 
@@ -194,14 +195,18 @@ ExitCode worst(const command_line::Arguments& arguments) {
   const std::vector<tuning::UnitResult> results = unless_interrupted(
       [&] { return tuning::results_of(study, units, units.count, nullptr, interruption.token()); });
   const tuning::WorstMachine worst = tuning::worst_machine(study, examined.point, results);
-  const tuning::WorstInBox in_box =
-      unless_interrupted([&] { return tuning::worst_in_box(study, units, results, interruption.token()); });
+  const auto worst_of = [&](tuning::MachineRegion region) {
+    return unless_interrupted(
+        [&] { return tuning::worst_in_box(study, units, results, region, interruption.token()); });
+  };
+  const tuning::WorstInBox in_box = worst_of(tuning::MachineRegion::box);
+  const tuning::WorstInBox likely = worst_of(tuning::MachineRegion::likely);
   if (output) command_line::write_text(*output, tuning::replay_of(in_box).manifest_text);
   if (arguments.choice("format") == "json") {
-    standard_output::write(tuning::worst_json(worst, in_box));
+    standard_output::write(tuning::worst_json(worst, in_box, likely));
   } else {
-    standard_output::write_fitted(tuning::worst_text(worst, study.rigs > 0) + tuning::worst_text(in_box) +
-                                  replay_text(examined, in_box, output));
+    standard_output::write_fitted(tuning::worst_text(worst, study.rigs > 0) +
+                                  tuning::worst_text(in_box, likely) + replay_text(examined, in_box, output));
   }
   return ExitCode::success;
 }

@@ -222,29 +222,40 @@ std::string limits_json(const std::vector<Limit>& limits) {
   return text::json_text({{"limits", list_of(limits)}});
 }
 
-std::string worst_text(const WorstInBox& worst) {
-  std::string text =
-      fmt::format("worst in the box of the central 99.9 %: {:.4g} % of {} moves meet the goal, at\n",
-                  100.0 * worst.met, worst.moves);
-  std::vector<text::TextColumn> columns{{"input", false, {}}, {"value", true, {}}};
-  for (const auto& [name, value] : worst.inputs) {
-    columns[0].cells.push_back(name);
-    columns[1].cells.push_back(text::short_number(value));
+std::string worst_text(const WorstInBox& in_box, const WorstInBox& likely) {
+  std::string text = fmt::format(
+      "worst in the box of the central 99.9 % of each input: {:.4g} % of {} moves meet the goal\n"
+      "worst of 99.9 % of the machines: {:.4g} % of {} moves meet the goal\n",
+      100.0 * in_box.met, in_box.moves, 100.0 * likely.met, likely.moves);
+  std::vector<text::TextColumn> columns{{"input", false, {}}, {"in the box", true, {}}, {"likely", true, {}}};
+  for (std::size_t i = 0; i < in_box.inputs.size(); ++i) {
+    columns[0].cells.push_back(in_box.inputs[i].first);
+    columns[1].cells.push_back(text::short_number(in_box.inputs[i].second));
+    columns[2].cells.push_back(text::short_number(likely.inputs[i].second));
   }
   return text + text::aligned_table(columns) +
-         (worst.searched.rigs > 0 && !worst.searched.profiles.empty()
-              ? fmt::format("with the profiles of rig {}\n", worst.rig)
+         (in_box.searched.rigs > 0 && !in_box.searched.profiles.empty()
+              ? fmt::format("with the profiles of rig {}, likely: of rig {}\n", in_box.rig, likely.rig)
               : std::string());
 }
 
-std::string worst_json(const WorstMachine& worst, const WorstInBox& in_box) {
+namespace {
+
+Json machine_json(const WorstInBox& worst) {
+  return {{"rig", worst.rig},
+          {"trial", worst.trial},
+          {"moves", worst.moves},
+          {"met", worst.met},
+          {"inputs", values_json(worst.inputs)},
+          {"quantiles", worst.quantiles}};
+}
+
+}  // namespace
+
+std::string worst_json(const WorstMachine& worst, const WorstInBox& in_box, const WorstInBox& likely) {
   Json json = object_of(worst);
-  json["box"] = {{"rig", in_box.rig},
-                 {"trial", in_box.trial},
-                 {"moves", in_box.moves},
-                 {"met", in_box.met},
-                 {"inputs", values_json(in_box.inputs)},
-                 {"quantiles", in_box.quantiles}};
+  json["box"] = machine_json(in_box);
+  json["likely"] = machine_json(likely);
   return text::json_text(json);
 }
 

@@ -24,8 +24,9 @@ std::string limits_json(const std::vector<Limit>& limits);
 /// A table: each cause, the rate without it, and the part of the failures that it causes.
 std::string limits_text(const std::vector<Limit>& limits, bool of_machines, bool in_worlds);
 
-std::string worst_json(const WorstMachine& worst, const WorstInBox& in_box);
-std::string worst_text(const WorstInBox& worst);
+std::string worst_json(const WorstMachine& worst, const WorstInBox& in_box, const WorstInBox& likely);
+/// A table: the worst machine of the box, and of the likely ones.
+std::string worst_text(const WorstInBox& in_box, const WorstInBox& likely);
 std::string worst_text(const WorstMachine& worst, bool on_rigs);
 
 }  // namespace zerocount::tuning

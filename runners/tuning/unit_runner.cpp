@@ -161,15 +161,6 @@ Aim aim_of(const study::Study& study) {
   return {study.goal->moves, study.goal->machines, criterion_of(study).quantile, study.worlds};
 }
 
-UnitResult result_of(const study::Study& study, std::span<const trial::TrialParameters> trials,
-                     batch::BatchEngine& engine, const std::stop_token& stop) {
-  const TrialCounter counter(study);
-  UnitResult result;
-  for (const trial::TrialOutcome& outcome : study_run::outcomes_of(trials, engine, stop))
-    counter.add(outcome.moves, result);
-  return result;
-}
-
 void run_units(std::span<const UnitsToRun> entries, const Units& units, const std::stop_token& stop) {
   std::vector<Part> parts;
   for (const UnitsToRun& entry : entries) {

@@ -55,11 +55,6 @@ Aim aim_of(const study::Study& study);
 /// Changes the parameters of a trial after they are drawn.
 using Change = std::function<void(trial::TrialParameters&)>;
 
-/// The result of some trials of a study.
-/// @throws trial::Interrupted
-UnitResult result_of(const study::Study& study, std::span<const trial::TrialParameters> trials,
-                     batch::BatchEngine& engine, const std::stop_token& stop);
-
 /// Units [from, to) of a study.
 struct UnitsToRun {
   const study::Study* study{nullptr};

@@ -1,15 +1,19 @@
 #include "runners/tuning/worst_in_box.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <numeric>
 
 #include <fmt/format.h>
 
-#include "analysis/measures/goal_counts.hpp"
+#include "analysis/measures/move_event.hpp"
+#include "analysis/statistics/distributions.hpp"
 #include "analysis/tuning/search_space.hpp"
 #include "core/batch/batch.hpp"
 #include "core/failure/failure.hpp"
+#include "core/numerics/normal_distribution.hpp"
 #include "core/random/random_numbers.hpp"
 #include "core/random/variates.hpp"
 #include "experiments/designs/random_key.hpp"
@@ -46,11 +50,13 @@ double lateness(const UnitResult& unit, double late) {
 
 class BoxSearch {
  public:
-  BoxSearch(const study::Study& study, const Units& units, const std::stop_token& stop)
-      : units_(units),
+  BoxSearch(const study::Study& study, const Units& units, MachineRegion region, const std::stop_token& stop)
+      : region_(region),
+        units_(units),
         study_(variant_of(study, sizes(study, units))),
         inputs_(study::machine_inputs(study_, units.point)),
         numbers_{designs::random_key(study.seed, "worst machine"), 0},
+        event_(measures::missed_goal(study_).value()),
         stop_(stop) {
     if (inputs_.empty())
       throw Failure(ExitCode::bad_input,
@@ -112,7 +118,7 @@ class BoxSearch {
     const std::size_t size = inputs_.size();
     std::vector<BoxPoint> points;
     const auto add = [&](std::vector<double> place) {
-      points.push_back({rigs[points.size() % rigs.size()], std::move(place), {}});
+      points.push_back({rigs[points.size() % rigs.size()], inside(std::move(place)), {}});
     };
     const bool all_corners = size < 16 && (std::size_t{1} << size) <= most_corners;
     const std::size_t corners = all_corners ? std::size_t{1} << size : most_corners;
@@ -132,7 +138,26 @@ class BoxSearch {
     for (double& place : child.place) {
       if (uniform() < 0.5) place = std::clamp(place + step * normal(), 0.0, 1.0);
     }
+    child.place = inside(std::move(child.place));
     return child;
+  }
+
+  /// The place itself, or of the likely machines the nearest on the way to the median.
+  std::vector<double> inside(std::vector<double> place) const {
+    if (region_ == MachineRegion::box) return place;
+    double square = 0.0;
+    for (const double one : place) {
+      const double z = numerics::normal_quantile(quantile_at(one));
+      square += z * z;
+    }
+    const double radius =
+        std::sqrt(statistics::chi_squared_quantile(static_cast<double>(place.size()), 1.0 - 2.0 * tail));
+    if (square <= radius * radius) return place;
+    for (double& one : place) {
+      const double z = numerics::normal_quantile(quantile_at(one)) * radius / std::sqrt(square);
+      one = std::clamp((numerics::normal_probability(z) - tail) / (1.0 - 2.0 * tail), 0.0, 1.0);
+    }
+    return place;
   }
 
   double quantile_at(double place) const { return tail + (1.0 - 2.0 * tail) * place; }
@@ -157,8 +182,22 @@ class BoxSearch {
       for (std::int64_t i = from; i < to; ++i)
         trials.push_back(
             study::study_trial(study_, units_.point, trial_of(points[p].rig, i), given).parameters);
-      points[p].result = result_of(study_, trials, engine, stop_);
+      points[p].result = result_of(trials, engine);
     });
+  }
+
+  /// The moves that meet the goal, and the score of each; the largest double where it was never reached.
+  UnitResult result_of(std::span<const trial::TrialParameters> trials, batch::BatchEngine& engine) const {
+    UnitResult result;
+    for (const trial::TrialOutcome& outcome : study_run::outcomes_of(trials, engine, stop_)) {
+      for (const trial::MoveOutcome& move : outcome.moves) {
+        const double score = measures::score_of(measures::MoveScore::event, event_, move);
+        ++result.moves;
+        result.met += measures::happens(event_, move) ? 0 : 1;
+        result.values.push_back(std::isnan(score) ? std::numeric_limits<double>::max() : score);
+      }
+    }
+    return result;
   }
 
   void keep_worst(std::vector<BoxPoint>& points) const {
@@ -187,19 +226,21 @@ class BoxSearch {
     return answer;
   }
 
+  MachineRegion region_;
   Units units_;
   study::Study study_;
   std::vector<study::MachineInput> inputs_;
   random::RandomStream numbers_;
   std::uint64_t drawn_{0};
+  measures::MoveEvent event_;
   std::stop_token stop_;
 };
 
 }  // namespace
 
 WorstInBox worst_in_box(const study::Study& study, const Units& units, std::span<const UnitResult> results,
-                        const std::stop_token& stop) {
-  return BoxSearch(study, units, stop).run(results);
+                        MachineRegion region, const std::stop_token& stop) {
+  return BoxSearch(study, units, region, stop).run(results);
 }
 
 study::Study replay_of(const WorstInBox& worst) {

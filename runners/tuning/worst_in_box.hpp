@@ -12,7 +12,13 @@
 
 namespace zerocount::tuning {
 
-/// A machine inside the box of the central 99.9 % of each drawn quantity.
+/// The machines among which the worst is sought.
+enum class MachineRegion {
+  box,  ///< each drawn quantity within its central 99.9 %; its corners may be machines that nobody builds
+  likely  ///< of the box, those whose normal scores have Σ z² ≤ the 99.9 % quantile of χ²: 99.9 % of machines
+};
+
+/// The worst machine of a region.
 struct WorstInBox {
   std::int64_t rig{0};    ///< of the study, from which it has its profiles; 0 without rigs
   std::int64_t trial{0};  ///< its worst trial, of replay_of()
@@ -23,12 +29,13 @@ struct WorstInBox {
   study::Study searched;          ///< the study with the trials of the search
 };
 
-/// Searches the box for the machine with the fewest moves that meet the goal; of equal ones the one with the
-/// later moves. The search begins at the corners, at points that fill the box, and at the worst rigs.
+/// Searches the region for the machine with the fewest moves that meet the goal; of equal ones the one whose
+/// moves have the larger score (measures::MoveScore::event, that of `rare` too). The search begins at the
+/// corners, at points that fill the box, and at the worst rigs.
 /// @param results of all units of the study
 /// @throws trial::Interrupted; Failure (bad_input) if the study draws nothing that differs between machines
 WorstInBox worst_in_box(const study::Study& study, const Units& units, std::span<const UnitResult> results,
-                        const std::stop_token& stop);
+                        MachineRegion region, const std::stop_token& stop);
 
 /// The study of which `worst.trial` is a trial, with the values of the machine in the text of its manifest.
 /// @throws Failure (bad_input) if a sweep or joint samples give one of them

@@ -1,0 +1,206 @@
+// `rare`, from the manifest to the replayed failure.
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/numerics/normal_distribution.hpp"
+#include "tests/runners/program.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+/// A spring without creep. The converter ends at 2047 steps, and the middle of the first count that is the
+/// target lies at 29.5 counts: the move ends at its target exactly if k1 is at most
+/// 2047·resolution/(29.5·2π/1620000).
+std::string spring(double probability) {
+  const double spread = std::sqrt(std::log(1.01));
+  const double k1 = 110.0 * std::exp(-spread * numerics::normal_quantile(probability));
+  return fmt::format(
+      "zerocount: 1\n"
+      "name: spring\n"
+      "seed: 1\n"
+      "trials: 100\n"
+      "friction: {{model: spring, k1: {{lognormal: {{median: 110, cv: 0.1}}}}, k2: 0, breakaway: 10}}\n"
+      "dac: {{bits: 12, resolution: {}}}\n"
+      "controller: {{ki: 1.0e-5}}\n"
+      "command: {{targets: [30], hold: 1.0}}\n"
+      "initial: {{encoder_phase: 0.5}}\n"
+      "goal: {{band: 0, within: 0.8, moves: 0.99}}\n",
+      k1 * 29.5 * 2.0 * std::numbers::pi / 1620000.0 / 2047.0);
+}
+
+constexpr const char* on_rotors =
+    "zerocount: 1\n"
+    "name: rotors\n"
+    "seed: 12\n"
+    "rigs: 100\n"
+    "trials: 100\n"
+    "friction:\n"
+    "  k1: {profile: {mean: {lognormal: {median: 110, cv: 0.1}}, cv: 0.1, correlation_length: 0.2}}\n"
+    "  k2: {truncated_normal: {mean: 750, sd: 110, low: 500, high: 1000}}\n"
+    "command: {targets: [{integers: [1, 30]}], hold: 0.06}\n"
+    "initial: {encoder_phase: {uniform: [0, 1]}, position: {uniform: [0, 6.283185307179586]}}\n"
+    "controller: {ki: 5.0e-5, kp: 2.0e-4}\n"
+    "goal: {band: 1, within: 0.03, moves: 0.99}\n";
+
+class Rare : public ::testing::Test {
+ protected:
+  ProgramResult program(const std::vector<std::string>& words) {
+    return zerocount_program(words, folder_.path());
+  }
+  Json answer_to(std::vector<std::string> words, int code = 0) {
+    words.insert(words.end(), {"--format", "json", "-q"});
+    const ProgramResult result = program(words);
+    EXPECT_EQ(result.code, code) << result.err;
+    return Json::parse(result.out, nullptr, false);
+  }
+  void expect_refused(const std::vector<std::string>& words, const std::string& reason, int code = 2) {
+    const ProgramResult result = program(words);
+    EXPECT_EQ(result.code, code) << result.out;
+    EXPECT_NE(result.err.find(reason), std::string::npos) << result.err;
+  }
+
+  TemporaryFolder folder_;
+};
+
+// Bounds of 95 % hold in all of six repetitions with a probability of 0.74 at least; here they do.
+TEST_F(Rare, BoundsHoldWhereASpringSaturatesItsConverter) {
+  for (const double probability : {1e-4, 1e-6, 1e-8}) {
+    folder_.write("spring.yaml", spring(probability));
+    for (const char* seed : {"seed=1", "seed=2"}) {
+      const Json answer = answer_to({"rare", "spring.yaml", "-o", "rare.h5", "--force", "--set", seed});
+      EXPECT_EQ(answer["status"], "estimated");
+      EXPECT_LE(answer["low"].get<double>(), probability) << answer;
+      EXPECT_GE(answer["high"].get<double>(), probability) << answer;
+      EXPECT_LE(answer["high"].get<double>(), 2.0 * answer["low"].get<double>());
+      EXPECT_LT(answer["trials"].get<std::int64_t>(), 150'000);
+      EXPECT_EQ(answer["inputs"][0]["parameter"], "friction.k1");
+      EXPECT_GT(answer["inputs"][0]["shift"].get<double>(), 3.0);
+    }
+  }
+}
+
+TEST_F(Rare, FailuresAreReplayed) {
+  folder_.write("rotors.yaml", on_rotors);
+  const Json answer = answer_to({"rare", "rotors.yaml", "-o", "rare.h5"});
+  EXPECT_EQ(answer["machines"]["examined"], 48);
+  const ProgramResult text = program({"rare", "rotors.yaml", "-o", "rare.h5"});
+  EXPECT_EQ(text.code, 0);
+  const auto at = text.out.find("--trial ");
+  ASSERT_NE(at, std::string::npos) << text.out;
+  const std::string trial = text.out.substr(at + 8, text.out.find_first_of(",\n", at) - at - 8);
+  EXPECT_EQ(program({"trace", "rare.h5", "--trial", trial, "-o", "failure.csv"}).code, 0);
+  expect_refused({"trace", "rare.h5", "--trial", "100000000"}, "--trial");
+  expect_refused({"trace", "rare.h5", "--point", "0"}, "of one point of one manifest");
+}
+
+// With a larger budget the same command goes on; the answer is that of one run.
+TEST_F(Rare, AnUnfinishedEstimateGoesOn) {
+  folder_.write("spring.yaml", spring(1e-5));
+  const std::vector<std::string> narrow{"rare", "spring.yaml", "--ratio", "1.1", "-o"};
+  const auto with = [&](std::vector<std::string> more) {
+    std::vector<std::string> words = narrow;
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  const Json whole = answer_to(with({"whole.h5"}));
+  const Json part =
+      answer_to(with({"part.h5", "--budget", std::to_string(whole["trials"].get<int>() - 900)}), 3);
+  EXPECT_EQ(part["status"], "undecided");
+  const Json rest = answer_to(with({"part.h5"}));
+  for (const char* key : {"probability", "low", "high", "trials", "status"})
+    EXPECT_EQ(rest[key], whole[key]) << key;
+  expect_refused({"rare", "spring.yaml", "-o", "whole.h5", "--set", "seed=9"}, "--force to replace it");
+  expect_refused({"rare", "spring.yaml", "-o", "whole.h5", "--event", "settling_time > 0.1"},
+                 "--force to replace it");
+}
+
+// The event that is the missed goal has the same trials and the same answer.
+TEST_F(Rare, AnEventIsAskedByAMeasure) {
+  folder_.write("spring.yaml", spring(1e-4));
+  const Json goal = answer_to({"rare", "spring.yaml", "-o", "goal.h5"});
+  const Json event =
+      answer_to({"rare", "spring.yaml", "-o", "event.h5", "--event", "band_settling_time[0] > 0.8"});
+  EXPECT_EQ(goal["probability"], event["probability"]);
+  EXPECT_EQ(event["event"], "band_settling_time[0] > 0.8");
+}
+
+// Nothing leads to an event that does not exist.
+TEST_F(Rare, IsUndecidedWhereNothingFails) {
+  folder_.write("spring.yaml", spring(1e-4));
+  const Json answer =
+      answer_to({"rare", "spring.yaml", "-o", "rare.h5", "--event", "holding_torque < -1"}, 3);
+  EXPECT_EQ(answer["status"], "undecided");
+  EXPECT_TRUE(answer["probability"].is_null());
+  EXPECT_EQ(answer["low"], 0.0);
+  EXPECT_LT(answer["high"].get<double>(), 0.01);
+}
+
+// The likely machine that the gain suits worst looks like the machines of rare failures.
+TEST_F(Rare, TheWorstLikelyMachineLooksLikeTheFailures) {
+  folder_.write("creeping.yaml",
+                "zerocount: 1\n"
+                "name: creeping\n"
+                "seed: 11\n"
+                "trials: 500\n"
+                "friction:\n"
+                "  k1: {lognormal: {median: 110, cv: 0.1}}\n"
+                "  k2: {truncated_normal: {mean: 750, sd: 110, low: 500, high: 1000}}\n"
+                "  beta: {lognormal: {median: 1.0e+5, cv: 0.2}}\n"
+                "command: {targets: [{integers: [1, 30]}], hold: 0.06}\n"
+                "initial: {encoder_phase: {uniform: [0, 1]}}\n"
+                "controller: {ki: 3.0e-5}\n"
+                "goal: {band: 1, within: 0.042, moves: 0.99}\n");
+  const Json failures = answer_to({"rare", "creeping.yaml", "-o", "rare.h5"});
+  const Json worst = Json::parse(program({"worst", "creeping.yaml", "--format", "json"}).out);
+  int compared = 0;
+  for (const Json& input : failures["inputs"]) {
+    const double shift = input["shift"];
+    const std::string name = input["parameter"];
+    if (std::abs(shift) < 1.0 || !worst["likely"]["inputs"].contains(name)) continue;
+    const double value = worst["likely"]["inputs"][name];
+    EXPECT_EQ(value > input["usual"]["median"].get<double>(), shift > 0.0) << name << ' ' << worst;
+    ++compared;
+  }
+  EXPECT_GE(compared, 1);
+  EXPECT_GE(worst["likely"]["met"].get<double>(), worst["box"]["met"].get<double>());
+}
+
+TEST_F(Rare, OtherVerbsSayThatItHoldsNoStudy) {
+  folder_.write("spring.yaml", spring(1e-4));
+  answer_to({"rare", "spring.yaml", "-o", "rare.h5"});
+  for (const char* verb : {"summary", "judge", "sensitivity"})
+    expect_refused({verb, "rare.h5"}, "an estimate of 'zerocount rare'", 4);
+}
+
+TEST_F(Rare, SaysWhatIsMissing) {
+  folder_.write("fixed.yaml",
+                "zerocount: 1\nname: fixed\nseed: 1\ntrials: 1\ncommand: {targets: [1], hold: 0.1}\n"
+                "goal: {band: 0, within: 0.1, moves: 0.9}\n");
+  expect_refused({"rare", "fixed.yaml", "-o", "out.h5"}, "it draws nothing for each trial");
+  const std::string text = spring(1e-4);
+  folder_.write("aimless.yaml", text.substr(0, text.find("goal:")));
+  expect_refused({"rare", "aimless.yaml", "-o", "out.h5"}, "its manifest has no goal");
+  folder_.write("swept.yaml", text + "sweep: {grid: {controller.kp: [0, 1.0e-5]}}\n");
+  expect_refused({"rare", "swept.yaml", "-o", "out.h5"}, "expected one with --point");
+  folder_.write("worlds.yaml", text + "worlds: 4\n");
+  expect_refused({"rare", "worlds.yaml", "-o", "out.h5", "--set", "friction.k2={interval: [0, 1]}"},
+                 "expected one with --world");
+  folder_.write("spring.yaml", text);
+  for (const auto& [option, value] : std::vector<std::pair<std::string, std::string>>{{"--ratio", "0.9"},
+                                                                                      {"--budget", "soon"},
+                                                                                      {"--confidence", "1"},
+                                                                                      {"--event", "x > 1"},
+                                                                                      {"--world", "0"}})
+    expect_refused({"rare", "spring.yaml", "-o", "out.h5", option, value}, option);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

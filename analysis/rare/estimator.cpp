@@ -47,10 +47,11 @@ bool is_narrow(const statistics::ConfidenceInterval& bounds, double ratio) {
   return bounds.low > 0.0 && bounds.high <= ratio * bounds.low;
 }
 
-/// Whether splitting found failures of a far larger probability than the bounds allow.
+/// Whether splitting along the first score found failures of a far larger probability than the bounds allow.
+/// Along the others it may end with copies of a few failures, whose number says little.
 bool splitting_disagrees(const EstimatorState& state, double high) {
   return std::ranges::any_of(state.searches, [&](const ScoreSearch& search) {
-    return search.reached && search.probability > disagreement * high;
+    return search.score == 0 && search.reached && search.probability > disagreement * high;
   });
 }
 

@@ -18,7 +18,10 @@ import tempfile
 HERE = pathlib.Path(__file__).resolve().parent
 
 # Of each study: within, s; plain moves; of these, moves that were late.
-TRUTH = {}
+TRUTH = {
+    "creeping": [(0.042, 38_000_000, 3684), (0.0445, 38_000_000, 829)],
+    "rotors": [(0.044, 6_000_000, 486), (0.0645, 6_000_000, 65)],
+}
 
 SPRING = """zerocount: 1
 name: spring

@@ -24,6 +24,8 @@ constexpr int most_pilots = 8;
 constexpr std::size_t pilot_trials = 2000;
 constexpr double enough_pilot_failures = 100.0;  // independent ones
 constexpr double least_share_of_searched = 0.5;  // of splitting's failures, beside those of pilots
+constexpr double cap_of_no_use = 0.5;            // plain trials have 1
+constexpr double enough_for_plain = 1e-4;        // of the probability
 constexpr double narrow_cap = 30.0;              // of the weights, over the probability
 constexpr std::size_t drawn_at_once = 500;
 constexpr double natural_share = 0.1;
@@ -47,12 +49,15 @@ bool is_narrow(const statistics::ConfidenceInterval& bounds, double ratio) {
   return bounds.low > 0.0 && bounds.high <= ratio * bounds.low;
 }
 
-/// Whether splitting along the first score found failures of a far larger probability than the bounds allow.
-/// Along the others it may end with copies of a few failures, whose number says little.
+/// Whether splitting along the first score found failures of a far larger probability than the bounds allow,
+/// each time that it found some. Along the others it may end with copies of a few failures, whose number says
+/// little.
 bool splitting_disagrees(const EstimatorState& state, double high) {
-  return std::ranges::any_of(state.searches, [&](const ScoreSearch& search) {
-    return search.score == 0 && search.reached && search.probability > disagreement * high;
-  });
+  const auto is_meant = [](const ScoreSearch& search) { return search.score == 0 && search.reached; };
+  return std::ranges::any_of(state.searches, is_meant) &&
+         std::ranges::none_of(state.searches, [&](const ScoreSearch& search) {
+           return is_meant(search) && search.probability <= disagreement * high;
+         });
 }
 
 /// Scales the weights of components to a sum.
@@ -78,7 +83,7 @@ class Estimator {
 
   Estimate run() {
     if (!state_.learned && !learn()) return answer_of(state_, settings_);
-    while (!is_narrow(answer_of(state_, settings_).bounds, settings_.ratio)) {
+    while (!answer_of(state_, settings_).narrow) {
       if (!go_on_(state_)) break;
       draw_more();
       if (!is_covered() && !learn_again()) break;
@@ -91,6 +96,26 @@ class Estimator {
     return NumberSource(designs::random_key(settings_.seed, fmt::format("rare/{}", use)), stream);
   }
 
+  /// The coordinates that the proposal changes.
+  std::vector<double> changed_part(const std::vector<double>& z) const {
+    std::vector<double> part;
+    for (std::size_t i = 0; i < z.size(); ++i) {
+      if (!std::ranges::binary_search(settings_.unordered, i)) part.push_back(z[i]);
+    }
+    return part;
+  }
+
+  /// A point of the proposal.
+  std::vector<double> drawn_point(NumberSource& numbers) const {
+    const std::vector<double> changed =
+        draw(state_.proposal, settings_.coordinates - settings_.unordered.size(), numbers);
+    std::vector<double> z;
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < settings_.coordinates; ++i)
+      z.push_back(std::ranges::binary_search(settings_.unordered, i) ? numbers.normal() : changed[next++]);
+    return z;
+  }
+
   std::vector<PointResult> run_trials(std::span<const TrialPoint> points) {
     std::vector<PointResult> results = simulate_(points);
     state_.trials += std::ssize(points);
@@ -98,42 +123,62 @@ class Estimator {
   }
 
   bool learn() {
+    if (answer_of(state_, settings_).status == EstimateStatus::no_failure) {
+      ++state_.searched;  // the next search has other random numbers
+    } else {
+      state_ = {};
+    }
+    state_.searches.clear();
     run_plain();
     if (state_.plain_failures < enough_plain_failures && !search_all()) return false;
     if (searched_.z.empty()) return false;
+    if (settings_.unordered.size() == settings_.coordinates) {
+      draw_plainly();
+      return true;
+    }
     NumberSource numbers = numbers_for("pilot");
     fit(numbers);
+    double probability = 0.0;
     for (int round = 0; round < most_pilots; ++round) {
       if (!go_on_(state_)) return false;
-      const double probability = run_pilot(numbers);
+      probability = run_pilot(numbers);
       fit(numbers);
       state_.cap = cap_beyond_usual * usual_largest(pilots_.z.empty() ? searched_ : pilots_);
       if (state_.cap < narrow_cap * probability) break;
     }
     state_.learned = true;
     state_.learnings = 1;
+    if (state_.cap >= cap_of_no_use && probability >= enough_for_plain) draw_plainly();
     return true;
+  }
+
+  /// Goes on with plain trials.
+  void draw_plainly() {
+    state_.proposal = {};
+    state_.cap = 1.0;
+    state_.learned = true;
+    state_.learnings = 1;
   }
 
   /// Trials of their own distribution: where failures are common, they are enough to learn from.
   void run_plain() {
-    NumberSource numbers = numbers_for("plain");
+    NumberSource numbers = numbers_for("plain", static_cast<std::uint32_t>(state_.searched));
     std::vector<TrialPoint> points;
     for (std::size_t i = 0; i < plain_at_first; ++i)
       points.push_back(
           {numbers.normals(settings_.coordinates), state_.trials + static_cast<std::int64_t>(i)});
     const std::vector<PointResult> results = run_trials(points);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      if (results[i].failed > 0.0) searched_.add(points[i].z, results[i].failed);
+      if (results[i].failed > 0.0) searched_.add(changed_part(points[i].z), results[i].failed);
     }
-    state_.plain_trials = std::ssize(points);
-    state_.plain_failures = std::ssize(searched_.z);
+    state_.plain_trials += std::ssize(points);
+    state_.plain_failures += std::ssize(searched_.z);
   }
 
   /// Splitting along all scores. @return whether it came to an end in the budget
   bool search_all() {
     double best = 0.0;
-    std::uint32_t stream = 0;
+    auto stream = static_cast<std::uint32_t>(state_.searched) << 8U;
     for (std::size_t score = 0; score < settings_.scores; ++score) {
       const int repeated = score == 0 ? searches_of_first_score : 1;
       for (int i = 0; i < repeated; ++i) {
@@ -145,6 +190,8 @@ class Estimator {
                    .first_number = state_.trials},
                   simulate_, numbers, [&] { return go_on_(state_); });
         state_.trials += found.trials;
+        state_.plain_trials += found.plain_trials;
+        state_.plain_failures += found.plain_failures;
         state_.searches.push_back({score, found.reached, found.probability, found.levels, found.trials});
         if (!go_on_(state_)) return false;
         if (!found.reached) continue;
@@ -157,10 +204,10 @@ class Estimator {
 
   void add_points(const SplittingResult& found, NumberSource& numbers) {
     const double each = 1.0 / steps_per_independent_point;
-    for (const TrialPoint& point : found.failing) searched_.add(point.z, each);
+    for (const TrialPoint& point : found.failing) searched_.add(changed_part(point.z), each);
     for (const std::vector<TrialPoint>& level : found.above) {
       WeightedPoints points;
-      for (const TrialPoint& point : level) points.add(point.z, 1.0);
+      for (const TrialPoint& point : level) points.add(changed_part(point.z), 1.0);
       levels_.push_back(fitted_normal(points, numbers));
     }
   }
@@ -186,12 +233,11 @@ class Estimator {
   std::vector<WeightedTrial> draw_trials(std::size_t count, NumberSource& numbers) {
     std::vector<TrialPoint> points;
     for (std::size_t i = 0; i < count; ++i)
-      points.push_back({draw(state_.proposal, settings_.coordinates, numbers),
-                        state_.trials + static_cast<std::int64_t>(i)});
+      points.push_back({drawn_point(numbers), state_.trials + static_cast<std::int64_t>(i)});
     const std::vector<PointResult> results = run_trials(points);
     std::vector<WeightedTrial> drawn;
     for (std::size_t i = 0; i < count; ++i) {
-      const double weight = likelihood_ratio(state_.proposal, points[i].z);
+      const double weight = likelihood_ratio(state_.proposal, changed_part(points[i].z));
       drawn.push_back({std::move(points[i]), weight, results[i].failed});
     }
     return drawn;
@@ -203,7 +249,7 @@ class Estimator {
     double sum = 0.0;
     for (const WeightedTrial& trial : draw_trials(pilot_trials, numbers)) {
       if (!(trial.failed > 0.0)) continue;
-      found.add(trial.point.z, trial.weight * trial.failed);
+      found.add(changed_part(trial.point.z), trial.weight * trial.failed);
       sum += trial.weight * trial.failed;
     }
     if (found.z.empty()) return 0.0;
@@ -243,7 +289,7 @@ class Estimator {
     if (state_.learnings >= most_learnings) return false;
     WeightedPoints found;
     for (const WeightedTrial& trial : state_.drawn) {
-      if (trial.failed > 0.0) found.add(trial.point.z, trial.weight * trial.failed);
+      if (trial.failed > 0.0) found.add(changed_part(trial.point.z), trial.weight * trial.failed);
     }
     NumberSource numbers = numbers_for("again", static_cast<std::uint32_t>(state_.learnings));
     state_.proposal =
@@ -283,14 +329,16 @@ Estimate answer_of(const EstimatorState& state, const EstimatorSettings& setting
   answer.bounds = statistics::betting_bounds(values, std::ssize(state.drawn), state.cap, settings.confidence);
   answer.probability =
       std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(state.drawn.size());
+  answer.bounds.high = std::min(answer.bounds.high, 1.0);
   const bool exceeds = std::ranges::any_of(values, [&](double value) { return value > state.cap; });
-  if (exceeds ||
-      (is_narrow(answer.bounds, settings.ratio) && splitting_disagrees(state, answer.bounds.high))) {
+  answer.narrow = !exceeds && is_narrow(answer.bounds, settings.ratio);
+  if (exceeds || (answer.narrow && splitting_disagrees(state, answer.bounds.high))) {
     answer.status = EstimateStatus::not_covered;
-    answer.bounds.high = std::max(answer.bounds.high, answer.plain_high);
-  } else if (is_narrow(answer.bounds, settings.ratio)) {
+  } else if (answer.narrow) {
     answer.status = EstimateStatus::estimated;
   }
+  if (answer.status != EstimateStatus::estimated)
+    answer.bounds.high = std::max(answer.bounds.high, answer.plain_high);
   return answer;
 }
 

@@ -33,6 +33,7 @@ struct EstimatorState {
   std::int64_t plain_failures{0};  ///< of these, with a move that failed
   std::vector<ScoreSearch> searches;
   bool learned{false};        ///< the proposal is ready
+  std::int64_t searched{0};   ///< searches along all scores that found no failure
   std::int64_t learnings{0};  ///< how often it was learned
   Proposal proposal;
   double cap{0.0};                   ///< no failure should have a larger weight
@@ -41,6 +42,9 @@ struct EstimatorState {
 
 struct EstimatorSettings {
   std::size_t coordinates{0};
+  /// Coordinates that the proposal does not change, in ascending order: those in which near points have
+  /// nothing in common.
+  std::vector<std::size_t> unordered{};
   std::size_t scores{1};
   double confidence{0.95};
   double ratio{2.0};  ///< wanted of the bounds, high / low
@@ -56,7 +60,9 @@ enum class EstimateStatus {
 
 struct Estimate {
   EstimateStatus status{EstimateStatus::budget};
+  bool narrow{false};  ///< the bounds by the drawn trials are as narrow as asked
   double probability{0.0};
+  /// As narrow as asked if it is estimated; otherwise `high` is not below that of the plain trials.
   statistics::ConfidenceInterval bounds{};
   /// Upper bound that needs no score: Clopper–Pearson, of the trials drawn from their own distribution.
   double plain_high{1.0};

@@ -232,7 +232,7 @@ double likelihood_ratio(const Proposal& proposal, std::span<const double> z) {
 
 std::vector<double> draw(const Proposal& proposal, std::size_t size, NumberSource& numbers) {
   const double choice = numbers.uniform();
-  const std::vector<double> z = numbers.normals(size);
+  std::vector<double> z = numbers.normals(size);
   if (choice < proposal.natural || proposal.components.empty()) return z;
   double place = (choice - proposal.natural) / (1.0 - proposal.natural);
   std::size_t chosen = 0;

@@ -88,6 +88,8 @@ class Splitting {
       trials.push_back({numbers_.normals(settings_.coordinates), number_++});
     const std::vector<double> scores = scores_of(trials);
     for (std::size_t i = 0; i < trials.size(); ++i) particles_.push_back({std::move(trials[i]), scores[i]});
+    result_.plain_trials = std::ssize(scores);
+    result_.plain_failures = std::ranges::count(scores, failed_score);
   }
 
   /// The score that a fifth of the trials reach; where many trials have the same one, the next larger.

@@ -26,6 +26,8 @@ struct SplittingResult {
   double probability{1.0};  ///< of the last level; of a failure if it was reached. Without a bound
   int levels{0};
   std::int64_t trials{0};
+  std::int64_t plain_trials{0};     ///< of them those at the beginning, drawn from their own distribution
+  std::int64_t plain_failures{0};   ///< of these, those with a move that failed
   std::vector<TrialPoint> failing;  ///< approximately distributed as trials that fail
   /// [level] likewise of trials above each level, from the first on.
   std::vector<std::vector<TrialPoint>> above;

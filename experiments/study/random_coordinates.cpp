@@ -38,13 +38,14 @@ void add_coordinates(const Study& study, std::uint32_t slot, const Value& value,
       break;
     case Value::Kind::distribution:
       if (is_drawn_for_trials(value.per))
-        coordinates.push_back({name, Kind::values, {slot}, differs_between_machines(study, value.per, name)});
+        coordinates.push_back(
+            {name, Kind::values, {slot}, true, differs_between_machines(study, value.per, name)});
       break;
     case Value::Kind::profile:
       if (value.per != Per::rig) break;
       if (study.plan->profiles[value.index]->has_drawn_mean())
-        coordinates.push_back({name + ".mean", Kind::profile_mean, {slot}, true});
-      coordinates.push_back({name, Kind::profile_at_start, {slot}, true});
+        coordinates.push_back({name + ".mean", Kind::profile_mean, {slot}, true, true});
+      coordinates.push_back({name, Kind::profile_at_start, {slot}, true, true});
       break;
   }
 }
@@ -60,6 +61,7 @@ void add_fixed_members(const Study& study, const std::vector<const Value*>& valu
     coordinates.push_back({name + " (of correlations)",
                            Kind::values,
                            {slot},
+                           true,
                            differs_between_machines(study, copula->per, name)});
   }
 }
@@ -76,6 +78,7 @@ std::vector<RandomCoordinate> random_coordinates(const Study& study, std::int64_
   const std::vector<const Value*> values = values_at(plan, static_cast<std::size_t>(point));
   std::vector<RandomCoordinate> coordinates;
   RandomCoordinate joint;
+  joint.ordered = false;
   for (const std::uint32_t slot : plan.input_slots) {
     if (!is_member(plan.sampled_slots, slot)) {
       add_coordinates(study, slot, *values[slot], coordinates);

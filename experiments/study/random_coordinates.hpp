@@ -19,6 +19,7 @@ struct RandomCoordinate {
   std::string name;  ///< dotted path; of joint samples the paths, joined by ", "
   Kind kind{Kind::values};
   std::vector<std::uint32_t> slots;
+  bool ordered{true};      ///< near numbers mean near values; not so for the rows of joint samples
   bool of_machine{false};  ///< the same in all trials of a rig; without rigs see differs_between_machines()
 };
 

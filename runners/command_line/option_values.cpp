@@ -74,11 +74,13 @@ Budget budget_option(const Arguments& arguments) {
   const char* const end = text->data() + text->size();
   const auto [rest, error] = std::from_chars(text->data(), end, number);
   const std::string_view unit(rest, static_cast<std::size_t>(end - rest));
-  if (error != std::errc() || !(number > 0.0) || !(number < 1e12) ||
+  const bool whole = !unit.empty() || number == std::floor(number);
+  if (error != std::errc() || !(number > 0.0) || !(number < 1e12) || !whole ||
       (!unit.empty() && unit != "s" && unit != "min" && unit != "h"))
-    arguments.refuse(fmt::format(
-        "option '--budget': '{}' is no budget; expected a number of trials, or a time such as 60s or 5min",
-        *text));
+    arguments.refuse(
+        fmt::format("option '--budget': '{}' is no budget; expected a whole number of trials, or a "
+                    "time such as 60s, 5min or 2h",
+                    *text));
   if (unit.empty()) return {static_cast<std::int64_t>(number), std::nullopt};
   return {std::nullopt, number * (unit == "s" ? 1.0 : unit == "min" ? 60.0 : 3600.0)};
 }

@@ -33,13 +33,15 @@ constexpr const char* rare_help =
     "always holds. The upper bound assumes that no failures hide where neither a plain trial nor a\n"
     "score leads. If no score leads to a failure, the answer is undecided.\n"
     "\n"
-    "--event asks for another event: MEASURE > x, such as 'settling_time > 0.5', with a measure of\n"
-    "the results file. Each trial is on a machine of its own. Of several points --point chooses one,\n"
+    "--event asks for another event: MEASURE > x, such as 'settling_time > 0.5' or\n"
+    "'band_settling_time[1] > 0.05', with a column of moves.csv of 'zerocount export'. Each trial is on a "
+    "machine of its own. Of several points --point chooses one,\n"
     "of several worlds --world.\n"
     "\n"
     "It ends when high is at most --ratio (2) times low, or after --budget (5min). FILE holds the\n"
     "weighted trials; 'zerocount trace FILE --trial I' replays one. The same command goes on from\n"
-    "an unfinished FILE. The exit code is 0 if the bounds are narrow enough, 3 if not.\n"
+    "an unfinished FILE, but for a search that did not end. The exit code is 0 if the bounds are narrow "
+    "enough, 3 if not.\n"
     "\n"
     "Example: zerocount rare my-axis.yaml -o rare.h5\n"
     "         zerocount rare my-axis.yaml -o late.h5 --event 'settling_time > 0.5'\n";
@@ -98,6 +100,11 @@ ExitCode rare(const command_line::Arguments& arguments) {
   const auto threads = static_cast<int>(arguments.whole_number("threads", 1, 4096).value_or(0));
   const rare::Question question = rare::question_of(
       study, point_to_ask(arguments, study), world_to_ask(arguments, study), event_to_ask(arguments, study));
+  if (question.coordinates.empty())
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: it draws nothing for each trial; expected distributions, such as "
+                              "friction.k1: {{lognormal: {{median: 110, cv: 0.1}}}}",
+                              arguments.operands()[0]));
   const parallel::ThreadLimit limit(study_run::threads_to_use(threads));
   print_warnings(study);
   plugins::require_no_hidden_state(study);
@@ -126,7 +133,7 @@ Command rare_command() {
             {"world", "W", "the world, of a study with worlds"},
             {"confidence", "C", "of both bounds together (default 0.95)"},
             {"ratio", "R", "how narrow: high at most R times low (default 2)"},
-            {"budget", "B", "a time such as 60s or 5min (the default), or a number of trials"},
+            {"budget", "B", "a time such as 60s, 5min (the default) or 2h, or a number of trials"},
             {"threads", "N", "threads to use; default: all cores"},
             {"set", "KEY=VALUE", "override a manifest key; may be repeated", true},
             {"quiet,q", "", "print no progress"},

@@ -58,6 +58,7 @@ Json state_json(const EstimatorState& state) {
           {"plain_failures", state.plain_failures},
           {"searches", std::move(searches)},
           {"learned", state.learned},
+          {"searched", state.searched},
           {"learnings", state.learnings},
           {"natural", state.proposal.natural},
           {"components", std::move(components)},
@@ -74,6 +75,7 @@ EstimatorState state_of(const Json& json) {
                               search.at("probability").get<double>(), search.at("levels").get<int>(),
                               search.at("trials").get<std::int64_t>()});
   state.learned = json.at("learned").get<bool>();
+  state.searched = json.at("searched").get<std::int64_t>();
   state.learnings = json.at("learnings").get<std::int64_t>();
   state.proposal.natural = json.at("natural").get<double>();
   for (const Json& one : json.at("components")) {

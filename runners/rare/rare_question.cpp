@@ -5,11 +5,8 @@
 #include <memory>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "analysis/statistics/unknown.hpp"
 #include "core/batch/batch.hpp"
-#include "core/failure/failure.hpp"
 #include "runners/study_run/parallel_trials.hpp"
 
 namespace zerocount::rare {
@@ -33,11 +30,6 @@ Question question_of(study::Study study, std::int64_t point, std::optional<std::
                      measures::MoveEvent event) {
   Question question{std::move(study), point, world, std::move(event), {}};
   question.coordinates = study::random_coordinates(question.study, point);
-  if (question.coordinates.empty())
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: it draws nothing for each trial; expected distributions, such as "
-                              "friction.k1: {{lognormal: {{median: 110, cv: 0.1}}}}",
-                              question.study.name));
   return question;
 }
 

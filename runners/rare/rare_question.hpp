@@ -24,7 +24,6 @@ struct Question {
   std::vector<study::RandomCoordinate> coordinates;
 };
 
-/// @throws Failure (bad_input) if the study draws nothing for each trial or rig
 Question question_of(study::Study study, std::int64_t point, std::optional<std::int64_t> world,
                      measures::MoveEvent event);
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -24,25 +25,31 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double seconds_between_writes = 60.0;
 
-/// Whether the file answers this question with trials of this build.
-bool answers(const RareRecord& record, const Question& question) {
-  return record.header.study_sha256 == question.study.study_sha256 && record.point == question.point &&
-         record.world == question.world && record.event == question.event.text &&
-         layout::same_build(record.header.provenance, layout::current_provenance());
+/// In what the file's question differs from this one; empty if it does not.
+std::string_view difference(const RareRecord& record, const Question& question) {
+  if (record.header.study_sha256 != question.study.study_sha256)
+    return "its manifest, or the values of --set, are others";
+  if (record.point != question.point) return "it is of another design point";
+  if (record.world != question.world) return "it is of another world";
+  if (record.event != question.event.text) return "it is of another event";
+  if (!layout::same_build(record.header.provenance, layout::current_provenance()))
+    return "it was made by another build of the program";
+  return "";
 }
 
 /// The record from which this run goes on, if there is one.
 std::optional<RareRecord> earlier_record(const Question& question, const RareSettings& settings) {
   std::error_code error;
   if (!fs::exists(settings.output, error) || settings.force) return std::nullopt;
+  std::string_view problem = "it is no estimate of 'zerocount rare'";
   if (is_rare_file(settings.output)) {
     RareRecord record = read_rare_file(settings.output);
-    if (answers(record, question)) return record;
+    problem = difference(record, question);
+    if (problem.empty()) return record;
   }
   throw Failure(ExitCode::bad_input,
-                fmt::format("{}: exists already, and is not an estimate of this probability by this build; "
-                            "expected another FILE, or --force to replace it",
-                            settings.output.string()));
+                fmt::format("{}: exists already, and {}; expected another FILE, or --force to replace it",
+                            settings.output.string(), problem));
 }
 
 class RareRun {
@@ -89,8 +96,13 @@ class RareRun {
 
  private:
   EstimatorSettings estimator_settings() const {
-    return {question_.coordinates.size(), measures::move_scores.size(), settings_.confidence, settings_.ratio,
-            question_.study.seed};
+    EstimatorSettings settings{
+        question_.coordinates.size(), {}, measures::move_scores.size(), settings_.confidence, settings_.ratio,
+        question_.study.seed};
+    for (std::size_t i = 0; i < question_.coordinates.size(); ++i) {
+      if (!question_.coordinates[i].ordered) settings.unordered.push_back(i);
+    }
+    return settings;
   }
 
   /// Seconds, those of earlier runs included.

@@ -37,7 +37,7 @@ std::int64_t failures_drawn(const EstimatorState& state) {
 std::string event_text(const Question& question) {
   if (!question.event.text.empty()) return fmt::format("of a move with {}", question.event.text);
   const study::Goal& goal = *question.study.goal;
-  return fmt::format("that a move misses the goal (|error| ≤ {} count{} for good after {} s)", goal.band,
+  return fmt::format("that a move misses the goal: |error| ≤ {} count{} for good after {} s", goal.band,
                      goal.band == 1 ? "" : "s", goal.within);
 }
 
@@ -46,36 +46,55 @@ std::string_view reason_of(EstimateStatus status) {
     case EstimateStatus::estimated:
       return "the bounds are as narrow as asked";
     case EstimateStatus::no_failure:
-      return "undecided: no score leads to a failure";
+      return "no score leads to a failure; the same command searches with other random numbers";
     case EstimateStatus::not_covered:
-      return "undecided: there are failures that the learned distribution does not foresee";
+      return "there are failures that the learned distribution does not foresee";
     case EstimateStatus::budget:
-      return "undecided: the budget ended first; the same command with a larger --budget goes on";
+      return "the budget ended first";
   }
   return "";
+}
+
+/// Plain trials with bounds that have the same ratio: of k failures high/low is about exp(2·1.96/√k).
+double plain_trials_for(const Estimate& estimate) {
+  const double failures = std::pow(2.0 * 1.96 / std::log(estimate.bounds.high / estimate.bounds.low), 2.0);
+  return failures / estimate.probability;
+}
+
+std::string status_text(const RareAnswer& answer) {
+  const std::string_view reason = reason_of(answer.estimate.status);
+  if (is_estimated(answer)) return fmt::format("{}\n", reason);
+  if (answer.estimate.status != EstimateStatus::budget) return fmt::format("undecided: {}\n", reason);
+  return fmt::format(
+      "undecided: {}; {}\n", reason,
+      answer.state.learned ? "the same command goes on" : "the search for failures needs a larger --budget");
 }
 
 std::string probability_text(const RareAnswer& answer, const Question& question) {
   const Estimate& estimate = answer.estimate;
   const std::string trials = fmt::format("{} trials, {:.3g} s", answer.state.trials, answer.seconds);
+  const std::string confidence = fmt::format("{:.4g} %", 100.0 * answer.confidence);
   if (!has_probability(answer))
-    return fmt::format("probability {}: at most {:.3g} with {} confidence ({})\n{}\n", event_text(question),
-                       estimate.bounds.high, text::percent(answer.confidence), trials,
-                       reason_of(estimate.status));
+    return fmt::format("probability {}:\n  at most {:.3g} with {} confidence ({})\n", event_text(question),
+                       estimate.bounds.high, confidence, trials) +
+           status_text(answer);
   std::string text = fmt::format("probability {}:\n  {:.3g} [{:.3g}, {:.3g}] with {} confidence ({})\n",
                                  event_text(question), estimate.probability, estimate.bounds.low,
-                                 estimate.bounds.high, text::percent(answer.confidence), trials);
-  text += fmt::format("  one in {:.3g} moves; as many plain trials as would show it: about {:.2g}\n",
-                      1.0 / estimate.probability, 4.0 * 8.0 / estimate.probability);
-  return text + fmt::format("{}\n", reason_of(estimate.status));
+                                 estimate.bounds.high, confidence, trials);
+  if (is_estimated(answer) && estimate.probability < 0.01)
+    text += fmt::format("  one in {:.3g} moves; by plain trials bounds as narrow take about {:.2g}\n",
+                        1.0 / estimate.probability, plain_trials_for(estimate));
+  return text + status_text(answer);
 }
 
 std::string premise_text(const RareAnswer& answer) {
   const EstimatorState& state = answer.state;
-  std::string text = fmt::format(
-      "of {} plain trials {} failed: that alone shows at most {:.2g}\n", state.plain_trials,
-      state.plain_failures == 0 ? "none" : std::to_string(state.plain_failures), answer.estimate.plain_high);
-  if (has_probability(answer))
+  std::string text;
+  if (answer.estimate.plain_high < 1.0)
+    text = fmt::format("of {} plain trials {} failed: that alone shows at most {:.2g}\n", state.plain_trials,
+                       state.plain_failures == 0 ? "none" : std::to_string(state.plain_failures),
+                       answer.estimate.plain_high);
+  if (is_estimated(answer) && !state.proposal.components.empty())
     text +=
         "the upper bound assumes that no failures hide where neither a plain trial nor a score led; the\n"
         "lower bound holds in any case\n";
@@ -86,14 +105,16 @@ std::string scores_table(const RareAnswer& answer, const Question& question) {
   std::vector<text::TextColumn> columns{{"score", false, {}},
                                         {"leads to failures", false, {}},
                                         {"levels", true, {}},
-                                        {"probability reached", true, {}}};
+                                        {"probability", true, {}}};
   for (const ScoreSearch& search : answer.state.searches) {
     columns[0].cells.push_back(measures::name_of(measures::move_scores[search.score], question.event));
     columns[1].cells.emplace_back(search.reached ? "yes" : "no");
     columns[2].cells.push_back(std::to_string(search.levels));
     columns[3].cells.push_back(fmt::format("{:.2g}", search.probability));
   }
-  return answer.state.searches.empty() ? "" : "\n" + text::aligned_table(columns);
+  if (answer.state.searches.empty()) return "";
+  return "\nsearches for failures, each along a score; the probability of the last level has no bounds:\n\n" +
+         text::aligned_table(columns);
 }
 
 std::string range_text(const InputRange& range) {
@@ -122,13 +143,14 @@ std::string inputs_table(const RareAnswer& answer) {
 std::string machines_text(const RareAnswer& answer) {
   if (!answer.machines) return "";
   const CarryingMachines& machines = *answer.machines;
-  std::string text = fmt::format("\nmachines: the median machine that failed fails in {} of its moves",
-                                 text::percent(machines.median_rate));
+  std::string text = fmt::format(
+      "\nof {} machines that failed, with {} new moves each, the median fails in {:.3g} % of them",
+      machines.examined, machines.moves_each, 100.0 * machines.median_rate);
   if (machines.mostly_failing > 0.0)
     text += fmt::format(
-        ";\n  {} of the failures are on machines that fail in most of their moves, about one "
+        ";\n{:.3g} % of the failures are on machines that fail in most of their moves, about one "
         "machine in {:.2g}",
-        text::percent(machines.mostly_failing), 1.0 / machines.probability_of_one);
+        100.0 * machines.mostly_failing, 1.0 / machines.probability_of_one);
   return text + "\n";
 }
 
@@ -141,7 +163,9 @@ std::string replays_text(const RareAnswer& answer, const std::string& output) {
     ++shown;
   }
   if (shown == 0) return "";
-  return fmt::format("\n{} failures are in {}; for example {}\n", failures_drawn(answer.state), output, text);
+  return fmt::format(
+      "\n{} holds the {} trials drawn by what was learned, {} of them failures; for example\n{}\n", output,
+      answer.state.drawn.size(), failures_drawn(answer.state), text);
 }
 
 Json range_json(const InputRange& range) {
@@ -180,27 +204,31 @@ std::string json_of(const RareAnswer& answer, const Question& question) {
                       {"shift", input.shift},
                       {"failures", range_json(input.failures)},
                       {"usual", range_json(input.usual)}});
-  return text::json_text({{"probability", has_probability(answer) ? Json(estimate.probability) : Json()},
-                          {"low", estimate.bounds.low},
-                          {"high", estimate.bounds.high},
-                          {"trials", answer.state.trials},
-                          {"status", is_estimated(answer) ? "estimated" : "undecided"},
-                          {"reason", reason_of(estimate.status)},
-                          {"confidence", answer.confidence},
-                          {"event", question.event.text.empty() ? Json("goal") : Json(question.event.text)},
-                          {"point", question.point},
-                          {"label", question.study.point_labels[static_cast<std::size_t>(question.point)]},
-                          {"world", question.world ? Json(*question.world) : Json()},
-                          {"plain",
-                           {{"trials", answer.state.plain_trials},
-                            {"failures", answer.state.plain_failures},
-                            {"high", estimate.plain_high}}},
-                          {"scores", scores_json(answer, question)},
-                          {"drawn", answer.state.drawn.size()},
-                          {"failures_drawn", failures_drawn(answer.state)},
-                          {"inputs", std::move(inputs)},
-                          {"machines", machines_json(answer)},
-                          {"seconds", answer.seconds}});
+  return text::json_text(
+      {{"probability", has_probability(answer) ? Json(estimate.probability) : Json()},
+       {"low", estimate.bounds.low},
+       {"high", estimate.bounds.high},
+       {"trials", answer.state.trials},
+       {"status", is_estimated(answer) ? "estimated" : "undecided"},
+       {"reason", reason_of(estimate.status)},
+       {"premise", is_estimated(answer) && !answer.state.proposal.components.empty()
+                       ? Json("high: no failures hide where neither a plain trial nor a score led")
+                       : Json()},
+       {"confidence", answer.confidence},
+       {"event", question.event.text.empty() ? Json("goal") : Json(question.event.text)},
+       {"point", question.point},
+       {"label", question.study.point_labels[static_cast<std::size_t>(question.point)]},
+       {"world", question.world ? Json(*question.world) : Json()},
+       {"plain",
+        {{"trials", answer.state.plain_trials},
+         {"failures", answer.state.plain_failures},
+         {"high", estimate.plain_high}}},
+       {"scores", scores_json(answer, question)},
+       {"drawn", answer.state.drawn.size()},
+       {"failures_drawn", failures_drawn(answer.state)},
+       {"inputs", std::move(inputs)},
+       {"machines", machines_json(answer)},
+       {"seconds", answer.seconds}});
 }
 
 std::string text_of(const RareAnswer& answer, const Question& question, const std::string& output) {

@@ -68,7 +68,7 @@ bool goes_on(const EstimatorState& state) {
 }
 
 EstimatorSettings settings_of(const ClosedForm& one, std::uint64_t seed) {
-  return {one.coordinates, 1, 0.95, 2.0, seed};
+  return {one.coordinates, {}, 1, 0.95, 2.0, seed};
 }
 
 class RareEstimatorOf : public testing::TestWithParam<ClosedForm> {};
@@ -111,11 +111,53 @@ TEST(RareEstimator, TakesTheScoreThatLeads) {
     return results;
   };
   EstimatorState state;
-  const Estimate answer = estimate(state, {one.coordinates, 2, 0.95, 2.0, 3}, simulate, goes_on);
+  const Estimate answer = estimate(state, {one.coordinates, {}, 2, 0.95, 2.0, 3}, simulate, goes_on);
   EXPECT_EQ(answer.status, EstimateStatus::estimated);
   EXPECT_TRUE(answer.bounds.low <= 1e-6 && 1e-6 <= answer.bounds.high);
   EXPECT_FALSE(state.searches.front().reached);
   EXPECT_TRUE(state.searches.back().reached);
+}
+
+// Three of 200 rows fail, wherever they stand in the table: neighbours of a row say nothing about it.
+TEST(RareEstimator, RowsOfATableAreDrawnAsTheyAre) {
+  const double limit = -numerics::normal_quantile(1e-4);
+  const Score score = [limit](const std::vector<double>& z) {
+    const auto row = static_cast<int>(200.0 * numerics::normal_probability(z[1]));
+    return z[0] - limit - (row == 17 || row == 93 || row == 185 ? 0.0 : 4.0);
+  };
+  const double probability = 3.0 / 200.0 * 1e-4 + 197.0 / 200.0 * numerics::normal_probability(-limit - 4.0);
+  int held = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    EstimatorState state;
+    const Estimate answer = estimate(state, {3, {1}, 1, 0.95, 2.0, seed}, simulation_of(score), goes_on);
+    held += answer.bounds.low <= probability && probability <= answer.bounds.high;
+  }
+  EXPECT_GE(held, 7);
+}
+
+TEST(RareEstimator, AFailureThatAlwaysHappensHasTheProbabilityOne) {
+  EstimatorState state;
+  const Estimate answer =
+      estimate(state, {2, {}, 1, 0.95, 2.0, 1}, simulation_of([](const auto&) { return 1.0; }), goes_on);
+  EXPECT_EQ(answer.status, EstimateStatus::estimated);
+  EXPECT_GT(answer.bounds.low, 0.5);
+  EXPECT_EQ(answer.bounds.high, 1.0);
+}
+
+// A failure by chance alone, whatever the coordinates: plain trials are as good as any, and are what is run.
+TEST(RareEstimator, ACommonFailureOfChanceIsCountedByPlainTrials) {
+  const Simulation simulate = [](std::span<const TrialPoint> points) {
+    std::vector<PointResult> results;
+    for (const TrialPoint& point : points) {
+      const double u = NumberSource({static_cast<std::uint32_t>(point.number), 5}).uniform();
+      results.push_back({u < 0.002 ? 1.0 : 0.0, {-u}});
+    }
+    return results;
+  };
+  EstimatorState state;
+  const Estimate answer = estimate(state, {4, {}, 1, 0.95, 2.0, 1}, simulate, goes_on);
+  EXPECT_EQ(answer.status, EstimateStatus::estimated);
+  EXPECT_TRUE(answer.bounds.low <= 0.002 && 0.002 <= answer.bounds.high);
 }
 
 // A failure that jumps out of nowhere is not found: the answer is the bound of the plain trials.
@@ -124,7 +166,7 @@ TEST(RareEstimator, IsUndecidedWhereNoScoreLeadsToAFailure) {
     return std::vector<PointResult>(points.size(), PointResult{0.0, {0.0}});
   };
   EstimatorState state;
-  const Estimate answer = estimate(state, {3, 1, 0.95, 2.0, 1}, simulate, goes_on);
+  const Estimate answer = estimate(state, {3, {}, 1, 0.95, 2.0, 1}, simulate, goes_on);
   EXPECT_EQ(answer.status, EstimateStatus::no_failure);
   EXPECT_EQ(answer.bounds.low, 0.0);
   EXPECT_NEAR(answer.bounds.high, 3.7 / static_cast<double>(state.plain_trials), 1e-4);
@@ -132,7 +174,7 @@ TEST(RareEstimator, IsUndecidedWhereNoScoreLeadsToAFailure) {
 
 TEST(RareEstimator, AnInterruptedEstimateEndsAsIfItHadNotBeen) {
   const ClosedForm one = circle(1e-5);
-  const EstimatorSettings settings{one.coordinates, 1, 0.95, 1.3, 5};
+  const EstimatorSettings settings{one.coordinates, {}, 1, 0.95, 1.3, 5};
   EstimatorState whole;
   const Estimate expected = estimate(whole, settings, simulation_of(one.score), goes_on);
   EstimatorState state;

@@ -3,13 +3,13 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include "analysis/measures/trial_value.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "core/failure/failure.hpp"
+#include "core/trial/divergence.hpp"
 #include "experiments/yaml/nearest_name.hpp"
 
 namespace zerocount::measures {
@@ -68,12 +68,18 @@ MoveEvent parse_event(const study::Study& study, std::string_view text) {
   if (error != std::errc() || end != number.data() + number.size() || !std::isfinite(event.limit))
     fail(text, "has no number behind the sign");
   event.measure = measure_named(study, text, trimmed(text.substr(0, sign)));
+  if (study.open_loop && event.measure.values.needs_target)
+    fail(text, "needs targets, which torque levels have not");
+  if (event.measure.values.magnitude && event.limit < 0.0)
+    fail(text, "compares a magnitude with a negative number");
   return event;
 }
 
 bool happens(const MoveEvent& event, const trial::MoveOutcome& move) {
   if (event.text.empty()) return !meets(event.goal, move);
   const double value = value_of(event.measure, move);
+  if (std::isnan(value) && trial::was_run(move) && move.outcome == trial::Outcome::nonfinite)
+    return event.above;
   if (value == event.limit) return event.inclusive;
   return event.above ? value > event.limit : value < event.limit;
 }

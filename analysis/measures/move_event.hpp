@@ -30,7 +30,8 @@ std::optional<MoveEvent> missed_goal(const study::Study& study);
 /// @throws Failure (bad_input) unless it is MEASURE, one of > >= < <=, and a number
 MoveEvent parse_event(const study::Study& study, std::string_view text);
 
-/// Whether the event is that of this move. A time that the move never reached is later than any limit.
+/// Whether the event is that of this move. A time that the move never reached is later than any limit; a
+/// motion that was lost is above any limit.
 bool happens(const MoveEvent& event, const trial::MoveOutcome& move);
 
 /// The continuous scores of a move. Each is larger the nearer a move is to some kind of failure.

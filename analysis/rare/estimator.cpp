@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <string>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -28,6 +28,7 @@ constexpr double cap_of_no_use = 0.5;            // plain trials have 1
 constexpr double enough_for_plain = 1e-4;        // of the probability
 constexpr double narrow_cap = 30.0;              // of the weights, over the probability
 constexpr std::size_t drawn_at_once = 500;
+constexpr std::size_t most_drawn = 2'000'000;  // some hundred bytes each
 constexpr double natural_share = 0.1;
 constexpr double share_of_levels = 0.35;
 constexpr double share_of_new = 0.4;  // of the mixture, after a failure that it did not foresee
@@ -43,6 +44,14 @@ std::vector<double> positive_values(const EstimatorState& state) {
     if (trial.failed > 0.0) values.push_back(trial.weight * trial.failed);
   }
   return values;
+}
+
+/// Confidence of the bounds of one learned proposal: the error probabilities of all have the sum that is
+/// allowed. The first has most of it.
+double confidence_of(const EstimatorState& state, double confidence) {
+  const double part =
+      state.learnings <= 1 ? 0.8 : 0.2 * std::ldexp(1.0, static_cast<int>(1 - state.learnings));
+  return 1.0 - (1.0 - confidence) * part;
 }
 
 bool is_narrow(const statistics::ConfidenceInterval& bounds, double ratio) {
@@ -84,7 +93,7 @@ class Estimator {
   Estimate run() {
     if (!state_.learned && !learn()) return answer_of(state_, settings_);
     while (!answer_of(state_, settings_).narrow) {
-      if (!go_on_(state_)) break;
+      if (state_.drawn.size() >= most_drawn || !go_on_(state_)) break;
       draw_more();
       if (!is_covered() && !learn_again()) break;
     }
@@ -123,20 +132,18 @@ class Estimator {
   }
 
   bool learn() {
-    if (answer_of(state_, settings_).status == EstimateStatus::no_failure) {
-      ++state_.searched;  // the next search has other random numbers
-    } else {
-      state_ = {};
-    }
+    if (state_.plain_trials > 0) ++state_.searched;  // a search anew has other random numbers
+    state_.searched_all = false;
     state_.searches.clear();
     run_plain();
-    if (state_.plain_failures < enough_plain_failures && !search_all()) return false;
+    if (std::ssize(searched_.z) < enough_plain_failures && !search_all()) return false;
+    state_.searched_all = true;
     if (searched_.z.empty()) return false;
     if (settings_.unordered.size() == settings_.coordinates) {
       draw_plainly();
       return true;
     }
-    NumberSource numbers = numbers_for("pilot");
+    NumberSource numbers = numbers_for("pilot", static_cast<std::uint32_t>(state_.searched));
     fit(numbers);
     double probability = 0.0;
     for (int round = 0; round < most_pilots; ++round) {
@@ -183,16 +190,18 @@ class Estimator {
       const int repeated = score == 0 ? searches_of_first_score : 1;
       for (int i = 0; i < repeated; ++i) {
         NumberSource numbers = numbers_for("splitting", stream++);
-        const SplittingResult found =
-            split({.coordinates = settings_.coordinates,
-                   .score = score,
-                   .least = std::max(least_probability, least_beside_the_best * best),
-                   .first_number = state_.trials},
-                  simulate_, numbers, [&] { return go_on_(state_); });
-        state_.trials += found.trials;
+        const SplittingResult found = split(
+            {.coordinates = settings_.coordinates,
+             .unordered = settings_.unordered,
+             .score = score,
+             .least = std::max(least_probability, least_beside_the_best * best),
+             .first_number = state_.trials},
+            [&](std::span<const TrialPoint> points) { return run_trials(points); }, numbers,
+            [&] { return go_on_(state_); });
         state_.plain_trials += found.plain_trials;
-        state_.plain_failures += found.plain_failures;
+        state_.plain_failures += std::ssize(found.plain_failing);
         state_.searches.push_back({score, found.reached, found.probability, found.levels, found.trials});
+        for (const TrialPoint& point : found.plain_failing) searched_.add(changed_part(point.z), 1.0);
         if (!go_on_(state_)) return false;
         if (!found.reached) continue;
         best = std::max(best, found.probability);
@@ -318,15 +327,16 @@ Estimate answer_of(const EstimatorState& state, const EstimatorSettings& setting
       statistics::clopper_pearson(state.plain_failures, state.plain_trials, settings.confidence).high;
   answer.bounds = {0.0, answer.plain_high};
   if (!state.learned) {
-    const bool none_leads = state.plain_failures < enough_plain_failures && !state.searches.empty() &&
-                            state.searches.back().score + 1 == settings.scores &&
-                            std::ranges::none_of(state.searches, &ScoreSearch::reached);
-    answer.status = none_leads ? EstimateStatus::no_failure : EstimateStatus::budget;
+    const bool none_found =
+        state.searched_all && state.plain_failures == 0 &&
+        std::ranges::none_of(state.searches, [](const ScoreSearch& search) { return search.reached; });
+    answer.status = none_found ? EstimateStatus::no_failure : EstimateStatus::budget;
     return answer;
   }
   const std::vector<double> values = positive_values(state);
   if (state.drawn.empty()) return answer;
-  answer.bounds = statistics::betting_bounds(values, std::ssize(state.drawn), state.cap, settings.confidence);
+  answer.bounds = statistics::betting_bounds(values, std::ssize(state.drawn), state.cap,
+                                             confidence_of(state, settings.confidence));
   answer.probability =
       std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(state.drawn.size());
   answer.bounds.high = std::min(answer.bounds.high, 1.0);

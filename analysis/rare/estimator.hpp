@@ -33,7 +33,8 @@ struct EstimatorState {
   std::int64_t plain_failures{0};  ///< of these, with a move that failed
   std::vector<ScoreSearch> searches;
   bool learned{false};        ///< the proposal is ready
-  std::int64_t searched{0};   ///< searches along all scores that found no failure
+  bool searched_all{false};   ///< the search along all scores came to its end
+  std::int64_t searched{0};   ///< searches before this one, which found no failure or did not end
   std::int64_t learnings{0};  ///< how often it was learned
   Proposal proposal;
   double cap{0.0};                   ///< no failure should have a larger weight
@@ -72,12 +73,13 @@ struct Estimate {
 ///
 /// Learning: plain trials, then splitting along each score, twice along the first. A mixture of normal
 /// distributions is fitted to the failures found, and one normal distribution to each level on the way, so
-/// that failures which splitting lost on its way have no large weight. One to four rounds of draws from it
+/// that failures which splitting lost on its way have no large weight. One to eight rounds of draws from it
 /// improve the fit. Estimation: trials from the mixture, among them a tenth from their own distribution,
-/// weighted by the likelihood ratio w ≤ 10: the mean of w·failed is unbiased. The bounds are
+/// weighted by the likelihood ratio w ≤ 10: the expectation of w·failed is the probability. The bounds are
 /// betting_bounds(), whose cap is twice the 99.8 % quantile of the weights of failures. Where a failure has a
-/// larger one, the proposal is learned again with it, and the estimation begins anew. So `low` always holds,
-/// and `high` if the failures that no score leads to are less probable than those it leads to.
+/// larger one, the proposal is learned again with it, and the estimation begins anew with a smaller part of
+/// the error probability. So `low` always holds, and `high` if the failures that no score leads to are less
+/// probable than those it leads to.
 ///
 /// @param state empty, or of an interrupted estimate, which then goes on
 /// @param go_on asked between parts of some hundred or thousand trials, with the state; false ends it

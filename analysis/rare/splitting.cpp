@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "core/numerics/elementary_functions.hpp"
@@ -16,6 +16,7 @@ constexpr double enough_failures = 0.2;  // of the trials of a level
 constexpr double fewest_failures = 10;   // from which copies are made
 constexpr double largest_share = 0.6;    // of trials above a level: otherwise it is no progress
 constexpr double wanted_acceptance = 0.35;
+constexpr double redrawn_share = 0.2;  // of the steps of an unordered coordinate
 constexpr double failed_score = std::numeric_limits<double>::infinity();
 
 /// A trial with its score; a failure has the largest.
@@ -27,9 +28,7 @@ struct Particle {
 class Splitting {
  public:
   Splitting(const SplittingSettings& settings, const Simulation& simulate, NumberSource& numbers)
-      : settings_(settings), simulate_(simulate), numbers_(numbers), number_(settings.first_number) {
-    result_.score = settings.score;
-  }
+      : settings_(settings), simulate_(simulate), numbers_(numbers), number_(settings.first_number) {}
 
   SplittingResult run(const std::function<bool()>& go_on) {
     if (!go_on()) return std::move(result_);
@@ -87,9 +86,11 @@ class Splitting {
     for (std::size_t i = 0; i < settings_.particles; ++i)
       trials.push_back({numbers_.normals(settings_.coordinates), number_++});
     const std::vector<double> scores = scores_of(trials);
-    for (std::size_t i = 0; i < trials.size(); ++i) particles_.push_back({std::move(trials[i]), scores[i]});
+    for (std::size_t i = 0; i < trials.size(); ++i) {
+      if (scores[i] == failed_score) result_.plain_failing.push_back(trials[i]);
+      particles_.push_back({std::move(trials[i]), scores[i]});
+    }
     result_.plain_trials = std::ssize(scores);
-    result_.plain_failures = std::ranges::count(scores, failed_score);
   }
 
   /// The score that a fifth of the trials reach; where many trials have the same one, the next larger.
@@ -114,12 +115,17 @@ class Splitting {
     for (int step = 0; step < settings_.steps; ++step) move_all(level, step % 2 == 1);
   }
 
+  double moved_coordinate(std::size_t i, double z, double kept) {
+    if (!std::ranges::binary_search(settings_.unordered, i)) return kept * z + step_ * numbers_.normal();
+    return numbers_.uniform() < redrawn_share ? numbers_.normal() : z;
+  }
+
   void move_all(double level, bool new_numbers) {
     std::vector<TrialPoint> proposed;
     const double kept = std::sqrt(1.0 - step_ * step_);
     for (const Particle& particle : particles_) {
       TrialPoint moved = particle.point;
-      for (double& z : moved.z) z = kept * z + step_ * numbers_.normal();
+      for (std::size_t i = 0; i < moved.z.size(); ++i) moved.z[i] = moved_coordinate(i, moved.z[i], kept);
       if (new_numbers) moved.number = number_++;
       proposed.push_back(std::move(moved));
     }

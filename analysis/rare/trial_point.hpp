@@ -36,10 +36,6 @@ class NumberSource {
 
   double uniform() { return random::open_uniform(next()); }
   double normal() { return random::standard_normal(next()); }
-  /// One of 0 … count − 1.
-  std::size_t index(std::size_t count) {
-    return static_cast<std::size_t>(uniform() * static_cast<double>(count));
-  }
   std::vector<double> normals(std::size_t count) {
     std::vector<double> numbers(count);
     for (double& number : numbers) number = normal();

@@ -79,12 +79,14 @@ std::vector<RandomCoordinate> random_coordinates(const Study& study, std::int64_
   std::vector<RandomCoordinate> coordinates;
   RandomCoordinate joint;
   joint.ordered = false;
+  joint.of_machine = true;  // if all of its columns are
   for (const std::uint32_t slot : plan.input_slots) {
     if (!is_member(plan.sampled_slots, slot)) {
       add_coordinates(study, slot, *values[slot], coordinates);
     } else if (is_drawn_for_trials(values[slot]->per)) {
       joint.name += (joint.name.empty() ? "" : ", ") + std::string(plan.table.rows[slot].name);
-      joint.of_machine = differs_between_machines(study, values[slot]->per, plan.table.rows[slot].name);
+      joint.of_machine =
+          joint.of_machine && differs_between_machines(study, values[slot]->per, plan.table.rows[slot].name);
       joint.slots.push_back(slot);
     }
   }

@@ -86,7 +86,7 @@ friction::ContactParameter contact_parameter(const TrialDraws& draws, std::uint3
                                              const Value& value) {
   const SlotRandomness& randomness = draws.plan().randomness[slot];
   const std::uint64_t trial =
-      draws.study.design == Design::saltelli ? source_trial(draws, slot) : draws.index;
+      draws.study.design == Design::saltelli && !draws.given.number ? source_trial(draws, slot) : draws.index;
   const std::shared_ptr<const StudyPlan> plan = draws.study.plan;  // the trial may outlive the study
   const std::size_t index = value.index;
   return {draws.plan().table.rows[slot].profiled,

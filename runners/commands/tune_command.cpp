@@ -63,8 +63,9 @@ constexpr const char* limits_help =
 constexpr const char* worst_help =
     "Finds the machine that a gain suits worst: of the machines of the study, and in the box of the\n"
     "central 99.9 % of each quantity that differs between machines, where it is sought from the\n"
-    "corners inwards; then in the part of the box that holds 99.9 % of the machines. Rates are of\n"
-    "trials that the search has not used. -o writes a manifest in which the values of the worst\n"
+    "corners inwards; then among the likely machines, whose normal scores have a sum of squares\n"
+    "within the 99.9 % quantile. Rates are of trials that the search has not used. -o writes a manifest in "
+    "which the values of the worst\n"
     "machine of the box are fixed. Of several points --point chooses one.\n"
     "\n"
     "Example: zerocount worst my-axis.yaml -o worst.yaml\n";

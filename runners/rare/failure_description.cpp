@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string_view>
-#include <utility>
 
 #include "core/numerics/normal_distribution.hpp"
 #include "experiments/designs/random_key.hpp"
@@ -92,6 +90,18 @@ std::vector<std::vector<double>> sorted_columns(const std::vector<std::vector<do
   return columns;
 }
 
+/// Whether a value of the machine and one of the move are correlated, so that neither is drawn alone.
+bool correlates_machine_and_move(const Question& question) {
+  const auto is_of_machine = [&](const std::string& name) {
+    return std::ranges::any_of(question.coordinates, [&](const study::RandomCoordinate& one) {
+      return one.name == name && one.of_machine;
+    });
+  };
+  return std::ranges::any_of(question.study.correlations, [&](const study::Correlation& pair) {
+    return is_of_machine(pair.first) != is_of_machine(pair.second);
+  });
+}
+
 /// Trials of the machine that failed, with moves of their own.
 void add_moves(const Question& question, const WeightedTrial& failed, std::int64_t first_number,
                NumberSource& numbers, std::vector<study::GivenDraws>& draws) {
@@ -144,7 +154,8 @@ std::optional<CarryingMachines> carrying_machines(const Question& question, cons
                                                   double probability, const std::stop_token& stop) {
   const auto of_machine = std::ranges::count_if(question.coordinates, &study::RandomCoordinate::of_machine);
   const std::vector<const WeightedTrial*> failed = drawn_failures(state, examined_machines);
-  if (failed.empty() || of_machine == 0 || of_machine == std::ssize(question.coordinates))
+  if (failed.empty() || of_machine == 0 || of_machine == std::ssize(question.coordinates) ||
+      correlates_machine_and_move(question))
     return std::nullopt;
   NumberSource numbers(designs::random_key(question.study.seed, "rare/machines"));
   std::vector<study::GivenDraws> draws;

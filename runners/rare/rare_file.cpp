@@ -1,5 +1,6 @@
 #include "runners/rare/rare_file.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -58,6 +59,7 @@ Json state_json(const EstimatorState& state) {
           {"plain_failures", state.plain_failures},
           {"searches", std::move(searches)},
           {"learned", state.learned},
+          {"searched_all", state.searched_all},
           {"searched", state.searched},
           {"learnings", state.learnings},
           {"natural", state.proposal.natural},
@@ -65,7 +67,8 @@ Json state_json(const EstimatorState& state) {
           {"cap", state.cap}};
 }
 
-EstimatorState state_of(const Json& json) {
+/// Nothing if sizes do not fit.
+std::optional<EstimatorState> state_of(const Json& json) {
   EstimatorState state;
   state.trials = json.at("trials").get<std::int64_t>();
   state.plain_trials = json.at("plain_trials").get<std::int64_t>();
@@ -75,18 +78,32 @@ EstimatorState state_of(const Json& json) {
                               search.at("probability").get<double>(), search.at("levels").get<int>(),
                               search.at("trials").get<std::int64_t>()});
   state.learned = json.at("learned").get<bool>();
+  state.searched_all = json.at("searched_all").get<bool>();
   state.searched = json.at("searched").get<std::int64_t>();
   state.learnings = json.at("learnings").get<std::int64_t>();
   state.proposal.natural = json.at("natural").get<double>();
   for (const Json& one : json.at("components")) {
     auto mean = one.at("mean").get<std::vector<double>>();
     auto factor = one.at("factor").get<std::vector<double>>();
-    if (factor.size() != mean.size() * mean.size()) throw Json::other_error::create(501, "factor", nullptr);
+    if (factor.size() != mean.size() * mean.size()) return std::nullopt;
     state.proposal.components.push_back(
         normal_component(one.at("weight").get<double>(), std::move(mean), std::move(factor)));
   }
   state.cap = json.at("cap").get<double>();
   return state;
+}
+
+bool fits(const RareRecord& record, const Question& question) {
+  const auto changed = std::ranges::count_if(question.coordinates, &study::RandomCoordinate::ordered);
+  const bool components = std::ranges::all_of(
+      record.state.proposal.components,
+      [&](const NormalComponent& component) { return std::ssize(component.mean) == changed; });
+  const bool searches = std::ranges::all_of(record.state.searches, [](const ScoreSearch& search) {
+    return search.score < measures::move_scores.size();
+  });
+  const bool world =
+      record.world ? *record.world >= 0 && *record.world < question.study.worlds : question.study.worlds == 0;
+  return components && searches && world;
 }
 
 /// The columns of the drawn trials, [column][row].
@@ -165,11 +182,15 @@ RareRecord read_rare_file(const std::filesystem::path& path) {
     if (!estimate.at("world").is_null()) record.world = estimate.at("world").get<std::int64_t>();
     record.event = estimate.at("event").get<std::string>();
     record.seconds = estimate.at("seconds").get<double>();
-    record.state = state_of(estimate.at("state"));
+    std::optional<EstimatorState> state = state_of(estimate.at("state"));
+    if (!state) file.fail("/estimate does not fit together");
+    record.state = std::move(*state);
   } catch (const Json::exception&) {
     file.fail("/estimate cannot be read");
   }
-  record.state.drawn = read_drawn(file, recorded_question(record, path));
+  const Question question = recorded_question(record, path);
+  if (!fits(record, question)) file.fail("/estimate does not fit its manifest");
+  record.state.drawn = read_drawn(file, question);
   return record;
 }
 

@@ -2,8 +2,8 @@
 
 #include <chrono>
 #include <functional>
-#include <limits>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <system_error>
 
@@ -63,7 +63,6 @@ class RareRun {
       answer_.state = std::move(earlier->state);
       earlier_seconds_ = earlier->seconds;
     }
-    first_trials_ = answer_.state.trials;
     if (settings.seconds) {
       deadline_.emplace(std::chrono::duration<double>(*settings.seconds));
       on_deadline_.emplace(deadline_->token(), [this] { end_.request_stop(); });
@@ -73,8 +72,14 @@ class RareRun {
   RareAnswer run() {
     const EstimatorSettings settings = estimator_settings();
     try {
-      estimate(answer_.state, settings, simulation_of(question_, end_.get_token()),
-               [this](const EstimatorState& state) { return goes_on(state); });
+      const Simulation simulate = simulation_of(question_, end_.get_token());
+      estimate(
+          answer_.state, settings,
+          [&](std::span<const TrialPoint> points) {
+            trials_ += std::ssize(points);
+            return simulate(points);
+          },
+          [this](const EstimatorState& state) { return goes_on(state); });
     } catch (const trial::Interrupted&) {
       // The state is as it was before the trials that were in work.
     }
@@ -118,7 +123,7 @@ class RareRun {
       write();
       written_ = elapsed();
     }
-    const bool has_trials = !settings_.max_trials || state.trials - first_trials_ < *settings_.max_trials;
+    const bool has_trials = !settings_.max_trials || trials_ < *settings_.max_trials;
     return has_trials && !end_.stop_requested();
   }
 
@@ -142,7 +147,7 @@ class RareRun {
   Clock::time_point start_{Clock::now()};
   double earlier_seconds_{0.0};
   double written_{0.0};
-  std::int64_t first_trials_{0};
+  std::int64_t trials_{0};  ///< of this run
   RareAnswer answer_;
   std::stop_source end_;
   std::optional<study_run::Deadline> deadline_;

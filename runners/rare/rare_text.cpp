@@ -11,6 +11,7 @@
 #include "analysis/text/percent.hpp"
 #include "analysis/text/report_json.hpp"
 #include "analysis/text/text.hpp"
+#include "core/numerics/normal_distribution.hpp"
 
 namespace zerocount::rare {
 namespace {
@@ -55,9 +56,10 @@ std::string_view reason_of(EstimateStatus status) {
   return "";
 }
 
-/// Plain trials with bounds that have the same ratio: of k failures high/low is about exp(2·1.96/√k).
-double plain_trials_for(const Estimate& estimate) {
-  const double failures = std::pow(2.0 * 1.96 / std::log(estimate.bounds.high / estimate.bounds.low), 2.0);
+/// Plain trials with bounds that have the same ratio: of k failures high/low is about exp(2·z/√k).
+double plain_trials_for(const Estimate& estimate, double confidence) {
+  const double z = numerics::normal_quantile(0.5 + 0.5 * confidence);
+  const double failures = std::pow(2.0 * z / std::log(estimate.bounds.high / estimate.bounds.low), 2.0);
   return failures / estimate.probability;
 }
 
@@ -83,7 +85,7 @@ std::string probability_text(const RareAnswer& answer, const Question& question)
                                  estimate.bounds.high, confidence, trials);
   if (is_estimated(answer) && estimate.probability < 0.01)
     text += fmt::format("  one in {:.3g} moves; by plain trials bounds as narrow take about {:.2g}\n",
-                        1.0 / estimate.probability, plain_trials_for(estimate));
+                        1.0 / estimate.probability, plain_trials_for(estimate, answer.confidence));
   return text + status_text(answer);
 }
 

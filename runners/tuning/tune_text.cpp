@@ -225,7 +225,7 @@ std::string limits_json(const std::vector<Limit>& limits) {
 std::string worst_text(const WorstInBox& in_box, const WorstInBox& likely) {
   std::string text = fmt::format(
       "worst in the box of the central 99.9 % of each input: {:.4g} % of {} moves meet the goal\n"
-      "worst of 99.9 % of the machines: {:.4g} % of {} moves meet the goal\n",
+      "worst of the likely machines: {:.4g} % of {} moves meet the goal\n",
       100.0 * in_box.met, in_box.moves, 100.0 * likely.met, likely.moves);
   std::vector<text::TextColumn> columns{{"input", false, {}}, {"in the box", true, {}}, {"likely", true, {}}};
   for (std::size_t i = 0; i < in_box.inputs.size(); ++i) {

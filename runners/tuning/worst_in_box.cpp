@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -146,14 +145,20 @@ class BoxSearch {
   std::vector<double> inside(std::vector<double> place) const {
     if (region_ == MachineRegion::box) return place;
     double square = 0.0;
-    for (const double one : place) {
-      const double z = numerics::normal_quantile(quantile_at(one));
+    int scores = 0;
+    const auto is_row = [&](std::size_t i) { return inputs_[i].slots.size() > 1; };  // of joint samples
+    for (std::size_t i = 0; i < place.size(); ++i) {
+      if (is_row(i)) continue;
+      const double z = numerics::normal_quantile(quantile_at(place[i]));
       square += z * z;
+      ++scores;
     }
-    const double radius =
-        std::sqrt(statistics::chi_squared_quantile(static_cast<double>(place.size()), 1.0 - 2.0 * tail));
+    if (scores == 0) return place;
+    const double radius = std::sqrt(statistics::chi_squared_quantile(scores, 1.0 - 2.0 * tail));
     if (square <= radius * radius) return place;
-    for (double& one : place) {
+    for (std::size_t i = 0; i < place.size(); ++i) {
+      if (is_row(i)) continue;
+      double& one = place[i];
       const double z = numerics::normal_quantile(quantile_at(one)) * radius / std::sqrt(square);
       one = std::clamp((numerics::normal_probability(z) - tail) / (1.0 - 2.0 * tail), 0.0, 1.0);
     }

@@ -14,8 +14,9 @@ namespace zerocount::tuning {
 
 /// The machines among which the worst is sought.
 enum class MachineRegion {
-  box,  ///< each drawn quantity within its central 99.9 %; its corners may be machines that nobody builds
-  likely  ///< of the box, those whose normal scores have Σ z² ≤ the 99.9 % quantile of χ²: 99.9 % of machines
+  box,    ///< each drawn quantity within its central 99.9 %; its corners may be machines that nobody builds
+  likely  ///< of the box, those whose normal scores have Σ z² ≤ the 99.9 % quantile of χ², without
+          ///< correlations
 };
 
 /// The worst machine of a region.

@@ -73,7 +73,7 @@ EstimatorSettings settings_of(const ClosedForm& one, std::uint64_t seed) {
 
 class RareEstimatorOf : public testing::TestWithParam<ClosedForm> {};
 
-// Bounds of 95 % fail in at most 3 of 12 repetitions, but for one time in 7000.
+// Bounds of 95 % fail in at most 3 of 12 repetitions, but for one time in 450.
 TEST_P(RareEstimatorOf, BoundsHoldTheClosedForm) {
   int held = 0;
   double mean = 0.0;
@@ -130,6 +130,7 @@ TEST(RareEstimator, RowsOfATableAreDrawnAsTheyAre) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     EstimatorState state;
     const Estimate answer = estimate(state, {3, {1}, 1, 0.95, 2.0, seed}, simulation_of(score), goes_on);
+    EXPECT_EQ(answer.status, EstimateStatus::estimated) << seed;
     held += answer.bounds.low <= probability && probability <= answer.bounds.high;
   }
   EXPECT_GE(held, 7);
@@ -158,6 +159,19 @@ TEST(RareEstimator, ACommonFailureOfChanceIsCountedByPlainTrials) {
   const Estimate answer = estimate(state, {4, {}, 1, 0.95, 2.0, 1}, simulate, goes_on);
   EXPECT_EQ(answer.status, EstimateStatus::estimated);
   EXPECT_TRUE(answer.bounds.low <= 0.002 && 0.002 <= answer.bounds.high);
+  EXPECT_TRUE(state.proposal.components.empty());
+}
+
+// A search that the budget ended has found nothing out.
+TEST(RareEstimator, ABudgetThatEndsTheSearchDecidesNothing) {
+  const ClosedForm one = plane(1e-6);
+  EstimatorState state;
+  const Estimate answer = estimate(state, settings_of(one, 1), simulation_of(one.score),
+                                   [](const EstimatorState& now) { return now.trials < 4000; });
+  EXPECT_EQ(answer.status, EstimateStatus::budget);
+  const Estimate whole = estimate(state, settings_of(one, 1), simulation_of(one.score), goes_on);
+  EXPECT_EQ(whole.status, EstimateStatus::estimated);
+  EXPECT_TRUE(whole.bounds.low <= 1e-6 && 1e-6 <= whole.bounds.high);
 }
 
 // A failure that jumps out of nowhere is not found: the answer is the bound of the plain trials.
@@ -170,6 +184,11 @@ TEST(RareEstimator, IsUndecidedWhereNoScoreLeadsToAFailure) {
   EXPECT_EQ(answer.status, EstimateStatus::no_failure);
   EXPECT_EQ(answer.bounds.low, 0.0);
   EXPECT_NEAR(answer.bounds.high, 3.7 / static_cast<double>(state.plain_trials), 1e-4);
+  const std::int64_t before = state.plain_trials;
+  const Estimate again = estimate(state, {3, {}, 1, 0.95, 2.0, 1}, simulate, goes_on);
+  EXPECT_EQ(again.status, EstimateStatus::no_failure);
+  EXPECT_EQ(state.plain_trials, 2 * before);  // with other random numbers
+  EXPECT_LT(again.bounds.high, answer.bounds.high);
 }
 
 TEST(RareEstimator, AnInterruptedEstimateEndsAsIfItHadNotBeen) {

@@ -57,10 +57,12 @@ TEST(NormalMixture, FindsTwoClusters) {
 TEST(NormalMixture, AHeavyPointCountsAsManyLightOnes) {
   NumberSource numbers = numbers_of(3);
   WeightedPoints points;
-  for (int i = 0; i < 500; ++i) points.add({2.0 + 0.1 * numbers.normal()}, i % 2 == 0 ? 3.0 : 0.0);
-  for (int i = 0; i < 250; ++i) points.add({5.0}, 0.0);
-  EXPECT_NEAR(fitted_normal(points, numbers).mean[0], 2.0, 0.05);
-  EXPECT_NEAR(effective_size(points.weights), 250.0, 1e-9);
+  for (int i = 0; i < 300; ++i) points.add({2.0}, 3.0);
+  for (int i = 0; i < 300; ++i) points.add({6.0}, 1.0);
+  EXPECT_NEAR(fitted_normal(points, numbers).mean[0], 3.0, 0.05);
+  EXPECT_NEAR(effective_size(points.weights), 480.0, 1e-9);
+  for (int i = 0; i < 3000; ++i) points.add({6.0}, 0.1);  // more than a fit takes
+  EXPECT_NEAR(fitted_normal(points, numbers).mean[0], 3.6, 0.15);
 }
 
 }  // namespace

@@ -44,8 +44,7 @@ TEST(BettingBounds, HoldAtAllLengthsTogether) {
       33);
 }
 
-// Without a cap that holds, the lower bound still does: a tenth of the mean is in values that come once in
-// 1000.
+// Without a cap that holds, the lower bound still does: half of the mean is in values that come once in 1000.
 TEST(BettingBounds, TheLowerBoundNeedsNoCap) {
   std::mt19937_64 numbers(11);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);

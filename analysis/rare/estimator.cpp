@@ -10,12 +10,14 @@
 
 #include "analysis/rare/splitting.hpp"
 #include "analysis/statistics/betting_bounds.hpp"
+#include "core/numerics/normal_distribution.hpp"
 #include "experiments/designs/random_key.hpp"
 
 namespace zerocount::rare {
 namespace {
 
 constexpr std::size_t plain_at_first = 1000;
+constexpr std::int64_t most_rows = 100'000;  // each of which is tried
 constexpr std::int64_t enough_plain_failures = 30;
 constexpr int searches_of_first_score = 2;
 constexpr double least_probability = 1e-11;
@@ -153,6 +155,8 @@ class Estimator {
       state_.cap = cap_beyond_usual * usual_largest(pilots_.z.empty() ? searched_ : pilots_);
       if (state_.cap < narrow_cap * probability) break;
     }
+    for (const std::vector<double>& z : plain_failing_)
+      state_.cap = std::max(state_.cap, cap_beyond_usual * likelihood_ratio(state_.proposal, z));
     state_.learned = true;
     state_.learnings = 1;
     if (state_.cap >= cap_of_no_use && probability >= enough_for_plain) draw_plainly();
@@ -167,19 +171,37 @@ class Estimator {
     state_.learnings = 1;
   }
 
-  /// Trials of their own distribution: where failures are common, they are enough to learn from.
+  /// A trial of its own distribution. Trials that follow each other have the rows of a table in turn, so that
+  /// no row stays untried.
+  std::vector<double> plain_point(std::size_t index, NumberSource& numbers) const {
+    std::vector<double> z = numbers.normals(settings_.coordinates);
+    for (std::size_t k = 0; k < settings_.unordered.size(); ++k) {
+      const auto rows = static_cast<std::size_t>(settings_.rows[k]);
+      const double place = static_cast<double>(index % rows) + numbers.uniform();
+      z[settings_.unordered[k]] = numerics::normal_quantile(place / static_cast<double>(rows));
+    }
+    return z;
+  }
+
+  /// Trials of their own distribution, of every row of a table as many: where failures are common, they are
+  /// enough to learn from.
   void run_plain() {
     NumberSource numbers = numbers_for("plain", static_cast<std::uint32_t>(state_.searched));
+    std::size_t count = plain_at_first;
+    for (const std::int64_t rows : settings_.rows) {
+      const auto whole = static_cast<std::size_t>(rows);
+      if (rows <= most_rows) count = std::max(whole, (plain_at_first + whole - 1) / whole * whole);
+    }
     std::vector<TrialPoint> points;
-    for (std::size_t i = 0; i < plain_at_first; ++i)
-      points.push_back(
-          {numbers.normals(settings_.coordinates), state_.trials + static_cast<std::int64_t>(i)});
+    for (std::size_t i = 0; i < count; ++i)
+      points.push_back({plain_point(i, numbers), state_.trials + static_cast<std::int64_t>(i)});
     const std::vector<PointResult> results = run_trials(points);
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (results[i].failed > 0.0) searched_.add(changed_part(points[i].z), results[i].failed);
     }
     state_.plain_trials += std::ssize(points);
     state_.plain_failures += std::ssize(searched_.z);
+    plain_failing_ = searched_.z;
   }
 
   /// Splitting along all scores. @return whether it came to an end in the budget
@@ -201,7 +223,10 @@ class Estimator {
         state_.plain_trials += found.plain_trials;
         state_.plain_failures += std::ssize(found.plain_failing);
         state_.searches.push_back({score, found.reached, found.probability, found.levels, found.trials});
-        for (const TrialPoint& point : found.plain_failing) searched_.add(changed_part(point.z), 1.0);
+        for (const TrialPoint& point : found.plain_failing) {
+          searched_.add(changed_part(point.z), 1.0);
+          plain_failing_.push_back(changed_part(point.z));
+        }
         if (!go_on_(state_)) return false;
         if (!found.reached) continue;
         best = std::max(best, found.probability);
@@ -314,7 +339,8 @@ class Estimator {
   const EstimatorSettings& settings_;
   const Simulation& simulate_;
   const std::function<bool(const EstimatorState&)>& go_on_;
-  WeightedPoints searched_;              ///< failures found by plain trials and splitting
+  WeightedPoints searched_;                         ///< failures found by plain trials and splitting
+  std::vector<std::vector<double>> plain_failing_;  ///< those of plain trials
   WeightedPoints pilots_;                ///< those of pilots; the sum of weights is their effective size
   std::vector<NormalComponent> levels_;  ///< a normal distribution of each level of splitting
 };

@@ -46,6 +46,8 @@ struct EstimatorSettings {
   /// Coordinates that the proposal does not change, in ascending order: those in which near points have
   /// nothing in common.
   std::vector<std::size_t> unordered{};
+  /// [unordered coordinate] Number of equally probable rows that it chooses from.
+  std::vector<std::int64_t> rows{};
   std::size_t scores{1};
   double confidence{0.95};
   double ratio{2.0};  ///< wanted of the bounds, high / low
@@ -76,10 +78,10 @@ struct Estimate {
 /// that failures which splitting lost on its way have no large weight. One to eight rounds of draws from it
 /// improve the fit. Estimation: trials from the mixture, among them a tenth from their own distribution,
 /// weighted by the likelihood ratio w ≤ 10: the expectation of w·failed is the probability. The bounds are
-/// betting_bounds(), whose cap is twice the 99.8 % quantile of the weights of failures. Where a failure has a
-/// larger one, the proposal is learned again with it, and the estimation begins anew with a smaller part of
-/// the error probability. So `low` always holds, and `high` if the failures that no score leads to are less
-/// probable than those it leads to.
+/// betting_bounds(), whose cap is twice the 99.8 % quantile of the weights of failures, and no less than
+/// those of plain ones. Where a failure has a larger one, the proposal is learned again with it, and the
+/// estimation begins anew with a smaller part of the error probability. So `low` always holds, and `high` if
+/// the failures that no score leads to are less probable than those it leads to.
 ///
 /// @param state empty, or of an interrupted estimate, which then goes on
 /// @param go_on asked between parts of some hundred or thousand trials, with the state; false ends it

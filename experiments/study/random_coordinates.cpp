@@ -39,13 +39,13 @@ void add_coordinates(const Study& study, std::uint32_t slot, const Value& value,
     case Value::Kind::distribution:
       if (is_drawn_for_trials(value.per))
         coordinates.push_back(
-            {name, Kind::values, {slot}, true, differs_between_machines(study, value.per, name)});
+            {name, Kind::values, {slot}, 0, differs_between_machines(study, value.per, name)});
       break;
     case Value::Kind::profile:
       if (value.per != Per::rig) break;
       if (study.plan->profiles[value.index]->has_drawn_mean())
-        coordinates.push_back({name + ".mean", Kind::profile_mean, {slot}, true, true});
-      coordinates.push_back({name, Kind::profile_at_start, {slot}, true, true});
+        coordinates.push_back({name + ".mean", Kind::profile_mean, {slot}, 0, true});
+      coordinates.push_back({name, Kind::profile_at_start, {slot}, 0, true});
       break;
   }
 }
@@ -61,7 +61,7 @@ void add_fixed_members(const Study& study, const std::vector<const Value*>& valu
     coordinates.push_back({name + " (of correlations)",
                            Kind::values,
                            {slot},
-                           true,
+                           0,
                            differs_between_machines(study, copula->per, name)});
   }
 }
@@ -78,7 +78,7 @@ std::vector<RandomCoordinate> random_coordinates(const Study& study, std::int64_
   const std::vector<const Value*> values = values_at(plan, static_cast<std::size_t>(point));
   std::vector<RandomCoordinate> coordinates;
   RandomCoordinate joint;
-  joint.ordered = false;
+  joint.rows = study.samples ? study.samples->rows : 0;
   joint.of_machine = true;  // if all of its columns are
   for (const std::uint32_t slot : plan.input_slots) {
     if (!is_member(plan.sampled_slots, slot)) {

@@ -19,7 +19,8 @@ struct RandomCoordinate {
   std::string name;  ///< dotted path; of joint samples the paths, joined by ", "
   Kind kind{Kind::values};
   std::vector<std::uint32_t> slots;
-  bool ordered{true};      ///< near numbers mean near values; not so for the rows of joint samples
+  std::int64_t rows{
+      0};  ///< of joint samples, in an order that means nothing; row ⌊rows·Φ(z)⌋ is drawn; otherwise 0
   bool of_machine{false};  ///< the same in all trials of a rig; without rigs see differs_between_machines()
 };
 

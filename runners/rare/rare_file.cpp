@@ -94,7 +94,7 @@ std::optional<EstimatorState> state_of(const Json& json) {
 }
 
 bool fits(const RareRecord& record, const Question& question) {
-  const auto changed = std::ranges::count_if(question.coordinates, &study::RandomCoordinate::ordered);
+  const auto changed = std::ranges::count(question.coordinates, 0, &study::RandomCoordinate::rows);
   const bool components = std::ranges::all_of(
       record.state.proposal.components,
       [&](const NormalComponent& component) { return std::ssize(component.mean) == changed; });

@@ -101,11 +101,16 @@ class RareRun {
 
  private:
   EstimatorSettings estimator_settings() const {
-    EstimatorSettings settings{
-        question_.coordinates.size(), {}, measures::move_scores.size(), settings_.confidence, settings_.ratio,
-        question_.study.seed};
+    EstimatorSettings settings;
+    settings.coordinates = question_.coordinates.size();
+    settings.scores = measures::move_scores.size();
+    settings.confidence = settings_.confidence;
+    settings.ratio = settings_.ratio;
+    settings.seed = question_.study.seed;
     for (std::size_t i = 0; i < question_.coordinates.size(); ++i) {
-      if (!question_.coordinates[i].ordered) settings.unordered.push_back(i);
+      if (question_.coordinates[i].rows == 0) continue;
+      settings.unordered.push_back(i);
+      settings.rows.push_back(question_.coordinates[i].rows);
     }
     return settings;
   }

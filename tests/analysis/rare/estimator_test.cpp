@@ -68,7 +68,7 @@ bool goes_on(const EstimatorState& state) {
 }
 
 EstimatorSettings settings_of(const ClosedForm& one, std::uint64_t seed) {
-  return {one.coordinates, {}, 1, 0.95, 2.0, seed};
+  return {one.coordinates, {}, {}, 1, 0.95, 2.0, seed};
 }
 
 class RareEstimatorOf : public testing::TestWithParam<ClosedForm> {};
@@ -111,7 +111,7 @@ TEST(RareEstimator, TakesTheScoreThatLeads) {
     return results;
   };
   EstimatorState state;
-  const Estimate answer = estimate(state, {one.coordinates, {}, 2, 0.95, 2.0, 3}, simulate, goes_on);
+  const Estimate answer = estimate(state, {one.coordinates, {}, {}, 2, 0.95, 2.0, 3}, simulate, goes_on);
   EXPECT_EQ(answer.status, EstimateStatus::estimated);
   EXPECT_TRUE(answer.bounds.low <= 1e-6 && 1e-6 <= answer.bounds.high);
   EXPECT_FALSE(state.searches.front().reached);
@@ -129,7 +129,8 @@ TEST(RareEstimator, RowsOfATableAreDrawnAsTheyAre) {
   int held = 0;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     EstimatorState state;
-    const Estimate answer = estimate(state, {3, {1}, 1, 0.95, 2.0, seed}, simulation_of(score), goes_on);
+    const Estimate answer =
+        estimate(state, {3, {1}, {200}, 1, 0.95, 2.0, seed}, simulation_of(score), goes_on);
     EXPECT_EQ(answer.status, EstimateStatus::estimated) << seed;
     held += answer.bounds.low <= probability && probability <= answer.bounds.high;
   }
@@ -139,7 +140,7 @@ TEST(RareEstimator, RowsOfATableAreDrawnAsTheyAre) {
 TEST(RareEstimator, AFailureThatAlwaysHappensHasTheProbabilityOne) {
   EstimatorState state;
   const Estimate answer =
-      estimate(state, {2, {}, 1, 0.95, 2.0, 1}, simulation_of([](const auto&) { return 1.0; }), goes_on);
+      estimate(state, {2, {}, {}, 1, 0.95, 2.0, 1}, simulation_of([](const auto&) { return 1.0; }), goes_on);
   EXPECT_EQ(answer.status, EstimateStatus::estimated);
   EXPECT_GT(answer.bounds.low, 0.5);
   EXPECT_EQ(answer.bounds.high, 1.0);
@@ -156,7 +157,7 @@ TEST(RareEstimator, ACommonFailureOfChanceIsCountedByPlainTrials) {
     return results;
   };
   EstimatorState state;
-  const Estimate answer = estimate(state, {4, {}, 1, 0.95, 2.0, 1}, simulate, goes_on);
+  const Estimate answer = estimate(state, {4, {}, {}, 1, 0.95, 2.0, 1}, simulate, goes_on);
   EXPECT_EQ(answer.status, EstimateStatus::estimated);
   EXPECT_TRUE(answer.bounds.low <= 0.002 && 0.002 <= answer.bounds.high);
   EXPECT_TRUE(state.proposal.components.empty());
@@ -180,12 +181,12 @@ TEST(RareEstimator, IsUndecidedWhereNoScoreLeadsToAFailure) {
     return std::vector<PointResult>(points.size(), PointResult{0.0, {0.0}});
   };
   EstimatorState state;
-  const Estimate answer = estimate(state, {3, {}, 1, 0.95, 2.0, 1}, simulate, goes_on);
+  const Estimate answer = estimate(state, {3, {}, {}, 1, 0.95, 2.0, 1}, simulate, goes_on);
   EXPECT_EQ(answer.status, EstimateStatus::no_failure);
   EXPECT_EQ(answer.bounds.low, 0.0);
   EXPECT_NEAR(answer.bounds.high, 3.7 / static_cast<double>(state.plain_trials), 1e-4);
   const std::int64_t before = state.plain_trials;
-  const Estimate again = estimate(state, {3, {}, 1, 0.95, 2.0, 1}, simulate, goes_on);
+  const Estimate again = estimate(state, {3, {}, {}, 1, 0.95, 2.0, 1}, simulate, goes_on);
   EXPECT_EQ(again.status, EstimateStatus::no_failure);
   EXPECT_EQ(state.plain_trials, 2 * before);  // with other random numbers
   EXPECT_LT(again.bounds.high, answer.bounds.high);
@@ -193,7 +194,7 @@ TEST(RareEstimator, IsUndecidedWhereNoScoreLeadsToAFailure) {
 
 TEST(RareEstimator, AnInterruptedEstimateEndsAsIfItHadNotBeen) {
   const ClosedForm one = circle(1e-5);
-  const EstimatorSettings settings{one.coordinates, {}, 1, 0.95, 1.3, 5};
+  const EstimatorSettings settings{one.coordinates, {}, {}, 1, 0.95, 1.3, 5};
   EstimatorState whole;
   const Estimate expected = estimate(whole, settings, simulation_of(one.score), goes_on);
   EstimatorState state;

@@ -372,6 +372,8 @@ Estimate answer_of(const EstimatorState& state, const EstimatorSettings& setting
     answer.status = EstimateStatus::not_covered;
   } else if (answer.narrow) {
     answer.status = EstimateStatus::estimated;
+  } else if (state.drawn.size() >= most_drawn) {
+    answer.status = EstimateStatus::too_many;
   }
   if (answer.status != EstimateStatus::estimated)
     answer.bounds.high = std::max(answer.bounds.high, answer.plain_high);

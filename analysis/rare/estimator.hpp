@@ -58,6 +58,7 @@ enum class EstimateStatus {
   estimated,
   no_failure,   ///< no score leads to a failure
   not_covered,  ///< failures are found again and again that the proposal does not foresee
+  too_many,     ///< the bounds are not narrow after as many trials as are kept
   budget        ///< ended before the bounds were narrow enough
 };
 

@@ -55,7 +55,7 @@ Eigen::VectorXd log_densities(const NormalComponent& component, const Eigen::Mat
   return -0.5 * white.colwise().squaredNorm().transpose().array() - component.log_determinant;
 }
 
-/// Likewise at one point.
+/// Logarithm of the density at one point, without the factor (2π)^(−d/2).
 double log_density(const NormalComponent& component, std::span<const double> z) {
   const std::size_t size = z.size();
   double squares = 0.0;

@@ -20,7 +20,7 @@ struct SplittingSettings {
   std::int64_t first_number{0};  ///< of the trials
 };
 
-/// What splitting found.
+/// The result of splitting along one score.
 struct SplittingResult {
   bool reached{false};      ///< enough trials of the last level fail
   double probability{1.0};  ///< of the last level; of a failure if it was reached. Without a bound

@@ -5,8 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/random/random_numbers.hpp"
-#include "core/random/variates.hpp"
+#include "core/random/number_source.hpp"
 
 /// The probability of a rare failure. A trial is a function of independent standard normal coordinates, and
 /// of further random numbers that follow from its number.
@@ -29,24 +28,6 @@ struct PointResult {
 /// Runs trials; the results in their order.
 using Simulation = std::function<std::vector<PointResult>(std::span<const TrialPoint>)>;
 
-/// A sequence of random numbers.
-class NumberSource {
- public:
-  explicit NumberSource(const random::RandomKey& key, std::uint32_t stream = 0) : stream_{key, stream} {}
-
-  double uniform() { return random::open_uniform(next()); }
-  double normal() { return random::standard_normal(next()); }
-  std::vector<double> normals(std::size_t count) {
-    std::vector<double> numbers(count);
-    for (double& number : numbers) number = normal();
-    return numbers;
-  }
-
- private:
-  std::uint64_t next() { return random::random_bits(stream_, drawn_++, random::Draw::trial); }
-
-  random::RandomStream stream_;
-  std::uint64_t drawn_{0};
-};
+using random::NumberSource;
 
 }  // namespace zerocount::rare

@@ -6,8 +6,7 @@
 #include <map>
 #include <set>
 
-#include "core/random/random_numbers.hpp"
-#include "core/random/variates.hpp"
+#include "core/random/number_source.hpp"
 #include "experiments/designs/random_key.hpp"
 
 namespace zerocount::tuning {
@@ -49,14 +48,8 @@ class Search {
   }
 
  private:
-  double uniform() {
-    return random::open_uniform(random::random_bits(numbers_, drawn_++, random::Draw::trial));
-  }
-  double normal() {
-    return random::standard_normal(random::random_bits(numbers_, drawn_++, random::Draw::trial));
-  }
   std::size_t index_below(std::size_t size) {
-    return std::min(static_cast<std::size_t>(uniform() * static_cast<double>(size)), size - 1);
+    return std::min(static_cast<std::size_t>(numbers_.uniform() * static_cast<double>(size)), size - 1);
   }
 
   /// Adds the places that are admissible and new, up to `wanted` of them.
@@ -78,7 +71,7 @@ class Search {
   void first_generation() {
     const auto wanted = static_cast<std::size_t>(first_candidates) * (1 + problem_.free.size());
     std::vector<double> start;
-    for (std::size_t i = 0; i < problem_.free.size(); ++i) start.push_back(uniform());
+    for (std::size_t i = 0; i < problem_.free.size(); ++i) start.push_back(numbers_.uniform());
     std::vector<Candidate> candidates;
     std::vector<Place> places;
     for (const Values& values : problem_.starts) places.push_back(place_of(problem_.free, values));
@@ -97,14 +90,14 @@ class Search {
   /// narrow valley.
   Place place_near_elites(double step) {
     const std::size_t elites = population_.size();
-    const double u = uniform();
+    const double u = numbers_.uniform();
     const Place& centre = population_[static_cast<std::size_t>(u * u * static_cast<double>(elites))].place;
     const Place& from = population_[index_below(elites)].place;
     const Place& to = population_[index_below(elites)].place;
-    const double along = uniform() < 0.7 ? 0.8 * uniform() : 0.0;
+    const double along = numbers_.uniform() < 0.7 ? 0.8 * numbers_.uniform() : 0.0;
     Place place;
     for (std::size_t i = 0; i < centre.size(); ++i) {
-      const double moved = centre[i] + along * (to[i] - from[i]) + step * normal();
+      const double moved = centre[i] + along * (to[i] - from[i]) + step * numbers_.normal();
       place.push_back(std::clamp(moved, 0.0, 1.0));
     }
     return place;
@@ -264,8 +257,7 @@ class Search {
 
   const SearchProblem& problem_;
   const SearchSettings& settings_;
-  random::RandomStream numbers_;
-  std::uint64_t drawn_{0};
+  random::NumberSource numbers_;
   double step_;
   std::set<Values> tried_;
   std::map<Values, Estimate> estimates_;  ///< of all that were simulated

@@ -159,6 +159,11 @@ void check_numbers(const hdf5::File& file, const FileHeader& header) {
 ForeignFile::ForeignFile(const std::filesystem::path& path, const std::string& what_it_is)
     : Failure(ExitCode::bad_data, text::printable_lines(fmt::format("{}: {}", path.string(), what_it_is))) {}
 
+RareFile::RareFile(const std::filesystem::path& path)
+    : ForeignFile(path,
+                  "an estimate of 'zerocount rare', which holds no trials of the study; expected a results "
+                  "file of 'zerocount run'") {}
+
 bool has_trials(study::Kept kept) {
   return kept != study::Kept::statistics;
 }
@@ -278,9 +283,7 @@ FileHeader read_any_header(const hdf5::File& file) {
 FileHeader read_header(const hdf5::File& file) {
   FileHeader header = read_any_header(file);
   if (header.kind != FileKind::rare) return header;
-  throw ForeignFile(file.file_name(),
-                    "an estimate of 'zerocount rare', which holds no trials of the study; expected a results "
-                    "file of 'zerocount run'");
+  throw RareFile(file.file_name());
 }
 
 FileHeader read_rare_header(const hdf5::File& file) {

@@ -75,6 +75,12 @@ class ForeignFile : public Failure {
   ForeignFile(const std::filesystem::path& path, const std::string& what_it_is);
 };
 
+/// A file of `zerocount rare` where one with trials of a study is expected.
+class RareFile : public ForeignFile {
+ public:
+  explicit RareFile(const std::filesystem::path& path);
+};
+
 /// @throws ForeignFile unless the file `path` keeps every trial.
 void require_every_trial(const std::filesystem::path& path, const FileHeader& header);
 
@@ -98,9 +104,9 @@ std::optional<std::string> read_single_text(const hdf5::File& file, const std::s
 
 /// Reads the header of a study or of a shard, and checks the format, its version and the checksum of the
 /// manifest.
-/// @throws ForeignFile for another format or a newer version, Failure (bad_data) for damage.
+/// @throws RareFile; ForeignFile for another format or a newer version, Failure (bad_data) for damage.
 FileHeader read_header(const hdf5::File& file);
-/// Likewise of a file of `zerocount rare`.
+/// Reads the header of a file of `zerocount rare`. @throws ForeignFile for any other, Failure (bad_data)
 FileHeader read_rare_header(const hdf5::File& file);
 /// Whether the file is one of `zerocount rare`. @throws ForeignFile for a format that is not zerocount's
 bool is_rare(const hdf5::File& file);

@@ -21,13 +21,13 @@ std::optional<double> probability_option(const Arguments& arguments, std::string
 /// @throws Failure (bad_input) for anything else.
 double number_from(const Arguments& arguments, std::string_view option, std::string_view text, double least);
 
-/// Likewise of the option's value.
+/// The number of an option, as number_from() reads it; nothing if the option is missing.
 std::optional<double> number_option(const Arguments& arguments, std::string_view option, double least);
 
 /// The budget of a search: trials, or seconds; neither if the option is missing.
 struct Budget {
   std::optional<std::int64_t> trials;
-  std::optional<double> seconds;
+  std::optional<double> seconds;  ///< s
 };
 
 /// --budget: a number of trials, or a time such as 60s or 5min.

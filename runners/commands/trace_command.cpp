@@ -129,9 +129,12 @@ ExitCode trace(const command_line::Arguments& arguments) {
   }
   const std::filesystem::path place = output.value_or("-");
   const bool json = arguments.choice("format") == "json";
-  if (is_results_file(input) && rare::is_rare_file(input)) return trace_rare(arguments, place, json);
   std::optional<reading::ResultsFile> file;
-  if (is_results_file(input)) file.emplace(input, reading::Require::any_part);
+  try {
+    if (is_results_file(input)) file.emplace(input, reading::Require::any_part);
+  } catch (const layout::RareFile&) {
+    return trace_rare(arguments, place, json);
+  }
   if (file && arguments.has("set"))
     arguments.refuse("option '--set' needs a manifest instead of a results file");
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "analysis/statistics/quantile.hpp"
 #include "core/numerics/normal_distribution.hpp"
 #include "experiments/designs/random_key.hpp"
 
@@ -46,7 +47,7 @@ std::vector<const WeightedTrial*> drawn_failures(const EstimatorState& state, st
 }
 
 double quantile_of(const std::vector<double>& sorted, double probability) {
-  return sorted[static_cast<std::size_t>(std::lround(probability * static_cast<double>(sorted.size() - 1)))];
+  return sorted[static_cast<std::size_t>(statistics::quantile_rank(std::ssize(sorted), probability) - 1)];
 }
 
 InputRange range_of(const std::vector<double>& sorted) {

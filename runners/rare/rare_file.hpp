@@ -11,7 +11,7 @@
 
 namespace zerocount::rare {
 
-/// What a file of `rare` holds beside the header: the question, and how far the estimate is.
+/// The contents of a file of `zerocount rare`: the header, the question, and the state of the estimate.
 struct RareRecord {
   layout::FileHeader header;
   std::int64_t point{0};

@@ -49,7 +49,9 @@ std::string_view reason_of(EstimateStatus status) {
     case EstimateStatus::no_failure:
       return "no score leads to a failure; the same command searches with other random numbers";
     case EstimateStatus::not_covered:
-      return "there are failures that the learned distribution does not foresee";
+      return "there are failures that the learned distribution does not foresee; another seed may help";
+    case EstimateStatus::too_many:
+      return "the bounds are too wide after as many trials as the file can hold";
     case EstimateStatus::budget:
       return "the budget ended first";
   }
@@ -96,6 +98,9 @@ std::string premise_text(const RareAnswer& answer) {
     text = fmt::format("of {} plain trials {} failed: that alone shows at most {:.2g}\n", state.plain_trials,
                        state.plain_failures == 0 ? "none" : std::to_string(state.plain_failures),
                        answer.estimate.plain_high);
+  if (state.learned && state.proposal.components.empty())
+    text +=
+        "plain trials were run on, because failures depend too much on chance for a learned distribution\n";
   if (is_estimated(answer) && !state.proposal.components.empty())
     text +=
         "the upper bound assumes that no failures hide where neither a plain trial nor a score led; the\n"

@@ -13,8 +13,7 @@
 #include "core/batch/batch.hpp"
 #include "core/failure/failure.hpp"
 #include "core/numerics/normal_distribution.hpp"
-#include "core/random/random_numbers.hpp"
-#include "core/random/variates.hpp"
+#include "core/random/number_source.hpp"
 #include "experiments/designs/random_key.hpp"
 #include "experiments/study/machine_inputs.hpp"
 #include "runners/study_run/parallel_trials.hpp"
@@ -93,13 +92,6 @@ class BoxSearch {
     return overrides;
   }
 
-  double uniform() {
-    return random::open_uniform(random::random_bits(numbers_, drawn_++, random::Draw::trial));
-  }
-  double normal() {
-    return random::standard_normal(random::random_bits(numbers_, drawn_++, random::Draw::trial));
-  }
-
   std::vector<std::int64_t> rigs_of(std::span<const UnitResult> results) const {
     if (study_.rigs == 0) return {0};
     std::vector<std::int64_t> order(results.size());
@@ -124,7 +116,7 @@ class BoxSearch {
     for (std::size_t corner = 0; corner < corners; ++corner) {
       std::vector<double> place;
       for (std::size_t i = 0; i < size; ++i)
-        place.push_back((all_corners ? ((corner >> i) & 1U) == 1U : uniform() < 0.5) ? 1.0 : 0.0);
+        place.push_back((all_corners ? ((corner >> i) & 1U) == 1U : numbers_.uniform() < 0.5) ? 1.0 : 0.0);
       add(std::move(place));
     }
     const std::vector<double> start(size, 0.5);
@@ -135,7 +127,7 @@ class BoxSearch {
   BoxPoint child_of(const BoxPoint& parent, double step) {
     BoxPoint child{parent.rig, parent.place, {}};
     for (double& place : child.place) {
-      if (uniform() < 0.5) place = std::clamp(place + step * normal(), 0.0, 1.0);
+      if (numbers_.uniform() < 0.5) place = std::clamp(place + step * numbers_.normal(), 0.0, 1.0);
     }
     child.place = inside(std::move(child.place));
     return child;
@@ -235,8 +227,7 @@ class BoxSearch {
   Units units_;
   study::Study study_;
   std::vector<study::MachineInput> inputs_;
-  random::RandomStream numbers_;
-  std::uint64_t drawn_{0};
+  random::NumberSource numbers_;
   measures::MoveEvent event_;
   std::stop_token stop_;
 };

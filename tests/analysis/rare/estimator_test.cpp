@@ -163,6 +163,31 @@ TEST(RareEstimator, ACommonFailureOfChanceIsCountedByPlainTrials) {
   EXPECT_TRUE(state.proposal.components.empty());
 }
 
+// Failures that the learned distribution does not foresee make it learn again: here it was learned from one
+// of two planes.
+TEST(RareEstimator, LearnsAgainWhatItDidNotForesee) {
+  const double probability = 0.1;
+  const ClosedForm one = two_planes(probability);
+  int learned_again = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    EstimatorState state;
+    state.learned = true;
+    state.learnings = 1;
+    std::vector<double> factor(16, 0.0);
+    for (std::size_t i = 0; i < 4; ++i) factor[5 * i] = i == 1 ? 0.6 : 1.0;
+    state.proposal = {0.1, {normal_component(1.0, {0.0, 2.0, 0.0, 0.0}, factor)}};
+    state.cap = 1.0;
+    const Estimate answer = estimate(state, settings_of(one, seed), simulation_of(one.score), goes_on);
+    EXPECT_LE(answer.bounds.low, probability) << seed;
+    if (state.learnings == 1) continue;
+    ++learned_again;
+    EXPECT_EQ(answer.status, EstimateStatus::estimated) << seed;
+    EXPECT_GE(answer.bounds.high, probability) << seed;
+    EXPECT_GT(state.proposal.components.size(), 1U) << seed;
+  }
+  EXPECT_GE(learned_again, 6);
+}
+
 // A search that the budget ended has found nothing out.
 TEST(RareEstimator, ABudgetThatEndsTheSearchDecidesNothing) {
   const ClosedForm one = plane(1e-6);

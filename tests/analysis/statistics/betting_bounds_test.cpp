@@ -9,7 +9,7 @@
 namespace zerocount::statistics {
 namespace {
 
-/// Of 200 sequences, those whose bounds fail at some of the lengths 20, 40, 80, … 1280.
+/// Number of 200 sequences whose bounds miss the mean at one of the lengths 20, 40, 80, …, 1280.
 int sequences_that_fail(double mean, double cap, const std::function<double(std::mt19937_64&)>& draw) {
   std::mt19937_64 numbers(7);
   int failed = 0;
@@ -30,7 +30,7 @@ int sequences_that_fail(double mean, double cap, const std::function<double(std:
   return failed;
 }
 
-// Of 200 sequences with an error probability of at most 0.1 more than 33 fail once in 300 times.
+// Each sequence fails with a probability of at most 0.1: more than 33 of 200 do so with 1/300.
 TEST(BettingBounds, HoldAtAllLengthsTogether) {
   std::bernoulli_distribution rarely(0.05);
   EXPECT_LE(sequences_that_fail(0.05, 1.0, [&](auto& g) { return rarely(g) ? 1.0 : 0.0; }), 33);

@@ -135,6 +135,30 @@ command: {targets: [10], hold: 0.1}
   EXPECT_NEAR(independent, 0.0, 0.06);
 }
 
+// Joint draws are one coordinate, which chooses the row.
+TEST(RandomCoordinates, RowsOfJointDrawsAreOneCoordinate) {
+  manifest::Companions companions;
+  companions.samples = [](const std::string&) {
+    return std::string("friction.k1,friction.k2\n100,700\n110,710\n120,720\n130,730\n");
+  };
+  const Study study = manifest::parse_study(
+      "zerocount: 1\nname: rows\nseed: 5\ntrials: 100\nsamples: {file: p.csv, per: trial}\n"
+      "friction: {alpha: {uniform: [0.1, 1.0]}}\ncommand: {targets: [10], hold: 0.1}\n",
+      "test.yaml", {}, companions);
+  const std::vector<RandomCoordinate> coordinates = random_coordinates(study, 0);
+  ASSERT_EQ(coordinates.size(), 2U);
+  const std::size_t rows = coordinates[0].rows > 0 ? 0 : 1;
+  EXPECT_EQ(coordinates[rows].rows, 4);
+  EXPECT_EQ(coordinates[1 - rows].rows, 0);
+  for (int row = 0; row < 4; ++row) {
+    std::vector<double> z{0.3, 0.3};
+    z[rows] = numerics::normal_quantile((row + 0.5) / 4.0);
+    const StudyTrial trial = study_trial(study, 0, 0, draws_at(study, coordinates, z, 1));
+    EXPECT_EQ(input_of(study, trial, "friction.k1"), 100.0 + 10.0 * row);
+    EXPECT_EQ(input_of(study, trial, "friction.k2"), 700.0 + 10.0 * row);
+  }
+}
+
 // The number of a trial decides what the coordinates do not: noise, later contacts, the rest of the rotor.
 TEST(RandomCoordinates, TheNumberDecidesTheOtherRandomNumbers) {
   const Study study = study_of(on_rigs);

@@ -100,7 +100,8 @@ std::string premise_text(const RareAnswer& answer) {
                        answer.estimate.plain_high);
   if (state.learned && state.proposal.components.empty())
     text +=
-        "plain trials were run on, because failures depend too much on chance for a learned distribution\n";
+        "plain trials went on: failures are frequent, or depend too much on chance for a learned "
+        "distribution\n";
   if (is_estimated(answer) && !state.proposal.components.empty())
     text +=
         "the upper bound assumes that no failures hide where neither a plain trial nor a score led; the\n"
@@ -170,9 +171,8 @@ std::string replays_text(const RareAnswer& answer, const std::string& output) {
     ++shown;
   }
   if (shown == 0) return "";
-  return fmt::format(
-      "\n{} holds the {} trials drawn by what was learned, {} of them failures; for example\n{}\n", output,
-      answer.state.drawn.size(), failures_drawn(answer.state), text);
+  return fmt::format("\n{} holds {} drawn trials, {} of them failures; for example\n{}\n", output,
+                     answer.state.drawn.size(), failures_drawn(answer.state), text);
 }
 
 Json range_json(const InputRange& range) {

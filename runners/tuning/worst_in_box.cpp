@@ -23,7 +23,7 @@ namespace zerocount::tuning {
 namespace {
 
 constexpr double tail = 0.0005;  // beyond each end of the box
-constexpr std::int64_t trials_of_search = 32;
+constexpr std::int64_t trials_of_search = 128;
 constexpr std::int64_t trials_of_verdict = 256;
 constexpr std::size_t worst_rigs = 4;
 constexpr std::size_t most_corners = 64;

@@ -7,6 +7,7 @@
 #include "analysis/report/html.hpp"
 #include "analysis/report/report_figures.hpp"
 #include "analysis/report/report_sections.hpp"
+#include "analysis/report/standalone_figure.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::report {
@@ -167,18 +168,14 @@ const Figure& find_figure(const ReportPage& page, const std::string& name) {
 }
 
 std::string drawing_program(const Figure& figure) {
-  const nlohmann::ordered_json input{{"specification", figure.specification},
-                                     {"theme", figure_theme()},
-                                     {"colours", light_colours()},
-                                     {"data", data_json(figure)}};
   const auto quoted = [](std::string_view text) { return nlohmann::ordered_json(std::string(text)).dump(); };
   return fmt::format(
       // Prevents the libraries from using node's module system.
       "const run = require('vm').runInThisContext;\n"
       "for (const name of ['exports', 'module', 'require']) delete globalThis[name];\n"
-      "run({});\nrun({});\nconst figure = {};\n{}",
-      quoted(embedded_file("vega.min.js")), quoted(embedded_file("vega-lite.min.js")), script_json(input),
-      embedded_file("render.js"));
+      "run({});\nrun({});\nconst specification = {};\n{}",
+      quoted(embedded_file("vega.min.js")), quoted(embedded_file("vega-lite.min.js")),
+      script_json(standalone_specification(figure)), embedded_file("render.js"));
 }
 
 }  // namespace zerocount::report

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
@@ -27,11 +28,17 @@ struct PluginDescription {
   std::vector<PluginParameter> parameters;
 };
 
+/// The torque (N m) that a control law wants at a sample; not finite if it cannot go on.
+using StepFunction = std::function<double(const zerocount_sample&)>;
+
 /// A user's controller.
 struct ControllerPlugin {
   PluginDescription description;
-  /// Null if the library is not loaded: then no trial can be run.
+  /// Null if the library is not loaded: then no trial can be run, unless there is `start`.
   const zerocount_controller* functions{nullptr};
+  /// A control law of this process in place of a library: called before the first sample of each trial, and
+  /// what it returns at each sample. It may throw, which ends the trial by that exception.
+  std::function<StepFunction(const zerocount_setup&)> start{};
 };
 
 /// Why a library's description cannot be used.

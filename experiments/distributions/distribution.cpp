@@ -75,6 +75,61 @@ double quantile_of(const Choice& d, double u) {
   return d.values[static_cast<std::size_t>(place_among(static_cast<std::int64_t>(d.values.size()), u))];
 }
 
+using Uniformly = std::optional<double>;
+
+Uniformly middle_of_place(std::int64_t place, std::int64_t count) {
+  return (static_cast<double>(place) + 0.5) / static_cast<double>(count);
+}
+
+Uniformly uniform_of_value(const Uniform& d, double x) {
+  return (x - d.low) / (d.high - d.low);
+}
+
+Uniformly uniform_of_value(const LogUniform& d, double x) {
+  const double low = numerics::log_of_draws(d.low);
+  return (numerics::log_of_draws(x) - low) / (numerics::log_of_draws(d.high) - low);
+}
+
+Uniformly uniform_of_value(const Normal& d, double x) {
+  return numerics::normal_probability((x - d.mean) / d.sd);
+}
+
+Uniformly uniform_of_value(const TruncatedNormal& d, double x) {
+  double low = (d.low - d.mean) / d.sd;
+  double high = (d.high - d.mean) / d.sd;
+  double z = (x - d.mean) / d.sd;
+  const bool mirrored = low > 0.0;  // as in its quantile
+  if (mirrored) {
+    std::swap(low, high);
+    low = -low;
+    high = -high;
+    z = -z;
+  }
+  const double below = numerics::normal_probability(low);
+  const double u = (numerics::normal_probability(z) - below) / (numerics::normal_probability(high) - below);
+  return mirrored ? 1.0 - u : u;
+}
+
+Uniformly uniform_of_value(const Lognormal& d, double x) {
+  return numerics::normal_probability((numerics::log_of_draws(x) - numerics::log_of_draws(d.median)) /
+                                      std::sqrt(numerics::log1p(d.cv * d.cv)));
+}
+
+Uniformly uniform_of_value(const Triangular& d, double x) {
+  return boost::math::cdf(boost::math::triangular(d.low, d.mode, d.high), x);
+}
+
+Uniformly uniform_of_value(const Integers& d, double x) {
+  if (x != std::trunc(x)) return std::nullopt;
+  return middle_of_place(static_cast<std::int64_t>(x) - d.low, d.high - d.low + 1);
+}
+
+Uniformly uniform_of_value(const Choice& d, double x) {
+  const auto place = std::ranges::find(d.values, x);
+  if (place == d.values.end()) return std::nullopt;
+  return middle_of_place(place - d.values.begin(), std::ssize(d.values));
+}
+
 }  // namespace
 
 numerics::Interval support(const Distribution& distribution) {
@@ -97,6 +152,13 @@ numerics::Interval support(const Distribution& distribution) {
 
 double quantile(const Distribution& distribution, double u) {
   return std::visit([u](const auto& d) { return quantile_of(d, u); }, distribution);
+}
+
+std::optional<double> uniform_of(const Distribution& distribution, double x) {
+  if (!std::isfinite(x) || !numerics::contains(support(distribution), x)) return std::nullopt;
+  const Uniformly u = std::visit([x](const auto& d) { return uniform_of_value(d, x); }, distribution);
+  if (!u) return std::nullopt;
+  return std::clamp(*u, 0x1p-53, 1.0 - 0x1p-53);
 }
 
 bool extremes_are_inside(const Distribution& distribution, const numerics::Interval& range) {

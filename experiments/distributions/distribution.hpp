@@ -81,6 +81,10 @@ numerics::Interval support(const Distribution& distribution);
 /// The smallest x with P(X ≤ x) ≥ u, 0 < u < 1, in the quantity's unit.
 double quantile(const Distribution& distribution, double u);
 
+/// A uniform number whose quantile is x, to rounding; nothing if x cannot be drawn. Of a continuous
+/// distribution it is P(X ≤ x); of a discrete one the middle of the interval that gives x.
+std::optional<double> uniform_of(const Distribution& distribution, double x);
+
 /// Whether the extreme quantiles are in `range`. They may overflow for very large parameters.
 bool extremes_are_inside(const Distribution& distribution, const numerics::Interval& range);
 

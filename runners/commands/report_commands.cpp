@@ -12,6 +12,7 @@
 #include "analysis/comparison/gate_rules.hpp"
 #include "analysis/history/database.hpp"
 #include "analysis/report/report.hpp"
+#include "analysis/report/standalone_figure.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/reading/study_file.hpp"
@@ -40,8 +41,9 @@ constexpr const char* report_help =
     "Example: zerocount report gains.h5 -o gains.html\n";
 
 constexpr const char* plot_help =
-    "Draws one figure of the report as a file, for a paper. Needs node, and rsvg-convert for PNG\n"
-    "(Debian: nodejs, librsvg2-bin). Without --figure it prints the names of the figures that\n"
+    "Draws one figure of the report as a file, for a paper: a picture, for which it needs node, and\n"
+    "for PNG also rsvg-convert (Debian: nodejs, librsvg2-bin); a page (*.html); or a specification\n"
+    "of Vega-Lite with its data (*.json). Without --figure it prints the names of the figures that\n"
     "this study has.\n"
     "\n"
     "Example: zerocount plot gains.h5 --figure success -o success.svg\n";
@@ -103,6 +105,19 @@ ExitCode write_report(const command_line::Arguments& arguments) {
   return ExitCode::success;
 }
 
+/// The file that shows the figure, by the extension of its name. @param title of a page
+std::string figure_text(const report::Figure& figure, const std::string& title,
+                        const std::string& extension) {
+  if (extension == ".json") return report::standalone_specification(figure).dump() + "\n";
+  if (extension == ".html") {
+    report::ReportPage page;
+    page.title = title;
+    page.sections.emplace_back().figures = {figure};
+    return report::html_page(page);
+  }
+  return picture(figure, extension == ".png");
+}
+
 ExitCode plot(const command_line::Arguments& arguments) {
   const std::string input = arguments.operands()[0];
   if (!arguments.has("figure")) {
@@ -112,12 +127,11 @@ ExitCode plot(const command_line::Arguments& arguments) {
       standard_output::print("{}\n", name);
     return ExitCode::success;
   }
-  const std::filesystem::path output = picture_or_page(arguments, {".svg", ".png"});
+  const std::filesystem::path output = picture_or_page(arguments, {".svg", ".png", ".html", ".json"});
   const reading::StudyFile file(input);
   const report::StudyReport report = report_of(arguments, file);
-  const bool png = output.extension() == ".png";
-  command_line::write_text(output,
-                           picture(report::find_figure(report.page, arguments.required("figure")), png));
+  const report::Figure& figure = report::find_figure(report.page, arguments.required("figure"));
+  command_line::write_text(output, figure_text(figure, report.page.title, output.extension().string()));
   return ExitCode::success;
 }
 
@@ -146,10 +160,11 @@ Command report_command() {
 
 Command plot_command() {
   return {{"plot", "FILE",
-           options_of_report({{"figure", "NAME", "name of the figure"},
-                              {"output,o", "PICTURE",
-                               "the picture to write, *.svg or *.png; - is standard output, as SVG"}})},
-          "draw one figure of the report as SVG or PNG",
+           options_of_report(
+               {{"figure", "NAME", "name of the figure"},
+                {"output,o", "PICTURE",
+                 "the file to write: *.svg, *.png, *.html or *.json; - is standard output, as SVG"}})},
+          "draw one figure of the report",
           plot_help,
           plot};
 }

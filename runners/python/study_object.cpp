@@ -1,0 +1,220 @@
+#include "runners/python/study_object.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "core/failure/failure.hpp"
+#include "core/loop/controller.hpp"
+#include "core/trial/trial.hpp"
+#include "experiments/manifest/load_study.hpp"
+#include "experiments/manifest/samples.hpp"
+#include "experiments/study/study.hpp"
+#include "experiments/yaml/text_file.hpp"
+#include "results/layout/header.hpp"
+#include "results/layout/measure_table.hpp"
+#include "results/reading/results_file.hpp"
+#include "runners/plugins/plugin_library.hpp"
+#include "runners/python/arrays.hpp"
+#include "runners/python/python_law.hpp"
+#include "runners/python/sampled_trials.hpp"
+
+namespace zerocount::python {
+namespace {
+
+namespace fs = std::filesystem;
+using StudyPointer = std::shared_ptr<const study::Study>;
+
+/// The study of a manifest's text. @param folder from which the files that it names are found
+StudyPointer parsed(std::string text, const std::string& source, const fs::path& folder,
+                    const std::vector<std::string>& overrides) {
+  const manifest::Companions companions{
+      .plugin = [&](const std::string& path) { return plugins::load_plugin(folder / path); },
+      .samples =
+          [&](const std::string& path) {
+            return yaml::read_text(folder / path, manifest::max_samples_size, "a table of samples");
+          }};
+  return std::make_shared<const study::Study>(
+      manifest::parse_study(std::move(text), source, overrides, companions));
+}
+
+/// The plugin of a path. @throws Failure (bad_input)
+std::shared_ptr<const plugin::ControllerPlugin> loaded(const fs::path& library) {
+  const manifest::LoadedPlugin plugin = plugins::load_plugin(library);
+  if (const auto* fault = std::get_if<plugin::PluginFault>(&plugin))
+    throw Failure(ExitCode::bad_input, fmt::format("plugin: {}; expected {}", fault->what, fault->expected));
+  return std::get<std::shared_ptr<const plugin::ControllerPlugin>>(plugin);
+}
+
+/// The study of a results file, as its trials were run.
+StudyPointer recorded(const fs::path& file, const std::optional<fs::path>& library) {
+  const reading::ResultsFile results(file, reading::Require::any_part);
+  return std::make_shared<const study::Study>(
+      layout::recorded_study(results.header(), file, library ? loaded(*library) : nullptr));
+}
+
+py::dict axis_of(const study::SweepAxis& axis) {
+  py::dict result;
+  result["name"] = axis.name;
+  result["unit"] = axis.unit;
+  result["meaning"] = axis.meaning;
+  if (axis.kind == study::SweepAxis::Kind::number) {
+    result["values"] = axis.numbers;
+  } else {
+    result["values"] = axis.texts;
+  }
+  return result;
+}
+
+py::list axes_of(const study::Study& study) {
+  py::list axes;
+  for (const study::SweepAxis& axis : study.axes) axes.append(axis_of(axis));
+  return axes;
+}
+
+py::list inputs_of(const study::Study& study) {
+  py::list inputs;
+  for (const study::InputColumn& column : study.input_columns) {
+    py::dict input;
+    input["name"] = column.name;
+    input["unit"] = column.unit;
+    input["meaning"] = column.meaning;
+    inputs.append(input);
+  }
+  return inputs;
+}
+
+/// Lets the law decide in place of the study's control law.
+void use_law(trial::TrialParameters& parameters, const py::object& law) {
+  if (loop::has_coarse_phase(parameters.controller)) {
+    throw Failure(
+        ExitCode::bad_input,
+        "the study has two phases of control, and a control law in Python has one; expected a study "
+        "without controller.coarse");
+  }
+  parameters.controller.user = {python_law(law), {}};
+}
+
+/// Runs a trial, and gives what happened sample by sample.
+py::dict traced(const study::Study& study, std::int64_t point, std::int64_t index, const py::object& law) {
+  study::StudyTrial trial = study::study_trial(study, point, index);
+  if (!law.is_none()) use_law(trial.parameters, law);
+  std::vector<layout::TraceRecord> samples;
+  std::vector<layout::JerkRecord> jerks;
+  trial::TrialObservers observers;
+  observers.sample = [&](const trial::SampleRecord& record) { samples.push_back({record, 0}); };
+  observers.jerk = [&](const trial::Jerk& jerk) { jerks.push_back({jerk, 0}); };
+  const trial::TrialOutcome outcome = trial::run_trial(trial.parameters, observers);
+
+  const auto trace_fields = layout::trace_fields(study.features);
+  const auto outcome_fields = layout::outcome_fields(layout::format_version, study.features,
+                                                     layout::measure_table(study.features.bands));
+  const auto size = [](const auto& records) { return std::vector<py::ssize_t>{std::ssize(records)}; };
+  py::dict result;
+  result["inputs"] = trial.inputs;
+  result["samples"] =
+      arrays_of<layout::TraceRecord>(trace_fields, layout::pointers_to(samples), size(samples));
+  result["jerks"] =
+      arrays_of<layout::JerkRecord>(layout::jerk_fields(), layout::pointers_to(jerks), size(jerks));
+  result["outcome"] =
+      arrays_of<trial::MoveOutcome>(outcome_fields, layout::pointers_to(outcome.moves), size(outcome.moves));
+  return result;
+}
+
+std::string_view name_of(layout::OfTrial rule) {
+  switch (rule) {
+    case layout::OfTrial::all:
+      return "all";
+    case layout::OfTrial::any:
+      return "any";
+    case layout::OfTrial::sum:
+      return "sum";
+    case layout::OfTrial::largest:
+      return "largest";
+    case layout::OfTrial::last:
+      break;
+  }
+  return "last";
+}
+
+/// What the columns of traced() are.
+py::dict descriptions(const study::Study& study) {
+  py::dict result;
+  result["samples"] = descriptions_of(layout::trace_fields(study.features));
+  result["jerks"] = descriptions_of(layout::jerk_fields());
+  py::dict measures;
+  for (const layout::Measure& measure : layout::measure_table(study.features.bands)) {
+    py::dict description = description_of(measure.field.column);
+    description["of_trial"] = std::string(name_of(measure.of_trial));
+    measures[py::str(measure.field.column.name)] = description;
+  }
+  result["outcome"] = measures;
+  return result;
+}
+
+std::vector<std::int64_t> bands_of(const study::Study& study) {
+  const auto values = study.features.bands.values();
+  return {values.begin(), values.end()};
+}
+
+py::object goal_of(const study::Study& study) {
+  if (!study.goal) return py::none();
+  py::dict goal;
+  goal["band"] = study.goal->band;
+  goal["within"] = study.goal->within;
+  goal["moves"] = study.goal->moves;
+  goal["machines"] = study.goal->machines;
+  goal["confidence"] = study.goal->confidence;
+  return goal;
+}
+
+}  // namespace
+
+void register_study(py::module_& module) {
+  using study::Study;
+  py::class_<Study, std::shared_ptr<Study>> object(module, "Study", "A checked manifest.");
+  object
+      .def(py::init([](std::string text, const std::string& source, const fs::path& folder,
+                       const std::vector<std::string>& overrides) {
+             return std::const_pointer_cast<Study>(parsed(std::move(text), source, folder, overrides));
+           }),
+           py::arg("text"), py::arg("source"), py::arg("folder"), py::arg("overrides"))
+      .def_static(
+          "recorded",
+          [](const fs::path& file, const std::optional<fs::path>& plugin) {
+            return std::const_pointer_cast<Study>(recorded(file, plugin));
+          },
+          py::arg("file"), py::arg("plugin") = py::none())
+      .def_readonly("name", &Study::name)
+      .def_readonly("description", &Study::description)
+      .def_readonly("seed", &Study::seed)
+      .def_readonly("trials", &Study::trials)
+      .def_readonly("rigs", &Study::rigs)
+      .def_readonly("worlds", &Study::worlds)
+      .def_readonly("moves", &Study::moves)
+      .def_readonly("labels", &Study::point_labels)
+      .def_readonly("sha256", &Study::study_sha256)
+      .def_readonly("text", &Study::manifest_text)
+      .def_readonly("overrides", &Study::overrides)
+      .def_readonly("warnings", &Study::warnings)
+      .def_property_readonly("linear",
+                             [](const Study& s) { return s.features.axis == parameters::AxisKind::linear; })
+      .def_property_readonly("plugin", [](const Study& s) { return s.plugin != nullptr; })
+      .def_property_readonly("axes", &axes_of)
+      .def_property_readonly("inputs", &inputs_of)
+      .def_property_readonly("bands", &bands_of)
+      .def_property_readonly("goal", &goal_of)
+      .def_property_readonly("descriptions", &descriptions)
+      .def("trace", &traced, py::arg("point"), py::arg("trial"), py::arg("law") = py::none());
+  register_sampling(object);
+}
+
+}  // namespace zerocount::python

@@ -1,0 +1,57 @@
+"""How often will a positioning axis with friction hold exactly zero encoder counts of error?
+
+The package calls the program zerocount and reads its files. Single trials run in this process.
+
+>>> r = zc.study("my-axis.yaml").run("my-axis.h5")
+>>> r.judge().status
+'met'
+"""
+
+from _zerocount import __version__
+
+from .comparison import Comparison, compare
+from .errors import DataError, Error, MachineError, ManifestError, Problem, TooLittleDataError
+from .figures import Figure
+from .identification import Identification, identify
+from .judgement import Judgement
+from .laws import ControlLaw, Setup, trial
+from .laws import Sample as LoopSample
+from .planning import Plan, plan
+from .results import Results
+from .results import open_results as open
+from .sampling import Sample, sample
+from .studies import Study, study
+from .traces import Trace
+from .tuning import Proof, Tuning, tune
+
+__all__ = [
+    "Comparison",
+    "ControlLaw",
+    "DataError",
+    "Error",
+    "Figure",
+    "Identification",
+    "Judgement",
+    "LoopSample",
+    "MachineError",
+    "ManifestError",
+    "Plan",
+    "Problem",
+    "Proof",
+    "Results",
+    "Sample",
+    "Setup",
+    "Study",
+    "TooLittleDataError",
+    "Trace",
+    "Tuning",
+    "__version__",
+    "compare",
+    "identify",
+    "open",
+    "plan",
+    "sample",
+    "study",
+    "trial",
+    "tune",
+]

@@ -1,0 +1,180 @@
+"""Datasets of results files as arrays of NumPy, with their units."""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+import pathlib
+from collections.abc import Iterable
+from typing import Any
+
+import h5py  # type: ignore[import]
+import numpy as np
+import numpy.typing as npt
+
+from .errors import DataError
+
+Array = npt.NDArray[Any]
+
+
+@dataclasses.dataclass(frozen=True)
+class Column:
+    """A dataset.
+
+    Parameters
+    ----------
+    values : numpy.ndarray
+        Texts as Python's, enumerations as their numbers.
+    dimensions : tuple of str
+        Names of the dimensions, such as ``("trial", "move")``.
+    unit : str
+        ``"1"`` where dimensionless, ``""`` for texts.
+    meaning : str
+        One line.
+    words : list of str
+        Of an enumeration, by number; otherwise empty.
+    """
+
+    values: Array
+    dimensions: tuple[str, ...]
+    unit: str
+    meaning: str
+    words: list[str] = dataclasses.field(default_factory=list)
+
+    @property
+    def in_words(self) -> Array:
+        """The values, those of an enumeration as words."""
+        return np.asarray(np.array(self.words, dtype=object)[self.values]) if self.words else self.values
+
+
+class ResultsDatasets:
+    """The datasets of a results file. It is open only while it is read.
+
+    Parameters
+    ----------
+    path : path
+        A results file.
+
+    Raises
+    ------
+    DataError
+        If it is not one.
+    """
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        self.path = pathlib.Path(path)
+        with self._open() as file:
+            self.attributes: dict[str, Any] = {key: _attribute(value) for key, value in file.attrs.items()}
+        if "format_version" not in self.attributes:
+            raise DataError(f"{self.path}: not a results file of zerocount", 4)
+
+    def _open(self) -> h5py.File:
+        if not self.path.exists():
+            raise DataError(f"{self.path}: no such file; expected a results file", 4)
+        try:
+            return h5py.File(self.path, "r", locking=False)
+        except OSError:
+            raise DataError(f"{self.path}: not a results file of zerocount: it is not in the HDF5 format", 4) from None
+
+    def has(self, name: str) -> bool:
+        """Whether there is a group or dataset of this path."""
+        with self._open() as file:
+            return name in file
+
+    def group(self, name: str, rows: slice | None = None) -> dict[str, Column]:
+        """The datasets of a group, and of the groups in it.
+
+        Parameters
+        ----------
+        name : str
+            Path of the group, such as ``outcome`` or ``trial/input``.
+        rows : slice, optional
+            The part of the first dimension to read; default: all.
+
+        Returns
+        -------
+        dict of str to Column
+            By the name in the group.
+
+        Raises
+        ------
+        DataError
+            If the file has no such group.
+        """
+        with self._open() as file:
+            if name not in file:
+                raise DataError(f"{self.path}: it has no {_WHAT.get(name, name)}", 4)
+            datasets = {key: item for key, item in file[name].items() if isinstance(item, h5py.Dataset)}
+            return {key: _column(item, rows) for key, item in datasets.items()}
+
+    def rows(self, name: str, values: Iterable[int]) -> slice:
+        """The rows of a sorted dataset from the first of `values` to the last.
+
+        Parameters
+        ----------
+        name : str
+            Path of a dataset of whole numbers in ascending order, such as ``trial/point``.
+        values : iterable of int
+        """
+        with self._open() as file:
+            sorted_values = file[name][:]
+        wanted = list(values)
+        first, last = min(wanted, default=0), max(wanted, default=-1)
+        return slice(int(np.searchsorted(sorted_values, first)), int(np.searchsorted(sorted_values, last, side="right")))
+
+    def text(self, name: str) -> str:
+        """A dataset that is one text."""
+        with self._open() as file:
+            return str(file[name].asstr()[()])
+
+    def texts(self, name: str) -> list[str]:
+        """A dataset that is a list of texts."""
+        with self._open() as file:
+            return [str(text) for text in file[name].asstr()[:]] if name in file else []
+
+
+_WHAT = {
+    "trial": "trials: its study does not keep them",
+    "outcome": "outcomes of trials: its study does not keep them",
+    "rig": "rigs: each trial is on a machine of its own",
+    "world": "worlds: nothing in its manifest is drawn per world",
+    "level": "torque levels: its loop is closed",
+    "jerk": "jerks",
+    "trace": "traces: its manifest retains none",
+}
+
+
+def _attribute(value: Any) -> Any:
+    if isinstance(value, bytes):
+        return value.decode()
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def _column(dataset: h5py.Dataset, rows: slice | None) -> Column:
+    attributes = {key: _attribute(dataset.attrs[key]) for key in ("units", "long_name") if key in dataset.attrs}
+    selection = rows if rows is not None and dataset.ndim > 0 else ()
+    words = _words(dataset)
+    if h5py.check_string_dtype(dataset.dtype) is not None:
+        values = np.asarray(dataset.asstr()[selection], dtype=object)
+    else:
+        values = np.asarray(dataset[selection])
+    if words == ["no", "yes"]:
+        values, words = values.astype(bool), []
+    unit, meaning = attributes.get("units", "1"), attributes.get("long_name", "")
+    return Column(values, _dimensions(dataset), unit, meaning, words)
+
+
+def _words(dataset: h5py.Dataset) -> list[str]:
+    """The words of an enumeration by its numbers, which begin at 0."""
+    if "flag_values" not in dataset.attrs:
+        return []
+    words = str(_attribute(dataset.attrs["flag_meanings"])).split()
+    by_number = dict(zip(map(int, dataset.attrs["flag_values"]), words))
+    return [by_number.get(number, str(number)) for number in range(max(by_number) + 1)]
+
+
+def _dimensions(dataset: h5py.Dataset) -> tuple[str, ...]:
+    own = dataset.name.rpartition("/")[2]
+    return tuple(
+        scale[0].name.rpartition("/")[2] if len(scale) else own for scale in (dataset.dims[i] for i in range(dataset.ndim))
+    )

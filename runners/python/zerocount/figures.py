@@ -1,0 +1,117 @@
+"""Figures of the report."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import json
+import os
+import pathlib
+import tempfile
+from typing import TYPE_CHECKING, Any
+
+from . import program
+from .drawing import drawn
+from .errors import ManifestError
+
+if TYPE_CHECKING:
+    import matplotlib.figure  # type: ignore[import]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Figure:
+    """A figure of the report, by its Vega-Lite specification. A notebook shows it as a picture.
+
+    Parameters
+    ----------
+    name : str
+        As ``Results.figures`` lists it.
+    specification : dict
+        Vega-Lite, with the data and the theme.
+    """
+
+    name: str
+    specification: dict[str, Any] = dataclasses.field(repr=False)
+    _options: tuple[str, ...] = dataclasses.field(repr=False)
+
+    def save(self, output: str | os.PathLike[str]) -> pathlib.Path:
+        """Write the figure.
+
+        Parameters
+        ----------
+        output : path
+            ``.svg``, ``.png``, ``.html`` (a page that needs nothing else) or ``.json``. An existing file is
+            replaced.
+
+        Returns
+        -------
+        pathlib.Path
+
+        Raises
+        ------
+        MachineError
+            If node, which draws pictures, or rsvg-convert is missing.
+        """
+        program.run(["plot", *self._options, "-o", os.fspath(output), "--force"])
+        return pathlib.Path(output)
+
+    @functools.cached_property
+    def svg(self) -> str:
+        """The picture as SVG."""
+        return program.run(["plot", *self._options, "-o", "-"])[1]
+
+    @functools.cached_property
+    def png(self) -> bytes:
+        """The picture as PNG, 300 pixels an inch at a width of 140 mm."""
+        with tempfile.TemporaryDirectory() as folder:
+            return self.save(pathlib.Path(folder, "figure.png")).read_bytes()
+
+    def matplotlib(self) -> matplotlib.figure.Figure:
+        """The figure drawn by matplotlib from the same specification, to be changed.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            With axes in the units of the data.
+
+        Examples
+        --------
+        >>> picture = zc.open("my-axis.h5").plot("settling").matplotlib()
+        >>> picture.axes[0].get_xlabel()
+        'arrival (s)'
+        """
+        return drawn(self.specification)
+
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, Any]:
+        """What a notebook shows."""
+        return {"image/svg+xml": self.svg, "text/plain": repr(self)}
+
+
+def figure_names(path: str | os.PathLike[str]) -> list[str]:
+    """Names of the figures of a results file."""
+    return program.run(["plot", path])[1].split()
+
+
+def figure(path: str | os.PathLike[str], name: str | None, point: int | None) -> Figure:
+    """A figure of a results file.
+
+    Parameters
+    ----------
+    path : path
+        A results file.
+    name : str or None
+        Its name, or the start of it; None: the first.
+    point : int or None
+        The design point whose trials are shown; None: the best.
+    """
+    known = figure_names(path)
+    fitting = [other for other in known if name is None or other == name] or [
+        other for other in known if name is not None and other.startswith(name)
+    ]
+    if not fitting:
+        raise ManifestError(f"{path}: there is no figure {name!r}; expected one of {', '.join(known)}", 2)
+    options = [os.fspath(path), "--figure", fitting[0]] + (["--point", str(point)] if point is not None else [])
+    with tempfile.TemporaryDirectory() as folder:
+        output = pathlib.Path(folder, "figure.json")
+        program.run(["plot", *options, "-o", output])
+        return Figure(fitting[0], json.loads(output.read_text(encoding="utf-8")), tuple(options))

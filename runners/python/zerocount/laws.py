@@ -1,0 +1,147 @@
+"""Control laws in Python."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Protocol
+
+import _zerocount
+
+from .errors import ManifestError
+from .traces import Trace, simulated
+
+if TYPE_CHECKING:
+    from .results import Results
+    from .studies import Study
+
+
+class Setup(Protocol):
+    """What is the same at all samples of a trial. On a linear axis read m for rad, and N for N m."""
+
+    @property
+    def sample_time(self) -> float:
+        """T, s."""
+
+    @property
+    def resolution(self) -> float:
+        """Of the encoder, rad per count."""
+
+    @property
+    def torque_resolution(self) -> float:
+        """Of the converter, N m per code."""
+
+    @property
+    def lowest_torque(self) -> float:
+        """That the converter can give, N m."""
+
+    @property
+    def highest_torque(self) -> float:
+        """That the converter can give, N m."""
+
+    @property
+    def initial_integral(self) -> float:
+        """``initial.integral`` of the manifest, N m."""
+
+
+class Sample(Protocol):
+    """A sampling instant."""
+
+    @property
+    def k(self) -> int:
+        """Number of the sample in the trial, from 0."""
+
+    @property
+    def time(self) -> float:
+        """k T, s."""
+
+    @property
+    def error(self) -> float:
+        """Reference, rounded to counts, less count."""
+
+    @property
+    def count(self) -> float:
+        """Of the encoder that closes the loop, counts of the fine one."""
+
+    @property
+    def reference(self) -> float:
+        """Before it is rounded, counts."""
+
+    @property
+    def torque(self) -> float:
+        """Decided at the sample before, in whole DAC steps within the range, N m; 0 at the first."""
+
+    @property
+    def velocity(self) -> float:
+        """Of the reference before it is rounded, rad/s."""
+
+    @property
+    def acceleration(self) -> float:
+        """Of the reference before it is rounded, rad/s²."""
+
+    @property
+    def new_target(self) -> bool:
+        """Whether this is the first sample with another target."""
+
+
+ControlLaw = Callable[[Setup], Callable[[Sample], float]]
+"""A control law: is given the setup of a trial, and returns the function that gives the torque (N m) of a sample."""
+
+
+def trial(
+    study: Study | Results, point: int = 0, trial: int = 0, controller: ControlLaw | None = None
+) -> Trace:
+    """Run one trial in this process.
+
+    Parameters
+    ----------
+    study : Study or Results
+        Whose trial it is.
+    point : int
+        Number of the design point.
+    trial : int
+        Index of the trial at the point.
+    controller : callable, optional
+        A control law in place of the one of the manifest. It is called once with a `Setup` before the first
+        sample, and returns a function that is called with a `Sample` at every sampling instant and returns the
+        wanted torque (N m). Filters, feedforward and observer of the manifest act on that torque; the converter
+        rounds and limits it. Torques that are not finite end the trial as ``nonfinite``.
+
+    Returns
+    -------
+    Trace
+        The same bits as the program gives.
+
+    Raises
+    ------
+    ManifestError
+        If the control of the study has two phases, which a law in Python cannot have.
+
+    Examples
+    --------
+    An integral control with the trapezoidal rule:
+
+    >>> def integral_control(setup):
+    ...     gain = 11767.7 * setup.resolution * setup.sample_time / 2  # N m/count
+    ...     integral = setup.initial_integral
+    ...     before = 0.0
+    ...     def torque(sample):
+    ...         nonlocal integral, before
+    ...         integral += gain * (sample.error + before)
+    ...         before = sample.error
+    ...         return integral
+    ...     return torque
+    >>> t = zc.trial(zc.study("my-axis.yaml"), point=2, trial=17, controller=integral_control)
+    >>> t.error[-1]
+    0
+    """
+    checked = study.checked
+    checked_point(checked, point)
+    if not 0 <= trial < checked.trials:
+        raise ManifestError(f"trial = {trial} is out of range; expected 0 to {checked.trials - 1}", 2)
+    return simulated(checked, point, trial, controller)
+
+
+def checked_point(study: _zerocount.Study, point: int) -> None:
+    """Refuses a point that the study does not have."""
+    if not 0 <= point < len(study.labels):
+        raise ManifestError(f"point = {point} is out of range; expected 0 to {len(study.labels) - 1}", 2)

@@ -1,0 +1,54 @@
+"""Options of the program, and what it answers in JSON."""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+from collections.abc import Mapping, Sequence
+from typing import Any, TypeVar
+
+from .manifests import flow_text
+
+T = TypeVar("T")
+
+
+def dataclass_of(cls: type[T], record: Mapping[str, Any], **others: Any) -> T:
+    """A dataclass from an object of JSON that has its fields among others."""
+    names = {field.name for field in dataclasses.fields(cls)}
+    return cls(**{name: value for name, value in record.items() if name in names and name not in others}, **others)
+
+
+def options(**values: Any) -> list[str]:
+    """Options of the program.
+
+    Parameters
+    ----------
+    **values
+        By the option's name with ``_`` in place of ``-``. None and False: not given; True: given; a list: given
+        for each of its values; a dict: given as ``KEY=VALUE`` for each.
+
+    Returns
+    -------
+    list of str
+
+    Examples
+    --------
+    >>> options(dac_bits=16, fix={"friction.n": 2}, quiet=True)
+    ['--dac-bits', '16', '--fix', 'friction.n=2', '--quiet']
+    """
+    words: list[str] = []
+    for name, value in values.items():
+        option = "--" + name.replace("_", "-")
+        if value is None or value is False:
+            continue
+        if value is True:
+            words.append(option)
+        elif isinstance(value, Mapping):
+            for key, inner in value.items():
+                words += [option, f"{key}={inner if isinstance(inner, str) else flow_text(inner)}"]
+        elif isinstance(value, Sequence) and not isinstance(value, str):
+            for inner in value:
+                words += [option, str(inner)]
+        else:
+            words += [option, os.fspath(value) if isinstance(value, os.PathLike) else str(value)]
+    return words

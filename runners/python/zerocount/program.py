@@ -1,0 +1,156 @@
+"""The program: where it is, and how it is run."""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import threading
+from collections.abc import Callable, Iterable, Sequence
+
+import _zerocount
+
+from .errors import MachineError, error_of
+
+_REPLACED = b"\r\x1b[K"  # ends a line of progress: the next one takes its place
+_PARTS = re.compile(rb"(\r\x1b\[K|\r?\n)")
+
+VERDICTS = frozenset({0, 1, 3})
+"""Exit codes with which a command has answered: yes, no, undecided."""
+
+
+@functools.cache
+def path() -> str:
+    """The program of this version.
+
+    Returns
+    -------
+    str
+        ``$ZEROCOUNT_PROGRAM`` if that is set, otherwise the program that was installed with the package,
+        otherwise the ``zerocount`` of ``$PATH``.
+
+    Raises
+    ------
+    MachineError
+        If there is none, or it has another version than the package.
+    """
+    found = os.environ.get("ZEROCOUNT_PROGRAM") or _installed() or shutil.which("zerocount")
+    if found is None:
+        raise MachineError(
+            "the program zerocount was not found; install it (apt-get install zerocount), or set ZEROCOUNT_PROGRAM "
+            "to its path",
+            5,
+        )
+    try:
+        words = subprocess.run([found, "--version"], capture_output=True, text=True, check=True).stdout.split()
+    except (OSError, subprocess.CalledProcessError):
+        raise MachineError(f"{found} is not a program that runs here; expected zerocount", 5) from None
+    if words[:2] != ["zerocount", _zerocount.__version__]:
+        raise MachineError(
+            f"{found} is {' '.join(words[:2])}; expected zerocount {_zerocount.__version__}, as this package", 5
+        )
+    return found
+
+
+def _installed() -> str | None:
+    """The program beside the package, where pip put both."""
+    program = pathlib.Path(__file__).with_name("bin") / "zerocount"
+    return str(program) if program.exists() else None
+
+
+def run(
+    arguments: Iterable[str | os.PathLike[str]],
+    *,
+    text: str | None = None,
+    folder: str | os.PathLike[str] | None = None,
+    accepted: frozenset[int] = frozenset({0}),
+    progress: Callable[[str], None] | None = None,
+) -> tuple[int, str]:
+    """Run the program.
+
+    Parameters
+    ----------
+    arguments : iterable of str or path
+        Command and options.
+    text : str, optional
+        Standard input.
+    folder : path, optional
+        Where it runs.
+    accepted : frozenset of int
+        Exit codes that are no error.
+    progress : callable, optional
+        Is given each line of progress.
+
+    Returns
+    -------
+    code : int
+        Exit code.
+    output : str
+        Standard output.
+
+    Raises
+    ------
+    Error
+        For an exit code that is not accepted; of the class for that code.
+    KeyboardInterrupt
+        If it is interrupted. The program has then ended, and kept everything finished.
+    """
+    command: Sequence[str] = [path(), *(os.fspath(word) for word in arguments)]
+    # The program tells its progress often where its messages go to a terminal.
+    ours, its = os.openpty() if progress else os.pipe()
+    said: list[str] = []
+    listener = threading.Thread(target=_listen, args=(ours, said, progress), daemon=True)
+    try:
+        process = subprocess.Popen(
+            command,
+            stdin=subprocess.PIPE if text is not None else subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=its,
+            text=True,
+            encoding="utf-8",
+            errors="replace",
+            cwd=folder,
+            start_new_session=True,  # it is interrupted by this process alone, which may be a notebook's
+        )
+    finally:
+        os.close(its)
+    listener.start()
+    try:
+        output, _ = process.communicate(text)
+    except BaseException:
+        process.send_signal(signal.SIGINT)
+        process.wait()
+        raise
+    finally:
+        listener.join()
+    message = "\n".join(said)
+    if process.returncode == 130:
+        raise KeyboardInterrupt(message)
+    if process.returncode not in accepted:
+        raise error_of(process.returncode, message or f"{command[0]} ended with exit code {process.returncode}")
+    return process.returncode, output
+
+
+def _listen(stream: int, said: list[str], progress: Callable[[str], None] | None) -> None:
+    """Keeps the messages that the program writes, and passes its progress on."""
+    rest = b""
+    with contextlib.suppress(OSError):  # a terminal ends with an error
+        while piece := os.read(stream, 4096):
+            *parts, rest = _PARTS.split(rest + piece)
+            for text, end in zip(parts[::2], parts[1::2]):
+                if end != _REPLACED:
+                    said.append(_text(text))
+                elif text and progress is not None:
+                    progress(_text(text))
+    if rest:
+        said.append(_text(rest))
+    os.close(stream)
+
+
+def _text(line: bytes) -> str:
+    return line.decode("utf-8", "replace").strip()

@@ -1,0 +1,546 @@
+"""Results files as tables."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import json
+import os
+import pathlib
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, cast
+
+import numpy as np
+
+import _zerocount
+
+from . import program
+from .datasets import Array, Column, ResultsDatasets
+from .errors import ManifestError
+from .figures import Figure, figure, figure_names
+from .judgement import Judgement
+from .optional import required
+from .tables import combined, frame, short_name
+from .traces import Trace, replayed
+from .wording import counted
+
+if TYPE_CHECKING:
+    import pandas  # type: ignore[import]
+    from xarray import Dataset
+
+    from .studies import Study
+
+SEVERITY = ["open_loop", "zero_count", "one_count", "off_target", "oscillating", "nonfinite"]
+"""Outcomes of a move from best to worst."""
+
+_TABLE = (
+    "trials",
+    "success_rate",
+    "success_rate_low",
+    "success_rate_high",
+    "stable_rate",
+    "stable_rate_low",
+    "stable_rate_high",
+    "settling_time_median",
+    "settling_time_p95",
+    "band_settling_time_p95",
+    "jerk_count_mean",
+)
+_GOAL = {
+    "goal": "whether the point meets the goal of the manifest: met, missed or undecided",
+    "goal_rate": "proportion of moves that meet the goal",
+    "goal_rate_low": "lower bound of that",
+    "goal_rate_high": "upper bound of that",
+}
+
+
+def open_results(path: str | os.PathLike[str]) -> Results:
+    """Open a results file.
+
+    Parameters
+    ----------
+    path : path
+        What ``Study.run`` or ``zerocount run`` made.
+
+    Returns
+    -------
+    Results
+
+    Raises
+    ------
+    DataError
+        If it is not a results file.
+
+    Examples
+    --------
+    >>> zc.open("my-axis.h5")
+    <Results 'my-axis': 8 design points × 2000 trials>
+    """
+    return Results(path)
+
+
+class Results:
+    """A results file. Rates are fractions; NaN stands where there is no value.
+
+    The tables are pandas DataFrames. ``table.attrs["units"]`` and ``table.attrs["meanings"]`` tell the unit and
+    the meaning of each column. Names are short where that is clear: ``ki`` for ``controller.ki``.
+
+    Attributes
+    ----------
+    path : pathlib.Path
+        The file.
+    """
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        self._file = ResultsDatasets(path)
+        self.path = self._file.path
+
+    def __repr__(self) -> str:
+        points, trials = self._file.attributes["points"], self._file.attributes["trials"]
+        return f"<Results {self.name!r}: {counted(points, 'design point')} × {counted(trials, 'trial')}>"
+
+    def _repr_html_(self) -> str:
+        return f"<p>{self.name}: {self.path}</p>" + str(self.table.to_html())
+
+    @property
+    def name(self) -> str:
+        """Name of the study."""
+        return str(self._file.attributes["name"])
+
+    @functools.cached_property
+    def study(self) -> Study:
+        """The study that was run: its manifest and settings."""
+        from .studies import Study
+
+        overrides = (text.partition("=") for text in self._file.texts("overrides"))
+        settings = {key: value for key, _, value in overrides}
+        return Study(self._file.text("manifest"), str(self.path), self.path.resolve().parent, settings)
+
+    @functools.cached_property
+    def checked(self) -> _zerocount.Study:
+        """The study as its trials were run, in this process."""
+        return _zerocount.Study.recorded(self.path)
+
+    def command(self, name: str, *options: str, accepted: frozenset[int] = frozenset({0})) -> str:
+        """What a command of the program says of this file.
+
+        Parameters
+        ----------
+        name : str
+            Such as ``"sensitivity"``.
+        *options : str
+            Such as ``"--point", "3"``.
+        accepted : frozenset of int
+            Exit codes that are no error.
+
+        Returns
+        -------
+        str
+            Standard output.
+        """
+        return program.run([name, str(self.path), *options], accepted=accepted)[1]
+
+    @functools.cached_property
+    def summary(self) -> dict[str, Any]:
+        """All statistics, as ``zerocount summary --format json`` gives them."""
+        result: dict[str, Any] = json.loads(self.command("summary", "--format", "json"))
+        return result
+
+    @functools.cached_property
+    def statistics(self) -> pandas.DataFrame:
+        """All statistics that the file stores, one row a design point.
+
+        The bounds (``_low``, ``_high``) are those of the file, at 95 % confidence. They respect that trials of
+        a rig are not independent. Of an error band of b counts the name ends in ``[b]``.
+        """
+        columns = self._file.group("point")
+        points = columns.pop("point").values
+        return frame("the table of points", self._by_band(columns), points, "point")
+
+    @functools.cached_property
+    def table(self) -> pandas.DataFrame:
+        """The main statistics, one row a design point: a part of `statistics`, and the goal if there is one.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Index ``point``, the number of the design point. Columns: ``label``; the swept keys; with a goal
+            ``goal`` (met, missed, undecided), ``goal_rate`` and its bounds; ``trials``; ``success_rate``, the
+            proportion of trials that end at zero counts, and ``stable_rate``, each with bounds;
+            ``settling_time_median`` and ``_p95`` (s), the arrival at zero; ``band_settling_time_p95[b]`` (s),
+            after which the error stays within b counts; ``jerk_count_mean`` per trial.
+
+        Examples
+        --------
+        >>> r = zc.open("my-axis.h5")
+        >>> r.table.loc[2, ["ki", "goal", "goal_rate"]].to_list()
+        [11767.7344682513, 'met', 0.986]
+        >>> r.table.attrs["units"]["settling_time_p95"]
+        's'
+        """
+        everything = self.statistics
+        axes = [short_name(axis, list(everything)) for axis in self._axes()]
+        wanted = [name for part in _TABLE for name in everything if name.partition("[")[0] == part]
+        wanted += [name for name in everything if name == "rigs_without_failure"]
+        table = everything[["label", *axes, *wanted]].astype({"trials": int})
+        table.attrs = {kind: {name: of[name] for name in table} for kind, of in everything.attrs.items()}
+        if self.study.goal is not None:
+            goals = [point["goal"] for point in self.summary["points"]]
+            for place, (name, key) in enumerate(zip(_GOAL, ("status", "rate", "rate_low", "rate_high"))):
+                table.insert(1 + len(axes) + place, name, [goal[key] for goal in goals])
+                table.attrs["units"][name] = "1"
+                table.attrs["meanings"][name] = _GOAL[name]
+        return table
+
+    def _axes(self) -> list[str]:
+        return [str(axis["name"]) for axis in self.checked.axes]
+
+    def _bands(self) -> list[int]:
+        return [int(band) for band in self.checked.bands]
+
+    def _by_band(self, columns: Mapping[str, Column]) -> dict[str, Column]:
+        """The columns, those with a dimension of error bands as one column for each of them."""
+        result = {}
+        for name, column in columns.items():
+            if column.dimensions[-1] != "band":
+                result[name] = column
+                continue
+            for place, band in enumerate(self._bands()):
+                result[f"{name}[{band}]"] = Column(
+                    column.values[..., place], column.dimensions[:-1], column.unit, column.meaning, column.words
+                )
+        return result
+
+    def _rows(self, point: int | str | None) -> slice | None:
+        """The rows of trials of a design point; all of them for None."""
+        return None if point is None else self._file.rows("trial/point", [self.point(point)])
+
+    def point(self, point: int | str) -> int:
+        """Number of a design point.
+
+        Parameters
+        ----------
+        point : int or str
+            Number or label.
+
+        Returns
+        -------
+        int
+
+        Raises
+        ------
+        ManifestError
+            If there is no such point.
+        """
+        labels = self._file.group("point")["label"].values.tolist()
+        if isinstance(point, str) and point in labels:
+            return int(labels.index(point))
+        if not isinstance(point, str) and 0 <= point < len(labels):
+            return int(point)
+        raise ManifestError(f"{self.path}: there is no point {point!r}; expected 0 to {len(labels) - 1} or a label", 2)
+
+    def trials(self, point: int | str | None = None) -> pandas.DataFrame:
+        """Inputs and outcomes, one row a trial.
+
+        Parameters
+        ----------
+        point : int or str, optional
+            Number or label of a design point; default: all.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Index ``trial``, the row of the trial in the file. Columns: ``point``, ``index`` (of the trial at its
+            point), ``rig`` if trials share rigs, ``world`` if the study has worlds, the inputs, ``success``
+            (zero counts at the end of every move), ``outcome`` (of the worst move), and the measures of the
+            moves, combined: a quality holds if every move has it, or some for ``saturated`` and ``broke_away``;
+            numbers of events are summed; of other values the largest magnitude stands, NaN if a move has none.
+
+        Examples
+        --------
+        >>> t = zc.open("my-axis.h5").trials(point=2)
+        >>> t[["k1", "rig", "success"]].iloc[0].to_dict()
+        {'k1': 129.43261101715342, 'rig': 0, 'success': True}
+        """
+        rows = self._rows(point)
+        columns = self._file.group("trial", rows)
+        trial = columns.pop("trial").values
+        columns.update(self._shared(columns["index"].values))
+        columns.update(self._file.group("trial/input", rows))
+        columns.update(self._of_trials(self._by_band(self._file.group("outcome", rows))))
+        return frame("the table of trials", columns, trial, "trial")
+
+    def _shared(self, index: Array) -> dict[str, Column]:
+        """What a trial shares with others: its rig and its world."""
+        columns = {}
+        for name, count, meaning in (
+            ("rig", self.study.rigs, "index of the rig, the machine of the trial"),
+            ("world", self.study.worlds, "index of the world"),
+        ):
+            if count > 0:
+                columns[name] = Column(index % count, ("trial",), "1", meaning)
+        return columns
+
+    def _of_trials(self, columns: Mapping[str, Column]) -> dict[str, Column]:
+        """[trial] from [trial, move]."""
+        outcome = columns["outcome"]
+        order = [outcome.words.index(word) for word in SEVERITY if word in outcome.words]
+        severity = np.zeros(len(outcome.words), dtype=np.int8)
+        severity[order] = range(len(order))
+        worst = np.array(order, dtype=np.int8)[severity[outcome.values].max(axis=1)]
+        success = worst == outcome.words.index("zero_count")
+        result = {
+            "success": Column(success, ("trial",), "1", "all moves ended at zero counts"),
+            "outcome": Column(worst, ("trial",), "1", "outcome of the worst move", outcome.words),
+        }
+        measures = self.checked.descriptions["outcome"]
+        for name, column in columns.items():
+            if column.dimensions != ("trial", "move") or name == "outcome" or name not in measures:
+                continue
+            rule = measures[name]["of_trial"]
+            result[name] = Column(combined(column.values, rule), ("trial",), column.unit, column.meaning)
+        return result
+
+    def moves(self, point: int | str | None = None) -> pandas.DataFrame:
+        """Outcomes, one row a move.
+
+        Parameters
+        ----------
+        point : int or str, optional
+            Number or label of a design point; default: all.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Index ``trial`` and ``move``. Columns: the measures of a move.
+        """
+        pandas = required("pandas", "the table of moves")
+        columns = self._by_band(self._file.group("outcome", self._rows(point)))
+        trial, move = columns.pop("trial").values, columns.pop("move").values
+        flat = {
+            name: dataclasses.replace(column, values=column.values.reshape(-1))
+            for name, column in columns.items()
+            if column.dimensions == ("trial", "move")
+        }
+        index = pandas.MultiIndex.from_product([trial, move], names=["trial", "move"])
+        return frame("the table of moves", flat, index, None)
+
+    def jerks(self, point: int | str | None = None) -> pandas.DataFrame:
+        """Jerks, one row each: excursions of the error from zero after arrival.
+
+        Parameters
+        ----------
+        point : int or str, optional
+            Number or label of a design point; default: all.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Index ``jerk``. Columns: ``trial``, ``move``, ``onset`` and ``duration`` (s), ``magnitude`` (counts),
+            ``direction``.
+        """
+        columns = self._file.group("jerk")
+        table = frame("the table of jerks", columns, columns.pop("jerk").values, "jerk")
+        if point is None:
+            return table
+        trials = self._file.group("trial", self._rows(point))["trial"].values
+        return table[table["trial"].isin(trials)]
+
+    def rigs(self, point: int | str | None = None) -> pandas.DataFrame:
+        """Machines, one row each.
+
+        Parameters
+        ----------
+        point : int or str, optional
+            Number or label of the design point of the counts; default: the sum over all points.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Index ``rig``. Columns: what is drawn per rig, ``trials``, and ``success``, those that end at zero.
+        """
+        return self._machines("rig", point)
+
+    def worlds(self, point: int | str | None = None) -> pandas.DataFrame:
+        """Worlds, one row each: what all machines share and nobody knows.
+
+        Parameters
+        ----------
+        point : int or str, optional
+            Number or label of the design point of the counts; default: the sum over all points.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Index ``world``. Columns: what is drawn per world, ``trials``, ``success``, and with a goal
+            ``goal_met``.
+        """
+        return self._machines("world", point)
+
+    def _machines(self, group: str, point: int | str | None) -> pandas.DataFrame:
+        columns = self._file.group(group)
+        inputs = self._file.group(f"{group}/input") if self._file.has(f"{group}/input") else {}
+        index = columns.pop(group).values
+        counts = {name: column for name, column in columns.items() if column.dimensions == ("point", group)}
+        for name, column in counts.items():
+            values = column.values.sum(axis=0) if point is None else column.values[self.point(point)]
+            inputs[name] = Column(values, (group,), column.unit, column.meaning)
+        return frame(f"the table of {group}s", inputs, index, group)
+
+    def levels(self) -> pandas.DataFrame:
+        """Torque levels of an open-loop study, one row for each point and level.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Index ``point`` and ``move``.
+        """
+        pandas = required("pandas", "the table of torque levels")
+        columns = self._file.group("level")
+        axes = [columns.pop("point").values, columns.pop("move").values]
+        flat = {
+            name: dataclasses.replace(column, values=column.values.reshape(-1)) for name, column in columns.items()
+        }
+        return frame(
+            "the table of torque levels", flat, pandas.MultiIndex.from_product(axes, names=["point", "move"]), None
+        )
+
+    @functools.cached_property
+    def dataset(self) -> Dataset:
+        """Inputs and outcomes of all trials as arrays with named dimensions.
+
+        Returns
+        -------
+        xarray.Dataset
+            Dimensions ``trial``, ``move`` and ``band``. Coordinates: ``point``, ``index``, the inputs. Variables:
+            the measures of a move. Units and meanings in ``attrs``.
+
+        Examples
+        --------
+        >>> ds = zc.open("my-axis.h5").dataset
+        >>> ds.settling_time.sizes
+        Frozen({'trial': 16000, 'move': 2})
+        """
+        xarray = required("xarray", "the dataset")
+
+        def variable(column: Column) -> Any:
+            return column.dimensions, column.in_words, {"units": column.unit, "long_name": column.meaning}
+
+        outcome = self._file.group("outcome")
+        coordinates = {**self._file.group("trial"), **self._file.group("trial/input")}
+        names = {name: short_name(name, list(coordinates)) for name in coordinates}
+        scales = {name: outcome.pop(name) for name in ("trial", "move")}
+        result = xarray.Dataset(
+            {name: variable(column) for name, column in outcome.items()},
+            {
+                **{names[name]: variable(column) for name, column in coordinates.items()},
+                **{name: variable(column) for name, column in scales.items()},
+                "band": ("band", self._bands(), {"units": "count"}),
+            },
+            {"name": self.name},
+        )
+        return cast("Dataset", result)
+
+    def trace(self, point: int | str = 0, trial: int = 0, *, plugin: str | os.PathLike[str] | None = None) -> Trace:
+        """One trial again, sample by sample.
+
+        Parameters
+        ----------
+        point : int or str
+            Number or label of the design point.
+        trial : int
+            Index of the trial at the point.
+        plugin : path, optional
+            The controller's library, of a study with one of its own.
+
+        Returns
+        -------
+        Trace
+
+        Raises
+        ------
+        DataError
+            If the outcome of the trial differs from the recorded one.
+
+        Examples
+        --------
+        >>> t = zc.open("my-axis.h5").trace(point=2, trial=17)
+        >>> t.error[-1]
+        0
+        """
+        options = ["--point", str(self.point(point)), "--trial", str(trial)]
+        options += ["--plugin", os.fspath(plugin)] if plugin is not None else []
+        return replayed(self.command("trace", "--format", "json", *options), self.checked, self.point(point))
+
+    def judge(self, point: int | str | None = None) -> Judgement:
+        """Whether the goal of the manifest is met.
+
+        Parameters
+        ----------
+        point : int or str, optional
+            The design point; default: the best, with bounds that allow for its choice.
+
+        Returns
+        -------
+        Judgement
+
+        Raises
+        ------
+        ManifestError
+            If the manifest has no goal.
+
+        Examples
+        --------
+        >>> zc.open("my-axis.h5").judge().status
+        'met'
+        """
+        options = ["--format", "json"] + (["--point", str(self.point(point))] if point is not None else [])
+        return Judgement.of(json.loads(self.command("judge", *options, accepted=program.VERDICTS)))
+
+    def report(self, output: str | os.PathLike[str]) -> pathlib.Path:
+        """Write the report, one HTML page.
+
+        Parameters
+        ----------
+        output : path
+            An existing file is replaced.
+
+        Returns
+        -------
+        pathlib.Path
+        """
+        self.command("report", "-o", str(output), "--force")
+        return pathlib.Path(output)
+
+    @property
+    def figures(self) -> list[str]:
+        """Names of the figures that `plot` draws."""
+        return figure_names(self.path)
+
+    def plot(self, name: str | None = None, *, point: int | str | None = None) -> Figure:
+        """A figure of the report.
+
+        Parameters
+        ----------
+        name : str, optional
+            One of `figures`, or the start of one; default: the first.
+        point : int or str, optional
+            The design point whose trials are shown; default: the best.
+
+        Returns
+        -------
+        Figure
+            A notebook shows it.
+
+        Raises
+        ------
+        ManifestError
+            If there is no such figure.
+
+        Examples
+        --------
+        >>> f = zc.open("my-axis.h5").plot("settling")
+        >>> f.specification["$schema"]
+        'https://vega.github.io/schema/vega-lite/v6.json'
+        """
+        return figure(self.path, name, None if point is None else self.point(point))

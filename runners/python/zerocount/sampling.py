@@ -1,0 +1,256 @@
+"""A study as a function of its random variables, for the tools of others."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import os
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .datasets import Array
+from .errors import ManifestError
+from .laws import checked_point
+from .optional import required
+from .tables import combined
+
+if TYPE_CHECKING:
+    import openturns  # type: ignore[import]
+
+    from .results import Results
+    from .studies import Study
+
+Numbers = npt.NDArray[np.float64]
+
+MAX_NUMBER = 2**32
+"""Trials have smaller numbers."""
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Sample:
+    """A design point of a study as a function from its random variables to an outcome.
+
+    Parameters
+    ----------
+    names : list of str
+        Dotted keys of the variables, in the order of the columns of `x`.
+    units : list of str
+        Their units.
+    distributions : list of dict
+        Their distributions in the form of a manifest: ``{"lognormal": {"median": 90.0, "cv": 0.2}}``.
+    correlations : numpy.ndarray
+        ``[variable, variable]`` correlations of the normal scores: a Gaussian copula.
+    outcome : str or callable
+        What `__call__` gives of each trial.
+    """
+
+    names: list[str]
+    units: list[str]
+    distributions: list[dict[str, Any]]
+    correlations: Numbers
+    outcome: str | Callable[[dict[str, Array]], Array]
+    _study: Study
+    _point: int
+    _threads: int
+
+    def __call__(self, x: npt.ArrayLike, *, first: int = 0) -> Any:
+        """The outcome of trials with these values.
+
+        Parameters
+        ----------
+        x : array_like
+            ``[trial, variable]``, or ``[variable]`` of one trial, in the units of the variables.
+        first : int
+            Number of the first trial. All random numbers beside the variables, such as noise and the rest of a
+            profile, follow from the number of a trial: equal numbers and values give equal outcomes.
+
+        Returns
+        -------
+        numpy.ndarray or float
+            ``[trial]``, or the number of one trial.
+
+        Raises
+        ------
+        ManifestError
+            For a value that the variable cannot have, or a wrong number of columns.
+        """
+        values = np.asarray(x, dtype=float)
+        result = np.asarray(self._outcome_of(self.trials(values, first=first)), dtype=float)
+        return float(result[0]) if values.ndim == 1 else result
+
+    def trials(self, x: npt.ArrayLike, *, first: int = 0) -> dict[str, Array]:
+        """All measures of trials with these values.
+
+        Parameters
+        ----------
+        x : array_like
+            ``[trial, variable]``.
+        first : int
+            As in `__call__`.
+
+        Returns
+        -------
+        dict of str to numpy.ndarray
+            ``[trial, move]`` by the name of the measure.
+        """
+        values = np.atleast_2d(np.asarray(x, dtype=float))
+        if values.ndim != 2 or values.shape[1] != len(self.names):
+            raise ManifestError(
+                f"x has the shape {np.shape(x)}; expected a column for each of the {len(self.names)} variables", 2
+            )
+        if not 0 <= first <= MAX_NUMBER - len(values):
+            raise ManifestError(f"first = {first} is out of range; expected 0 to {MAX_NUMBER - len(values)}", 2)
+        numbers = np.arange(first, first + len(values))
+        result: dict[str, Array] = self._study.checked.simulate(self._point, values, numbers, self._threads)
+        return result
+
+    def _outcome_of(self, measures: dict[str, Array]) -> Array:
+        if callable(self.outcome):
+            return self.outcome(measures)
+        if self.outcome == "success":
+            return np.asarray((measures["outcome"] == 0).all(axis=1))
+        values = measures[self.outcome]
+        rule = self._study.checked.descriptions["outcome"][self.outcome]["of_trial"]
+        return combined(values, rule)
+
+    def set(self, **values: Any) -> Sample:
+        """The same variables, outcome and random numbers with other values of the manifest, such as gains.
+
+        Parameters
+        ----------
+        **values
+            Dotted keys and values, as in `Study.set`.
+        """
+        return sample(self._study.set(**values), self._point, outcome=self.outcome, threads=self._threads)
+
+    def draw(self, trials: int, *, seed: int = 0) -> Numbers:
+        """Values of the variables from their joint distribution.
+
+        Parameters
+        ----------
+        trials : int
+            How many.
+        seed : int
+            Of NumPy's generator.
+
+        Returns
+        -------
+        numpy.ndarray
+            ``[trial, variable]``.
+        """
+        factor = np.linalg.cholesky(self.correlations)
+        scores = np.random.default_rng(seed).standard_normal((trials, len(self.names))) @ factor.T
+        result: Numbers = self._study.checked.values_at_scores(self._point, scores)
+        return result
+
+    @property
+    def distribution(self) -> openturns.Distribution:
+        """The joint distribution of the variables, for OpenTURNS."""
+        openturns = required("openturns", "the joint distribution")
+        marginals = [_openturns(openturns, form) for form in self.distributions]
+        matrix = openturns.CorrelationMatrix(self.correlations.tolist())
+        copula = openturns.NormalCopula(matrix)
+        joint = openturns.ComposedDistribution(marginals, copula)
+        joint.setDescription(self.names)
+        return joint
+
+    @property
+    def function(self) -> openturns.Function:
+        """The outcome as a function for OpenTURNS, which calls it with whole samples."""
+        openturns = required("openturns", "the function")
+        result = openturns.PythonFunction(
+            len(self.names),
+            1,
+            func=lambda x: [self(np.asarray(x))],
+            func_sample=lambda x: self(np.asarray(x))[:, np.newaxis],
+        )
+        result.setInputDescription(self.names)
+        result.setOutputDescription([self.outcome if isinstance(self.outcome, str) else "outcome"])
+        return result
+
+
+def sample(
+    study: Study | Results | str | os.PathLike[str],
+    point: int = 0,
+    *,
+    outcome: str | Callable[[dict[str, Array]], Array] = "success",
+    threads: int | None = None,
+) -> Sample:
+    """A design point of a study as a function from its random variables to an outcome, in this process.
+
+    The variables are what the manifest draws for each trial or rig. Each trial is on a machine of its own. Of a
+    profile along the axis they are its mean, if that is drawn, and the standard normal score of the profile where the
+    trial starts. A row of joint samples is one variable, its number.
+
+    Parameters
+    ----------
+    study : Study, Results or path of a manifest
+        The study.
+    point : int
+        Number of the design point.
+    outcome : str or callable
+        ``"success"`` (zero counts at the end of every move), or the name of a measure, combined over the moves as
+        in ``Results.trials``, or a function of the measures ``{name: [trial, move]}``.
+    threads : int, optional
+        Default: all cores.
+
+    Returns
+    -------
+    Sample
+
+    Raises
+    ------
+    ManifestError
+        If there is no such measure or point, or nothing is drawn.
+
+    Examples
+    --------
+    >>> f = zc.sample("my-axis.yaml", point=2, outcome="settling_time")
+    >>> f.names
+    ['friction.k1', 'friction.k2', 'friction.beta', 'friction.alpha', 'command.targets.0', 'initial.encoder_phase']
+    >>> f([90, 600, 1e5, 0.5, 20, 0.5])
+    0.042
+    """
+    from .results import Results
+    from .studies import Study
+    from .studies import study as study_of
+
+    subject = study if isinstance(study, Study) else study.study if isinstance(study, Results) else study_of(study)
+    checked_point(subject.checked, point)
+    variables = subject.checked.variables(point)
+    measures = subject.checked.descriptions["outcome"]
+    if not variables["names"]:
+        raise ManifestError(f"{subject.name}: nothing is drawn for its trials; expected a distribution", 2)
+    if isinstance(outcome, str) and outcome != "success" and outcome not in measures:
+        raise ManifestError(f"there is no measure {outcome!r}; expected success or one of {', '.join(measures)}", 2)
+    return Sample(
+        variables["names"],
+        variables["units"],
+        variables["distributions"],
+        variables["correlations"],
+        outcome,
+        subject,
+        point,
+        threads or len(os.sched_getaffinity(0)),
+    )
+
+
+def _openturns(openturns: Any, form: dict[str, Any]) -> Any:
+    """A distribution of a manifest as one of OpenTURNS."""
+    ((kind, given),) = form.items()
+    if kind == "uniform":
+        return openturns.Uniform(*given)
+    if kind == "log_uniform":
+        return openturns.LogUniform(*map(math.log, given))
+    if kind == "normal":
+        return openturns.Normal(given["mean"], given["sd"])
+    if kind == "truncated_normal":
+        return openturns.TruncatedNormal(given["mean"], given["sd"], given["low"], given["high"])
+    if kind == "lognormal":
+        return openturns.LogNormal(math.log(given["median"]), math.sqrt(math.log1p(given["cv"] ** 2)), 0.0)
+    if kind == "triangular":
+        return openturns.Triangular(*given)
+    values: Sequence[float] = range(int(given[0]), int(given[1]) + 1) if kind == "integers" else given
+    return openturns.UserDefined([[float(value)] for value in values])

@@ -1,0 +1,63 @@
+"""Tables of pandas from datasets."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .datasets import Array, Column
+from .optional import required
+
+if TYPE_CHECKING:
+    import pandas  # type: ignore[import]
+
+
+def combined(values: Array, rule: str) -> Array:
+    """``[trial]`` from the values ``[trial, move]`` of its moves.
+
+    Parameters
+    ----------
+    values : numpy.ndarray
+        Of the moves.
+    rule : str
+        ``all``, ``any``, ``sum``, ``largest`` (magnitude) or ``last``.
+    """
+    if rule == "all":
+        return np.asarray(values.all(axis=1))
+    if rule == "any":
+        return np.asarray(values.any(axis=1))
+    if rule == "sum":
+        return np.asarray(values.sum(axis=1))
+    if rule == "largest":
+        return np.asarray(np.abs(values).max(axis=1))
+    return np.asarray(values[:, -1])
+
+
+def short_name(name: str, among: list[str]) -> str:
+    """The last part of a dotted key, with as many parts before it as tell it from others."""
+    parts = name.split(".")
+    for first in range(len(parts) - 1, 0, -1):
+        short = ".".join(parts[first:])
+        clear = sum(other == short or other.endswith("." + short) for other in among) <= 1
+        if clear and not parts[first].isdigit():
+            return short
+    return name
+
+
+def frame(purpose: str, columns: Mapping[str, Column], index: Any, index_name: str | None) -> pandas.DataFrame:
+    """A DataFrame with short names, and the units and meanings of its columns."""
+    pandas = required("pandas", purpose)
+    names = {name: short_name(name, list(columns)) for name in columns}
+    table = pandas.DataFrame({names[name]: _series(pandas, column) for name, column in columns.items()}, index=index)
+    if index_name is not None:
+        table.index.name = index_name
+    table.attrs["units"] = {names[name]: column.unit for name, column in columns.items()}
+    table.attrs["meanings"] = {names[name]: column.meaning for name, column in columns.items()}
+    return table
+
+
+def _series(pandas: Any, column: Column) -> Any:
+    """The values of a column, an enumeration as categories."""
+    return pandas.Categorical.from_codes(column.values, column.words) if column.words else column.values

@@ -205,6 +205,7 @@ void register_study(py::module_& module) {
       .def_readonly("text", &Study::manifest_text)
       .def_readonly("overrides", &Study::overrides)
       .def_readonly("warnings", &Study::warnings)
+      .def_readonly("observed", &Study::observed)
       .def_property_readonly("linear",
                              [](const Study& s) { return s.features.axis == parameters::AxisKind::linear; })
       .def_property_readonly("plugin", [](const Study& s) { return s.plugin != nullptr; })

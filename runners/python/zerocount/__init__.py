@@ -20,7 +20,7 @@ from .planning import Plan, plan
 from .results import Results
 from .results import open_results as open
 from .sampling import Sample, sample
-from .studies import Study, study
+from .studies import Study, shipped, study
 from .traces import Trace
 from .tuning import Proof, Tuning, tune
 
@@ -51,6 +51,7 @@ __all__ = [
     "open",
     "plan",
     "sample",
+    "shipped",
     "study",
     "trial",
     "tune",

@@ -12,10 +12,13 @@ from typing import TYPE_CHECKING, Any
 
 from . import program
 from .drawing import drawn
-from .errors import ManifestError
+from .errors import MachineError, ManifestError
 
 if TYPE_CHECKING:
     import matplotlib.figure  # type: ignore[import]
+
+SHOWN_WIDTH = 600
+"""Of a picture in a notebook, pixels."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -82,9 +85,17 @@ class Figure:
         """
         return drawn(self.specification)
 
-    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, Any]:
-        """What a notebook shows."""
-        return {"image/svg+xml": self.svg, "text/plain": repr(self)}
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> tuple[dict[str, Any], dict[str, Any]]:
+        """What a notebook shows: the picture, as well as this machine can draw it."""
+        text = {"text/plain": repr(self)}
+        try:
+            return {"image/png": self.png, **text}, {"image/png": {"width": SHOWN_WIDTH}}
+        except MachineError:
+            pass
+        try:
+            return {"image/svg+xml": self.svg, **text}, {}
+        except MachineError as error:
+            return {"text/plain": f"{repr(self)}: {error}"}, {}
 
 
 def figure_names(path: str | os.PathLike[str]) -> list[str]:

@@ -26,7 +26,7 @@ class Identification:
     Parameters
     ----------
     parameters : list of dict
-        ``key``, ``unit``, ``status``, ``value``, ``low`` and ``high`` (95 %) of each.
+        ``name``, ``key`` (in a manifest, or None), ``unit``, ``status``, ``value``, ``low`` and ``high`` (95 %) of each.
     manifest : dict
         What to put into a manifest: the sections and keys with their distributions.
     text : str
@@ -56,8 +56,8 @@ class Identification:
 
     @property
     def table(self) -> pandas.DataFrame:
-        """The parameters, one row each."""
-        return required("pandas", "the table of parameters").DataFrame(self.parameters).set_index("key")
+        """The parameters, one row each, by their names."""
+        return required("pandas", "the table of parameters").DataFrame(self.parameters).set_index("name")
 
 
 def identify(

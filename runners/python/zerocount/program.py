@@ -10,6 +10,7 @@ import re
 import shutil
 import signal
 import subprocess
+import sys
 import threading
 from collections.abc import Callable, Iterable, Sequence
 
@@ -58,8 +59,8 @@ def path() -> str:
 
 
 def _installed() -> str | None:
-    """The program beside the package, where pip put both."""
-    program = pathlib.Path(__file__).with_name("bin") / "zerocount"
+    """The program that was installed with the package, by pip or as packages of Debian."""
+    program = pathlib.Path(sys.prefix, "bin", "zerocount")
     return str(program) if program.exists() else None
 
 

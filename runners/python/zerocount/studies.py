@@ -50,6 +50,31 @@ def study(manifest: str | os.PathLike[str] | Mapping[str, Any]) -> Study:
     return result
 
 
+def shipped(name: str) -> Study:
+    """A study that comes with the program.
+
+    Parameters
+    ----------
+    name : str
+        One of those that ``zerocount new --list`` lists.
+
+    Returns
+    -------
+    Study
+
+    Raises
+    ------
+    ManifestError
+        If there is none of this name; the message has the nearest.
+
+    Examples
+    --------
+    >>> zc.shipped("paper-gains").labels
+    ['a', 'b', 'b-with-kp', 'c', 'above-upper']
+    """
+    return Study(program.run(["new", name, "-o", "-"])[1], name, pathlib.Path.cwd())
+
+
 def _text_of(path: pathlib.Path) -> str:
     """The text of a manifest, with its line ends as they are: they are a part of the hash."""
     try:
@@ -247,6 +272,11 @@ class Study:
     def sha256(self) -> str:
         """Hash of all that determines the trials."""
         return self.checked.sha256
+
+    @property
+    def observed(self) -> dict[str, str]:
+        """What was observed on a real axis, by the label of the design point."""
+        return self.checked.observed
 
     @property
     def goal(self) -> dict[str, Any] | None:

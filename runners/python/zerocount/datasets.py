@@ -8,11 +8,11 @@ import pathlib
 from collections.abc import Iterable
 from typing import Any
 
-import h5py  # type: ignore[import]
 import numpy as np
 import numpy.typing as npt
 
 from .errors import DataError
+from .optional import required
 
 Array = npt.NDArray[Any]
 
@@ -68,7 +68,8 @@ class ResultsDatasets:
         if "format_version" not in self.attributes:
             raise DataError(f"{self.path}: not a results file of zerocount", 4)
 
-    def _open(self) -> h5py.File:
+    def _open(self) -> Any:
+        h5py = required("h5py", "a results file")
         if not self.path.exists():
             raise DataError(f"{self.path}: no such file; expected a results file", 4)
         try:
@@ -104,7 +105,7 @@ class ResultsDatasets:
         with self._open() as file:
             if name not in file:
                 raise DataError(f"{self.path}: it has no {_WHAT.get(name, name)}", 4)
-            datasets = {key: item for key, item in file[name].items() if isinstance(item, h5py.Dataset)}
+            datasets = {key: item for key, item in file[name].items() if hasattr(item, "shape")}
             return {key: _column(item, rows) for key, item in datasets.items()}
 
     def rows(self, name: str, values: Iterable[int]) -> slice:
@@ -150,11 +151,11 @@ def _attribute(value: Any) -> Any:
     return value.item() if isinstance(value, np.generic) else value
 
 
-def _column(dataset: h5py.Dataset, rows: slice | None) -> Column:
+def _column(dataset: Any, rows: slice | None) -> Column:
     attributes = {key: _attribute(dataset.attrs[key]) for key in ("units", "long_name") if key in dataset.attrs}
     selection = rows if rows is not None and dataset.ndim > 0 else ()
     words = _words(dataset)
-    if h5py.check_string_dtype(dataset.dtype) is not None:
+    if dataset.dtype.kind == "O":
         values = np.asarray(dataset.asstr()[selection], dtype=object)
     else:
         values = np.asarray(dataset[selection])
@@ -164,7 +165,7 @@ def _column(dataset: h5py.Dataset, rows: slice | None) -> Column:
     return Column(values, _dimensions(dataset), unit, meaning, words)
 
 
-def _words(dataset: h5py.Dataset) -> list[str]:
+def _words(dataset: Any) -> list[str]:
     """The words of an enumeration by its numbers, which begin at 0."""
     if "flag_values" not in dataset.attrs:
         return []
@@ -173,7 +174,7 @@ def _words(dataset: h5py.Dataset) -> list[str]:
     return [by_number.get(number, str(number)) for number in range(max(by_number) + 1)]
 
 
-def _dimensions(dataset: h5py.Dataset) -> tuple[str, ...]:
+def _dimensions(dataset: Any) -> tuple[str, ...]:
     own = dataset.name.rpartition("/")[2]
     return tuple(
         scale[0].name.rpartition("/")[2] if len(scale) else own for scale in (dataset.dims[i] for i in range(dataset.ndim))

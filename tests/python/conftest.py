@@ -1,0 +1,52 @@
+"""Studies that several tests use, run once."""
+
+from __future__ import annotations
+
+import pathlib
+from collections.abc import Callable
+
+import matplotlib
+import pytest
+import zerocount as zc
+from support import ROOT, first_study, shipped
+
+matplotlib.use("Agg")
+
+
+@pytest.fixture(scope="session")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> pathlib.Path:
+    """Where the results of the session are."""
+    return tmp_path_factory.mktemp("studies")
+
+
+@pytest.fixture(scope="session")
+def axis(folder: pathlib.Path) -> zc.Study:
+    """The first study of the README."""
+    first_study(ROOT, folder / "my-axis.yaml")
+    return zc.study(folder / "my-axis.yaml")
+
+
+@pytest.fixture(scope="session")
+def first(axis: zc.Study, folder: pathlib.Path) -> zc.Results:
+    """The results of the README's first study."""
+    return axis.run(folder / "my-axis.h5")
+
+
+@pytest.fixture(scope="session")
+def small(axis: zc.Study, folder: pathlib.Path) -> zc.Results:
+    """The README's first study with 200 trials at three gains."""
+    study = axis.set(rigs=100, trials=200).sweep("controller.ki", [5e3, 1.2e4, 4e4])
+    return study.run(folder / "small.h5")
+
+
+@pytest.fixture(scope="session")
+def results_of(folder: pathlib.Path) -> Callable[[str], zc.Results]:
+    """The results of a shipped study with few trials, by its name."""
+    known: dict[str, zc.Results] = {}
+
+    def results(name: str) -> zc.Results:
+        if name not in known:
+            known[name] = shipped(name).run(folder / f"{name}.h5")
+        return known[name]
+
+    return results

@@ -1,0 +1,220 @@
+"""Runs of the program: interruption, extension, progress, errors and cost."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import pathlib
+import signal
+import statistics
+import stat
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+
+import h5py
+import pytest
+import zerocount as zc
+import zerocount.program
+import zerocount.studies
+from support import datasets_of, program, said_by_program, same
+
+
+def assert_same_data(one: zc.Results, other: zc.Results) -> None:
+    """Two files have the same datasets, to the bit, except for the texts that tell how they were made."""
+    mine, its = datasets_of(one.path), datasets_of(other.path)
+    assert set(mine) == set(its)
+    assert [name for name in mine if name != "overrides" and not same(mine[name], its[name])] == []
+
+
+def shown_by(monkeypatch: pytest.MonkeyPatch, show: Callable[[str], None]) -> None:
+    """Gives the progress of runs to a function, as a terminal or a notebook would get it."""
+    monkeypatch.setattr(zerocount.studies, "progress_bar", lambda name, wanted: contextlib.nullcontext(show))
+
+
+@pytest.fixture
+def interrupted_run(axis: zc.Study, tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch) -> tuple[pathlib.Path, list[str]]:
+    """A run of the first study that was interrupted at its first line of progress, and what it showed."""
+    lines: list[str] = []
+
+    def show(line: str) -> None:
+        if not lines:
+            os.kill(os.getpid(), signal.SIGINT)
+        lines.append(line)
+
+    with monkeypatch.context() as patch, pytest.raises(KeyboardInterrupt):
+        shown_by(patch, show)
+        axis.run(tmp_path / "interrupted.h5", threads=1)
+    return tmp_path / "interrupted.h5", lines
+
+
+def test_an_interrupted_run_continues(
+    axis: zc.Study, first: zc.Results, interrupted_run: tuple[pathlib.Path, list[str]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The same call goes on after an interruption; the data are those of a run without one, on other threads."""
+    output, lines = interrupted_run
+    assert "%" in lines[0] and not output.exists()
+    later: list[str] = []
+    shown_by(monkeypatch, later.append)
+    result = axis.run(output, threads=1)
+    percents = [float(line.partition("(")[2].partition(" %")[0]) for line in later]
+    assert percents == sorted(percents) and percents[0] > 25.0 and percents[-1] == 100.0
+    assert_same_data(result, first)
+
+
+def test_a_finished_run_is_opened(axis: zc.Study, first: zc.Results) -> None:
+    """Running a finished study again does not change the file."""
+    before = first.path.read_bytes()
+    assert axis.run(first.path).table.equals(first.table)
+    assert first.study.run(first.path).path == first.path
+    assert first.path.read_bytes() == before
+
+
+def test_a_study_that_stopped_is_opened(axis: zc.Study, tmp_path: pathlib.Path) -> None:
+    """A finished study that chose its number of trials is opened by its own study, and by the one of its results."""
+    stop = {"success_rate_halfwidth": 0.1, "max_trials": 1000}
+    study = axis.without("goal", "rigs").sweep("controller.ki", [5e3]).set(trials=100, stop=stop)
+    r = study.run(tmp_path / "stop.h5")
+    assert 100 < len(r.trials()) < 1000
+    assert study.run(r.path).trials().equals(r.trials())
+    assert r.study.run(r.path).trials().equals(r.trials())  # DEFECT: refused as another study
+
+
+def test_another_study_is_refused_and_force_replaces_it(axis: zc.Study, tmp_path: pathlib.Path) -> None:
+    """A file of another study stays as it was, unless it is to be replaced."""
+    few = axis.set(rigs=2, trials=4)
+    few.run(tmp_path / "r.h5")
+    before = (tmp_path / "r.h5").read_bytes()
+    with pytest.raises(zc.ManifestError, match="results of another study: seed is 1 there and 2 here"):
+        few.set(seed=2).run(tmp_path / "r.h5")
+    assert (tmp_path / "r.h5").read_bytes() == before
+    assert few.set(seed=2).run(tmp_path / "r.h5", force=True).checked.seed == 2
+
+
+def test_a_run_is_extended(axis: zc.Study, tmp_path: pathlib.Path) -> None:
+    """More trials of the same study are added to those of the file: all are as in one run."""
+    some, more = axis.set(rigs=4, trials=40), axis.set(rigs=4, trials=100)
+    some.run(tmp_path / "extended.h5")
+    r = more.run(tmp_path / "extended.h5")
+    assert_same_data(r, more.run(tmp_path / "whole.h5", threads=1))
+    assert len(r.trials(0)) == 100
+
+
+def test_progress_is_passed_on(axis: zc.Study, tmp_path: pathlib.Path) -> None:
+    """A function for progress gets whole lines while the program runs; the answer is the same without one."""
+    lines: list[str] = []
+    study = axis.set(trials=4000).sweep("controller.ki", [4e4])
+    words = ["run", "-", *(word for pair in study.settings.items() for word in ("--set", "=".join(pair))), "--threads", "1"]
+    for name, progress in (("with", lines.append), ("without", None)):
+        code, output = zerocount.program.run([*words, "-o", tmp_path / f"{name}.h5"], text=axis.text, progress=progress)
+        assert (code, output) == (0, "")
+    assert len(lines) >= 2 and all(" of 4000 trials (" in line and line.isprintable() for line in lines)
+    assert "(100.0 %)" in lines[-1]
+    assert_same_data(zc.open(tmp_path / "with.h5"), zc.open(tmp_path / "without.h5"))
+
+
+@pytest.mark.parametrize("arguments", [("check", "bad.yaml"), ("run", "bad.yaml", "-o", "x.h5"), ("judge", "missing.h5"), ("runs",)])
+def test_messages_are_those_of_the_program(
+    axis: zc.Study, tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...]
+) -> None:
+    """The message of an error is all that the program says, line for line, with and without progress."""
+    monkeypatch.chdir(tmp_path)
+    tree = axis.to_dict()
+    tree["friction"].update({f"unknown_{'x' * 200}_{number}": number for number in range(30)})
+    pathlib.Path("bad.yaml").write_text(zc.manifests.yaml_text(tree), encoding="utf-8")
+    expected = said_by_program(*arguments)
+    for progress in (None, lambda line: None):
+        with pytest.raises(zc.Error) as raised:
+            zerocount.program.run(arguments, progress=progress)
+        assert raised.value.message == expected and raised.value.code == program(*arguments).returncode
+    assert len(raised.value.problems) == (30 if "bad.yaml" in arguments else 1)
+
+
+def test_a_run_costs_little_more_than_the_program(axis: zc.Study, folder: pathlib.Path, tmp_path: pathlib.Path) -> None:
+    """A run takes at most 0.15 s longer than the same command of the program, the check of its manifest included."""
+    path, settings = folder / "my-axis.yaml", {"rigs": 2, "trials": 2}
+    alone, by_package = [], []
+    for number in range(7):
+        start = time.perf_counter()
+        done = program("run", path, "-o", tmp_path / f"{number}.h5", "--set", "rigs=2", "--set", "trials=2")
+        alone.append(time.perf_counter() - start)
+        assert done.returncode == 0
+        start = time.perf_counter()
+        zc.study(path).set(**settings).run(tmp_path / f"{number}-package.h5")
+        by_package.append(time.perf_counter() - start)
+    assert statistics.median(by_package) - statistics.median(alone) < 0.15
+
+
+@pytest.fixture
+def found_anew(monkeypatch: pytest.MonkeyPatch) -> Iterator[pytest.MonkeyPatch]:
+    """The program is looked for again, in this test and after it."""
+    zerocount.program.path.cache_clear()
+    yield monkeypatch
+    monkeypatch.undo()
+    zerocount.program.path.cache_clear()
+
+
+def refused(axis: zc.Study) -> zc.MachineError:
+    """The error of a call that needs the program."""
+    with pytest.raises(zc.MachineError) as raised:
+        axis.check()
+    assert isinstance(raised.value, OSError) and raised.value.code == 5
+    return raised.value
+
+
+def test_a_missing_program_is_told(axis: zc.Study, found_anew: pytest.MonkeyPatch, tmp_path: pathlib.Path) -> None:
+    """Without the program the error says how to install it; what runs in this process still does."""
+    found_anew.delenv("ZEROCOUNT_PROGRAM")
+    found_anew.setenv("PATH", str(tmp_path))
+    found_anew.setattr(sys, "prefix", str(tmp_path))
+    message = refused(axis).message
+    assert "not found" in message and "apt-get install" in message and "ZEROCOUNT_PROGRAM" in message
+    assert len(zc.trial(axis.set(seed=3)).t) > 0
+
+
+def test_the_program_of_the_path_is_used(axis: zc.Study, found_anew: pytest.MonkeyPatch, tmp_path: pathlib.Path) -> None:
+    """Without a variable and an installation beside the package, the program of the path runs."""
+    (tmp_path / "zerocount").symlink_to(os.environ["ZEROCOUNT_PROGRAM"])
+    found_anew.delenv("ZEROCOUNT_PROGRAM")
+    found_anew.setenv("PATH", str(tmp_path))
+    found_anew.setattr(sys, "prefix", str(tmp_path))
+    assert "my-axis" in axis.check() and zerocount.program.path() == str(tmp_path / "zerocount")
+
+
+@pytest.mark.parametrize(
+    ("script", "told"),
+    [
+        ("echo zerocount 0.0.1", "zerocount 0.0.1; expected zerocount " + zc.__version__),
+        ("echo other " + zc.__version__, "expected zerocount " + zc.__version__),
+        ("exit 3", "is not a program that runs here"),
+        ("", "expected zerocount"),
+        (None, "is not a program that runs here"),
+    ],
+)
+def test_another_program_is_refused(
+    axis: zc.Study, found_anew: pytest.MonkeyPatch, tmp_path: pathlib.Path, script: str | None, told: str
+) -> None:
+    """A program of another version, or that is none, is refused by its path."""
+    other = tmp_path / "other"
+    other.write_text(f"#!/bin/sh\n{script}\n" if script is not None else "no program", encoding="utf-8")
+    other.chmod(other.stat().st_mode | (stat.S_IXUSR if script is not None else 0))
+    found_anew.setenv("ZEROCOUNT_PROGRAM", str(other))
+    message = refused(axis).message
+    assert message.startswith(str(other)) and told in message
+
+
+def test_an_interruption_from_the_terminal_reaches_the_program_once(axis: zc.Study, folder: pathlib.Path, tmp_path: pathlib.Path) -> None:
+    """Ctrl-C in a terminal, which goes to all processes of its group, ends a script with KeyboardInterrupt."""
+    script = f"import zerocount as zc\nzc.study({str(folder / 'my-axis.yaml')!r}).set(trials=20000).run('long.h5', threads=1)\n"
+    process = subprocess.Popen([sys.executable, "-c", script], cwd=tmp_path, stderr=subprocess.PIPE, text=True, start_new_session=True)
+    deadline = time.monotonic() + 20
+    while not any(tmp_path.iterdir()) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    time.sleep(0.3)
+    start = time.monotonic()
+    os.killpg(process.pid, signal.SIGINT)
+    said = process.communicate(timeout=20)[1]
+    assert time.monotonic() - start < 3.0
+    assert said.rstrip().splitlines()[-1].startswith("KeyboardInterrupt") and process.returncode == -signal.SIGINT
+    assert h5py is not None and not (tmp_path / "long.h5").exists()

@@ -10,6 +10,7 @@
 
 #include "analysis/report/embedded_files.hpp"
 #include "analysis/report/page.hpp"
+#include "analysis/report/standalone_figure.hpp"
 #include "tests/results/failures.hpp"
 
 namespace zerocount::report {
@@ -73,6 +74,24 @@ TEST(Specifications, NameColoursThatThereAre) {
       EXPECT_TRUE(colours["dark"].contains((*match)[1].str())) << file.name << ": " << (*match)[1];
     }
   }
+}
+
+TEST(StandaloneFigure, NeedsNeitherDataNorThemeNorColoursOfThePage) {
+  const Figure figure = figure_of("success", "success", "Success", "",
+                                  {{"points",
+                                    {{"label", "point", ""}, {"rate", "rate", "1"}},
+                                    {nlohmann::ordered_json::array({"var(--a label)", 0.5})}}});
+  const nlohmann::ordered_json whole = standalone_specification(figure);
+  EXPECT_EQ(whole["width"], 560);
+  EXPECT_EQ(whole["config"]["background"], "white");
+  EXPECT_EQ(whole["config"]["line"]["color"], light_colours()["--s1"]);
+  EXPECT_EQ(whole["layer"][0]["mark"]["color"], light_colours()["--s1"]);
+  EXPECT_EQ(whole["datasets"]["points"][0]["label"], "var(--a label)");
+  EXPECT_EQ(whole["datasets"]["points"][0]["rate"], 0.5);
+  nlohmann::ordered_json drawing = whole;
+  drawing.erase("datasets");
+  EXPECT_EQ(drawing.dump().find("var(--"), std::string::npos);
+  EXPECT_EQ(drawing.dump().find("container"), std::string::npos);
 }
 
 TEST(EmbeddedFiles, WhatIsMissingIsSaidWithWhatToDo) {

@@ -1,6 +1,12 @@
 #include "experiments/distributions/distribution.hpp"
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <random>
+#include <variant>
 #include <vector>
 
 #include <boost/math/distributions/normal.hpp>
@@ -130,6 +136,53 @@ TEST(Distribution, HasTheSameBitsForEver) {
   EXPECT_EQ(quantile(Normal{0, 1}, 0x1.8a65fb35a9954p-1), 0x1.7acfb2d51491dp-1);
   EXPECT_EQ(quantile(Normal{0, 1}, 1e-6), -0x1.30381a9799f7ep+2);
   EXPECT_EQ(quantile(Normal{0, 1}, 0.999), 0x1.8b8cbb720447p+1);
+}
+
+/// A distribution of every kind, with random parameters.
+std::vector<Distribution> random_distributions(std::mt19937_64& numbers) {
+  std::uniform_real_distribution<double> uniform(0.1, 2.0);
+  const double low = uniform(numbers);
+  const double high = low + uniform(numbers);
+  const double sd = uniform(numbers);
+  return {Uniform{low, high},
+          LogUniform{low, high},
+          Normal{low, sd},
+          TruncatedNormal{low, sd, low - 0.5 * sd, high},
+          TruncatedNormal{low, sd, low + 2.0 * sd, low + 5.0 * sd},
+          Lognormal{low, sd},
+          Triangular{low, std::midpoint(low, high), high},
+          Integers{-3, static_cast<std::int64_t>(10.0 * low)},
+          Choice{{high, low, high + 1.0}}};
+}
+
+TEST(Distribution, QuantilesOfTheUniformNumberOfAValueIsTheValue) {
+  std::mt19937_64 numbers(3);
+  std::uniform_real_distribution<double> uniform(0.001, 0.999);
+  for (int repetition = 0; repetition < 200; ++repetition) {
+    for (const Distribution& distribution : random_distributions(numbers)) {
+      const double u = uniform(numbers);
+      const double x = quantile(distribution, u);
+      const std::optional<double> found = uniform_of(distribution, x);
+      ASSERT_TRUE(found) << "kind " << distribution.index();
+      EXPECT_NEAR(quantile(distribution, *found), x, 1e-11 * (1.0 + std::abs(x)))
+          << "kind " << distribution.index();
+      const bool discrete =
+          std::holds_alternative<Integers>(distribution) || std::holds_alternative<Choice>(distribution);
+      if (!discrete) {
+        EXPECT_NEAR(*found, u, 1e-11) << "kind " << distribution.index();
+      }
+    }
+  }
+}
+
+TEST(Distribution, AValueThatCannotBeDrawnHasNoUniformNumber) {
+  EXPECT_FALSE(uniform_of(Uniform{1, 2}, 2.1));
+  EXPECT_FALSE(uniform_of(LogUniform{1, 2}, 0.9));
+  EXPECT_FALSE(uniform_of(TruncatedNormal{0, 1, -1, 1}, 1.5));
+  EXPECT_FALSE(uniform_of(Lognormal{1, 0.1}, 0.0));
+  EXPECT_FALSE(uniform_of(Integers{1, 3}, 2.5));
+  EXPECT_FALSE(uniform_of(Choice{{1, 2, 6}}, 3.0));
+  EXPECT_FALSE(uniform_of(Normal{0, 1}, std::numeric_limits<double>::infinity()));
 }
 
 }  // namespace

@@ -24,6 +24,7 @@
 #include "results/reading/results_file.hpp"
 #include "runners/plugins/plugin_library.hpp"
 #include "runners/python/arrays.hpp"
+#include "runners/python/interruptible.hpp"
 #include "runners/python/python_law.hpp"
 #include "runners/python/sampled_trials.hpp"
 
@@ -103,29 +104,46 @@ void use_law(trial::TrialParameters& parameters, const py::object& law) {
   parameters.controller.user = {python_law(law), {}};
 }
 
-/// Runs a trial, and gives what happened sample by sample.
-py::dict traced(const study::Study& study, std::int64_t point, std::int64_t index, const py::object& law) {
-  study::StudyTrial trial = study::study_trial(study, point, index);
-  if (!law.is_none()) use_law(trial.parameters, law);
+/// A trial, sample by sample.
+struct TracedTrial {
+  std::vector<double> inputs;
   std::vector<layout::TraceRecord> samples;
   std::vector<layout::JerkRecord> jerks;
-  trial::TrialObservers observers;
-  observers.sample = [&](const trial::SampleRecord& record) { samples.push_back({record, 0}); };
-  observers.jerk = [&](const trial::Jerk& jerk) { jerks.push_back({jerk, 0}); };
-  const trial::TrialOutcome outcome = trial::run_trial(trial.parameters, observers);
+  trial::TrialOutcome outcome;
+};
 
-  const auto trace_fields = layout::trace_fields(study.features);
-  const auto outcome_fields = layout::outcome_fields(layout::format_version, study.features,
-                                                     layout::measure_table(study.features.bands));
-  const auto size = [](const auto& records) { return std::vector<py::ssize_t>{std::ssize(records)}; };
+TracedTrial traced(const study::StudyTrial& trial, const std::stop_token& stop) {
+  TracedTrial result{trial.inputs, {}, {}, {}};
+  trial::TrialObservers observers;
+  observers.sample = [&](const trial::SampleRecord& record) { result.samples.push_back({record, 0}); };
+  observers.jerk = [&](const trial::Jerk& jerk) { result.jerks.push_back({jerk, 0}); };
+  observers.stop = stop;
+  result.outcome = trial::run_trial(trial.parameters, observers);
+  return result;
+}
+
+template <class Record>
+py::dict columns_of(const std::vector<layout::RecordField<Record>>& fields, const auto& records) {
+  return arrays_of<Record>(fields, layout::pointers_to(records), {std::ssize(records)});
+}
+
+/// Runs a trial, and gives what happened.
+py::dict trace(const study::Study& study, std::int64_t point, std::int64_t index, const py::object& law) {
+  study::StudyTrial trial = study::study_trial(study, point, index);
+  TracedTrial traced_trial;
+  if (law.is_none()) {
+    interruptible([&](const std::stop_token& stop) { traced_trial = traced(trial, stop); });
+  } else {
+    use_law(trial.parameters, law);
+    traced_trial = traced(trial, {});
+  }
   py::dict result;
-  result["inputs"] = trial.inputs;
-  result["samples"] =
-      arrays_of<layout::TraceRecord>(trace_fields, layout::pointers_to(samples), size(samples));
-  result["jerks"] =
-      arrays_of<layout::JerkRecord>(layout::jerk_fields(), layout::pointers_to(jerks), size(jerks));
-  result["outcome"] =
-      arrays_of<trial::MoveOutcome>(outcome_fields, layout::pointers_to(outcome.moves), size(outcome.moves));
+  result["inputs"] = traced_trial.inputs;
+  result["samples"] = columns_of(layout::trace_fields(study.features), traced_trial.samples);
+  result["jerks"] = columns_of(layout::jerk_fields(), traced_trial.jerks);
+  result["outcome"] = columns_of(layout::outcome_fields(layout::format_version, study.features,
+                                                        layout::measure_table(study.features.bands)),
+                                 traced_trial.outcome.moves);
   return result;
 }
 
@@ -145,7 +163,7 @@ std::string_view name_of(layout::OfTrial rule) {
   return "last";
 }
 
-/// What the columns of traced() are.
+/// What the columns of trace() are.
 py::dict descriptions(const study::Study& study) {
   py::dict result;
   result["samples"] = descriptions_of(layout::trace_fields(study.features));
@@ -214,7 +232,7 @@ void register_study(py::module_& module) {
       .def_property_readonly("bands", &bands_of)
       .def_property_readonly("goal", &goal_of)
       .def_property_readonly("descriptions", &descriptions)
-      .def("trace", &traced, py::arg("point"), py::arg("trial"), py::arg("law") = py::none());
+      .def("trace", &trace, py::arg("point"), py::arg("trial"), py::arg("law") = py::none());
   register_sampling(object);
 }
 

@@ -82,13 +82,9 @@ def inputs_of(path: object, names: list[str], point: int) -> np.ndarray:
 
 
 def same(one: Any, other: Any) -> bool:
-    """Whether two arrays have the same shape and values; NaN equals NaN."""
+    """Whether two arrays have the same shape and values; all NaN are the same."""
     one, other = np.asarray(one), np.asarray(other)
-    if one.shape != other.shape:
-        return False
-    if one.dtype.kind == "f" and other.dtype.kind == "f":
-        return np.array_equal(one, other, equal_nan=True)
-    return np.array_equal(one, other)
+    return np.array_equal(one, other, equal_nan=one.dtype.kind == "f" and other.dtype.kind == "f")
 
 
 def same_trace(one: zc.Trace, other: zc.Trace) -> bool:

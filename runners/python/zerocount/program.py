@@ -101,7 +101,7 @@ def run(
     KeyboardInterrupt
         If it is interrupted. The program has then ended, and kept everything finished.
     """
-    command: Sequence[str] = [path(), *(os.fspath(word) for word in arguments)]
+    command: Sequence[str] = [*_ended_with_this_process(), path(), *(os.fspath(word) for word in arguments)]
     # The program tells its progress often where its messages go to a terminal.
     ours, its = os.openpty() if progress else os.pipe()
     said: list[str] = []
@@ -133,8 +133,15 @@ def run(
     if process.returncode == 130:
         raise KeyboardInterrupt(message)
     if process.returncode not in accepted:
-        raise error_of(process.returncode, message or f"{command[0]} ended with exit code {process.returncode}")
+        raise error_of(process.returncode, message or f"{path()} ended with exit code {process.returncode}")
     return process.returncode, output
+
+
+@functools.cache
+def _ended_with_this_process() -> Sequence[str]:
+    """Words before a command that interrupt it when this process is killed, as when the kernel of a notebook restarts."""
+    setpriv = shutil.which("setpriv")
+    return () if setpriv is None else (setpriv, "--pdeathsig", "INT")
 
 
 def _listen(stream: int, said: list[str], progress: Callable[[str], None] | None) -> None:

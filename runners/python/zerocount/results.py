@@ -184,7 +184,7 @@ class Results:
         wanted += [name for name in everything if name == "rigs_without_failure"]
         table = everything[["label", *axes, *wanted]].astype({"trials": int})
         table.attrs = {kind: {name: of[name] for name in table} for kind, of in everything.attrs.items()}
-        if self.study.goal is not None:
+        if self.checked.goal is not None:
             goals = [point["goal"] for point in self.summary["points"]]
             for place, (name, key) in enumerate(zip(_GOAL, ("status", "rate", "rate_low", "rate_high"))):
                 table.insert(1 + len(axes) + place, name, [goal[key] for goal in goals])
@@ -274,8 +274,8 @@ class Results:
         """What a trial shares with others: its rig and its world."""
         columns = {}
         for name, count, meaning in (
-            ("rig", self.study.rigs, "index of the rig, the machine of the trial"),
-            ("world", self.study.worlds, "index of the world"),
+            ("rig", self.checked.rigs, "index of the rig, the machine of the trial"),
+            ("world", self.checked.worlds, "index of the world"),
         ):
             if count > 0:
                 columns[name] = Column(index % count, ("trial",), "1", meaning)

@@ -58,7 +58,7 @@ def compare(
     baseline, current : Results or path
         Two results files; or one, with `points`.
     points : tuple, optional
-        Two design points of one file: is the second as good as the first?
+        Two design points of one file, of which the second is compared with the first.
     margins : path, optional
         YAML file of margins and requirements.
     changed_fails : bool

@@ -122,6 +122,10 @@ class Sample:
         ----------
         **values
             Dotted keys and values, as in `Study.set`.
+
+        Returns
+        -------
+        Sample
         """
         return sample(self._study.set(**values), self._point, outcome=self.outcome, threads=self._threads)
 

@@ -19,11 +19,15 @@ struct CountedGoal {
 /// The goal of the study as it is counted; nothing without one.
 std::optional<CountedGoal> counted_goal(const study::Study& study);
 
-/// Whether the error of the move is within the goal's band for good in time. A sample at the very end of that
-/// time is in time, although k·T may be rounded up.
-inline bool meets(const CountedGoal& goal, const trial::MoveOutcome& move) {
+/// The latest time in time, s: a sample at the very end is, although k·T may be rounded up.
+inline double latest(const CountedGoal& goal) {
   constexpr double rounding = 1.0 + 1e-12;
-  return move.bands[goal.slot].settling_time <= goal.within * rounding;  // false for NaN
+  return goal.within * rounding;
+}
+
+/// Whether the error of the move is within the goal's band for good in time.
+inline bool meets(const CountedGoal& goal, const trial::MoveOutcome& move) {
+  return move.bands[goal.slot].settling_time <= latest(goal);  // false for NaN
 }
 
 /// Adds the moves of a trial to those that meet the goal. @param rigs number of rigs; 0: no trials share a

@@ -58,7 +58,8 @@ Controller::Controller(const ControllerParameters& parameters, const CountScale&
       fine_(controller_in_phase(parameters, ControlPhase::fine),
             {integral, integral_range(parameters.anti_windup, dac.range.lowest, dac.range.highest),
              counts.resolution, dac}),
-      coarse_(controller_in_phase(parameters, ControlPhase::coarse),
+      // Without two phases it is not used, and a user's law must not be started twice.
+      coarse_(two_phases_ ? controller_in_phase(parameters, ControlPhase::coarse) : ControllerParameters{},
               {integral, integral_range(parameters.anti_windup, dac.range.lowest, dac.range.highest),
                counts.resolution, dac}),
       switch_(parameters.coarse, parameters.sample_rate) {}

@@ -21,7 +21,7 @@ def time_within_one_count(measures):
 
 
 def main(manifest):
-    axis = zc.study(manifest).without("sweep").set(**{"controller.ki": 11767.7})
+    axis = zc.study(manifest).without("sweep").set({"controller.ki": 11767.7})
     f = zc.sample(axis, outcome=time_within_one_count)
     ot.RandomGenerator.SetSeed(1)
 

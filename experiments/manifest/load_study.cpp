@@ -58,6 +58,11 @@ study::Study load_study(const std::filesystem::path& manifest, const std::vector
         ExitCode::bad_input,
         fmt::format("{}: this is an HDF5 file, such as a results file; expected a manifest", source));
   }
+  return new_study(std::move(text), source, overrides, companions);
+}
+
+study::Study new_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
+                       const Companions& companions) {
   study::Study study = parse_study(std::move(text), source, overrides, companions);
   require_effect(study, source);
   return study;

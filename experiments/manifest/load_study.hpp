@@ -20,6 +20,10 @@ study::Study load_study(const std::filesystem::path& manifest, const std::vector
                         const Companions& companions = {});
 
 /// As load_study, from text; `source` stands for the file's name in messages.
+study::Study new_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
+                       const Companions& companions = {});
+
+/// As new_study, of a study that exists already: overrides without effect are no errors.
 study::Study parse_study(std::string text, std::string_view source,
                          const std::vector<std::string>& overrides = {}, const Companions& companions = {});
 

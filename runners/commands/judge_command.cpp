@@ -40,6 +40,7 @@ nlohmann::ordered_json judgement_json(const summary::StudySummary& summary,
   const bool machines = summary.goal->machines.has_value();
   json["machines_low"] = machines ? nlohmann::ordered_json(verdict.machines.low) : nullptr;
   json["machines_high"] = machines ? nlohmann::ordered_json(verdict.machines.high) : nullptr;
+  json["text"] = summary::judgement_text(summary, judged);
   json["chosen_from"] = judged.chosen.chosen_from;
   json["needed"] = nullptr;
   if (judged.needs && judged.needs->trials > 0)

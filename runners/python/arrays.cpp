@@ -46,15 +46,16 @@ py::array array_of(std::vector<double> numbers, std::vector<py::ssize_t> shape) 
   return array_owning(std::move(numbers), py::dtype::of<double>(), std::move(shape));
 }
 
-py::dict description_of(const layout::Column& column) {
+py::dict description_of(const layout::Column& column, parameters::AxisKind axis) {
   py::dict flags;
   if (column.element != hdf5::Element::flag) {
     for (const layout::FlagMeaning& flag : column.flags) flags[py::int_(flag.value)] = flag.word;
   }
   py::dict description;
-  description["unit"] = column.unit;
-  description["meaning"] = column.long_name;
+  description["unit"] = parameters::unit_on(axis, column.unit);
+  description["meaning"] = parameters::text_on(axis, column.long_name);
   description["flags"] = flags;
+  description["type"] = type_of(column.element);
   return description;
 }
 

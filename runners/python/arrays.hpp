@@ -7,6 +7,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include "experiments/parameters/study_units.hpp"
 #include "results/layout/fields.hpp"
 #include "results/layout/layout.hpp"
 
@@ -20,8 +21,9 @@ py::array array_of(std::vector<std::byte> bytes, hdf5::Element element, std::vec
 /// An array of NumPy that owns the numbers; they are not copied.
 py::array array_of(std::vector<double> numbers, std::vector<py::ssize_t> shape);
 
-/// What the package knows of a column: {"unit", "meaning", "flags": {value: word}}.
-py::dict description_of(const layout::Column& column);
+/// What the package knows of a column: {"unit", "meaning", "flags": {value: word}}, in the words for this
+/// kind of axis.
+py::dict description_of(const layout::Column& column, parameters::AxisKind axis);
 
 /// {column: array of this shape} of the records.
 template <class Record>
@@ -36,10 +38,10 @@ py::dict arrays_of(const std::vector<layout::RecordField<Record>>& fields,
 
 /// {column: description}.
 template <class Record>
-py::dict descriptions_of(const std::vector<layout::RecordField<Record>>& fields) {
+py::dict descriptions_of(const std::vector<layout::RecordField<Record>>& fields, parameters::AxisKind axis) {
   py::dict descriptions;
   for (const layout::RecordField<Record>& field : fields)
-    descriptions[py::str(field.column.name)] = description_of(field.column);
+    descriptions[py::str(field.column.name)] = description_of(field.column, axis);
   return descriptions;
 }
 

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,6 +13,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include "analysis/measures/goal_counts.hpp"
 #include "core/failure/failure.hpp"
 #include "core/loop/controller.hpp"
 #include "core/trial/trial.hpp"
@@ -44,7 +46,7 @@ StudyPointer parsed(std::string text, const std::string& source, const fs::path&
             return yaml::read_text(folder / path, manifest::max_samples_size, "a table of samples");
           }};
   return std::make_shared<const study::Study>(
-      manifest::parse_study(std::move(text), source, overrides, companions));
+      manifest::new_study(std::move(text), source, overrides, companions));
 }
 
 /// The plugin of a path. @throws Failure (bad_input)
@@ -165,12 +167,18 @@ std::string_view name_of(layout::OfTrial rule) {
 
 /// What the columns of trace() are.
 py::dict descriptions(const study::Study& study) {
+  const parameters::AxisKind axis = study.features.axis;
   py::dict result;
-  result["samples"] = descriptions_of(layout::trace_fields(study.features));
-  result["jerks"] = descriptions_of(layout::jerk_fields());
+  result["samples"] = descriptions_of(layout::trace_fields(study.features), axis);
+  result["jerks"] = descriptions_of(layout::jerk_fields(), axis);
   py::dict measures;
+  std::set<std::string> names;
+  for (const auto& field : layout::outcome_fields(layout::format_version, study.features,
+                                                  layout::measure_table(study.features.bands)))
+    names.insert(field.column.name);
   for (const layout::Measure& measure : layout::measure_table(study.features.bands)) {
-    py::dict description = description_of(measure.field.column);
+    if (!names.contains(measure.field.column.name)) continue;
+    py::dict description = description_of(measure.field.column, axis);
     description["of_trial"] = std::string(name_of(measure.of_trial));
     measures[py::str(measure.field.column.name)] = description;
   }
@@ -191,6 +199,7 @@ py::object goal_of(const study::Study& study) {
   goal["moves"] = study.goal->moves;
   goal["machines"] = study.goal->machines;
   goal["confidence"] = study.goal->confidence;
+  goal["latest"] = measures::latest(*measures::counted_goal(study));
   return goal;
 }
 

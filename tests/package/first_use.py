@@ -42,6 +42,6 @@ print(tuned, tuned.room)
 print(zc.compare("first-use.h5", points=(2, 3)).verdict, zc.plan(success=0.99).plans[0])
 print(zc.sample(s, 2, outcome="settling_time")([90, 600, 1e5, 0.5, 20, 0.5]))
 try:
-    zc.study("my-axis.yaml").set(**{"dac.bits": 99}).labels
+    zc.study("my-axis.yaml").set({"dac.bits": 99}).labels
 except zc.ManifestError as error:
     print(error.key)

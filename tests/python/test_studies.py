@@ -12,7 +12,7 @@ import h5py
 import numpy as np
 import pytest
 import zerocount as zc
-from support import SHIPPED, by_program, said_by_program, same_trace
+from support import SHIPPED, by_program, said_by_program, same, same_trace
 from zerocount.manifests import flow_text, yaml_text
 
 AWKWARD = [
@@ -21,7 +21,7 @@ AWKWARD = [
     "a: b", "a:b", ":", "a #b", "#", "# a", "-", "- a", "--", "---", "...", ".", "?", "? a", "!", "!a", "&a", "*a",
     "%a", "@a", "`a", "|", ">", "'", '"', "it's", 'say "so"', "\\", "a\\nb", "a\nb", "\n", "a\n", "\ta", "a\tb", "{",
     "}", "[a]", "a, b", ",", "=", "<<", "é", "β", "10 µm", "K→∞", "𝛼", "ß: ", "a.b", "a/b", "/", "./a", "../b.csv",
-    "a b-c_d", "x-", "x+", "a=b", "a\u00a0b", "a\u2028b", "a\u0085b", "\ufeffa", "a\u200bb", "x" * 300,
+    "a b-c_d", "x-", "x+", "a=b", "a\u00a0b", "\ufeffa", "a\u200bb", "x" * 300,
 ]  # fmt: skip
 KEYS = ["a", "b1", "friction", "x_y", "kp", "some-name", "A"]
 
@@ -58,12 +58,30 @@ def test_a_shipped_manifest_survives_a_dict(path: pathlib.Path) -> None:
     assert same_trace(zc.trial(again), zc.trial(study))
 
 
+def test_a_shipped_study_comes_with_the_program() -> None:
+    """A study is found by its name, with its observations; an unknown name is refused with the nearest."""
+    for path in SHIPPED[::9]:
+        assert zc.shipped(path.stem).text == path.read_text(encoding="utf-8")
+    assert zc.shipped("why-presliding").observed["presliding"] == "stable in all tests"
+    with pytest.raises(zc.ManifestError, match="paper-gains"):
+        zc.shipped("paper-gain")
+
+
 @pytest.mark.parametrize("text", AWKWARD, ids=ascii)
 def test_a_text_reads_back(text: str) -> None:
     """A text is the same after it was written as YAML: as a value, in a list, in a map and in a setting."""
     tree = {"a": text, "b": {"c": text, "d": [text, {"e": text}]}}
     assert _zerocount.manifest_tree(yaml_text(tree), "<test>", []) == tree
     assert _zerocount.manifest_tree("a: 1\n", "<test>", ["b=" + flow_text(text)]) == {"a": 1, "b": text}
+
+
+@pytest.mark.parametrize("letter", ["\0", "\a", "\x1b", "\x7f", "\x85", "\u2028", "\u2029"], ids=ascii)
+def test_a_text_that_cannot_be_printed_is_refused(axis: zc.Study, letter: str) -> None:
+    """A control character is refused where the text is used."""
+    with pytest.raises(zc.ManifestError, match=rf"control character U\+{ord(letter):04X} in a text; expected a printable text"):
+        axis.set(description=f"a{letter}b").checked
+    with pytest.raises(zc.ManifestError, match=rf"control character U\+{ord(letter):04X} in a text; expected a printable text"):
+        zc.study({**axis.to_dict(), "description": f"a{letter}b"})
 
 
 def test_a_dict_reads_back() -> None:
@@ -129,15 +147,16 @@ def test_a_sweep_has_the_given_values(axis: zc.Study) -> None:
 
 def test_without_takes_keys_out(axis: zc.Study) -> None:
     """A study without some keys has their defaults, keeps everything else, and ignores keys that it lacks."""
-    study = axis.set(trials=3000, **{"controller.delay": 1, "controller.ki": 1e4})
+    study = axis.set(trials=3000, **{"controller.delay": 1, "controller.kp": 10.0, "dac.bits": 14})
     tree = study.to_dict()
     less = study.without("sweep", "controller.delay", "friction.alpha", "no.such.key", "name.x")
     for section, key in (("controller", "delay"), ("friction", "alpha")):
         del tree[section][key]
     del tree["sweep"]
     assert less.to_dict() == tree
-    assert (less.labels, less.trials) == (["all"], 3000)
-    assert "friction.alpha" not in zc.trial(less).inputs
+    one = less.set({"controller.ki": 1e4})
+    assert (one.labels, one.trials) == (["all"], 3000)
+    assert "friction.alpha" not in zc.trial(one).inputs
     assert study.without().to_dict() == study.to_dict()
 
 
@@ -145,9 +164,40 @@ def test_a_study_is_checked_only_when_it_is_asked(axis: zc.Study) -> None:
     """Two keys that exclude one another can change places in either order."""
     changed = [
         axis.without("dac.resolution").set(**{"dac.range": 0.5}),
-        axis.set(**{"dac.range": 0.5}).without("dac.resolution"),  # DEFECT: `without` asks for the name of the study
+        axis.set(**{"dac.range": 0.5}).without("dac.resolution"),
     ]
     assert changed[0].to_dict() == changed[1].to_dict() and changed[1].trials == 2000
+
+
+@pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
+def test_a_study_at_a_point_has_its_trials(path: pathlib.Path) -> None:
+    """A study at its last point, by number or label, has the trials of that point, unless the point has distributions."""
+    study = zc.study(path)
+    point = len(study.labels) - 1
+    try:
+        one = study.at(point)
+        assert len(one.labels) == 1 and study.at(study.labels[point]).to_dict() == one.to_dict()
+    except zc.ManifestError as error:
+        assert "has a distribution at the point" in str(error)
+        return
+    there, here = zc.trial(study, point, 3), zc.trial(one, 0, 3)
+    for name in ("t", "error", "torque", "theta", "omega", "xp"):
+        assert same(here.samples[name], there.samples[name])
+    assert here.outcome["outcome"].tolist() == there.outcome["outcome"].tolist()
+    for wrong in (-1, len(study.labels), "no such label"):
+        with pytest.raises(zc.ManifestError, match="there is no point"):
+            study.at(wrong)
+
+
+def test_a_study_is_a_study(axis: zc.Study) -> None:
+    """A study is taken as it is, survives pickling, and is shown also where it is wrong."""
+    assert zc.study(axis) is axis
+    study = axis.set({"controller.delay": 1}, trials=3000)
+    assert study.trials == 3000 and study.to_dict() == axis.set(trials=3000, **{"controller.delay": 1}).to_dict()
+    again = pickle.loads(pickle.dumps(study))
+    assert again.sha256 == study.sha256 and repr(again) == "<Study 'my-axis': 8 design points × 3000 trials>"
+    assert axis.sweep("controller.ki", {"logspace": [5e3, 1e5, 8]}).labels == axis.labels
+    assert "my-axis" in repr(axis.set(rigs=0))
 
 
 def test_a_saved_study_reads_again(axis: zc.Study, tmp_path: pathlib.Path) -> None:
@@ -198,9 +248,8 @@ def test_results_need_no_file_that_their_manifest_names(joint: zc.Study, tmp_pat
     r = joint.run(tmp_path / "elsewhere.h5")
     assert r.judge().status == "met" and r.checked.trials == 60
     assert zc.trial(r).inputs == r.trace().inputs
-    assert len(r.trials()) == 60  # DEFECT: asks `Results.study`, which looks for the table beside the results file
-    assert r.table.loc[0, "goal"] == "met"  # DEFECT: likewise
-    assert len(zc.sample(r).names) == 3  # DEFECT: likewise
+    assert len(r.trials()) == 60 and r.table.loc[0, "goal"] == "met"
+    assert len(zc.sample(r).names) == 3
 
 
 def test_an_error_of_a_manifest_has_its_place(axis: zc.Study, tmp_path: pathlib.Path) -> None:
@@ -251,7 +300,6 @@ BAD_SETTINGS: list[tuple[str, Any, str]] = [
 @pytest.mark.parametrize(("key", "value", "named"), BAD_SETTINGS, ids=lambda value: flow_text(value))
 def test_an_error_of_a_setting_has_the_setting(axis: zc.Study, key: str, value: Any, named: str) -> None:
     """An error of a setting has the whole setting and the key, in this process and from the program."""
-    # DEFECT: where the value has a blank, the setting is cut at its first ": ", or missing.
     study = axis.set(**{key: value})
     for ask in (lambda: study.checked, study.check):
         with pytest.raises(zc.ManifestError) as raised:
@@ -267,7 +315,7 @@ def test_an_error_that_a_setting_causes_elsewhere_names_the_manifest(axis: zc.St
     for ask in (lambda: study.checked, study.check):
         with pytest.raises(zc.ManifestError) as raised:
             ask()
-        assert (raised.value.file, raised.value.key) == (axis._source, "dac.resolution")  # DEFECT: of the program, <stdin>
+        assert (raised.value.file, raised.value.key) == (axis._source, "dac.resolution")
 
 
 def test_errors_can_be_sent_to_another_process(axis: zc.Study) -> None:

@@ -38,9 +38,9 @@ class Comparison:
 
     @property
     def table(self) -> pandas.DataFrame:
-        """One row for each point and measure."""
+        """One row for each point and measure: the values of both, the change and its bounds, and the verdict."""
         rows = [{"label": point["label"], **measure} for point in self.points for measure in point["measures"]]
-        return required("pandas", "the table of a comparison").DataFrame(rows)
+        return required("pandas", "the table of a comparison").json_normalize(rows)
 
 
 def compare(

@@ -63,17 +63,21 @@ class ResultsDatasets:
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self.path = pathlib.Path(path)
-        with self._open() as file:
-            self.attributes: dict[str, Any] = {key: _attribute(value) for key, value in file.attrs.items()}
         if "format_version" not in self.attributes:
             raise DataError(f"{self.path}: not a results file of zerocount", 4)
+
+    @property
+    def attributes(self) -> dict[str, Any]:
+        """Those of the root."""
+        with self._open() as file:
+            return {key: _attribute(value) for key, value in file.attrs.items()}
 
     def _open(self) -> Any:
         h5py = required("h5py", "a results file")
         if not self.path.exists():
             raise DataError(f"{self.path}: no such file; expected a results file", 4)
         try:
-            return h5py.File(self.path, "r", locking=False)
+            return h5py.File(self.path, "r")
         except OSError:
             raise DataError(f"{self.path}: not a results file of zerocount: it is not in the HDF5 format", 4) from None
 
@@ -90,7 +94,7 @@ class ResultsDatasets:
         name : str
             Path of the group, such as ``outcome`` or ``trial/input``.
         rows : slice, optional
-            The part of the first dimension to read; default: all.
+            The trials to read; default: all.
 
         Returns
         -------
@@ -117,8 +121,8 @@ class ResultsDatasets:
             Path of a dataset of whole numbers in ascending order, such as ``trial/point``.
         values : iterable of int
         """
-        with self._open() as file:
-            sorted_values = file[name][:]
+        group, _, dataset = name.partition("/")
+        sorted_values = self.group(group)[dataset].values
         wanted = list(values)
         first, last = min(wanted, default=0), max(wanted, default=-1)
         return slice(int(np.searchsorted(sorted_values, first)), int(np.searchsorted(sorted_values, last, side="right")))
@@ -153,7 +157,8 @@ def _attribute(value: Any) -> Any:
 
 def _column(dataset: Any, rows: slice | None) -> Column:
     attributes = {key: _attribute(dataset.attrs[key]) for key in ("units", "long_name") if key in dataset.attrs}
-    selection = rows if rows is not None and dataset.ndim > 0 else ()
+    dimensions = _dimensions(dataset)
+    selection = rows if rows is not None and dimensions[:1] == ("trial",) else ()
     words = _words(dataset)
     if dataset.dtype.kind == "O":
         values = np.asarray(dataset.asstr()[selection], dtype=object)
@@ -162,7 +167,7 @@ def _column(dataset: Any, rows: slice | None) -> Column:
     if words == ["no", "yes"]:
         values, words = values.astype(bool), []
     unit, meaning = attributes.get("units", "1"), attributes.get("long_name", "")
-    return Column(values, _dimensions(dataset), unit, meaning, words)
+    return Column(values, dimensions, unit, meaning, words)
 
 
 def _words(dataset: Any) -> list[str]:

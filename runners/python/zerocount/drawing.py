@@ -59,8 +59,8 @@ def drawn(specification: Mapping[str, Any]) -> matplotlib.figure.Figure:
         gridspec_kw={"height_ratios": heights},
         layout="constrained",
     )
-    for view, ax in zip(views, axes[:, 0]):
-        _View(specification, view, ax).draw()
+    for place, (view, ax) in enumerate(zip(views, axes[:, 0])):
+        _View(specification, view, ax).draw(with_legend=place == 0)
     pyplot.close(picture)  # a notebook shows what is returned, and not twice
     return picture
 
@@ -75,7 +75,7 @@ class _View:
     labels: dict[str, list[str]] = dataclasses.field(default_factory=dict)  # of the axes with names, in their order
     legend: dict[str, dict[str, Any]] = dataclasses.field(default_factory=dict)  # title → name → artist
 
-    def draw(self) -> None:
+    def draw(self, *, with_legend: bool) -> None:
         for layer in self.layers():
             channels = {**self.view.get("encoding", {}), **layer.get("encoding", {})}
             # A position in pixels is an edge of the plot: the mark spans it.
@@ -95,11 +95,22 @@ class _View:
                 self.set_axis(name, channels.get(name, {}))
         for name, labels in self.labels.items():
             axis = self.axes.xaxis if name == "x" else self.axes.yaxis
-            axis.set_ticks(range(len(labels)), labels)
+            if len(axis.get_ticklocs()) > 0:
+                axis.set_ticks(range(len(labels)), labels)
         if "y" in self.labels:
             self.axes.set_ylim(len(self.labels["y"]) - 0.5, -0.5)  # the first on top
-        for title, entries in self.legend.items():
-            self.axes.legend(entries.values(), entries.keys(), title=title or None, fontsize="small", frameon=False)
+        for title, entries in self.legend.items() if with_legend else ():
+            self.axes.legend(
+                entries.values(),
+                entries.keys(),
+                title=title or None,
+                fontsize="small",
+                frameon=False,
+                loc="lower left",
+                bbox_to_anchor=(0, 1),
+                ncols=max(1, 80 // (6 + max(map(len, entries)))),
+                borderaxespad=0.2,
+            )
 
     def layers(self) -> list[Mapping[str, Any]]:
         """The layers; a view without them is one itself."""
@@ -130,6 +141,8 @@ class _View:
             axis.set_major_formatter(required("matplotlib.ticker", "a figure").PercentFormatter(1.0))
         if style.get("labels") is False:
             axis.set_tick_params(labelleft=False, labelbottom=False)
+            if name in self.labels:
+                axis.set_ticks([])
         if style.get("grid"):
             self.axes.grid(axis=name, alpha=0.4)
 
@@ -310,10 +323,17 @@ class _Layer:
         text = self.channels.get("text")
         x = self.values("x", rows) if "x" in self.channels else np.zeros(len(rows))
         y = self.values("y", rows) if "y" in self.channels else np.zeros(len(rows))
+        halo = required("matplotlib.patheffects", "a figure").withStroke(linewidth=2, foreground="black")
         for row, a, b in zip(rows, x, y):
             word = str(row[text["field"]]) if text else str(self.mark["text"])
             offset = (_number(self.mark.get("dx")), -_number(self.mark.get("dy")))
-            self.view.axes.annotate(word, (a, b), offset, textcoords="offset points", ha="center", **style)
+            side = row.get("side", "center")
+            if isinstance(self.mark.get("dx"), Mapping):  # an expression: away from the side on which the text stands
+                offset = (6.0 if side == "left" else -6.0, offset[1])
+            effects = [halo] if "stroke" in self.mark else []
+            self.view.axes.annotate(
+                word, (a, b), offset, textcoords="offset points", ha=side, path_effects=effects, **style
+            )
 
 
 def _number(value: Any) -> float:

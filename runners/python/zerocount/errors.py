@@ -6,7 +6,7 @@ import dataclasses
 import re
 
 _PLACE = re.compile(r"(?P<file>.+?):(?P<line>\d+):(?:(?P<column>\d+):)? (?P<text>.+)")
-_OVERRIDE = re.compile(r"--set (?P<setting>\S+?): (?P<text>.+)")
+_OVERRIDE = re.compile(r"--set (?P<setting>\S+?=.*?): (?P<text>(?P<key>[a-z_][\w.\[\]]*): .+)")
 _FILE = re.compile(r"(?P<file>[^:\s][^:]*\.\w+): (?P<text>.+)")
 _KEY = re.compile(r"(?P<key>[a-z_][\w.\[\]]*): .+")
 
@@ -112,8 +112,7 @@ def _problem(line: str) -> Problem:
             key["key"] if key else None,
         )
     if setting := _OVERRIDE.fullmatch(line):
-        key = _KEY.fullmatch(setting["text"])
-        return Problem(setting["text"], key=key["key"] if key else None, setting=setting["setting"])
+        return Problem(setting["text"], key=setting["key"], setting=setting["setting"])
     if file := _FILE.fullmatch(line):
         return Problem(file["text"], file["file"])
     return Problem(line)

@@ -31,8 +31,9 @@ class Identification:
         What to put into a manifest: the sections and keys with their distributions.
     text : str
         The same as YAML with comments.
-    passed : bool
-        Whether encoder and noise explain the residuals; otherwise the result must not be trusted.
+    passed : bool or None
+        Whether encoder and noise explain the residuals; otherwise the result must not be trusted. None where several
+        laws are compared: `answer` has each.
     residuals : dict
         The tests of the residuals.
     records : list of dict
@@ -44,14 +45,14 @@ class Identification:
     parameters: list[dict[str, Any]]
     manifest: dict[str, Any]
     text: str
-    passed: bool
+    passed: bool | None
     residuals: dict[str, Any] = dataclasses.field(default_factory=dict, repr=False)
     records: list[dict[str, Any]] = dataclasses.field(default_factory=list, repr=False)
     answer: dict[str, Any] = dataclasses.field(default_factory=dict, repr=False)
 
     @property
     def settings(self) -> dict[str, Any]:
-        """The same as dotted keys: ``study.set(**identified.settings)``."""
+        """The same as dotted keys: ``study.set(identified.settings)``."""
         return {f"{section}.{key}": value for section, keys in self.manifest.items() for key, value in keys.items()}
 
     @property
@@ -193,8 +194,16 @@ def identify(
     return dataclass_of(
         Identification,
         answer,
+        parameters=answer["parameters"] if "parameters" in answer else _best_law(answer)["parameters"],
         manifest=_zerocount.manifest_tree(answer["manifest"], "<identified>", []) or {},
         text=answer["manifest"],
-        passed=bool(answer["residuals"]["passed"]),
+        passed=answer["residuals"]["passed"] if "residuals" in answer else None,
         answer=answer,
     )
+
+
+def _best_law(answer: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Of the laws that were compared the one with the lowest BIC."""
+    fitted = [law for law in answer["laws"] if law.get("bic_above_least") is not None]
+    best: Mapping[str, Any] = min(fitted, key=lambda law: float(law["bic_above_least"]))
+    return best

@@ -31,6 +31,8 @@ class Judgement:
         Design points of which this one is the best; the bounds allow for that choice.
     needed : dict or None
         The rigs and trials that would decide it.
+    text : str
+        The verdict in words; ``print`` shows it.
     """
 
     point: int
@@ -43,6 +45,10 @@ class Judgement:
     machines_high: float | None = None
     chosen_from: int = 1
     needed: dict[str, Any] | None = None
+    text: str = dataclasses.field(default="", repr=False)
+
+    def __str__(self) -> str:
+        return self.text.rstrip("\n")
 
     @staticmethod
     def of(record: Mapping[str, Any]) -> Judgement:

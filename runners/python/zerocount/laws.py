@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Protocol
-
-import _zerocount
 
 from .errors import ManifestError
 from .traces import Trace, simulated
@@ -88,16 +87,19 @@ ControlLaw = Callable[[Setup], Callable[[Sample], float]]
 
 
 def trial(
-    study: Study | Results, point: int = 0, trial: int = 0, controller: ControlLaw | None = None
+    study: Study | Results | str | os.PathLike[str],
+    point: int | str = 0,
+    trial: int = 0,
+    controller: ControlLaw | None = None,
 ) -> Trace:
     """Run one trial in this process.
 
     Parameters
     ----------
-    study : Study or Results
+    study : Study, Results or path of a manifest
         Whose trial it is.
-    point : int
-        Number of the design point.
+    point : int or str
+        Number or label of the design point.
     trial : int
         Index of the trial at the point.
     controller : callable, optional
@@ -134,14 +136,12 @@ def trial(
     >>> t.error[-1]
     0
     """
-    checked = study.checked
-    checked_point(checked, point)
+    from .results import Results
+    from .studies import point_number
+    from .studies import study as study_of
+
+    checked = study.checked if isinstance(study, Results) else study_of(study).checked
+    number = point_number(point, checked.labels, checked.name)
     if not 0 <= trial < checked.trials:
         raise ManifestError(f"trial = {trial} is out of range; expected 0 to {checked.trials - 1}", 2)
-    return simulated(checked, point, trial, controller)
-
-
-def checked_point(study: _zerocount.Study, point: int) -> None:
-    """Refuses a point that the study does not have."""
-    if not 0 <= point < len(study.labels):
-        raise ManifestError(f"point = {point} is out of range; expected 0 to {len(study.labels) - 1}", 2)
+    return simulated(checked, number, trial, controller)

@@ -10,7 +10,7 @@ from typing import Any
 
 from .errors import ManifestError
 
-_PLAIN = re.compile(r"[A-Za-z_./][\w./ +-]*[\w./+-]|[A-Za-z_]")
+_PLAIN = re.compile(r"[A-Za-z_/]([\w./ +-]*[\w./+-])?", re.ASCII)
 _RESERVED = frozenset({"true", "false", "null", "yes", "no", "on", "off", "y", "n", "nan", "inf", "infinity"})
 
 
@@ -85,10 +85,10 @@ def flow_text(value: Any) -> str:
         return repr(value)
     if isinstance(value, str):
         plain = _PLAIN.fullmatch(value) and value.lower() not in _RESERVED and not _is_number(value)
-        return value if plain else json.dumps(value, ensure_ascii=False)
+        return value if plain else _quoted(value)
     if isinstance(value, Mapping):
         return "{" + ", ".join(f"{flow_text(key)}: {flow_text(inner)}" for key, inner in value.items()) + "}"
-    if isinstance(value, Sequence):
+    if isinstance(value, Sequence) and not isinstance(value, (bytes, bytearray)):
         return "[" + ", ".join(map(flow_text, value)) + "]"
     raise ManifestError(
         f"a manifest has no value of the type {type(value).__name__}; expected a mapping, a sequence, a number, a "
@@ -103,3 +103,9 @@ def _is_number(text: str) -> bool:
     except ValueError:
         return False
     return True
+
+
+def _quoted(text: str) -> str:
+    """A text in double quotes, with all that cannot be printed escaped."""
+    quoted = json.dumps(text, ensure_ascii=False)
+    return "".join(letter if letter.isprintable() else json.dumps(letter)[1:-1] for letter in quoted)

@@ -23,10 +23,10 @@ def required(name: str, purpose: str) -> Any:
     ImportError
         If it is not installed; the message says how to install it.
     """
+    top = name.partition(".")[0]
     try:
         return importlib.import_module(name)
     except ImportError:
-        top = name.partition(".")[0]
         raise ImportError(
             f"{purpose} needs {top}, which is not installed; install it (apt-get install {_DEBIAN[top]}, or pip "
             f"install {top})"

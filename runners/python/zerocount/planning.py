@@ -32,8 +32,8 @@ class Plan:
 
     @property
     def table(self) -> pandas.DataFrame:
-        """One row for each alternative."""
-        return required("pandas", "the table of a plan").DataFrame(self.plans)
+        """One row for each alternative; parts of an entry are columns such as ``trials.low``."""
+        return required("pandas", "the table of a plan").json_normalize(self.plans)
 
 
 def plan(
@@ -98,7 +98,7 @@ def plan(
         format="json",
     )
     if isinstance(pilot, Study):
-        text = pilot.command("plan", *words)[1]
+        text = pilot.command("plan", *words)
     else:
         files = [] if pilot is None else [str(getattr(pilot, "path", pilot))]
         text = program.run(["plan", *files, *words])[1]

@@ -7,8 +7,8 @@ import functools
 import json
 import os
 import pathlib
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, cast
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import numpy as np
 
@@ -16,7 +16,6 @@ import _zerocount
 
 from . import program
 from .datasets import Array, Column, ResultsDatasets
-from .errors import ManifestError
 from .figures import Figure, figure, figure_names
 from .judgement import Judgement
 from .optional import required
@@ -29,6 +28,8 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
     from .studies import Study
+
+T = TypeVar("T")
 
 SEVERITY = ["open_loop", "zero_count", "one_count", "off_target", "oscillating", "nonfinite"]
 """Outcomes of a move from best to worst."""
@@ -79,6 +80,21 @@ def open_results(path: str | os.PathLike[str]) -> Results:
     return Results(path)
 
 
+def _of_file(read: Callable[[Any], T]) -> property:
+    """A property that is read once for each state of the file."""
+
+    @functools.wraps(read)
+    def value(results: Any) -> T:
+        state = os.stat(results.path)
+        key = (read.__name__, state.st_mtime_ns, state.st_size, state.st_ino)
+        if results._kept.get(read.__name__, (None,))[0] != key:
+            results._kept[read.__name__] = (key, read(results))
+        kept = results._kept[read.__name__][1]
+        return cast(T, kept.copy(deep=True) if hasattr(kept, "iloc") else kept)
+
+    return property(value)
+
+
 class Results:
     """A results file. Rates are fractions; NaN stands where there is no value.
 
@@ -93,10 +109,15 @@ class Results:
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self._file = ResultsDatasets(path)
+        self._kept: dict[str, Any] = {}
         self.path = self._file.path
 
+    def __getstate__(self) -> dict[str, Any]:
+        return {**vars(self), "_kept": {}}
+
     def __repr__(self) -> str:
-        points, trials = self._file.attributes["points"], self._file.attributes["trials"]
+        attributes = self._file.attributes
+        points, trials = attributes["points"], attributes["trials"]
         return f"<Results {self.name!r}: {counted(points, 'design point')} × {counted(trials, 'trial')}>"
 
     def _repr_html_(self) -> str:
@@ -107,16 +128,17 @@ class Results:
         """Name of the study."""
         return str(self._file.attributes["name"])
 
-    @functools.cached_property
+    @_of_file
     def study(self) -> Study:
         """The study that was run: its manifest and settings."""
         from .studies import Study
 
-        overrides = (text.partition("=") for text in self._file.texts("overrides"))
-        settings = {key: value for key, _, value in overrides}
-        return Study(self._file.text("manifest"), str(self.path), self.path.resolve().parent, settings)
+        overrides = self._file.texts("overrides")
+        study = Study(self._file.text("manifest"), str(self.path), self.path.resolve().parent, overrides)
+        study.checked = self.checked  # without the files that the manifest names
+        return study
 
-    @functools.cached_property
+    @_of_file
     def checked(self) -> _zerocount.Study:
         """The study as its trials were run, in this process."""
         return _zerocount.Study.recorded(self.path)
@@ -140,13 +162,13 @@ class Results:
         """
         return program.run([name, str(self.path), *options], accepted=accepted)[1]
 
-    @functools.cached_property
+    @_of_file
     def summary(self) -> dict[str, Any]:
         """All statistics, as ``zerocount summary --format json`` gives them."""
         result: dict[str, Any] = json.loads(self.command("summary", "--format", "json"))
         return result
 
-    @functools.cached_property
+    @_of_file
     def statistics(self) -> pandas.DataFrame:
         """All statistics that the file stores, one row a design point.
 
@@ -157,7 +179,7 @@ class Results:
         points = columns.pop("point").values
         return frame("the table of points", self._by_band(columns), points, "point")
 
-    @functools.cached_property
+    @_of_file
     def table(self) -> pandas.DataFrame:
         """The main statistics, one row a design point: a part of `statistics`, and the goal if there is one.
 
@@ -168,7 +190,8 @@ class Results:
             ``goal`` (met, missed, undecided), ``goal_rate`` and its bounds; ``trials``; ``success_rate``, the
             proportion of trials that end at zero counts, and ``stable_rate``, each with bounds;
             ``settling_time_median`` and ``_p95`` (s), the arrival at zero; ``band_settling_time_p95[b]`` (s),
-            after which the error stays within b counts; ``jerk_count_mean`` per trial.
+            after which the error stays within b counts; ``jerk_count_mean`` per trial. Quantiles are of all moves:
+            the k-th smallest of n with k = ⌈p·n⌉, where a move that never arrives is later than any other.
 
         Examples
         --------
@@ -232,12 +255,14 @@ class Results:
         ManifestError
             If there is no such point.
         """
-        labels = self._file.group("point")["label"].values.tolist()
-        if isinstance(point, str) and point in labels:
-            return int(labels.index(point))
-        if not isinstance(point, str) and 0 <= point < len(labels):
-            return int(point)
-        raise ManifestError(f"{self.path}: there is no point {point!r}; expected 0 to {len(labels) - 1} or a label", 2)
+        from .studies import point_number
+
+        return point_number(point, self.checked.labels, self.path)
+
+    @property
+    def best(self) -> int:
+        """Number of the best design point: by the goal of the manifest, without one by the success rate."""
+        return int(self.summary["best"]["point"])
 
     def trials(self, point: int | str | None = None) -> pandas.DataFrame:
         """Inputs and outcomes, one row a trial.
@@ -252,9 +277,10 @@ class Results:
         pandas.DataFrame
             Index ``trial``, the row of the trial in the file. Columns: ``point``, ``index`` (of the trial at its
             point), ``rig`` if trials share rigs, ``world`` if the study has worlds, the inputs, ``success``
-            (zero counts at the end of every move), ``outcome`` (of the worst move), and the measures of the
-            moves, combined: a quality holds if every move has it, or some for ``saturated`` and ``broke_away``;
-            numbers of events are summed; of other values the largest magnitude stands, NaN if a move has none.
+            (zero counts at the end of every move), ``goal_met`` (every move meets the goal), ``outcome`` (of the
+            worst move), and the measures of the moves, combined. ``attrs["combined"]`` tells how: ``all`` or
+            ``any`` of the moves have the quality, the ``sum``, the ``largest`` magnitude (NaN if a move has none),
+            or that of the last move (``last``).
 
         Examples
         --------
@@ -263,12 +289,30 @@ class Results:
         {'k1': 129.43261101715342, 'rig': 0, 'success': True}
         """
         rows = self._rows(point)
-        columns = self._file.group("trial", rows)
+        columns = self._inputs(rows)
         trial = columns.pop("trial").values
+        outcome = self._by_band(self._file.group("outcome", rows))
+        columns.update(self._of_trials({**outcome, **self._meets(outcome)}))
+        table = frame("the table of trials", columns, trial, "trial")
+        measures = self.checked.descriptions["outcome"]
+        table.attrs["combined"] = {name: measures[name]["of_trial"] for name in table if name in measures}
+        return table
+
+    def _inputs(self, rows: slice | None) -> dict[str, Column]:
+        """What is known of trials before they are run: point, index, rig, world and inputs."""
+        columns = self._file.group("trial", rows)
         columns.update(self._shared(columns["index"].values))
         columns.update(self._file.group("trial/input", rows))
-        columns.update(self._of_trials(self._by_band(self._file.group("outcome", rows))))
-        return frame("the table of trials", columns, trial, "trial")
+        return columns
+
+    def _meets(self, outcome: Mapping[str, Column]) -> dict[str, Column]:
+        """Whether each move meets the goal of the manifest, if there is one."""
+        goal = self.checked.goal
+        times = outcome.get(f"band_settling_time[{goal['band']}]") if goal is not None else None
+        if goal is None or times is None:
+            return {}
+        met = times.values <= goal["latest"]  # not where it is NaN
+        return {"goal_met": dataclasses.replace(times, values=met, unit="1", meaning="it meets the goal of the manifest")}
 
     def _shared(self, index: Array) -> dict[str, Column]:
         """What a trial shares with others: its rig and its world."""
@@ -293,6 +337,9 @@ class Results:
             "success": Column(success, ("trial",), "1", "all moves ended at zero counts"),
             "outcome": Column(worst, ("trial",), "1", "outcome of the worst move", outcome.words),
         }
+        if "goal_met" in columns:
+            met = columns["goal_met"]
+            result["goal_met"] = dataclasses.replace(met, values=met.values.all(axis=1), dimensions=("trial",))
         measures = self.checked.descriptions["outcome"]
         for name, column in columns.items():
             if column.dimensions != ("trial", "move") or name == "outcome" or name not in measures:
@@ -301,27 +348,40 @@ class Results:
             result[name] = Column(combined(column.values, rule), ("trial",), column.unit, column.meaning)
         return result
 
-    def moves(self, point: int | str | None = None) -> pandas.DataFrame:
+    def moves(self, point: int | str | None = None, *, inputs: bool = False) -> pandas.DataFrame:
         """Outcomes, one row a move.
 
         Parameters
         ----------
         point : int or str, optional
             Number or label of a design point; default: all.
+        inputs : bool
+            Join point, index, rig, world and inputs of the trial.
 
         Returns
         -------
         pandas.DataFrame
-            Index ``trial`` and ``move``. Columns: the measures of a move.
+            Index ``trial`` (as in `trials`) and ``move``. Columns: the measures of a move, and ``goal_met`` if the
+            manifest has a goal.
         """
         pandas = required("pandas", "the table of moves")
-        columns = self._by_band(self._file.group("outcome", self._rows(point)))
+        rows = self._rows(point)
+        columns = self._by_band(self._file.group("outcome", rows))
         trial, move = columns.pop("trial").values, columns.pop("move").values
+        columns.update(self._meets(columns))
         flat = {
             name: dataclasses.replace(column, values=column.values.reshape(-1))
             for name, column in columns.items()
             if column.dimensions == ("trial", "move")
         }
+        if inputs:
+            known = self._inputs(rows)
+            known.pop("trial")
+            repeated = {
+                name: dataclasses.replace(column, values=np.repeat(column.values, len(move)))
+                for name, column in known.items()
+            }
+            flat = {**repeated, **flat}
         index = pandas.MultiIndex.from_product([trial, move], names=["trial", "move"])
         return frame("the table of moves", flat, index, None)
 
@@ -336,7 +396,7 @@ class Results:
         Returns
         -------
         pandas.DataFrame
-            Index ``jerk``. Columns: ``trial``, ``move``, ``onset`` and ``duration`` (s), ``magnitude`` (counts),
+            Index ``jerk``. Columns: ``trial`` (as in `trials`), ``move``, ``onset`` and ``duration`` (s), ``magnitude`` (counts),
             ``direction``.
         """
         columns = self._file.group("jerk")
@@ -357,7 +417,8 @@ class Results:
         Returns
         -------
         pandas.DataFrame
-            Index ``rig``. Columns: what is drawn per rig, ``trials``, and ``success``, those that end at zero.
+            Index ``rig``. Columns: what is drawn per rig, ``trials``, and ``success``, those of them that end at
+            zero counts. Those that meet the goal: ``trials(point).groupby("rig")["goal_met"].sum()``.
         """
         return self._machines("rig", point)
 
@@ -405,7 +466,7 @@ class Results:
             "the table of torque levels", flat, pandas.MultiIndex.from_product(axes, names=["point", "move"]), None
         )
 
-    @functools.cached_property
+    @_of_file
     def dataset(self) -> Dataset:
         """Inputs and outcomes of all trials as arrays with named dimensions.
 
@@ -427,6 +488,7 @@ class Results:
             return column.dimensions, column.in_words, {"units": column.unit, "long_name": column.meaning}
 
         outcome = self._file.group("outcome")
+        outcome.update(self._meets(self._by_band(outcome)))
         coordinates = {**self._file.group("trial"), **self._file.group("trial/input")}
         names = {name: short_name(name, list(coordinates)) for name in coordinates}
         scales = {name: outcome.pop(name) for name in ("trial", "move")}

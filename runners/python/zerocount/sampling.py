@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,9 +13,8 @@ import numpy.typing as npt
 
 from .datasets import Array
 from .errors import ManifestError
-from .laws import checked_point
 from .optional import required
-from .tables import combined
+from .tables import combined, short_name
 
 if TYPE_CHECKING:
     import openturns  # type: ignore[import]
@@ -49,19 +48,19 @@ class Sample:
     names: list[str]
     units: list[str]
     distributions: list[dict[str, Any]]
-    correlations: Numbers
+    correlations: Numbers = dataclasses.field(repr=False)
     outcome: str | Callable[[dict[str, Array]], Array]
-    _study: Study
-    _point: int
-    _threads: int
+    _study: Study = dataclasses.field(repr=False)
+    _threads: int = dataclasses.field(repr=False)
 
     def __call__(self, x: npt.ArrayLike, *, first: int = 0) -> Any:
         """The outcome of trials with these values.
 
         Parameters
         ----------
-        x : array_like
-            ``[trial, variable]``, or ``[variable]`` of one trial, in the units of the variables.
+        x : array_like or DataFrame
+            ``[trial, variable]``, or ``[variable]`` of one trial, in the units of the variables. Of a DataFrame the
+            columns with the names of the variables, in full or short as in ``Results.trials``.
         first : int
             Number of the first trial. All random numbers beside the variables, such as noise and the rest of a
             profile, follow from the number of a trial: equal numbers and values give equal outcomes.
@@ -76,8 +75,15 @@ class Sample:
         ManifestError
             For a value that the variable cannot have, or a wrong number of columns.
         """
-        values = np.asarray(x, dtype=float)
+        values = self._values(x)
         result = np.asarray(self._outcome_of(self.trials(values, first=first)), dtype=float)
+        trials = 1 if values.ndim == 1 else len(values)
+        if result.shape != (trials,):
+            raise ManifestError(
+                f"the outcome has the shape {result.shape} for {trials} trials; expected a function that returns a "
+                "number for each trial",
+                2,
+            )
         return float(result[0]) if values.ndim == 1 else result
 
     def trials(self, x: npt.ArrayLike, *, first: int = 0) -> dict[str, Array]:
@@ -85,8 +91,8 @@ class Sample:
 
         Parameters
         ----------
-        x : array_like
-            ``[trial, variable]``.
+        x : array_like or DataFrame
+            As in `__call__`.
         first : int
             As in `__call__`.
 
@@ -95,7 +101,7 @@ class Sample:
         dict of str to numpy.ndarray
             ``[trial, move]`` by the name of the measure.
         """
-        values = np.atleast_2d(np.asarray(x, dtype=float))
+        values = np.atleast_2d(self._values(x))
         if values.ndim != 2 or values.shape[1] != len(self.names):
             raise ManifestError(
                 f"x has the shape {np.shape(x)}; expected a column for each of the {len(self.names)} variables", 2
@@ -103,8 +109,23 @@ class Sample:
         if not 0 <= first <= MAX_NUMBER - len(values):
             raise ManifestError(f"first = {first} is out of range; expected 0 to {MAX_NUMBER - len(values)}", 2)
         numbers = np.arange(first, first + len(values))
-        result: dict[str, Array] = self._study.checked.simulate(self._point, values, numbers, self._threads)
+        result: dict[str, Array] = self._study.checked.simulate(0, values, numbers, self._threads)
         return result
+
+    def _values(self, x: Any) -> Numbers:
+        """The values as numbers, those of a DataFrame by name."""
+        if hasattr(x, "columns"):
+            known = [str(name) for name in x.columns]
+            # A short name may be that of a value, but not that of a score or a row.
+            names = [
+                name if name in known or unit == "1" else short_name(name, self.names)
+                for name, unit in zip(self.names, self.units)
+            ]
+            missing = [name for name in names if name not in known]
+            if missing:
+                raise ManifestError(f"x lacks the columns {', '.join(missing)}; it has {', '.join(known)}", 2)
+            x = x[names]
+        return np.asarray(x, dtype=float)
 
     def _outcome_of(self, measures: dict[str, Array]) -> Array:
         if callable(self.outcome):
@@ -115,19 +136,29 @@ class Sample:
         rule = self._study.checked.descriptions["outcome"][self.outcome]["of_trial"]
         return combined(values, rule)
 
-    def set(self, **values: Any) -> Sample:
+    def set(self, values: Mapping[str, Any] | None = None, /, **others: Any) -> Sample:
         """The same variables, outcome and random numbers with other values of the manifest, such as gains.
 
         Parameters
         ----------
-        **values
+        values : dict, optional
             Dotted keys and values, as in `Study.set`.
+        **others
+            The same for keys without a dot.
 
         Returns
         -------
         Sample
+
+        Raises
+        ------
+        ManifestError
+            If the variables would be others.
         """
-        return sample(self._study.set(**values), self._point, outcome=self.outcome, threads=self._threads)
+        result = sample(self._study.set(values, **others), outcome=self.outcome, threads=self._threads)
+        if result.names != self.names:
+            raise ManifestError(f"the variables would be {', '.join(result.names)}; set what is none of them", 2)
+        return result
 
     def draw(self, trials: int, *, seed: int = 0) -> Numbers:
         """Values of the variables from their joint distribution.
@@ -146,7 +177,7 @@ class Sample:
         """
         factor = np.linalg.cholesky(self.correlations)
         scores = np.random.default_rng(seed).standard_normal((trials, len(self.names))) @ factor.T
-        result: Numbers = self._study.checked.values_at_scores(self._point, scores)
+        result: Numbers = self._study.checked.values_at_scores(0, scores)
         return result
 
     @property
@@ -177,7 +208,7 @@ class Sample:
 
 def sample(
     study: Study | Results | str | os.PathLike[str],
-    point: int = 0,
+    point: int | str = 0,
     *,
     outcome: str | Callable[[dict[str, Array]], Array] = "success",
     threads: int | None = None,
@@ -192,8 +223,8 @@ def sample(
     ----------
     study : Study, Results or path of a manifest
         The study.
-    point : int
-        Number of the design point.
+    point : int or str
+        Number or label of the design point. The sample is of the study at this point, without its sweep.
     outcome : str or callable
         ``"success"`` (zero counts at the end of every move), or the name of a measure, combined over the moves as
         in ``Results.trials``, or a function of the measures ``{name: [trial, move]}``.
@@ -218,12 +249,10 @@ def sample(
     0.042
     """
     from .results import Results
-    from .studies import Study
     from .studies import study as study_of
 
-    subject = study if isinstance(study, Study) else study.study if isinstance(study, Results) else study_of(study)
-    checked_point(subject.checked, point)
-    variables = subject.checked.variables(point)
+    subject = (study.study if isinstance(study, Results) else study_of(study)).at(point)
+    variables = subject.checked.variables(0)
     measures = subject.checked.descriptions["outcome"]
     if not variables["names"]:
         raise ManifestError(f"{subject.name}: nothing is drawn for its trials; expected a distribution", 2)
@@ -236,7 +265,6 @@ def sample(
         variables["correlations"],
         outcome,
         subject,
-        point,
         threads or len(os.sched_getaffinity(0)),
     )
 

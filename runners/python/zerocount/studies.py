@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import operator
 import os
 import pathlib
 from collections.abc import Callable, Iterable, Mapping
@@ -17,14 +18,14 @@ from .progress import progress_bar
 from .results import Results
 from .wording import counted
 
-def study(manifest: str | os.PathLike[str] | Mapping[str, Any]) -> Study:
+def study(manifest: str | os.PathLike[str] | Mapping[str, Any] | Study) -> Study:
     """A study from a manifest.
 
     Parameters
     ----------
     manifest : path or mapping
         A YAML file, or the same keys and values as a dict. Files that a dict names are found from the current
-        folder, those that a file names from its own.
+        folder, those that a file names from its own. A study is given back as it is.
 
     Returns
     -------
@@ -33,7 +34,8 @@ def study(manifest: str | os.PathLike[str] | Mapping[str, Any]) -> Study:
     Raises
     ------
     ManifestError
-        With the place and the key of every error.
+        With the place and the key of every error. The manifest must be complete: with gains in SI units, say, it
+        needs a value of the integral gain or a sweep of it.
 
     Examples
     --------
@@ -41,6 +43,8 @@ def study(manifest: str | os.PathLike[str] | Mapping[str, Any]) -> Study:
     >>> s
     <Study 'my-axis': 8 design points × 2000 trials>
     """
+    if isinstance(manifest, Study):
+        return manifest
     if isinstance(manifest, Mapping):
         result = Study(yaml_text(manifest), "<dict>", pathlib.Path.cwd())
     else:
@@ -65,7 +69,7 @@ def shipped(name: str) -> Study:
     Raises
     ------
     ManifestError
-        If there is none of this name; the message has the nearest.
+        If there is none of this name; the message lists them.
 
     Examples
     --------
@@ -95,15 +99,11 @@ class Study:
     ----------
     text : str
         The manifest, without the settings.
-    settings : dict of str to str
-        Dotted keys and the values that take the place of the manifest's, as YAML.
     """
 
-    def __init__(
-        self, text: str, source: str, folder: pathlib.Path, settings: Mapping[str, str] | None = None
-    ) -> None:
+    def __init__(self, text: str, source: str, folder: pathlib.Path, overrides: Iterable[str] = ()) -> None:
         self.text = text
-        self.settings = dict(settings or {})
+        self._overrides = list(overrides)
         self._source = source
         self._folder = folder
 
@@ -119,19 +119,29 @@ class Study:
         return _zerocount.Study(self.text, self._source, self._folder, self._overrides)
 
     def __repr__(self) -> str:
+        try:
+            self.checked
+        except ManifestError as error:
+            return f"<Study {self._source} with an error: {error.problems[0].text}>"
         return f"<Study {self.name!r}: {counted(len(self.labels), 'design point')} × {counted(self.trials, 'trial')}>"
 
     @property
-    def _overrides(self) -> list[str]:
-        return [f"{key}={value}" for key, value in self.settings.items()]
+    def settings(self) -> dict[str, str]:
+        """Dotted keys and the values that take the place of the manifest's, as YAML."""
+        return {key: value for key, _, value in (text.partition("=") for text in self._overrides)}
 
-    def set(self, **values: Any) -> Study:
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in vars(self).items() if name != "checked"}
+
+    def set(self, values: Mapping[str, Any] | None = None, /, **others: Any) -> Study:
         """This study with other values.
 
         Parameters
         ----------
-        **values
-            Dotted keys of the manifest and their values: ``**{"controller.delay": 1}``.
+        values : dict, optional
+            Dotted keys of the manifest and their values: ``{"controller.delay": 1}``.
+        **others
+            The same for keys without a dot: ``trials=1000``.
 
         Returns
         -------
@@ -140,27 +150,29 @@ class Study:
         Raises
         ------
         ManifestError
-            For a value that a manifest cannot have. Whether the keys exist is checked later.
+            For a value that a manifest cannot have. Whether the keys exist is checked later, and that they have
+            an effect: a key that is swept at all points has none.
 
         Examples
         --------
-        >>> s = zc.study("my-axis.yaml").set(trials=1000, **{"controller.delay": 1})
+        >>> s = zc.study("my-axis.yaml").set({"controller.delay": 1}, trials=1000)
         >>> s.trials
         1000
         """
-        changed = {key: flow_text(value) for key, value in values.items()}
-        kept = {key: value for key, value in self.settings.items() if key not in changed}
-        return Study(self.text, self._source, self._folder, {**kept, **changed})
+        changed = {key: flow_text(value) for key, value in {**(values or {}), **others}.items()}
+        kept = [text for text in self._overrides if text.partition("=")[0] not in changed]
+        return Study(self.text, self._source, self._folder, kept + [f"{key}={value}" for key, value in changed.items()])
 
-    def sweep(self, key: str, values: Iterable[Any]) -> Study:
+    def sweep(self, key: str, values: Iterable[Any] | Mapping[str, Any]) -> Study:
         """This study at several values of a key. With a sweep of another key, at every pair.
 
         Parameters
         ----------
         key : str
             Dotted key of the manifest.
-        values : iterable
-            In the key's unit. They take the place of a sweep of the same key.
+        values : iterable or dict
+            In the key's unit, or as in a manifest: ``{"logspace": [5e3, 1e5, 8]}``. They take the place of a sweep
+            of the same key.
 
         Returns
         -------
@@ -172,7 +184,45 @@ class Study:
         >>> len(s.labels)
         4
         """
-        return self.set(**{f"sweep.grid.{key}": list(values)})
+        return self.set({f"sweep.grid.{key}": values if isinstance(values, Mapping) else list(values)})
+
+    def at(self, point: int | str) -> Study:
+        """This study at one of its design points, without a sweep.
+
+        Parameters
+        ----------
+        point : int or str
+            Number or label.
+
+        Returns
+        -------
+        Study
+            The same trials, if the points share their random numbers as they do by default.
+
+        Raises
+        ------
+        ManifestError
+            If there is no such point, or it gives a swept key a distribution.
+
+        Examples
+        --------
+        >>> zc.study("my-axis.yaml").at(2).settings
+        {'controller.ki': '11767.7344682513'}
+        """
+        number = point_number(point, self.labels, self.name)
+        sweep = self.to_dict().get("sweep") or {}
+        values: dict[str, Any] = {}
+        for axis in self.checked.axes:
+            key, value = axis["name"], axis["values"][number]
+            if key == "case":
+                values.update(sweep["cases"][value] or {})
+            elif key not in (sweep.get("grid") or {}):
+                continue  # a case gives it
+            elif isinstance(value, float) and value != value:
+                raise ManifestError(f"{self.name}: {key} has a distribution at the point {point}; expected a number", 2)
+            else:
+                values[key] = int(value) if isinstance(value, float) and value.is_integer() else value
+        return self.without("sweep", "observed").set(values) if sweep else self
 
     def without(self, *keys: str) -> Study:
         """This study without some keys of the manifest, which then have their defaults.
@@ -189,7 +239,7 @@ class Study:
 
         Examples
         --------
-        >>> s = zc.study("my-axis.yaml").without("sweep").set(**{"controller.ki": 1e4})
+        >>> s = zc.study("my-axis.yaml").without("sweep").set({"controller.ki": 1e4})
         >>> len(s.labels)
         1
         """
@@ -201,7 +251,7 @@ class Study:
                 place = place.get(part, {}) if isinstance(place, dict) else {}
             if isinstance(place, dict):
                 place.pop(last, None)
-        return Study(yaml_text(tree), f"{self.name} without {', '.join(keys)}", self._folder)
+        return Study(yaml_text(tree), f"{self._source} without {', '.join(keys)}", self._folder)
 
     def to_dict(self) -> dict[str, Any]:
         """The manifest with its settings as a dict, to be changed and given to `study` again.
@@ -289,7 +339,7 @@ class Study:
         *options: str,
         accepted: frozenset[int] = frozenset({0}),
         progress: Callable[[str], None] | None = None,
-    ) -> tuple[int, str]:
+    ) -> str:
         """Run a command of the program on the manifest.
 
         Parameters
@@ -305,15 +355,13 @@ class Study:
 
         Returns
         -------
-        code : int
-            Exit code.
-        output : str
+        str
             Standard output.
         """
         settings = [word for override in self._overrides for word in ("--set", override)]
-        return program.run(
-            [name, "-", *settings, *options], text=self.text, folder=self._folder, accepted=accepted, progress=progress
-        )
+        words = [name, "-", *settings, *options]
+        self.checked  # errors of the manifest have its places here
+        return program.run(words, text=self.text, folder=self._folder, accepted=accepted, progress=progress)[1]
 
     def check(self) -> str:
         """The plan of the study and the theory of its points, as ``zerocount check`` prints them.
@@ -322,7 +370,7 @@ class Study:
         -------
         str
         """
-        return self.command("check")[1]
+        return self.command("check")
 
     def run(
         self,
@@ -369,3 +417,21 @@ class Study:
             self.command("run", *options, progress=bar)
         return Results(output)
 
+
+def point_number(point: int | str, labels: list[str], where: object) -> int:
+    """The number of a design point that is given by its number or label.
+
+    Parameters
+    ----------
+    point : int or str
+        Number or label.
+    labels : list of str
+        Of the points.
+    where : object
+        Begins the message of an error.
+    """
+    if isinstance(point, str) and point in labels:
+        return labels.index(point)
+    if hasattr(point, "__index__") and 0 <= operator.index(point) < len(labels):
+        return operator.index(point)
+    raise ManifestError(f"{where}: there is no point {point!r}; expected 0 to {len(labels) - 1} or a label", 2)

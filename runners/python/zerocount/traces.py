@@ -48,7 +48,10 @@ class Trace:
     bands: list[int]
 
     def __repr__(self) -> str:
-        return f"<Trace of {self.title}: {len(self.t)} samples, {' '.join(map(str, self.outcome['outcome']))}>"
+        outcomes = list(map(str, self.outcome["outcome"]))
+        if len(outcomes) > 4:
+            outcomes = [f"{outcomes.count(word)} {word}" for word in dict.fromkeys(outcomes)]
+        return f"<Trace of {self.title}: {len(self.t)} samples, {' '.join(outcomes)}>"
 
     @property
     def t(self) -> Array:
@@ -109,15 +112,15 @@ class Trace:
 
 def replayed(text: str, study: _zerocount.Study, point: int) -> Trace:
     """A trace from what ``zerocount trace --format json`` gives."""
-    record = json.loads(text)
-    rows, moves = record["samples"], record["outcome"]
+    record = json.loads(text, parse_int=float)  # -0 is a number, too
+    rows, moves, described = record["samples"], record["outcome"], study.descriptions
     return _trace(
         study,
         point,
-        record["trial"],
-        {name: _array([row[name] for row in rows]) for name in rows[0]} if rows else {},
+        int(record["trial"]),
+        {name: _array([row[name] for row in rows], described["samples"][name]) for name in rows[0]} if rows else {},
         record["inputs"],
-        {name: _array([move[name] for move in moves]) for name in moves[0]},
+        {name: _array([move[name] for move in moves], described["outcome"][name]) for name in moves[0]},
     )
 
 
@@ -151,13 +154,9 @@ def _trace(
     return Trace(title, samples, inputs, outcome, units, list(study.bands))
 
 
-def _array(values: list[Any]) -> Array:
-    """Numbers of JSON, where null is NaN."""
-    if any(isinstance(value, str) for value in values):
-        return np.array(values, dtype=object)
-    if any(value is None for value in values):
-        return np.array(values, dtype=float)
-    return np.array(values)
+def _array(values: list[Any], description: Mapping[str, Any]) -> Array:
+    """Values of JSON, where null is NaN, as the type of their column."""
+    return np.array(values, dtype=object if description["flags"] else description["type"])
 
 
 def _in_words(values: Array, words: Mapping[int, str]) -> Array:

@@ -53,19 +53,22 @@ class Tuning:
     status : str
         ``"met"``, ``"undecided"``, or ``"unreachable"`` within the ranges.
     gains : dict of str to float
-        By dotted key.
+        By dotted key; empty if the search found none.
     proof : Proof or None
         On machines that the search never saw; None if the search found nothing to prove.
     room : dict of str to list of float
         By dotted key, the range in which the value alone can change with the goal still met.
     margins : dict
         Gain (dB), phase (degrees) and delay (samples) margins, the least of the machines.
+    delay_lost : float or None
+        Delay of the loop at which the goal seems lost, samples.
     manifest : Study or None
         The study with the tuned gains.
     results : Results or None
         The results file of the proof.
     alternatives, frontier, limits : list of dict
-        With values left out; the best found at each rate; what stands in the way.
+        With free keys held at the values of ``fixed`` (an empty one: with an observer beside); the best found at
+        each rate; what stands in the way.
     worst : dict or None
         The machine that the gains suit worst.
     searched : dict
@@ -75,12 +78,13 @@ class Tuning:
     """
 
     status: str
-    gains: dict[str, float]
-    proof: Proof | None
-    room: dict[str, list[float]] = dataclasses.field(repr=False)
-    margins: dict[str, Any] = dataclasses.field(repr=False)
-    manifest: Study | None = dataclasses.field(repr=False)
-    results: Results | None = dataclasses.field(repr=False)
+    gains: dict[str, float] = dataclasses.field(default_factory=dict)
+    proof: Proof | None = None
+    room: dict[str, list[float]] = dataclasses.field(default_factory=dict, repr=False)
+    margins: dict[str, Any] = dataclasses.field(default_factory=dict, repr=False)
+    delay_lost: float | None = dataclasses.field(default=None, repr=False)
+    manifest: Study | None = dataclasses.field(default=None, repr=False)
+    results: Results | None = dataclasses.field(default=None, repr=False)
     alternatives: list[dict[str, Any]] = dataclasses.field(default_factory=list, repr=False)
     frontier: list[dict[str, Any]] = dataclasses.field(default_factory=list, repr=False)
     limits: list[dict[str, Any]] = dataclasses.field(default_factory=list, repr=False)
@@ -152,14 +156,14 @@ def tune(
     <Study 'my-axis': 1 design point × 1869 trials>
     """
     from .results import Results
-    from .studies import Study, study
+    from .studies import study
 
-    subject = _without_sweep(manifest if isinstance(manifest, Study) else study(manifest), free or {})
+    subject = _without_sweep(study(manifest), free or {})
     settings = {"goal": goal, "tune.free": free, "tune.minimise": minimise, "tune.margins": margins}
-    subject = subject.set(**{key: value for key, value in settings.items() if value is not None})
+    subject = subject.set({key: value for key, value in settings.items() if value is not None})
     target = os.path.abspath(output)
     with progress_bar("tune", progress) as bar:
-        _, text = subject.command(
+        text = subject.command(
             "tune",
             *options(
                 output=target,
@@ -189,7 +193,7 @@ def _without_sweep(subject: Study, free: Mapping[str, Any]) -> Study:
     if len(subject.labels) == 1:
         return subject
     middles = {key: _middle(free[key]) for axis in subject.checked.axes if (key := axis["name"]) in free}
-    return subject.without("sweep").set(**middles)
+    return subject.without("sweep").set(middles)
 
 
 def _middle(searched: Any) -> float:

@@ -11,12 +11,13 @@ import re
 import shutil
 import subprocess
 import sys
+import sysconfig
 
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 
 ROOT = pathlib.Path(__file__).parent
-BUILD = ROOT / "build" / "python"
+BUILD = ROOT / "build" / f"python-{sys.implementation.cache_tag}"
 
 
 class BuildByCMake(build_ext):
@@ -30,7 +31,7 @@ class BuildByCMake(build_ext):
         ]
         subprocess.run(["cmake", "-G", "Ninja", "-S", ROOT, "-B", BUILD, *options], check=True)
         subprocess.run(["cmake", "--build", BUILD, "--target", "_zerocount", "zerocount"], check=True)
-        extension = next((BUILD / "python").glob("_zerocount*.so"))
+        extension = BUILD / "python" / f"_zerocount{sysconfig.get_config_var('EXT_SUFFIX')}"
         target = pathlib.Path(self.get_ext_fullpath("_zerocount"))
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy2(extension, target)

@@ -16,9 +16,9 @@ INPUTS = ["k1", "k2", "beta", "alpha", "targets.0", "encoder_phase"]
 
 def main(path):
     results = zc.open(path)
-    trials = results.trials(results.judge().point)
+    trials = results.trials(results.best)
     x = trials[INPUTS]
-    y = trials["band_settling_time[1]"] <= 0.05
+    y = trials["goal_met"]
     tree = DecisionTreeClassifier(max_leaf_nodes=4, min_samples_leaf=10, class_weight="balanced", random_state=1)
     # The trials of a machine stay together: otherwise the tree would be tested on machines that it knows.
     folds = StratifiedGroupKFold(5).split(x, y, groups=trials["rig"])

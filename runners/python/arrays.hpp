@@ -21,8 +21,8 @@ py::array array_of(std::vector<std::byte> bytes, hdf5::Element element, std::vec
 /// An array of NumPy that owns the numbers; they are not copied.
 py::array array_of(std::vector<double> numbers, std::vector<py::ssize_t> shape);
 
-/// What the package knows of a column: {"unit", "meaning", "flags": {value: word}}, in the words for this
-/// kind of axis.
+/// What the package knows of a column: {"unit", "meaning", "flags": {value: word}, "type"}, in the words for
+/// this kind of axis.
 py::dict description_of(const layout::Column& column, parameters::AxisKind axis);
 
 /// {column: array of this shape} of the records.

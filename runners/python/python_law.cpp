@@ -18,6 +18,7 @@ std::string type_name(const py::handle& object) {
 double torque_of(const py::object& value) {
   const double torque = PyFloat_AsDouble(value.ptr());
   if (torque != -1.0 || PyErr_Occurred() == nullptr) return torque;
+  if (PyErr_ExceptionMatches(PyExc_TypeError) == 0) throw py::error_already_set();
   PyErr_Clear();
   throw py::type_error("the control law returned " + type_name(value) +
                        " at a sample; expected a torque, a number");

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -53,13 +55,20 @@ py::dict form_of(const d::Choice& c) {
   return py::dict(py::arg("choice") = py::cast(c.values));
 }
 
-/// The random variables of a point: {"names", "units", "distributions", "correlations"}.
+/// What a variable is: a value in its unit, the normal score of a profile, or the row of joint samples.
+std::string_view kind_of(const study::RandomCoordinate& coordinate) {
+  if (coordinate.rows > 0) return "row";
+  return coordinate.kind == study::RandomCoordinate::Kind::profile_at_start ? "score" : "value";
+}
+
+/// The random variables of a point: {"names", "kinds", "units", "distributions", "correlations"}.
 py::dict variables_of(const study::Study& study, std::int64_t point) {
   const study::RandomVariables variables = study::random_variables(study, point);
-  py::list names, units, forms;
+  py::list names, kinds, units, forms;
   std::vector<double> correlations;
   for (const study::RandomVariable& variable : variables.variables) {
     names.append(variable.name);
+    kinds.append(std::string(kind_of(variable.coordinate)));
     units.append(variable.unit);
     forms.append(
         std::visit([](const auto& distribution) { return form_of(distribution); }, variable.distribution));
@@ -69,6 +78,7 @@ py::dict variables_of(const study::Study& study, std::int64_t point) {
   const py::ssize_t size = std::ssize(variables.variables);
   py::dict result;
   result["names"] = names;
+  result["kinds"] = kinds;
   result["units"] = units;
   result["distributions"] = forms;
   result["correlations"] = array_of(std::move(correlations), {size, size});

@@ -52,6 +52,16 @@ def tuned(quick: pathlib.Path) -> zc.Tuning:
     return zc.tune(study, quick.with_name("tuned.h5"), goal={"band": 1, "within": 0.1, "moves": 0.9}, free=free, margins="off", budget=200)
 
 
+def test_a_study_with_a_sweep_and_observations_is_tuned(axis: zc.Study, tmp_path: pathlib.Path) -> None:
+    """A sweep is left out, with what was observed at its points; the ranges may be those of the manifest."""
+    label = axis.labels[0]
+    study = axis.set({"tune.free": {"controller.ki": {"log": [5e3, 5e4]}}, "tune.margins": {"gain": 1, "phase": 10}})
+    study = study.set({"observed": {label: "met"}})
+    assert zc.tune(study, tmp_path / "t.h5", budget=2000).gains.keys() == {"controller.ki"}
+    with pytest.raises(zc.ManifestError, match="controller.ki"):
+        zc.tune(study, tmp_path / "u.h5", free={"controller.ki": [1]})
+
+
 def test_a_tuning_is_that_of_the_program(quick: pathlib.Path, tuned: zc.Tuning) -> None:
     """The answer of `tune` is the JSON of the program for the same call; its study has the gains, its results the proof."""
     record = json.loads(by_program("tune", quick, "-o", quick.with_name("again.h5"), "--format", "json", "--budget", 200))

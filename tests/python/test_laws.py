@@ -40,6 +40,7 @@ def pi(kp: float, ki: float, zone: float = float("inf"), *, si: bool = False) ->
 def test_a_trial_is_named_in_every_way(axis: zc.Study, folder: pathlib.Path) -> None:
     """A study, the path of its manifest and a dict give the same trial, at a point by its number or label."""
     expected = zc.trial(axis, 3, 7)
+    assert expected.inputs["controller.ki"] == axis.checked.axes[0]["values"][3]
     for of in (folder / "my-axis.yaml", str(folder / "my-axis.yaml"), axis.to_dict()):
         assert same_trace(zc.trial(of, 3, 7), expected)
     assert same_trace(zc.trial(axis, axis.labels[3], 7), expected) and same_trace(zc.trial(axis, np.int64(3), np.int64(7)), expected)

@@ -239,7 +239,7 @@ def fake(found_anew: pytest.MonkeyPatch, tmp_path: pathlib.Path) -> Callable[[st
     return program_that
 
 
-CODES = {1: zc.Error, 2: zc.ManifestError, 3: zc.TooLittleDataError, 4: zc.DataError, 5: zc.MachineError, 77: zc.Error, -9: zc.Error}
+CODES = {1: zc.Error, 2: zc.ManifestError, 3: zc.TooLittleDataError, 4: zc.DataError, 5: zc.MachineError, 77: zc.Error}
 
 
 @pytest.mark.parametrize("progress", [None, lambda line: None], ids=["quiet", "progress"])
@@ -258,10 +258,17 @@ def test_an_exit_code_is_a_class_of_errors(fake: Callable[..., pathlib.Path], co
 
 def test_a_program_that_says_nothing_is_told_by_its_exit_code(fake: Callable[..., pathlib.Path]) -> None:
     """An end without a message tells the program and the exit code."""
-    folder = fake("", -6)
-    with pytest.raises(zc.Error, match="ended with exit code -6") as raised:
+    folder = fake("", 77)
+    with pytest.raises(zc.Error, match="ended with exit code 77") as raised:
         zerocount.program.run(["run"])
     assert str(folder / "fake") in str(raised.value) and len(raised.value.problems) == 1
+
+
+def test_a_program_that_is_killed_is_told_by_the_signal(fake: Callable[..., pathlib.Path]) -> None:
+    """The end by a signal is a failure of the machine, with what was said before."""
+    fake("warning: little memory", -9)
+    with pytest.raises(zc.MachineError, match="was ended by the signal SIGKILL\nwarning: little memory"):
+        zerocount.program.run(["run"])
 
 
 def test_an_interrupted_program_is_an_interruption(fake: Callable[..., pathlib.Path]) -> None:

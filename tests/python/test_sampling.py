@@ -15,6 +15,7 @@ import pytest
 import scipy.stats
 import zerocount as zc
 from support import inputs_of, same, shipped
+from zerocount.tables import short_name
 
 # OpenTURNS takes the signal of Ctrl-C for itself, and ends the process by it. Other tests need it.
 signal.signal(signal.SIGINT, signal.getsignal(signal.SIGINT))
@@ -272,7 +273,7 @@ def test_set_keeps_the_machines(noisy: zc.Study) -> None:
         assert same(g(x), zc.sample(there, outcome="peak_torque")(x))
         assert (g(x) != f(x)).mean() > 0.5
     assert same(f.set(description="other words", seed=noisy.checked.seed)(x), f(x))
-    with pytest.raises(zc.ManifestError, match="the variables would be"):
+    with pytest.raises(zc.ManifestError, match="the variables would not be the same"):
         f.set({"friction.k2": 600})
 
 
@@ -286,6 +287,10 @@ def test_a_table_is_read_by_names(first: zc.Results, every_kind: zc.Study, resul
     assert same(f(full), expected) and same(f.trials(full)["arrival"], f.trials(trials)["arrival"])
     with pytest.raises(zc.ManifestError, match="x lacks the columns (friction.)?k1"):
         f(trials.drop(columns="k1"))
+    g = zc.sample(every_kind, outcome="peak_torque")
+    x = g.draw(20)
+    short = pandas.DataFrame(x, columns=[short_name(name, g.names) for name in g.names])
+    assert same(g(short), g(x))  # DEFECT: a variable without a unit, such as friction.n, is not found by its short name
     r = results_of("delay")
     try:  # k1 is a stiffness in the table of trials, and the score of a profile in the sample
         found = zc.sample(r, 0)(r.trials(0))

@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import os
 import pathlib
-from collections.abc import Iterable
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from .errors import DataError
+from .errors import DataError, MachineError
 from .optional import required
 
 Array = npt.NDArray[Any]
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False)
 class Column:
     """A dataset.
 
@@ -72,14 +73,21 @@ class ResultsDatasets:
         with self._open() as file:
             return {key: _attribute(value) for key, value in file.attrs.items()}
 
-    def _open(self) -> Any:
+    @contextlib.contextmanager
+    def _open(self) -> Iterator[Any]:
         h5py = required("h5py", "a results file")
-        if not self.path.exists():
-            raise DataError(f"{self.path}: no such file; expected a results file", 4)
+        state_of(self.path)
         try:
-            return h5py.File(self.path, "r")
+            file = h5py.File(self.path, "r")
+        except PermissionError as error:
+            raise MachineError(f"{self.path}: cannot be read: {error.strerror}", 5) from None
         except OSError:
             raise DataError(f"{self.path}: not a results file of zerocount: it is not in the HDF5 format", 4) from None
+        with file:
+            try:
+                yield file
+            except (AttributeError, KeyError, OSError, RuntimeError) as error:
+                raise DataError(f"{self.path}: damaged: {error}; 'zerocount verify' tells more", 4) from None
 
     def has(self, name: str) -> bool:
         """Whether there is a group or dataset of this path."""
@@ -87,7 +95,7 @@ class ResultsDatasets:
             return name in file
 
     def group(self, name: str, rows: slice | None = None) -> dict[str, Column]:
-        """The datasets of a group, and of the groups in it.
+        """The datasets of a group, without those of groups in it.
 
         Parameters
         ----------
@@ -112,20 +120,20 @@ class ResultsDatasets:
             datasets = {key: item for key, item in file[name].items() if hasattr(item, "shape")}
             return {key: _column(item, rows) for key, item in datasets.items()}
 
-    def rows(self, name: str, values: Iterable[int]) -> slice:
-        """The rows of a sorted dataset from the first of `values` to the last.
+    def rows_of_point(self, point: int) -> slice:
+        """The trials of a design point.
 
         Parameters
         ----------
-        name : str
-            Path of a dataset of whole numbers in ascending order, such as ``trial/point``.
-        values : iterable of int
+        point : int
+            Its number.
         """
-        group, _, dataset = name.partition("/")
-        sorted_values = self.group(group)[dataset].values
-        wanted = list(values)
-        first, last = min(wanted, default=0), max(wanted, default=-1)
-        return slice(int(np.searchsorted(sorted_values, first)), int(np.searchsorted(sorted_values, last, side="right")))
+        with self._open() as file:
+            if "trial" not in file:
+                raise DataError(f"{self.path}: it has no {_WHAT['trial']}", 4)
+            points = file["trial/point"][:]
+        first, last = np.searchsorted(points, [point, point + 1])
+        return slice(int(first), int(last))
 
     def text(self, name: str) -> str:
         """A dataset that is one text."""
@@ -145,8 +153,16 @@ _WHAT = {
     "world": "worlds: nothing in its manifest is drawn per world",
     "level": "torque levels: its loop is closed",
     "jerk": "jerks",
-    "trace": "traces: its manifest retains none",
 }
+
+
+def state_of(path: str | os.PathLike[str]) -> tuple[int, int, int]:
+    """What tells whether a results file was written again."""
+    try:
+        state = os.stat(path)
+    except FileNotFoundError:
+        raise DataError(f"{path}: no such file; expected a results file", 4) from None
+    return state.st_mtime_ns, state.st_size, state.st_ino
 
 
 def _attribute(value: Any) -> Any:
@@ -180,7 +196,7 @@ def _words(dataset: Any) -> list[str]:
 
 
 def _dimensions(dataset: Any) -> tuple[str, ...]:
+    name_of = required("h5py", "a results file").h5ds.get_scale_name
     own = dataset.name.rpartition("/")[2]
-    return tuple(
-        scale[0].name.rpartition("/")[2] if len(scale) else own for scale in (dataset.dims[i] for i in range(dataset.ndim))
-    )
+    scales = (dataset.dims[i] for i in range(dataset.ndim))
+    return tuple(name_of(scale[0].id).decode() if len(scale) else own for scale in scales)

@@ -7,6 +7,7 @@ import re
 
 _PLACE = re.compile(r"(?P<file>.+?):(?P<line>\d+):(?:(?P<column>\d+):)? (?P<text>.+)")
 _OVERRIDE = re.compile(r"--set (?P<setting>\S+?=.*?): (?P<text>(?P<key>[a-z_][\w.\[\]]*): .+)")
+_WARNING = re.compile(r"(zerocount[\w ]*: )?warning: ")
 _FILE = re.compile(r"(?P<file>[^:\s][^:]*\.\w+): (?P<text>.+)")
 _KEY = re.compile(r"(?P<key>[a-z_][\w.\[\]]*): .+")
 
@@ -20,7 +21,7 @@ class Problem:
     text : str
         What is wrong and what was expected, as the program words it, without the place.
     file : str or None
-        Name of the manifest, table or results file.
+        Name of the manifest, table or results file; None of a manifest that was a dict.
     line, column : int or None
         Place in the file, from 1.
     key : str or None
@@ -54,7 +55,8 @@ class Error(Exception):
         super().__init__(message)
         self.message = message
         self.code = code
-        self.problems = [_problem(line) for line in message.splitlines() if line.strip()] or [Problem(message)]
+        lines = [line for line in message.splitlines() if line.strip() and not _WARNING.match(line)]
+        self.problems = [_problem(line) for line in lines] or [Problem(message)]
 
     @property
     def file(self) -> str | None:
@@ -101,7 +103,10 @@ def error_of(code: int, message: str) -> Error:
 
 def _problem(line: str) -> Problem:
     """The parts of a message such as ``axis.yaml:9:3: friction.k11: unknown key``."""
-    if place := _PLACE.fullmatch(line):
+    if (place := _PLACE.fullmatch(line)) and place["file"].startswith("<"):  # made of a dict
+        key = _KEY.fullmatch(place["text"])
+        return Problem(place["text"], key=key["key"] if key else None)
+    if place:
         key = _KEY.fullmatch(place["text"])
         column = place["column"]
         return Problem(

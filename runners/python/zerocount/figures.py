@@ -11,6 +11,7 @@ import tempfile
 from typing import TYPE_CHECKING, Any
 
 from . import program
+from .datasets import state_of
 from .drawing import drawn
 from .errors import MachineError, ManifestError
 
@@ -100,7 +101,13 @@ class Figure:
 
 def figure_names(path: str | os.PathLike[str]) -> list[str]:
     """Names of the figures of a results file."""
-    return program.run(["plot", path])[1].split()
+    return list(_figure_names(os.path.abspath(path), state_of(path)))
+
+
+@functools.lru_cache
+def _figure_names(path: str, state: tuple[int, int, int]) -> tuple[str, ...]:
+    """The same of a file in this state."""
+    return tuple(program.run(["plot", path])[1].split())
 
 
 def figure(path: str | os.PathLike[str], name: str | None, point: int | None) -> Figure:

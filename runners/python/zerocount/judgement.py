@@ -31,6 +31,8 @@ class Judgement:
         Design points of which this one is the best; the bounds allow for that choice.
     needed : dict or None
         The rigs and trials that would decide it.
+    worlds : dict or None
+        What is known of the worlds, of a study with worlds.
     text : str
         The verdict in words; ``print`` shows it.
     """
@@ -45,6 +47,7 @@ class Judgement:
     machines_high: float | None = None
     chosen_from: int = 1
     needed: dict[str, Any] | None = None
+    worlds: dict[str, Any] | None = dataclasses.field(default=None, repr=False)
     text: str = dataclasses.field(default="", repr=False)
 
     def __str__(self) -> str:

@@ -47,6 +47,7 @@ def path() -> str:
             "to its path",
             5,
         )
+    found = os.path.abspath(found)
     try:
         words = subprocess.run([found, "--version"], capture_output=True, text=True, check=True).stdout.split()
     except (OSError, subprocess.CalledProcessError):
@@ -118,6 +119,9 @@ def run(
             cwd=folder,
             start_new_session=True,  # it is interrupted by this process alone, which may be a notebook's
         )
+    except OSError as error:
+        os.close(ours)
+        raise MachineError(f"{path()} cannot be started: {error.strerror}", 5) from None
     finally:
         os.close(its)
     listener.start()
@@ -125,13 +129,16 @@ def run(
         output, _ = process.communicate(text)
     except BaseException:
         process.send_signal(signal.SIGINT)
-        process.wait()
+        process.communicate()
         raise
     finally:
         listener.join()
     message = "\n".join(said)
     if process.returncode == 130:
         raise KeyboardInterrupt(message)
+    if process.returncode < 0:
+        name = signal.Signals(-process.returncode).name
+        raise MachineError(f"{path()} was ended by the signal {name}\n{message}".rstrip(), 5)
     if process.returncode not in accepted:
         raise error_of(process.returncode, message or f"{path()} ended with exit code {process.returncode}")
     return process.returncode, output

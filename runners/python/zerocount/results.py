@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import dataclasses
 import functools
 import json
@@ -15,7 +16,8 @@ import numpy as np
 import _zerocount
 
 from . import program
-from .datasets import Array, Column, ResultsDatasets
+from .datasets import Array, Column, ResultsDatasets, state_of
+from .errors import DataError
 from .figures import Figure, figure, figure_names
 from .judgement import Judgement
 from .optional import required
@@ -85,12 +87,12 @@ def _of_file(read: Callable[[Any], T]) -> property:
 
     @functools.wraps(read)
     def value(results: Any) -> T:
-        state = os.stat(results.path)
-        key = (read.__name__, state.st_mtime_ns, state.st_size, state.st_ino)
-        if results._kept.get(read.__name__, (None,))[0] != key:
-            results._kept[read.__name__] = (key, read(results))
+        state = state_of(results.path)
+        if results._kept.get(read.__name__, (None,))[0] != state:
+            results._kept[read.__name__] = (state, read(results))
         kept = results._kept[read.__name__][1]
-        return cast(T, kept.copy(deep=True) if hasattr(kept, "iloc") else kept)
+        # The caller may change a table or a dict that it gets.
+        return cast(T, copy.deepcopy(kept) if hasattr(kept, "copy") else kept)
 
     return property(value)
 
@@ -118,7 +120,8 @@ class Results:
     def __repr__(self) -> str:
         attributes = self._file.attributes
         points, trials = attributes["points"], attributes["trials"]
-        return f"<Results {self.name!r}: {counted(points, 'design point')} × {counted(trials, 'trial')}>"
+        part = "" if attributes["complete"] else f"a part, {attributes['trial_count']} trials, of "
+        return f"<Results {self.name!r}: {part}{counted(points, 'design point')} × {counted(trials, 'trial')}>"
 
     def _repr_html_(self) -> str:
         return f"<p>{self.name}: {self.path}</p>" + str(self.table.to_html())
@@ -130,7 +133,8 @@ class Results:
 
     @_of_file
     def study(self) -> Study:
-        """The study that was run: its manifest and settings."""
+        """The study that was run: its manifest and settings. What is made of it by `set` and the like finds the files
+        that the manifest names from the folder of the results."""
         from .studies import Study
 
         overrides = self._file.texts("overrides")
@@ -175,7 +179,9 @@ class Results:
         The bounds (``_low``, ``_high``) are those of the file, at 95 % confidence. They respect that trials of
         a rig are not independent. Of an error band of b counts the name ends in ``[b]``.
         """
-        columns = self._file.group("point")
+        if not self._file.attributes["complete"]:
+            raise DataError(f"{self.path}: a part of a study; expected one that 'zerocount merge' joined", 4)
+        columns = self._group("point")
         points = columns.pop("point").values
         return frame("the table of points", self._by_band(columns), points, "point")
 
@@ -234,9 +240,14 @@ class Results:
                 )
         return result
 
+    def _group(self, name: str, rows: slice | None = None) -> dict[str, Column]:
+        """Datasets of a file whose checksum was compared."""
+        self.checked
+        return self._file.group(name, rows)
+
     def _rows(self, point: int | str | None) -> slice | None:
         """The rows of trials of a design point; all of them for None."""
-        return None if point is None else self._file.rows("trial/point", [self.point(point)])
+        return None if point is None else self._file.rows_of_point(self.point(point))
 
     def point(self, point: int | str) -> int:
         """Number of a design point.
@@ -291,7 +302,7 @@ class Results:
         rows = self._rows(point)
         columns = self._inputs(rows)
         trial = columns.pop("trial").values
-        outcome = self._by_band(self._file.group("outcome", rows))
+        outcome = self._by_band(self._group("outcome", rows))
         columns.update(self._of_trials({**outcome, **self._meets(outcome)}))
         table = frame("the table of trials", columns, trial, "trial")
         measures = self.checked.descriptions["outcome"]
@@ -300,9 +311,9 @@ class Results:
 
     def _inputs(self, rows: slice | None) -> dict[str, Column]:
         """What is known of trials before they are run: point, index, rig, world and inputs."""
-        columns = self._file.group("trial", rows)
+        columns = self._group("trial", rows)
         columns.update(self._shared(columns["index"].values))
-        columns.update(self._file.group("trial/input", rows))
+        columns.update(self._group("trial/input", rows))
         return columns
 
     def _meets(self, outcome: Mapping[str, Column]) -> dict[str, Column]:
@@ -366,7 +377,7 @@ class Results:
         """
         pandas = required("pandas", "the table of moves")
         rows = self._rows(point)
-        columns = self._by_band(self._file.group("outcome", rows))
+        columns = self._by_band(self._group("outcome", rows))
         trial, move = columns.pop("trial").values, columns.pop("move").values
         columns.update(self._meets(columns))
         flat = {
@@ -399,11 +410,11 @@ class Results:
             Index ``jerk``. Columns: ``trial`` (as in `trials`), ``move``, ``onset`` and ``duration`` (s), ``magnitude`` (counts),
             ``direction``.
         """
-        columns = self._file.group("jerk")
+        columns = self._group("jerk")
         table = frame("the table of jerks", columns, columns.pop("jerk").values, "jerk")
         if point is None:
             return table
-        trials = self._file.group("trial", self._rows(point))["trial"].values
+        trials = self._group("trial", self._rows(point))["trial"].values
         return table[table["trial"].isin(trials)]
 
     def rigs(self, point: int | str | None = None) -> pandas.DataFrame:
@@ -439,8 +450,8 @@ class Results:
         return self._machines("world", point)
 
     def _machines(self, group: str, point: int | str | None) -> pandas.DataFrame:
-        columns = self._file.group(group)
-        inputs = self._file.group(f"{group}/input") if self._file.has(f"{group}/input") else {}
+        columns = self._group(group)
+        inputs = self._group(f"{group}/input") if self._file.has(f"{group}/input") else {}
         index = columns.pop(group).values
         counts = {name: column for name, column in columns.items() if column.dimensions == ("point", group)}
         for name, column in counts.items():
@@ -457,7 +468,7 @@ class Results:
             Index ``point`` and ``move``.
         """
         pandas = required("pandas", "the table of torque levels")
-        columns = self._file.group("level")
+        columns = self._group("level")
         axes = [columns.pop("point").values, columns.pop("move").values]
         flat = {
             name: dataclasses.replace(column, values=column.values.reshape(-1)) for name, column in columns.items()
@@ -487,9 +498,9 @@ class Results:
         def variable(column: Column) -> Any:
             return column.dimensions, column.in_words, {"units": column.unit, "long_name": column.meaning}
 
-        outcome = self._file.group("outcome")
+        outcome = self._group("outcome")
         outcome.update(self._meets(self._by_band(outcome)))
-        coordinates = {**self._file.group("trial"), **self._file.group("trial/input")}
+        coordinates = {**self._group("trial"), **self._group("trial/input")}
         names = {name: short_name(name, list(coordinates)) for name in coordinates}
         scales = {name: outcome.pop(name) for name in ("trial", "move")}
         result = xarray.Dataset(

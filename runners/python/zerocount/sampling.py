@@ -35,6 +35,8 @@ class Sample:
     ----------
     names : list of str
         Dotted keys of the variables, in the order of the columns of `x`.
+    kinds : list of str
+        ``value``; ``score``, the standard normal score of a profile where the trial starts; ``row`` of joint samples.
     units : list of str
         Their units.
     distributions : list of dict
@@ -46,6 +48,7 @@ class Sample:
     """
 
     names: list[str]
+    kinds: list[str]
     units: list[str]
     distributions: list[dict[str, Any]]
     correlations: Numbers = dataclasses.field(repr=False)
@@ -118,14 +121,17 @@ class Sample:
             known = [str(name) for name in x.columns]
             # A short name may be that of a value, but not that of a score or a row.
             names = [
-                name if name in known or unit == "1" else short_name(name, self.names)
-                for name, unit in zip(self.names, self.units)
+                short_name(name, self.names) if name not in known and kind == "value" else name
+                for name, kind in zip(self.names, self.kinds)
             ]
             missing = [name for name in names if name not in known]
             if missing:
                 raise ManifestError(f"x lacks the columns {', '.join(missing)}; it has {', '.join(known)}", 2)
             x = x[names]
-        return np.asarray(x, dtype=float)
+        try:
+            return np.asarray(x, dtype=float)
+        except (TypeError, ValueError):
+            raise ManifestError("x has entries that are no numbers", 2) from None
 
     def _outcome_of(self, measures: dict[str, Array]) -> Array:
         if callable(self.outcome):
@@ -156,8 +162,8 @@ class Sample:
             If the variables would be others.
         """
         result = sample(self._study.set(values, **others), outcome=self.outcome, threads=self._threads)
-        if result.names != self.names:
-            raise ManifestError(f"the variables would be {', '.join(result.names)}; set what is none of them", 2)
+        if (result.names, result.distributions) != (self.names, self.distributions):
+            raise ManifestError(f"the variables would not be the same {', '.join(self.names)}; set what is none of them", 2)
         return result
 
     def draw(self, trials: int, *, seed: int = 0) -> Numbers:
@@ -256,10 +262,13 @@ def sample(
     measures = subject.checked.descriptions["outcome"]
     if not variables["names"]:
         raise ManifestError(f"{subject.name}: nothing is drawn for its trials; expected a distribution", 2)
+    if threads is not None and threads < 1:
+        raise ManifestError(f"threads = {threads} is out of range; expected at least 1", 2)
     if isinstance(outcome, str) and outcome != "success" and outcome not in measures:
         raise ManifestError(f"there is no measure {outcome!r}; expected success or one of {', '.join(measures)}", 2)
     return Sample(
         variables["names"],
+        variables["kinds"],
         variables["units"],
         variables["distributions"],
         variables["correlations"],

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 import operator
 import os
 import pathlib
@@ -211,17 +212,10 @@ class Study:
         """
         number = point_number(point, self.labels, self.name)
         sweep = self.to_dict().get("sweep") or {}
-        values: dict[str, Any] = {}
-        for axis in self.checked.axes:
-            key, value = axis["name"], axis["values"][number]
-            if key == "case":
-                values.update(sweep["cases"][value] or {})
-            elif key not in (sweep.get("grid") or {}):
-                continue  # a case gives it
-            elif isinstance(value, float) and value != value:
-                raise ManifestError(f"{self.name}: {key} has a distribution at the point {point}; expected a number", 2)
-            else:
-                values[key] = int(value) if isinstance(value, float) and value.is_integer() else value
+        axes = {axis["name"]: axis["values"][number] for axis in self.checked.axes}
+        values: dict[str, Any] = dict(sweep["cases"][axes["case"]] or {}) if "case" in axes else {}
+        for key in sweep.get("grid") or {}:
+            values[key] = _swept_value(self.name, key, axes)
         return self.without("sweep", "observed").set(values) if sweep else self
 
     def without(self, *keys: str) -> Study:
@@ -251,7 +245,7 @@ class Study:
                 place = place.get(part, {}) if isinstance(place, dict) else {}
             if isinstance(place, dict):
                 place.pop(last, None)
-        return Study(yaml_text(tree), f"{self._source} without {', '.join(keys)}", self._folder)
+        return Study(yaml_text(tree), f"<{self._source} without {', '.join(keys)}>", self._folder)
 
     def to_dict(self) -> dict[str, Any]:
         """The manifest with its settings as a dict, to be changed and given to `study` again.
@@ -278,10 +272,18 @@ class Study:
         Parameters
         ----------
         path : path
-            An existing file is replaced.
+            An existing file is replaced. Files that the manifest names are found from its folder.
+
+        Raises
+        ------
+        MachineError
+            If it cannot be written.
         """
         text = yaml_text(self.to_dict()) if self.settings else self.text
-        pathlib.Path(path).write_text(text, encoding="utf-8")
+        try:
+            pathlib.Path(path).write_bytes(text.encode())
+        except OSError as error:
+            raise MachineError(f"{path}: cannot be written: {error.strerror}", 5) from None
 
     @property
     def name(self) -> str:
@@ -416,6 +418,15 @@ class Study:
         with progress_bar(self.name, progress) as bar:
             self.command("run", *options, progress=bar)
         return Results(output)
+
+
+def _swept_value(study: str, key: str, axes: Mapping[str, Any]) -> Any:
+    """The value of a swept key at a point: that of its axis, or a list of those of its entries."""
+    parts = [axes[key]] if key in axes else [value for name, value in axes.items() if name.startswith(f"{key}.")]
+    if not parts or any(isinstance(part, float) and math.isnan(part) for part in parts):
+        raise ManifestError(f"{study}: {key} has a distribution at the point; expected a number", 2)
+    whole = [int(part) if isinstance(part, float) and part.is_integer() else part for part in parts]
+    return whole[0] if key in axes else whole
 
 
 def point_number(point: int | str, labels: list[str], where: object) -> int:

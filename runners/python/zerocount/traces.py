@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import pandas  # type: ignore[import]
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False)
 class Trace:
     """A trial, sample by sample.
 

@@ -158,7 +158,7 @@ def tune(
     from .results import Results
     from .studies import study
 
-    subject = _without_sweep(study(manifest), free or {})
+    subject = _without_sweep(study(manifest), free)
     settings = {"goal": goal, "tune.free": free, "tune.minimise": minimise, "tune.margins": margins}
     subject = subject.set({key: value for key, value in settings.items() if value is not None})
     target = os.path.abspath(output)
@@ -177,7 +177,7 @@ def tune(
             progress=bar,
         )
     answer = json.loads(text)
-    results = Results(target) if os.path.exists(target) else None
+    results = Results(target) if answer.get("proof") else None
     return dataclass_of(
         Tuning,
         answer,
@@ -188,18 +188,24 @@ def tune(
     )
 
 
-def _without_sweep(subject: Study, free: Mapping[str, Any]) -> Study:
+def _without_sweep(subject: Study, free: Mapping[str, Any] | None) -> Study:
     """The study at one point; the swept keys that are free in the middle of their ranges."""
-    if len(subject.labels) == 1:
+    tree = subject.to_dict()
+    if "sweep" not in tree:
         return subject
-    middles = {key: _middle(free[key]) for axis in subject.checked.axes if (key := axis["name"]) in free}
-    return subject.without("sweep").set(middles)
+    ranges = free if free is not None else (tree.get("tune") or {}).get("free") or {}
+    swept = (tree["sweep"] or {}).get("grid") or {}
+    middles = {key: middle for key in swept if key in ranges and (middle := _middle(ranges[key])) is not None}
+    return subject.without("sweep", "observed").set(middles)
 
 
-def _middle(searched: Any) -> float:
-    """The middle of a range of the key ``tune.free``."""
-    if isinstance(searched, Mapping):
-        low, high = searched["log"]
-        return math.sqrt(float(low) * float(high))
-    low, high = searched
-    return (float(low) + float(high)) / 2
+def _middle(searched: Any) -> float | None:
+    """The middle of a range of the key ``tune.free``; None of what is no range, which the program refuses."""
+    try:
+        if isinstance(searched, Mapping):
+            low, high = map(float, searched["log"])
+            return math.sqrt(low * high)
+        low, high = map(float, searched)
+    except (KeyError, TypeError, ValueError):
+        return None
+    return (low + high) / 2

@@ -42,20 +42,26 @@ double quantile_of(const Normal& d, double u) {
   return numerics::normal_quantile(u, d.mean, d.sd);
 }
 
-double quantile_of(const TruncatedNormal& d, double u) {
-  double low = (d.low - d.mean) / d.sd;
-  double high = (d.high - d.mean) / d.sd;
-  // Mirrors an upper tail: its probabilities would be differences of numbers near 1.
-  const bool mirrored = low > 0.0;
-  if (mirrored) {
-    std::swap(low, high);
-    low = -low;
-    high = -high;
-    u = 1.0 - u;
+/// The limits of a truncated normal distribution as scores. An upper tail is mirrored: its probabilities
+/// would be differences of numbers near 1.
+struct TailOfScores {
+  bool mirrored;
+  double below;  ///< P(Z ≤ lower limit)
+  double up_to;  ///< P(Z ≤ upper limit)
+
+  explicit TailOfScores(const TruncatedNormal& d) : mirrored(d.low > d.mean) {
+    const double low = (d.low - d.mean) / d.sd;
+    const double high = (d.high - d.mean) / d.sd;
+    below = numerics::normal_probability(mirrored ? -high : low);
+    up_to = numerics::normal_probability(mirrored ? -low : high);
   }
-  const double z = numerics::normal_quantile(
-      std::lerp(numerics::normal_probability(low), numerics::normal_probability(high), u));
-  return kept_inside(d.mean + d.sd * (mirrored ? -z : z), d.low, d.high);
+  double turned(double u) const { return mirrored ? 1.0 - u : u; }
+};
+
+double quantile_of(const TruncatedNormal& d, double u) {
+  const TailOfScores tail(d);
+  const double z = numerics::normal_quantile(std::lerp(tail.below, tail.up_to, tail.turned(u)));
+  return kept_inside(d.mean + d.sd * (tail.mirrored ? -z : z), d.low, d.high);
 }
 
 double quantile_of(const Lognormal& d, double u) {
@@ -95,19 +101,10 @@ Uniformly uniform_of_value(const Normal& d, double x) {
 }
 
 Uniformly uniform_of_value(const TruncatedNormal& d, double x) {
-  double low = (d.low - d.mean) / d.sd;
-  double high = (d.high - d.mean) / d.sd;
-  double z = (x - d.mean) / d.sd;
-  const bool mirrored = low > 0.0;  // as in its quantile
-  if (mirrored) {
-    std::swap(low, high);
-    low = -low;
-    high = -high;
-    z = -z;
-  }
-  const double below = numerics::normal_probability(low);
-  const double u = (numerics::normal_probability(z) - below) / (numerics::normal_probability(high) - below);
-  return mirrored ? 1.0 - u : u;
+  const TailOfScores tail(d);
+  const double z = (x - d.mean) / d.sd;
+  const double up_to_x = numerics::normal_probability(tail.mirrored ? -z : z);
+  return tail.turned((up_to_x - tail.below) / (tail.up_to - tail.below));
 }
 
 Uniformly uniform_of_value(const Lognormal& d, double x) {

@@ -147,7 +147,7 @@ study::Per most_frequent_per(const study::StudyPlan& plan, std::size_t slot) {
 std::optional<study::Per> drawn_mean(const study::StudyPlan& plan, std::size_t slot) {
   std::optional<study::Per> per;
   for (const study::Value* value : study::values_of(plan, slot)) {
-    if (value->kind == study::Value::Kind::profile && plan.profiles[value->index]->has_drawn_mean())
+    if (value->kind == study::Value::Kind::profile && plan.profiles[value->index]->drawn_mean())
       per = std::max(per.value_or(value->per), value->per);
   }
   return per;

@@ -43,7 +43,7 @@ void add_coordinates(const Study& study, std::uint32_t slot, const Value& value,
       break;
     case Value::Kind::profile:
       if (value.per != Per::rig) break;
-      if (study.plan->profiles[value.index]->has_drawn_mean())
+      if (study.plan->profiles[value.index]->drawn_mean())
         coordinates.push_back({name + ".mean", Kind::profile_mean, {slot}, 0, true});
       coordinates.push_back({name, Kind::profile_at_start, {slot}, 0, true});
       break;
@@ -66,12 +66,25 @@ void add_fixed_members(const Study& study, const std::vector<const Value*>& valu
   }
 }
 
-/// A uniform number in the open interval, whatever the normal number.
-double uniform_of(double z) {
+}  // namespace
+
+double uniform_of_score(double z) {
   return std::clamp(numerics::normal_probability(z), 0x1p-53, 1.0 - 0x1p-53);
 }
 
-}  // namespace
+void give(GivenDraws& draws, const RandomCoordinate& coordinate, double uniform, double score) {
+  switch (coordinate.kind) {
+    case Kind::values:
+      for (const std::uint32_t slot : coordinate.slots) draws.uniforms[slot] = uniform;
+      break;
+    case Kind::profile_mean:
+      draws.profiles[coordinate.slots[0]].mean = uniform;
+      break;
+    case Kind::profile_at_start:
+      draws.profiles[coordinate.slots[0]].field = score;
+      break;
+  }
+}
 
 std::vector<RandomCoordinate> random_coordinates(const Study& study, std::int64_t point) {
   const StudyPlan& plan = *study.plan;
@@ -98,20 +111,8 @@ std::vector<RandomCoordinate> random_coordinates(const Study& study, std::int64_
 GivenDraws draws_at(const Study& study, std::span<const RandomCoordinate> coordinates,
                     std::span<const double> z, std::int64_t number) {
   GivenDraws draws{.number = number, .rotor = number};
-  for (std::size_t i = 0; i < coordinates.size(); ++i) {
-    const RandomCoordinate& coordinate = coordinates[i];
-    switch (coordinate.kind) {
-      case Kind::values:
-        for (const std::uint32_t slot : coordinate.slots) draws.uniforms[slot] = uniform_of(z[i]);
-        break;
-      case Kind::profile_mean:
-        draws.profiles[coordinate.slots[0]].mean = uniform_of(z[i]);
-        break;
-      case Kind::profile_at_start:
-        draws.profiles[coordinate.slots[0]].field = z[i];
-        break;
-    }
-  }
+  for (std::size_t i = 0; i < coordinates.size(); ++i)
+    give(draws, coordinates[i], uniform_of_score(z[i]), z[i]);
   const std::optional<GaussianCopula>& copula = study.plan->copula;
   if (!copula) return draws;
   const std::map<std::uint32_t, double> independent = draws.uniforms;

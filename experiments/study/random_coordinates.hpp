@@ -29,6 +29,13 @@ struct RandomCoordinate {
 /// world is not among them, nor are the random numbers used while a trial runs.
 std::vector<RandomCoordinate> random_coordinates(const Study& study, std::int64_t point);
 
+/// Φ(z), a uniform number in the open interval (0, 1) whatever z.
+double uniform_of_score(double z);
+
+/// Gives a trial the random number of a coordinate. @param uniform its uniform number @param score its normal
+/// one, which is that of a profile where the trial begins
+void give(GivenDraws& draws, const RandomCoordinate& coordinate, double uniform, double score);
+
 /// The random numbers of a trial at these coordinates. The trial has the point's distribution if the
 /// coordinates are independent standard normal numbers.
 /// @param coordinates of the study at the point @param z [coordinate]

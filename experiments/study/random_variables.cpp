@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
-#include "core/numerics/normal_distribution.hpp"
 #include "experiments/study/plan.hpp"
 
 namespace zerocount::study {
@@ -95,18 +94,7 @@ GivenDraws draws_with(const Study& study, const RandomVariables& variables, std:
                     fmt::format("{} = {} cannot be drawn from its distribution in the manifest of '{}'",
                                 variable.name, x[i], study.name));
     }
-    const std::vector<std::uint32_t>& slots = variable.coordinate.slots;
-    switch (variable.coordinate.kind) {
-      case RandomCoordinate::Kind::values:
-        for (const std::uint32_t slot : slots) draws.uniforms[slot] = *u;
-        break;
-      case RandomCoordinate::Kind::profile_mean:
-        draws.profiles[slots[0]].mean = *u;
-        break;
-      case RandomCoordinate::Kind::profile_at_start:
-        draws.profiles[slots[0]].field = x[i];
-        break;
-    }
+    give(draws, variable.coordinate, *u, x[i]);
   }
   return draws;
 }

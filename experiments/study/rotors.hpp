@@ -40,7 +40,7 @@ class Rotors {
 
   std::int64_t count() const { return count_; }
   std::size_t harmonics() const { return amplitudes_.size(); }
-  bool has_drawn_mean() const { return mean_.has_value(); }
+  /// Nothing if the mean is fixed.
   const std::optional<DrawnMean>& drawn_mean() const { return mean_; }
 
   /// Mean of the random field of this rotor, in the parameter's unit.

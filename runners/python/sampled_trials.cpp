@@ -10,7 +10,6 @@
 
 #include "analysis/parallel/parallel.hpp"
 #include "core/batch/batch.hpp"
-#include "core/numerics/normal_distribution.hpp"
 #include "core/trial/outcome.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/study/random_variables.hpp"
@@ -91,7 +90,7 @@ py::array values_at_scores(const study::Study& study, std::int64_t point, const 
   const std::size_t width = variables.variables.size();
   std::vector<double> values(scores.data(), scores.data() + scores.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const double u = std::clamp(numerics::normal_probability(values[i]), 0x1p-53, 1.0 - 0x1p-53);
+    const double u = study::uniform_of_score(values[i]);
     values[i] = distributions::quantile(variables.variables[i % width].distribution, u);
   }
   return array_of(std::move(values), {scores.shape(0), scores.shape(1)});

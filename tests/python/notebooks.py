@@ -21,8 +21,14 @@ def texts(notebook):
     for cell in notebook.cells:
         if cell.cell_type != "code":
             continue
-        parts = [output.get("text") or output.get("data", {}).get("text/plain", "") for output in cell.outputs]
+        outputs = [output for output in cell.outputs if not is_message(output)]
+        parts = [output.get("text") or output.get("data", {}).get("text/plain", "") for output in outputs]
         yield cell.source, "".join(part for part in parts if not part.startswith(("<Figure", "<IPython")))
+
+
+def is_message(output):
+    """Whether it is a warning or the like, which names files of this machine."""
+    return output.get("name") == "stderr"
 
 
 def executed(path):
@@ -44,6 +50,8 @@ def write(path):
     notebook = executed(path)
     for cell in notebook.cells:
         cell.metadata.pop("execution", None)
+        if cell.cell_type == "code":
+            cell.outputs = [output for output in cell.outputs if not is_message(output)]
     nbformat.write(notebook, path)
 
 

@@ -266,9 +266,23 @@ def test_a_program_that_says_nothing_is_told_by_its_exit_code(fake: Callable[...
 
 def test_a_program_that_is_killed_is_told_by_the_signal(fake: Callable[..., pathlib.Path]) -> None:
     """The end by a signal is a failure of the machine, with what was said before."""
-    fake("warning: little memory", -9)
-    with pytest.raises(zc.MachineError, match="was ended by the signal SIGKILL\nwarning: little memory"):
+    fake("a last word", -9)
+    with pytest.raises(zc.MachineError, match="was ended by the signal SIGKILL\na last word"):
         zerocount.program.run(["run"])
+
+
+@pytest.mark.parametrize("code", [0, 4])
+def test_a_warning_of_the_program_is_one_of_python(fake: Callable[..., pathlib.Path], code: int) -> None:
+    """A warning is passed on, whether the program succeeds or not, and is none of the errors."""
+    fake("zerocount plot: warning: few trials\nwarning: little memory\na.h5: damaged", code)
+    with pytest.warns(UserWarning) as warned:
+        if code == 0:
+            zerocount.program.run(["run"])
+        else:
+            with pytest.raises(zc.DataError) as raised:
+                zerocount.program.run(["run"])
+            assert [problem.file for problem in raised.value.problems] == ["a.h5"]
+    assert [str(warning.message) for warning in warned] == ["few trials", "little memory"]
 
 
 def test_an_interrupted_program_is_an_interruption(fake: Callable[..., pathlib.Path]) -> None:

@@ -86,8 +86,8 @@ class ResultsDatasets:
         with file:
             try:
                 yield file
-            except (AttributeError, KeyError, OSError, RuntimeError) as error:
-                raise DataError(f"{self.path}: damaged: {error}; 'zerocount verify' tells more", 4) from None
+            except (KeyError, OSError, RuntimeError):  # of h5py
+                raise DataError(f"{self.path}: damaged: a part of it cannot be read; see 'zerocount verify'", 4) from None
 
     def has(self, name: str) -> bool:
         """Whether there is a group or dataset of this path."""
@@ -199,4 +199,4 @@ def _dimensions(dataset: Any) -> tuple[str, ...]:
     name_of = required("h5py", "a results file").h5ds.get_scale_name
     own = dataset.name.rpartition("/")[2]
     scales = (dataset.dims[i] for i in range(dataset.ndim))
-    return tuple(name_of(scale[0].id).decode() if len(scale) else own for scale in scales)
+    return tuple((name_of(scale[0].id) or b"").decode() if len(scale) else own for scale in scales)

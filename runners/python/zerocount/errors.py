@@ -7,7 +7,6 @@ import re
 
 _PLACE = re.compile(r"(?P<file>.+?):(?P<line>\d+):(?:(?P<column>\d+):)? (?P<text>.+)")
 _OVERRIDE = re.compile(r"--set (?P<setting>\S+?=.*?): (?P<text>(?P<key>[a-z_][\w.\[\]]*): .+)")
-_WARNING = re.compile(r"(zerocount[\w ]*: )?warning: ")
 _FILE = re.compile(r"(?P<file>[^:\s][^:]*\.\w+): (?P<text>.+)")
 _KEY = re.compile(r"(?P<key>[a-z_][\w.\[\]]*): .+")
 
@@ -55,7 +54,7 @@ class Error(Exception):
         super().__init__(message)
         self.message = message
         self.code = code
-        lines = [line for line in message.splitlines() if line.strip() and not _WARNING.match(line)]
+        lines = [line for line in message.splitlines() if line.strip()]
         self.problems = [_problem(line) for line in lines] or [Problem(message)]
 
     @property

@@ -6,8 +6,6 @@ import os
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Protocol
 
-import numpy as np
-
 from .errors import ManifestError
 from .traces import Trace, simulated
 
@@ -146,6 +144,6 @@ def trial(
     number = point_number(point, checked.labels, checked.name)
     if controller is not None and not callable(controller):
         raise TypeError(f"controller is a {type(controller).__name__}; expected a function of the setup of a trial")
-    if not isinstance(trial, (int, np.integer)) or not 0 <= trial < checked.trials:
+    if not hasattr(trial, "__index__") or not 0 <= trial < checked.trials:
         raise ManifestError(f"trial = {trial} is out of range; expected 0 to {checked.trials - 1}", 2)
     return simulated(checked, number, trial, controller)

@@ -12,6 +12,7 @@ import signal
 import subprocess
 import sys
 import threading
+import warnings
 from collections.abc import Callable, Iterable, Sequence
 
 import _zerocount
@@ -20,6 +21,9 @@ from .errors import MachineError, error_of
 
 _REPLACED = b"\r\x1b[K"  # ends a line of progress: the next one takes its place
 _PARTS = re.compile(rb"(\r\x1b\[K|\r?\n)")
+
+WARNING = re.compile(r"(zerocount[\w ]*: )?warning: (?P<text>.+)")
+"""A message that is no error. The package passes it on as a warning of Python."""
 
 VERDICTS = frozenset({0, 1, 3})
 """Exit codes with which a command has answered: yes, no, undecided."""
@@ -133,7 +137,9 @@ def run(
         raise
     finally:
         listener.join()
-    message = "\n".join(said)
+    for warning in filter(None, map(WARNING.match, said)):
+        warnings.warn(warning["text"], stacklevel=3)
+    message = "\n".join(line for line in said if not WARNING.match(line))
     if process.returncode == 130:
         raise KeyboardInterrupt(message)
     if process.returncode < 0:

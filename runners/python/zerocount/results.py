@@ -21,7 +21,7 @@ from .errors import DataError
 from .figures import Figure, figure, figure_names
 from .judgement import Judgement
 from .optional import required
-from .tables import combined, frame, short_name
+from .tables import combined, frame, short_name, succeeded, worst
 from .traces import Trace, replayed
 from .wording import counted
 
@@ -32,9 +32,6 @@ if TYPE_CHECKING:
     from .studies import Study
 
 T = TypeVar("T")
-
-SEVERITY = ["open_loop", "zero_count", "one_count", "off_target", "oscillating", "nonfinite"]
-"""Outcomes of a move from best to worst."""
 
 _TABLE = (
     "trials",
@@ -339,14 +336,10 @@ class Results:
     def _of_trials(self, columns: Mapping[str, Column]) -> dict[str, Column]:
         """[trial] from [trial, move]."""
         outcome = columns["outcome"]
-        order = [outcome.words.index(word) for word in SEVERITY if word in outcome.words]
-        severity = np.zeros(len(outcome.words), dtype=np.int8)
-        severity[order] = range(len(order))
-        worst = np.array(order, dtype=np.int8)[severity[outcome.values].max(axis=1)]
-        success = worst == outcome.words.index("zero_count")
+        codes, words = outcome.values, outcome.words
         result = {
-            "success": Column(success, ("trial",), "1", "all moves ended at zero counts"),
-            "outcome": Column(worst, ("trial",), "1", "outcome of the worst move", outcome.words),
+            "success": Column(succeeded(codes, words), ("trial",), "1", "all moves ended at zero counts"),
+            "outcome": Column(worst(codes, words), ("trial",), "1", "outcome of the worst move", words),
         }
         if "goal_met" in columns:
             met = columns["goal_met"]

@@ -14,7 +14,7 @@ import numpy.typing as npt
 from .datasets import Array
 from .errors import ManifestError
 from .optional import required
-from .tables import combined, short_name
+from .tables import combined, short_name, succeeded
 
 if TYPE_CHECKING:
     import openturns  # type: ignore[import]
@@ -26,6 +26,7 @@ Numbers = npt.NDArray[np.float64]
 
 MAX_NUMBER = 2**32
 """Trials have smaller numbers."""
+
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Sample:
@@ -137,7 +138,8 @@ class Sample:
         if callable(self.outcome):
             return self.outcome(measures)
         if self.outcome == "success":
-            return np.asarray((measures["outcome"] == 0).all(axis=1))
+            words = self._study.checked.descriptions["outcome"]["outcome"]["flags"]
+            return succeeded(measures["outcome"], [words[number] for number in sorted(words)])
         values = measures[self.outcome]
         rule = self._study.checked.descriptions["outcome"][self.outcome]["of_trial"]
         return combined(values, rule)

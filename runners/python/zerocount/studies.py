@@ -19,6 +19,7 @@ from .progress import progress_bar
 from .results import Results
 from .wording import counted
 
+
 def study(manifest: str | os.PathLike[str] | Mapping[str, Any] | Study) -> Study:
     """A study from a manifest.
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
+import _zerocount
 
 from .datasets import Array, Column
 from .optional import required
@@ -33,6 +35,27 @@ def combined(values: Array, rule: str) -> Array:
     if rule == "largest":
         return np.asarray(np.abs(values).max(axis=1))
     return np.asarray(values[:, -1])
+
+
+def succeeded(outcomes: Array, words: Sequence[str]) -> Array:
+    """``[trial]`` whether all moves ended at zero counts.
+
+    Parameters
+    ----------
+    outcomes : numpy.ndarray
+        ``[trial, move]`` numbers of the outcomes.
+    words : sequence of str
+        By their numbers.
+    """
+    return np.asarray((outcomes == words.index("zero_count")).all(axis=1))
+
+
+def worst(outcomes: Array, words: Sequence[str]) -> Array:
+    """``[trial]`` number of the worst outcome; parameters as of `succeeded`."""
+    order = np.array([words.index(word) for word in _zerocount.severity if word in words], dtype=outcomes.dtype)
+    severity = np.zeros(len(words), dtype=int)
+    severity[order] = range(len(order))
+    return np.asarray(order[severity[outcomes].max(axis=1)])
 
 
 def short_name(name: str, among: list[str]) -> str:

@@ -45,9 +45,8 @@ struct BatchSettings {
 };
 
 /// The first feature of a trial that lanes lack, as a noun phrase; empty if lanes run the trial. The engine
-/// passes all others to run_trial: those with an amplifier, late samples, a disturbance that varies, a delay
-/// above 64 samples, torque levels, the friction laws coulomb and gms, a second mass, or a delay of a
-/// fraction of a sample without friction.
+/// runs such trials by run_trial: torque levels, the friction laws coulomb and gms, a second mass, more than
+/// eight ripples, a vibration above half the sample rate, or one that varies without friction.
 std::string lacking_in_lanes(const trial::TrialParameters& parameters);
 
 /// Whether the lanes run such a trial.

@@ -12,8 +12,8 @@
 
 /// The table of the measures of a move. A measure is one row: its column in the results file with the valid
 /// values, its statistics at a point and at a torque level, its columns in the summary, its output in the
-/// sensitivity analysis, and its judgement by the gate. Everything that is written, read or reported of a
-/// measure comes from its row.
+/// sensitivity analysis, and its judgement by the gate. What computes its value is in core/trial; measures of
+/// error bands have one row for all bands.
 namespace zerocount::layout {
 
 /// The treatment of a measure in files without its column.

@@ -167,17 +167,16 @@ std::string holds_text(std::int64_t holding, std::int64_t trials) {
 
 void add_rules(Items& items, const theory::DesignRules& rules) {
   items.push_back(
-      {"DAC resolution", fmt::format("{} {}, must be below k1·Δx = {} {}{}: {}", text(rules.dac_resolution),
-                                     rules.torque_unit, text(rules.dac_bound), rules.torque_unit,
+      {"DAC resolution", fmt::format("{} {}, below k1·Δx = {} {}{} (paper, issue 4): {}",
+                                     text(rules.dac_resolution), rules.torque_unit, text(rules.dac_bound),
+                                     rules.torque_unit,
                                      rules.coarse_feedback ? " with the Δx of the coarse encoder" : "",
                                      holds_text(rules.fine_enough, rules.trials))});
   items.push_back({"natural frequency", text(rules.frequency) + " Hz"});
   items.push_back(
-      {"sample rate", fmt::format("{} Hz: {}", text(rules.sample_rate),
-                                  rules.fast_enough == rules.trials
-                                      ? "ten times the natural frequency, as advised"
-                                      : fmt::format("ten times the natural frequency, which is advised, {}",
-                                                    holds_text(rules.fast_enough, rules.trials)))});
+      {"sample rate", fmt::format("{} Hz, at least {:.3g} times the natural frequency (paper: 10): {}",
+                                  text(rules.sample_rate), rules.sample_rate.low / rules.frequency.high,
+                                  holds_text(rules.fast_enough, rules.trials))});
 }
 
 /// A line per item.

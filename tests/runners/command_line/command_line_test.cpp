@@ -143,8 +143,8 @@ TEST_F(CommandLine, CheckTakesTheCountThatIsFedBackForTheRuleOfTheDac) {
                 "zerocount: 1\nname: rig\nseed: 1\ntrials: 1\ncommand: {targets: [5]}\n"
                 "controller: {encoder: coarse}\ndac: {resolution: 5.0e-4}\n");
   const std::string out = run({"check", "coarse.yaml"}).out;
-  EXPECT_NE(out.find("0.0005 N m, must be below k1·Δx = 0.008 N m with the Δx of the coarse "
-                     "encoder: holds\n"),
+  EXPECT_NE(out.find("0.0005 N m, below k1·Δx = 0.008 N m with the Δx of the coarse encoder "
+                     "(paper, issue 4): holds\n"),
             std::string::npos)
       << out;
 }

@@ -1,7 +1,6 @@
 #include "analysis/comparison/manifest_differences.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <deque>
 #include <optional>
 #include <set>
@@ -10,6 +9,7 @@
 
 #include "core/failure/failure.hpp"
 #include "core/hash/sha256.hpp"
+#include "core/text/number_text.hpp"
 #include "experiments/manifest/manifest_keys.hpp"
 #include "experiments/manifest/overrides.hpp"
 #include "experiments/parameters/earlier_defaults.hpp"
@@ -42,17 +42,9 @@ void write_default(ManifestValues& values, const parameters::Parameter& paramete
       parameters::number_text(parameter, parameters::default_value_in(parameter, version));
 }
 
-std::optional<double> number_in(const std::string& text) {
-  double value = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc{} || stop != end) return std::nullopt;
-  return value;
-}
-
 bool same_value(const std::string& one, const std::string& other) {
-  const std::optional<double> number = number_in(one);
-  return one == other || (number && number == number_in(other));
+  const std::optional<double> number = text::parse_number<double>(one);
+  return one == other || (number && number == text::parse_number<double>(other));
 }
 
 }  // namespace

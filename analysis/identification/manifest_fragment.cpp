@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "analysis/identification/identification.hpp"
+#include "core/text/number_text.hpp"
 
 namespace zerocount::identification {
 namespace {
@@ -17,7 +18,7 @@ std::string manifest_number(double value, double relative_uncertainty) {
   constexpr int max_digits = 17;
   const double wanted = relative_uncertainty > 0.0 ? 3.0 - std::log10(relative_uncertainty) : max_digits;
   const int digits = static_cast<int>(std::clamp(std::ceil(wanted), double{min_digits}, double{max_digits}));
-  std::string text = fmt::format("{}", std::stod(fmt::format("{:.{}g}", value, digits)));
+  std::string text = fmt::format("{}", text::round_to_digits(value, digits));
   const std::size_t exponent = text.find('e');
   if (exponent == std::string::npos) return text;
   if (text.find('.') == std::string::npos) text.insert(exponent, ".0");

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include "analysis/records/unit.hpp"
 #include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
+#include "core/text/number_text.hpp"
 #include "experiments/yaml/text_file.hpp"
 
 namespace zerocount::records {
@@ -93,10 +93,7 @@ std::vector<std::string> header_cells(std::string_view line, Separator separator
 /// Parses all of `text` as a number; NaN if that fails.
 double number_of(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
-  double value = std::nan("");
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc{} && stop == end ? value : std::nan("");
+  return text::parse_number<double>(text).value_or(std::nan(""));
 }
 
 /// The same, with a decimal comma too unless commas separate the cells.
@@ -269,11 +266,8 @@ std::size_t TextTable::find(std::string_view column) const {
   if (found != columns_.end() || !column.starts_with('#')) {
     return static_cast<std::size_t>(found - columns_.begin());
   }
-  std::size_t number = 0;
-  const auto [stop, error] = std::from_chars(column.data() + 1, column.data() + column.size(), number);
-  const bool exists = error == std::errc{} && stop == column.data() + column.size() && number >= 1 &&
-                      number <= columns_.size();
-  return exists ? number - 1 : columns_.size();
+  const auto number = text::parse_number<std::size_t>(column.substr(1));
+  return number && *number >= 1 && *number <= columns_.size() ? *number - 1 : columns_.size();
 }
 
 std::string_view TextTable::cell(std::size_t row, std::size_t column) const {

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "analysis/report/embedded_files.hpp"
+#include "core/text/number_text.hpp"
 
 namespace zerocount::report {
 namespace {
@@ -93,7 +93,7 @@ void set_rows(Figure& figure, std::size_t rows, int row) {
 
 nlohmann::ordered_json datum(double value, int digits) {
   if (!std::isfinite(value)) return nullptr;
-  const double rounded = std::strtod(fmt::format("{:.{}g}", value, digits).c_str(), nullptr);
+  const double rounded = text::round_to_digits(value, digits);
   if (rounded == std::floor(rounded) && std::abs(rounded) < 1e15) return static_cast<std::int64_t>(rounded);
   return rounded;
 }

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include <fmt/format.h>
+
+#include "core/text/number_text.hpp"
 
 namespace zerocount::text {
 namespace {
@@ -36,9 +37,9 @@ double floor_to(double value, int decimals) {
 std::string percent(double proportion) {
   const double distance = std::min(std::abs(proportion), std::abs(1.0 - proportion));
   for (int digits = 4; digits < 17; ++digits) {
-    std::string number = fmt::format("{:.{}g}", 100.0 * proportion, digits);
-    const double read = std::strtod(number.c_str(), nullptr) / 100.0;
-    if (std::abs(read - proportion) <= std::max(1e-6 * distance, 1e-16)) return number + " %";
+    const double read = round_to_digits(100.0 * proportion, digits) / 100.0;
+    if (std::abs(read - proportion) <= std::max(1e-6 * distance, 1e-16))
+      return fmt::format("{:.{}g} %", 100.0 * proportion, digits);
   }
   return fmt::format("{} %", 100.0 * proportion);
 }

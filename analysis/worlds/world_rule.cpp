@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "analysis/worlds/permutations.hpp"
+#include "core/text/number_text.hpp"
 #include "experiments/designs/random_key.hpp"
 
 namespace zerocount::worlds {
@@ -259,11 +260,10 @@ bool holds(const Condition& condition, double value) {
 /// The threshold in as few digits as leave every world on its side.
 std::string number_text(double threshold, const std::vector<double>& values) {
   for (int digits = 2; digits < 17; ++digits) {
-    std::string text = fmt::format("{:.{}g}", threshold, digits);
-    const double rounded = std::stod(text);
+    const double rounded = text::round_to_digits(threshold, digits);
     const bool same = std::ranges::all_of(
         values, [&](double value) { return (value > threshold) == (value > rounded) && value != rounded; });
-    if (same) return text;
+    if (same) return fmt::format("{:.{}g}", threshold, digits);
   }
   return fmt::format("{}", threshold);
 }

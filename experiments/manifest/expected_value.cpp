@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/text/number_text.hpp"
+
 namespace zerocount::manifest {
 namespace {
 
@@ -14,7 +16,7 @@ bool is_whole(const parameters::Parameter& parameter) {
 }
 
 double with_two_digits(double number) {
-  return std::stod(fmt::format("{:.1e}", number));
+  return text::round_to_digits(number, 2);
 }
 
 /// The value at the middle of an example; 0 if there is none.

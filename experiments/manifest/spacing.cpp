@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 
 #include "core/numerics/elementary_functions.hpp"
+#include "core/text/number_text.hpp"
 
 namespace zerocount::manifest {
 namespace {
 
-// Rounds to 15 digits, so that a label has 2e-05 and not 1.9999999999999998e-05.
 double without_rounding_noise(double value) {
-  return std::stod(fmt::format("{:.15g}", value));
+  return text::round_to_digits(value, 15);
 }
 
 double spaced(const Spacing& spacing, std::size_t i) {

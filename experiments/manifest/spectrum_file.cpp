@@ -1,10 +1,11 @@
 #include "experiments/manifest/spectrum_file.hpp"
 
 #include <array>
-#include <cstdlib>
+#include <charconv>
 #include <cstring>
 #include <optional>
 #include <sstream>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -17,16 +18,19 @@ constexpr const char* table_form = "a line 'frequency in Hz, density' for each p
 
 /// The numbers of a line; empty if it has anything but two.
 std::optional<std::array<double, 2>> numbers_of(const std::string& line) {
+  constexpr const char* blanks = " \t\r";
   const char* rest = line.c_str();
+  const char* const end = rest + line.size();
   std::array<double, 2> values{};
   for (std::size_t i = 0; i < values.size(); ++i) {
-    char* end = nullptr;
-    values[i] = std::strtod(rest, &end);
-    if (end == rest) return std::nullopt;
-    rest = end + std::strspn(end, " \t\r");
+    rest += std::strspn(rest, blanks);
+    if (*rest == '+') ++rest;
+    const auto [stop, error] = std::from_chars(rest, end, values[i]);
+    if (error != std::errc{}) return std::nullopt;
+    rest = stop + std::strspn(stop, blanks);
     if (i == 0 && (*rest == ',' || *rest == ';')) ++rest;
   }
-  return *rest == '\0' ? std::optional(values) : std::nullopt;
+  return rest == end ? std::optional(values) : std::nullopt;
 }
 
 /// The table as a list of pairs in YAML. Reports a line that is none of it, and returns nothing.

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "core/failure/failure.hpp"
+#include "core/text/number_text.hpp"
 
 namespace zerocount::command_line {
 namespace {
@@ -167,7 +168,7 @@ std::optional<std::int64_t> Arguments::whole_number(std::string_view option, std
                                                     std::int64_t high) const {
   const std::optional<std::string> text = value(option);
   if (!text) return std::nullopt;
-  const std::optional<std::int64_t> number = parse_number<std::int64_t>(*text);
+  const std::optional<std::int64_t> number = text::parse_number<std::int64_t>(*text);
   if (!number || *number < low || *number > high) {
     refuse(fmt::format("option '--{}': '{}' is not a whole number from {} to {}", option, *text, low, high));
   }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <charconv>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -8,16 +7,6 @@
 #include <vector>
 
 namespace zerocount::command_line {
-
-/// The number if the whole text is one, otherwise nothing.
-template <class Number>
-std::optional<Number> parse_number(std::string_view text) {
-  Number number{};
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc{} || stop != end) return std::nullopt;
-  return number;
-}
 
 /// One option of a command: `--name VALUE`, or a bare flag.
 struct OptionSpec {

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/text/number_text.hpp"
 #include "experiments/yaml/nearest_name.hpp"
 
 namespace zerocount::command_line {
@@ -42,7 +43,7 @@ std::int64_t point_named(const Arguments& arguments, std::string_view option, co
                          std::span<const std::string> labels) {
   const auto found = std::find(labels.begin(), labels.end(), text);
   if (found != labels.end()) return found - labels.begin();
-  const std::optional<std::int64_t> number = parse_number<std::int64_t>(text);
+  const std::optional<std::int64_t> number = text::parse_number<std::int64_t>(text);
   if (number && *number >= 0 && *number < std::ssize(labels)) return *number;
   if (const auto point = point_with_short_label(text, labels)) return *point;
   const std::string_view near = yaml::nearest_name(text, labels);
@@ -54,7 +55,7 @@ std::int64_t point_named(const Arguments& arguments, std::string_view option, co
 }  // namespace
 
 double number_from(const Arguments& arguments, std::string_view option, std::string_view text, double least) {
-  const std::optional<double> number = parse_number<double>(text);
+  const std::optional<double> number = text::parse_number<double>(text);
   if (!number || !std::isfinite(*number) || *number < least) {
     arguments.refuse(fmt::format("option '--{}': '{}' is not a number{}", option, text,
                                  std::isfinite(least) ? fmt::format(" from {} upwards", least) : ""));
@@ -88,7 +89,7 @@ Budget budget_option(const Arguments& arguments) {
 std::optional<double> probability_option(const Arguments& arguments, std::string_view option) {
   const std::optional<std::string> text = arguments.value(option);
   if (!text) return std::nullopt;
-  const std::optional<double> number = parse_number<double>(*text);
+  const std::optional<double> number = text::parse_number<double>(*text);
   if (!number || !(*number > 0.0 && *number < 1.0)) {
     arguments.refuse(fmt::format("option '--{}': '{}' is not a number between 0 and 1", option, *text));
   }

@@ -12,6 +12,7 @@
 
 #include "analysis/experiment_design/experiment_design.hpp"
 #include "analysis/report/experiment_page.hpp"
+#include "core/text/number_text.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
@@ -49,7 +50,7 @@ double positive_option(const command_line::Arguments& arguments, const std::stri
                        double most, std::string_view expected) {
   const std::optional<std::string> text = arguments.value(option);
   if (!text) return usual;
-  const std::optional<double> number = command_line::parse_number<double>(*text);
+  const std::optional<double> number = text::parse_number<double>(*text);
   if (!number || !(*number > 0.0) || !(*number <= most))
     arguments.refuse(fmt::format("option '--{}': '{}' is not {}", option, *text, expected));
   return *number;
@@ -59,7 +60,7 @@ double positive_option(const command_line::Arguments& arguments, const std::stri
 void read_budget(const command_line::Arguments& arguments, experiment_design::SearchSettings& search) {
   const std::optional<std::string> text = arguments.value("budget");
   if (!text) return;
-  if (const auto protocols = command_line::parse_number<int>(*text); protocols && *protocols > 0) {
+  if (const auto protocols = text::parse_number<int>(*text); protocols && *protocols > 0) {
     search.max_protocols = *protocols;
     return;
   }
@@ -68,7 +69,7 @@ void read_budget(const command_line::Arguments& arguments, experiment_design::Se
     const std::string_view whole = *text;
     if (seconds > 0.0 || !whole.ends_with(unit)) continue;
     const auto number =
-        command_line::parse_number<double>(whole.substr(0, whole.size() - std::string_view(unit).size()));
+        text::parse_number<double>(whole.substr(0, whole.size() - std::string_view(unit).size()));
     if (number && std::isfinite(*number)) seconds = *number * factor;
   }
   if (!(seconds > 0.0))

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/text/number_text.hpp"
 #include "experiments/guides/guide_manifest.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/manifests/shipped_manifests.hpp"
@@ -78,7 +79,7 @@ std::optional<double> guide_option(const command_line::Arguments& arguments, std
   const std::optional<std::string> text = arguments.value(option);
   if (!text) return std::nullopt;
   if (!applies) arguments.refuse(fmt::format("option '--{}' has no effect on {}", option, guide.name));
-  const std::optional<double> number = command_line::parse_number<double>(*text);
+  const std::optional<double> number = text::parse_number<double>(*text);
   if (!number || !(*number > 0.0) || !(*number <= high))
     arguments.refuse(
         fmt::format("option '--{}': '{}'; expected a number above 0 and at most {:g}", option, *text, high));

@@ -10,6 +10,7 @@
 #include "analysis/records/dataset_file.hpp"
 #include "analysis/records/text_table.hpp"
 #include "core/failure/failure.hpp"
+#include "core/text/number_text.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/hdf5/array_file.hpp"
 #include "results/storage/file_contents.hpp"
@@ -48,7 +49,7 @@ void set_columns(const command_line::Arguments& arguments, records::SeriesChoice
     choice.separator = static_cast<records::Separator>(found - names.begin());
   }
   if (const std::optional<std::string> text = arguments.value("sample-time")) {
-    choice.sample_time = command_line::parse_number<double>(*text);
+    choice.sample_time = text::parse_number<double>(*text);
     if (!choice.sample_time || !std::isfinite(*choice.sample_time) || *choice.sample_time <= 0.0) {
       arguments.refuse(fmt::format("option '--sample-time': '{}' is not a positive number", *text));
     }
@@ -60,10 +61,10 @@ std::vector<records::ExcludedTime> excluded_times(const command_line::Arguments&
   std::vector<records::ExcludedTime> times;
   for (const std::string& text : arguments.values("exclude")) {
     const std::size_t colon = text.find(':');
-    const auto from = command_line::parse_number<double>(std::string_view(text).substr(0, colon));
+    const auto from = text::parse_number<double>(std::string_view(text).substr(0, colon));
     const auto to = colon == std::string::npos
                         ? std::nullopt
-                        : command_line::parse_number<double>(std::string_view(text).substr(colon + 1));
+                        : text::parse_number<double>(std::string_view(text).substr(colon + 1));
     if (!from || !to || !std::isfinite(*from) || !std::isfinite(*to) || *from > *to) {
       arguments.refuse(fmt::format("option '--exclude': '{}' is not FROM:TO, such as 1.2:3.4 (s)", text));
     }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "analysis/parallel/parallel.hpp"
+#include "core/text/number_text.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/study_file.hpp"
@@ -52,10 +53,9 @@ constexpr const char* run_help =
 layout::RowRange part_of(const command_line::Arguments& arguments, const std::string& text,
                          const study::Study& study) {
   const std::size_t slash = text.find('/');
-  const auto part = command_line::parse_number<std::int64_t>(text.substr(0, slash));
-  const auto parts = slash == std::string::npos
-                         ? std::nullopt
-                         : command_line::parse_number<std::int64_t>(text.substr(slash + 1));
+  const auto part = text::parse_number<std::int64_t>(text.substr(0, slash));
+  const auto parts =
+      slash == std::string::npos ? std::nullopt : text::parse_number<std::int64_t>(text.substr(slash + 1));
   if (!part || !parts || *part < 1 || *part > *parts) {
     arguments.refuse(fmt::format("option '--shard': '{}' is not I/N with 1 ≤ I ≤ N, such as 2/8", text));
   }

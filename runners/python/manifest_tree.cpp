@@ -1,15 +1,14 @@
 #include "runners/python/manifest_tree.hpp"
 
-#include <charconv>
 #include <cstdint>
 #include <deque>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include <pybind11/stl.h>
 
+#include "core/text/number_text.hpp"
 #include "experiments/manifest/overrides.hpp"
 #include "experiments/yaml/problems.hpp"
 #include "experiments/yaml/yaml_tree.hpp"
@@ -20,14 +19,11 @@ namespace {
 namespace py = pybind11;
 using yaml::YamlNode;
 
-/// The number that is all of the text.
+/// The number that is all of the text, with or without a sign.
 template <class Number>
 std::optional<Number> number_in(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
-  Number number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return number;
+  return text::parse_number<Number>(text);
 }
 
 py::object scalar_of(const YamlNode& node) {

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import locale
+import os
 import pathlib
 from collections.abc import Callable
 
@@ -11,6 +13,9 @@ import zerocount as zc
 from support import ROOT, first_study, shipped
 
 matplotlib.use("Agg")
+# As applications with Qt do; decimal_comma.py asks for a locale with a comma.
+locale.setlocale(locale.LC_ALL, "")
+assert locale.localeconv()["decimal_point"] == os.environ.get("ZEROCOUNT_DECIMAL_POINT", locale.localeconv()["decimal_point"])
 
 
 @pytest.fixture(scope="session")

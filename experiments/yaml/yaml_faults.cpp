@@ -1,5 +1,6 @@
 #include "experiments/yaml/yaml_faults.hpp"
 
+#include <algorithm>
 #include <cstdint>
 
 #include <fmt/format.h>
@@ -31,19 +32,19 @@ std::string syntax_fault(const std::string& message) {
   return "not valid YAML from here on";
 }
 
+Place place_of(std::string_view text, std::size_t offset, std::string_view source) {
+  const std::string_view before = text.substr(0, offset);
+  const auto lines = std::count(before.begin(), before.end(), '\n');
+  const std::size_t line_start = before.rfind('\n') + 1;  // 0 in the first line, where rfind() gives npos
+  return {source, static_cast<int>(lines) + 1, static_cast<int>(offset - line_start) + 1};
+}
+
 Place first_bad_byte(const std::string& text, std::string_view source) {
-  int line = 1;
-  std::size_t line_start = 0;
   for (std::size_t at = 0; at < text.size();) {
     const text::CodePoint point = text::decode(std::string_view(text).substr(at));
     const bool blank = point.value == '\n' || point.value == '\r' || point.value == '\t';
-    if (!point.valid || (text::is_control(point.value) && !blank))
-      return {source, line, static_cast<int>(at - line_start) + 1};
+    if (!point.valid || (text::is_control(point.value) && !blank)) return place_of(text, at, source);
     at += point.bytes;
-    if (point.value == '\n') {
-      ++line;
-      line_start = at;
-    }
   }
   return {source};
 }

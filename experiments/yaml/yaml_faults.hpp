@@ -11,6 +11,9 @@ namespace zerocount::yaml {
 /// Translates the message of a yaml-cpp exception for readers who do not know the YAML specification.
 std::string syntax_fault(const std::string& message);
 
+/// The place of a byte of `text`.
+Place place_of(std::string_view text, std::size_t offset, std::string_view source);
+
 /// The first place in `text` that is not UTF-8, or is a control character; line 0 if there is none.
 Place first_bad_byte(const std::string& text, std::string_view source);
 

@@ -11,6 +11,7 @@
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
 
+#include "experiments/yaml/lexical_faults.hpp"
 #include "experiments/yaml/yaml_faults.hpp"
 
 namespace zerocount::yaml {
@@ -26,12 +27,8 @@ struct Refusal {
 
 class TreeBuilder : public YAML::EventHandler {
  public:
-  TreeBuilder(const std::string& text, std::string_view source, bool one_line, Problems& problems)
-      : text_(text), source_(source), one_line_(one_line), problems_(problems) {
-    for (std::size_t at = 0; at < text.size(); ++at) {
-      if (text[at] == '\n') line_starts_.push_back(at + 1);
-    }
-  }
+  TreeBuilder(std::string_view source, bool one_line, Problems& problems)
+      : source_(source), one_line_(one_line), problems_(problems) {}
 
   YamlPointer root() const { return root_; }
 
@@ -57,7 +54,6 @@ class TreeBuilder : public YAML::EventHandler {
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
     refuse_tag(mark, tag);
-    if (tag != "?") refuse_unclosed_quotes(mark);
     if (const auto character = unprintable_character(value))
       refuse(place(mark), fmt::format("control character {} in a text", *character), "a printable text");
     YamlNode node;
@@ -128,17 +124,6 @@ class TreeBuilder : public YAML::EventHandler {
     }
   }
 
-  // yaml-cpp 0.7 accepts a double-quoted text that ends with the file.
-  void refuse_unclosed_quotes(const YAML::Mark& mark) const {
-    std::size_t at =
-        line_starts_[static_cast<std::size_t>(mark.line)] + static_cast<std::size_t>(mark.column);
-    if (at >= text_.size() || text_[at] != '"') return;
-    for (++at; at < text_.size() && text_[at] != '"'; ++at) {
-      if (text_[at] == '\\') ++at;
-    }
-    if (at >= text_.size()) refuse(place(mark), "unclosed quotation mark", "valid YAML");
-  }
-
   void open(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, YamlNode::Kind kind) {
     refuse_tag(mark, tag);
     refuse_as_key(place(mark));
@@ -197,6 +182,7 @@ class TreeBuilder : public YAML::EventHandler {
   void accept_key(Open& parent, const YamlNode& key, const Place& where) {
     if (key.kind == YamlNode::Kind::list || key.kind == YamlNode::Kind::map) refuse_as_key(where);
     if (key.kind == YamlNode::Kind::null) refuse(where, "the key is empty", "a name as the key");
+    if (key.text == "<<") refuse(where, "merge keys are not supported", "the keys themselves");
     parent.node.entries.push_back({key.text, where, nullptr});
     parent.has_key = true;
     if (parent.keys.count(key.text) > 0) {
@@ -204,8 +190,6 @@ class TreeBuilder : public YAML::EventHandler {
     }
   }
 
-  const std::string& text_;
-  std::vector<std::size_t> line_starts_{0};
   std::string_view source_;
   bool one_line_;
   Problems& problems_;
@@ -225,7 +209,12 @@ YamlPointer parse_yaml(const std::string& text, std::string_view source, bool on
                  "a manifest in UTF-8 without control characters");
     return nullptr;
   }
-  TreeBuilder builder(text, source, one_line, problems);
+  if (const auto fault = first_lexical_fault(text)) {
+    problems.add(one_line ? Place{source} : place_of(text, fault->offset, source), whole, fault->what,
+                 fault->expected);
+    return nullptr;
+  }
+  TreeBuilder builder(source, one_line, problems);
   try {
     std::istringstream stream(text);
     YAML::Parser parser(stream);

@@ -198,8 +198,8 @@ TEST(ManifestErrors, EveryRequiredKeyIsMissed) {
                          "5:10: command | exactly one of"));
 }
 
-TEST(ManifestErrors, AMergeKeyIsAKeyLikeAnyOther) {
-  EXPECT_TRUE(has_faults(failure_of(minimal_manifest("<<: {name: x}")), "6:1: << | dac"));
+TEST(ManifestErrors, MergeKeysAreRefused) {
+  EXPECT_TRUE(has_faults(failure_of(minimal_manifest("<<: {name: x}")), "6:1: manifest | merge keys"));
 }
 
 TEST(ManifestErrors, ANewerManifestSaysSo) {

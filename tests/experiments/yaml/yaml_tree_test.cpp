@@ -63,7 +63,7 @@ TEST(YamlTree, RefusesWhatIsNotYaml) {
             std::string::npos);
   EXPECT_NE(problem_with("b: 1\na: [1, 2").find("m.yaml:2:1: manifest: incomplete list"), std::string::npos);
   EXPECT_NE(problem_with("a: b: c\n").find("m.yaml:1:5: manifest: unexpected ':'"), std::string::npos);
-  EXPECT_NE(problem_with("a: \"x\\\"\nb: 1\n").find("m.yaml:1:4: a: unclosed quotation mark"),
+  EXPECT_NE(problem_with("a: \"x\\\"\nb: 1\n").find("m.yaml:1:4: manifest: unclosed quotation mark"),
             std::string::npos);
   EXPECT_NE(problem_with("a: 1\n\tb: 2\n").find("m.yaml:2:1: manifest: tab in the indentation"),
             std::string::npos);

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+
+namespace zerocount::yaml {
+
+/// A fault of a text that yaml-cpp 0.7 accepts, or reports far behind its cause.
+struct LexicalFault {
+  std::size_t offset{0};  ///< of its first byte in the text
+  std::string_view what;
+  std::string_view expected;
+};
+
+/// The first of these faults in a YAML document, in the order of the text:
+///   - a quoted text that does not end, ends among the lines of other keys, or is followed by more text on
+///   its
+///     line. YAML requires each further line of a quoted text to be indented more than the key or list entry
+///     to which it belongs, and a key to stand on one line;
+///   - a tab in the indentation of a line in block style;
+///   - a line in block style, at the indentation of keys, that is not a key with a colon and a blank.
+std::optional<LexicalFault> first_lexical_fault(std::string_view text);
+
+}  // namespace zerocount::yaml

@@ -11,6 +11,7 @@
 
 #include "analysis/statistics/spread_over.hpp"
 #include "analysis/theory/trial_loops.hpp"
+#include "core/friction/presliding_range.hpp"
 #include "core/loop/controller.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/theory/margins.hpp"
@@ -26,7 +27,7 @@ constexpr double least_delay_margin = 1.0;   // samples
 /// The longest step of a trial against its pre-sliding range, counts.
 struct Travel {
   double step{0.0};
-  double range{std::numeric_limits<double>::infinity()};  ///< breakaway/k1; infinite without a spring
+  double range{std::numeric_limits<double>::infinity()};  ///< infinite without a spring
 
   bool slides() const { return step > range; }
 };
@@ -40,7 +41,7 @@ Travel travel_of(const trial::TrialParameters& p) {
     before = target;
   }
   const friction::FrictionParameters contact = friction::friction_at(p.friction, p.initial.position);
-  travel.range = contact.breakaway / contact.k1 / loop::fine_resolution(p.encoder);
+  travel.range = friction::presliding_range(contact) / loop::fine_resolution(p.encoder);
   return travel;
 }
 
@@ -116,9 +117,8 @@ std::string delay_text(const ExaminedLoop& loop, double value) {
 
 std::string step_text(const ExaminedLoop& loop, double) {
   return fmt::format(
-      "a step of {:.6g} counts is longer than the pre-sliding range, breakaway/k1 = {:.4g} counts, and {} "
-      "the "
-      "loop is unstable; expected shorter steps, command.profile, or gains that are stable then",
+      "a step of {:.6g} counts is longer than the pre-sliding range of {:.4g} counts, and {} the loop is "
+      "unstable; expected shorter steps, command.profile, or gains that are stable then",
       loop.travel.step, loop.travel.range, loop.of_trial.name);
 }
 

@@ -82,13 +82,13 @@ TEST(LoopPlausibility, IntegralControlAloneIsDoubtedBeyondCriterionSeven) {
   EXPECT_TRUE(contains(doubtful_loops(study_with("30", "ki: 4.0e-4")), "at k1 + k2 the phase margin"));
 }
 
-// breakaway/k1 is 703 counts: the loop with integral control alone is unstable while it slides.
+// The pre-sliding range is 694 counts: the loop with integral control alone is unstable while it slides.
 TEST(LoopPlausibility, ALongStepNeedsALoopThatIsStableWhileItSlides) {
-  const char* const text = "longer than the pre-sliding range, breakaway/k1 = 703.2 counts";
-  EXPECT_FALSE(contains(doubtful_loops(study_with("703", "ki: 3.85e-5")), text));
-  EXPECT_TRUE(contains(doubtful_loops(study_with("704", "ki: 3.85e-5")), text));
+  const char* const text = "longer than the pre-sliding range of 694.4 counts";
+  EXPECT_FALSE(contains(doubtful_loops(study_with("694", "ki: 3.85e-5")), text));
+  EXPECT_TRUE(contains(doubtful_loops(study_with("695", "ki: 3.85e-5")), text));
   EXPECT_TRUE(contains(doubtful_loops(study_with("500, -300", "ki: 3.85e-5")), "a step of 800 counts"));
-  EXPECT_FALSE(contains(doubtful_loops(study_with("704", "kp: 6.0e-4, ki: 1.0e-6, kd: 1.0e-2")), text));
+  EXPECT_FALSE(contains(doubtful_loops(study_with("695", "kp: 6.0e-4, ki: 1.0e-6, kd: 1.0e-2")), text));
   // A coarse phase makes the long moves.
   const std::string coarse = "ki: 3.85e-5, coarse: {coarse_beyond: 300, kp: 6.0e-4, kd: 1.0e-2}";
   EXPECT_FALSE(contains(doubtful_loops(study_with("5000", coarse)), text));

@@ -105,32 +105,16 @@ void tell(Checking& c, const yaml::Place& place, std::size_t slot, const std::st
 }
 
 // Place in the sweep that assigns the slot's value at this point, if any.
-std::optional<yaml::Place> swept_place(const Checking& c, std::size_t slot, std::size_t point) {
-  for (std::size_t a = c.plan().axes.size(); a-- > 0;) {
-    const study::PlanAxis& axis = c.plan().axes[a];
-    const std::size_t option = study::option_at(c.plan(), a, point);
+std::optional<yaml::Place> swept_place(const PlanPlaces& places, const study::StudyPlan& plan,
+                                       std::size_t slot, std::size_t point) {
+  for (std::size_t a = plan.axes.size(); a-- > 0;) {
+    const study::PlanAxis& axis = plan.axes[a];
+    const std::size_t option = study::option_at(plan, a, point);
     for (std::size_t i = axis.first[option]; i < axis.first[option + 1]; ++i) {
-      if (axis.assignments[i].slot == slot) return c.places.axes[a][i];
+      if (axis.assignments[i].slot == slot) return places.axes[a][i];
     }
   }
   return std::nullopt;
-}
-
-struct FaultPlace {
-  yaml::Place place;
-  std::size_t slot;  // whose value is there
-};
-
-// Place in the manifest of one of the involved values: a swept one, otherwise one written in the manifest,
-// otherwise the first.
-FaultPlace place_of_fault(const Checking& c, const std::vector<std::size_t>& slots, std::size_t point) {
-  for (const std::size_t slot : slots) {
-    if (const auto place = swept_place(c, slot, point)) return {*place, slot};
-  }
-  for (const std::size_t slot : slots) {
-    if (c.places.written[slot]) return {c.places.base[slot], slot};
-  }
-  return {c.places.base[slots.front()], slots.front()};
 }
 
 // The values that a fault involves: its values of the list, the parameters of the rule, and other values of
@@ -163,7 +147,7 @@ void check_values(Checking& c) {
            rule.find_faults(all.first(named.size()), all.subspan(named.size()))) {
         const std::vector<std::size_t> slots = slots_of(fault, listed, involved);
         if (reported.size() < max_reported && reported.insert({slots.front(), fault.what}).second) {
-          const FaultPlace at = place_of_fault(c, slots, point);
+          const FaultPlace at = place_of_fault(c.places, c.plan(), slots, point);
           tell(c, at.place, rule.once ? at.slot : slots.front(), fault.what, fault.expected, rule.warn_only);
           if (rule.once) return false;
         }
@@ -227,6 +211,17 @@ void check_effects(Checking& c) {
 }
 
 }  // namespace
+
+FaultPlace place_of_fault(const PlanPlaces& places, const study::StudyPlan& plan,
+                          std::span<const std::size_t> slots, std::size_t point) {
+  for (const std::size_t slot : slots) {
+    if (const auto place = swept_place(places, plan, slot, point)) return {*place, slot};
+  }
+  for (const std::size_t slot : slots) {
+    if (places.written[slot]) return {places.base[slot], slot};
+  }
+  return {places.base[slots.front()], slots.front()};
+}
 
 void check_points(const PlanPlaces& places, Reading& reading) {
   Checking checking{places, reading};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "experiments/manifest/values.hpp"
@@ -20,5 +21,15 @@ struct PlanPlaces {
 /// (effect_rules.hpp), and required values must be given. A problem is reported at the
 /// place of a swept value, if one is involved.
 void check_points(const PlanPlaces& places, Reading& reading);
+
+struct FaultPlace {
+  yaml::Place place;
+  std::size_t slot{0};  ///< whose value is there
+};
+
+/// Place in the manifest of one of the values that a fault at a design point involves: a swept one, otherwise
+/// one that the manifest gives, otherwise the first.
+FaultPlace place_of_fault(const PlanPlaces& places, const study::StudyPlan& plan,
+                          std::span<const std::size_t> slots, std::size_t point);
 
 }  // namespace zerocount::manifest

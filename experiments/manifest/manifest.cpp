@@ -17,6 +17,7 @@
 #include "experiments/manifest/study_assembly.hpp"
 #include "experiments/manifest/sweep.hpp"
 #include "experiments/manifest/tuning.hpp"
+#include "experiments/manifest/unseen_motions.hpp"
 #include "experiments/manifest/values.hpp"
 #include "experiments/parameters/unknown_key.hpp"
 #include "experiments/study/factors.hpp"
@@ -330,9 +331,10 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, con
   if (problems.empty()) check_kept(m);
   if (problems.empty()) assemble_study(m.reading.profiles, m.axes, *plan, m.study);
   if (problems.empty()) warn_of_equal_worlds(m);
-  m.study.warnings = std::move(m.reading.warnings);
   m.study.plugin = plan->plugin;
-  m.study.plan = std::move(plan);
+  m.study.plan = plan;
+  if (problems.empty()) check_unseen_motions(m.study, m.places, m.reading);
+  m.study.warnings = std::move(m.reading.warnings);
   return std::move(m.study);
 }
 

@@ -281,6 +281,9 @@ StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t inde
 StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int64_t index,
                                 const GivenDraws& given = {});
 
+/// As study_trial, but without profiles, which take long to realise: for what does not depend on friction.
+StudyTrial commanded_trial(const Study& study, std::int64_t point, std::int64_t index);
+
 /// Completes the parameters of a trial after all numbers are set in the manifest's units: converts gains from
 /// SI units with the trial's sample time and encoder, and gives the coarse encoder of a linear axis the
 /// resolution of the fine one by default.

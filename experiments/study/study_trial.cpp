@@ -198,6 +198,43 @@ std::vector<double> inputs_of(const Study& study, std::string_view unit, std::in
   return inputs;
 }
 
+const Value& value_of(const StudyPlan& plan, std::size_t slot, std::int64_t point) {
+  return *value_at_point(plan, slot, static_cast<std::size_t>(point));
+}
+
+/// A trial whose parameters are being set.
+struct TrialInProgress {
+  StudyTrial trial;
+  std::vector<double> numbers;  ///< [slot]
+  const StudyPlan& plan;
+
+  void set(std::size_t slot, double number) {
+    numbers[slot] = number;
+    // Without a field are the targets and the overrun of a sequence, which determine those of the moves.
+    if (const auto& set_field = plan.table.rows[slot].set) set_field(trial.parameters, number);
+  }
+};
+
+/// With all values but those of profiles.
+TrialInProgress begin_trial(const TrialDraws& draws, std::int64_t point) {
+  const StudyPlan& plan = draws.plan();
+  TrialInProgress t{{.parameters = plan.common, .inputs = {}}, plan.numbers, plan};
+  t.trial.parameters.randomness.trial = numbers_within_trial(draws.study, draws.index, draws.given);
+  t.trial.parameters.randomness.stream = draws.stream;
+  for (const std::uint32_t slot : plan.input_slots) {
+    const Value& value = value_of(plan, slot, point);
+    if (value.kind == Value::Kind::number) {
+      t.set(slot, value.number);
+    } else if (value.kind == Value::Kind::distribution) {
+      t.set(slot,
+            distributions::quantile(plan.distributions[value.index], uniform_of(draws, slot, value.per)));
+      if (value.per == Per::contact)
+        t.trial.parameters.friction.per_contact.push_back(contact_parameter(draws, slot, value));
+    }
+  }
+  return t;
+}
+
 }  // namespace
 
 StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int64_t index,
@@ -205,47 +242,36 @@ StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int
   check_exists(study, point, index);
   const StudyPlan& plan = *study.plan;
   const TrialDraws draws = draws_of(study, point, index, given);
-  const auto value_of = [&](std::size_t slot) -> const Value& {
-    return *value_at_point(plan, slot, static_cast<std::size_t>(point));
-  };
-  std::vector<double> numbers = plan.numbers;
-
-  StudyTrial trial{.parameters = plan.common, .inputs = {}};
-  trial.parameters.randomness.trial = numbers_within_trial(study, draws.index, given);
-  trial.parameters.randomness.stream = draws.stream;
-  const auto set = [&](std::size_t slot, double number) {
-    numbers[slot] = number;
-    // Without a field are the targets and the overrun of a sequence, which determine those of the moves.
-    if (const auto& set_field = plan.table.rows[slot].set) set_field(trial.parameters, number);
-  };
-  for (const std::uint32_t slot : plan.input_slots) {
-    const Value& value = value_of(slot);
-    if (value.kind == Value::Kind::number) {
-      set(slot, value.number);
-    } else if (value.kind == Value::Kind::distribution) {
-      set(slot, distributions::quantile(plan.distributions[value.index], uniform_of(draws, slot, value.per)));
-      if (value.per == Per::contact) {
-        trial.parameters.friction.per_contact.push_back(contact_parameter(draws, slot, value));
-      }
-    }
-  }
+  TrialInProgress t = begin_trial(draws, point);
+  StudyTrial& trial = t.trial;
   // Profiles come last, because they depend on the start position.
   for (const std::uint32_t slot : plan.input_slots) {
-    const Value& value = value_of(slot);
+    const Value& value = value_of(plan, slot, point);
     if (value.kind != Value::Kind::profile) continue;
     const std::shared_ptr<const friction::Profile> profile =
         profile_of(draws, slot, value, trial.parameters.initial.position);
-    set(slot, friction::value_at(*profile, trial.parameters.initial.position));
+    t.set(slot, friction::value_at(*profile, trial.parameters.initial.position));
     trial.parameters.friction.profiled.push_back({plan.table.rows[slot].profiled, profile});
   }
-  set_targets(study, numbers, trial);
-  set_resolution(numbers, trial.parameters.dac);
+  set_targets(study, t.numbers, trial);
+  set_resolution(t.numbers, trial.parameters.dac);
   trial.inputs.reserve(plan.inputs.size());
   for (const InputSource& source : plan.inputs) {
-    trial.inputs.push_back(source.profile_mean ? profile_mean(draws, source.slot, value_of(source.slot))
-                                               : numbers[source.slot]);
+    trial.inputs.push_back(source.profile_mean
+                               ? profile_mean(draws, source.slot, value_of(plan, source.slot, point))
+                               : t.numbers[source.slot]);
   }
-  return trial;
+  return std::move(trial);
+}
+
+StudyTrial commanded_trial(const Study& study, std::int64_t point, std::int64_t index) {
+  check_exists(study, point, index);
+  const GivenDraws none;
+  TrialInProgress t = begin_trial(draws_of(study, point, index, none), point);
+  set_targets(study, t.numbers, t.trial);
+  complete_trial(study.units, t.trial.parameters);
+  round_targets(t.trial);
+  return std::move(t.trial);
 }
 
 StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t index) {

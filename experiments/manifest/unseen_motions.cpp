@@ -1,0 +1,169 @@
+#include "experiments/manifest/unseen_motions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/loop/encoder.hpp"
+#include "experiments/parameters/earlier_defaults.hpp"
+#include "experiments/rules/plausibility.hpp"
+#include "experiments/study/point_limits.hpp"
+
+namespace zerocount::manifest {
+namespace {
+
+/// A motion that a trial commands.
+struct Motion {
+  std::size_t slot{0};      ///< of the value that commands it
+  std::size_t previous{0};  ///< of the value to which it is relative; `slot` if there is none
+  std::string unseen{};     ///< why the encoder does not see it; empty if it does
+};
+
+/// The motions of a study's trials.
+class Motions {
+ public:
+  Motions(const study::Study& study, const study::StudyPlan& plan)
+      : study_(study),
+        plan_(plan),
+        unit_(parameters::unit_on(plan.units.axis, "rad")),
+        encoder_(slot_of(rules::fine_encoder_name(plan))),
+        overrun_(slot_of("command.sequence.overrun")),
+        shape_(slot_of("command.profile.shape")),
+        amplitude_(slot_of("command.profile.amplitude")) {}
+
+  /// The slots on which they depend.
+  std::vector<std::size_t> slots() const {
+    std::vector<std::size_t> slots = study::slots_of(plan_.list);
+    slots.insert(slots.end(), {encoder_, overrun_, shape_, amplitude_});
+    return slots;
+  }
+
+  /// The motions of a trial: the same ones in all trials of a point.
+  std::vector<Motion> of(std::size_t point, std::int64_t index) const {
+    const study::StudyTrial trial = study::commanded_trial(study_, static_cast<std::int64_t>(point), index);
+    const double count = loop::fine_resolution(trial.parameters.encoder);
+    std::vector<Motion> motions;
+    for (std::size_t move = 0; move < trial.target_positions.size(); ++move)
+      motions.push_back(to_target(trial, move, count));
+    const loop::ReferenceProfile& profile = trial.parameters.command.profile;
+    if (profile.shape == loop::ReferenceShape::sine) motions.push_back(sine(profile.amplitude, count));
+    return motions;
+  }
+
+  /// The values that decide whether the encoder sees it.
+  std::array<std::size_t, 3> involved(const Motion& motion) const {
+    return {motion.slot, encoder_, motion.previous};
+  }
+
+ private:
+  std::size_t slot_of(std::string_view name) const {
+    return study::find_slots(name, plan_.table).value().first;
+  }
+  std::size_t slot_of_move(std::size_t move) const {
+    if (!plan_.sequence) return plan_.list.first + move;
+    const std::int64_t target = study_.sequence[move].target;
+    return target < 0 ? overrun_ : plan_.list.first + static_cast<std::size_t>(target);
+  }
+
+  Motion to_target(const study::StudyTrial& trial, std::size_t move, double count) const {
+    const std::vector<std::int64_t>& counts = trial.parameters.command.targets;
+    const bool is_first = move == 0;
+    const double to = trial.target_positions[move];
+    const double from = is_first ? 0.0 : trial.target_positions[move - 1];
+    Motion motion{slot_of_move(move), slot_of_move(is_first ? 0 : move - 1)};
+    if (to != from && counts[move] == (is_first ? 0 : counts[move - 1]))
+      motion.unseen = fmt::format(
+          "the target {:.6g} {} and the position before it, {:.6g} {}, are the same count of {:.6g} {}", to,
+          unit_, from, unit_, count, unit_);
+    return motion;
+  }
+
+  Motion sine(double amplitude, double count) const {
+    Motion motion{amplitude_, amplitude_};
+    if (std::llround(amplitude / count) == 0)
+      motion.unseen = fmt::format("a sine of {:.6g} {} is less than half a count of {:.6g} {}", amplitude,
+                                  unit_, count, unit_);
+    return motion;
+  }
+
+  const study::Study& study_;
+  const study::StudyPlan& plan_;
+  std::string unit_;
+  std::size_t encoder_, overrun_, shape_, amplitude_;
+};
+
+/// A motion that the encoder does not see in some trials of a design point.
+struct UnseenMotion {
+  Motion motion;  ///< of the first such trial
+  std::int64_t trials{0};
+};
+
+/// [motion], of the first trials of a point.
+std::vector<UnseenMotion> unseen_motions(const Motions& motions, std::size_t point, std::int64_t trials) {
+  std::vector<UnseenMotion> unseen;
+  for (std::int64_t i = 0; i < trials; ++i) {
+    std::vector<Motion> found = motions.of(point, i);
+    unseen.resize(found.size());
+    for (std::size_t m = 0; m < found.size(); ++m) {
+      if (!found[m].unseen.empty() && unseen[m].trials++ == 0) unseen[m].motion = std::move(found[m]);
+    }
+  }
+  return unseen;
+}
+
+/// The trials of each point that are looked at, so that all points together take seconds at most.
+std::int64_t trials_to_try(const study::StudyPlan& plan, std::span<const std::size_t> slots) {
+  constexpr std::int64_t max_in_all = 200'000;
+  constexpr std::int64_t max_of_point = 10'000;
+  std::int64_t points = 0;
+  study::visit_points(plan, slots, [&points](std::size_t) { return ++points < max_in_all; });
+  return std::min(max_of_point, max_in_all / points);
+}
+
+bool is_drawn(const study::StudyPlan& plan, std::span<const std::size_t> slots, std::size_t point) {
+  return std::ranges::any_of(slots, [&](std::size_t slot) {
+    return study::value_at_point(plan, slot, point)->kind != study::Value::Kind::number;
+  });
+}
+
+}  // namespace
+
+void check_unseen_motions(const study::Study& study, const PlanPlaces& places, Reading& reading) {
+  constexpr std::size_t max_reported = 20;
+  const study::StudyPlan& plan = reading.plan;
+  if (plan.open_loop) return;
+  const Motions motions(study, plan);
+  const std::vector<std::size_t> slots = motions.slots();
+  const std::int64_t max_trials = std::min(trials_to_try(plan, slots), study.trials);
+  const bool is_recorded = reading.version != parameters::newest_version;
+  std::size_t reported = 0;
+  study::visit_points(plan, slots, [&](std::size_t point) {
+    const std::int64_t trials = is_drawn(plan, slots, point) ? max_trials : 1;
+    for (const auto& [motion, count] : unseen_motions(motions, point, trials)) {
+      if (count == 0 || ++reported > max_reported) continue;
+      const std::string proportion =
+          count == trials ? ""
+                          : fmt::format(" in {:.3g} % of the trials",
+                                        1e2 * static_cast<double>(count) / static_cast<double>(trials));
+      const std::string at = study.point_labels.size() == 1
+                                 ? ""
+                                 : fmt::format(" at point {} ({})", point, study.point_labels[point]);
+      const std::string what =
+          fmt::format("{}{}{}: the encoder does not see this motion", motion.unseen, proportion, at);
+      const yaml::Place place = place_of_fault(places, plan, motions.involved(motion), point).place;
+      const std::string_view path = plan.table.rows[motion.slot].name;
+      constexpr const char* expected = "motions of a count or more, or a finer encoder";
+      if (count == trials && !is_recorded) {
+        reading.problems.add(place, path, what, expected);
+      } else {
+        reading.warnings.push_back(
+            yaml::at_place(place, path, fmt::format("{}; expected {}", what, expected)));
+      }
+    }
+    return reported < max_reported;
+  });
+}
+
+}  // namespace zerocount::manifest

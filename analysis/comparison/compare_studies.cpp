@@ -17,6 +17,7 @@
 #include "analysis/comparison/measure_comparison.hpp"
 #include "analysis/comparison/point_trials.hpp"
 #include "core/failure/failure.hpp"
+#include "experiments/manifest/manifest_keys.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/first_difference.hpp"
 
@@ -77,11 +78,15 @@ void require_independent_trials(const reading::StudyFile& file, const ManifestVa
                             file.path().string()));
 }
 
+std::int64_t whole_value(const ManifestValues& values, const std::string& key) {
+  return std::stoll(value_or(values, key, "0"));
+}
+
 /// The number of rigs that the trials of a study run on, 0 without. Where two studies have different worlds,
 /// these are the groups of trials that are not independent.
 std::int64_t rigs_of(const ManifestValues& values, bool other_worlds) {
-  const std::int64_t worlds = std::stoll(value_or(values, "worlds", "0"));
-  return other_worlds && worlds > 0 ? worlds : std::stoll(value_or(values, "rigs", "0"));
+  const std::int64_t worlds = whole_value(values, "worlds");
+  return other_worlds && worlds > 0 ? worlds : whole_value(values, "rigs");
 }
 
 /// Whether studies have worlds, and not the same ones.
@@ -90,6 +95,10 @@ bool have_other_worlds(const reading::StudyFile& baseline, const ManifestValues&
   const std::string before = value_or(old_values, "worlds", "0");
   const std::string after = value_or(new_values, "worlds", "0");
   return before != after || (after != "0" && baseline.header().seed != current.header().seed);
+}
+
+goal::Status status_of_goal(const study::Goal& goal, const PointTrials& trials) {
+  return goal::judge_goal(goal, trials.judged->counts, 1).status;
 }
 
 PointComparison compare_point(const StudyComparison& comparison, const GateRules& rules,
@@ -108,6 +117,8 @@ PointComparison compare_point(const StudyComparison& comparison, const GateRules
   result.measures = paired ? compare_measures(rules, point.label, first_trials(baseline, result.pairs),
                                               first_trials(current, result.pairs), true)
                            : compare_measures(rules, point.label, baseline, current, false);
+  if (comparison.goal)
+    result.goal = {status_of_goal(*comparison.goal, baseline), status_of_goal(*comparison.goal, current)};
   return result;
 }
 
@@ -127,12 +138,12 @@ ForecastPoint forecast_point(const PointComparison& compared, const GateRules& r
   const bool paired = compared.pairs > 0;
   if (!equal) {
     const std::vector<MeasureSample> samples =
-        paired ? measure_samples(rules, first_trials(baseline, compared.pairs),
+        paired ? measure_samples(rules, compared.measures, first_trials(baseline, compared.pairs),
                                  first_trials(current, compared.pairs), true)
-               : measure_samples(rules, baseline, current, false);
+               : measure_samples(rules, compared.measures, baseline, current, false);
     for (std::size_t i = 0; i < compared.measures.size(); ++i) {
       const MeasureComparison& measure = compared.measures[i];
-      if (std::isnan(measure.p)) continue;
+      if (!has_finite_bounds(measure)) continue;
       point.measures.push_back(samples[i]);
       point.found.push_back(measure);
     }
@@ -166,11 +177,14 @@ struct ComparedData {
   std::vector<MatchedPoint> points;
   std::int64_t baseline_rigs{0};
   std::int64_t current_rigs{0};
-  bool in_worlds{false};            ///< a study has worlds
-  bool other_worlds{false};         ///< and not the same ones: these take the place of rigs
-  std::int64_t baseline_trials{0};  ///< of each point that are compared, its first
-  std::int64_t current_trials{0};   ///< of the current file
-  AlsoRead of_current{};            ///< what the requirements need
+  bool in_worlds{false};              ///< a study has worlds
+  bool other_worlds{false};           ///< and not the same ones: these take the place of rigs
+  std::int64_t baseline_trials{0};    ///< of each point that are compared, its first
+  std::int64_t current_trials{0};     ///< of the current file
+  AlsoRead of_baseline{};             ///< what is read of it beside the gate measures
+  AlsoRead of_current{};              ///< likewise, and what the requirements need
+  std::optional<study::Goal> goal{};  ///< by which the points are judged
+  bool goal_of_baseline{false};       ///< it is that of the baseline's manifest
 };
 
 /// The most trials of each point that are compared.
@@ -196,23 +210,62 @@ GateMeasure in_file(const reading::StudyFile& file, const GateMeasure& wanted) {
                             file.path().string(), wanted.name, bands.empty() ? "none" : bands));
 }
 
-/// The parts of the current file that the requirements need.
-AlsoRead needed_by(const GateRules& rules, const reading::StudyFile& file, std::int64_t rigs) {
+constexpr const char* expected_goal = "expected one such as goal: {band: 1, within: 0.05, moves: 0.99}";
+
+/// The goal of the manifest.
+std::optional<study::Goal> goal_of(const reading::StudyFile& file, const ManifestValues& values) {
+  const bool has_goal = std::any_of(values.begin(), values.end(), [](const auto& value) {
+    return manifest::is_within(value.first, "goal");
+  });
+  return has_goal ? layout::recorded_study(file.header(), file.path()).goal : std::nullopt;
+}
+
+/// The goal as the moves of the file are counted by it.
+/// @throws Failure (bad_data) where the file does not have its error band
+TrialGoal counted_in(const reading::StudyFile& file, const study::Goal& goal) {
+  const std::span<const std::int64_t> bands = file.features().bands.values();
+  const auto band = std::find(bands.begin(), bands.end(), goal.band);
+  if (band != bands.end()) return {goal, {static_cast<std::size_t>(band - bands.begin()), goal.within}};
+  throw Failure(ExitCode::bad_data,
+                fmt::format("{}: it cannot be judged by the goal of the other: it has no error band of {} "
+                            "counts; expected a study with that band in verdict.bands, or measures without "
+                            "the goal",
+                            file.path().string(), goal.band));
+}
+
+/// The goal that a requirement asks for.
+std::optional<TrialGoal> required_goal(const GateRules& rules, const reading::StudyFile& file,
+                                       const std::optional<study::Goal>& goal) {
+  if (!requires_goal(rules)) return std::nullopt;
+  if (goal) return counted_in(file, *goal);
+  throw Failure(ExitCode::bad_input,
+                fmt::format("{}: its manifest has no goal, which a requirement asks for; {}",
+                            file.path().string(), expected_goal));
+}
+
+/// The goal whose measures are judged: that of the baseline, else that of the current file.
+std::optional<study::Goal> judged_goal(const GateRules& rules, const reading::StudyFile& current,
+                                       const std::optional<study::Goal>& old_goal,
+                                       const std::optional<study::Goal>& new_goal) {
+  if (!judges_by_goal(rules)) return std::nullopt;
+  const std::optional<study::Goal>& goal = old_goal ? old_goal : new_goal;
+  if (!goal && names_goal_measure(rules)) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: its manifest has no goal, by whose measures it is to be judged; {}",
+                              current.path().string(), expected_goal));
+  }
+  return goal;
+}
+
+/// What is read of a file to judge it by the goal.
+AlsoRead read_by(const std::optional<study::Goal>& goal, const reading::StudyFile& file,
+                 const ManifestValues& values, std::int64_t clusters) {
   AlsoRead also;
-  also.rigs = rigs;
-  for (const GateMeasure& measure : measures_of_bands(rules)) also.bands.push_back(in_file(file, measure));
-  if (!requires_goal(rules)) return also;
-  const study::Study study = layout::recorded_study(file.header(), file.path());
-  also.goal = study.goal;
-  also.worlds = study.worlds;
-  also.goal_rigs = study.rigs;
-  also.counted = measures::counted_goal(study);
-  if (also.goal) return also;
-  throw Failure(
-      ExitCode::bad_input,
-      fmt::format("{}: its manifest has no goal, which a requirement asks for; expected one such as "
-                  "goal: {{band: 1, within: 0.05, moves: 0.99}}",
-                  file.path().string()));
+  also.rigs = clusters;
+  also.goal_rigs = whole_value(values, "rigs");
+  also.worlds = whole_value(values, "worlds");
+  if (goal) also.judged = counted_in(file, *goal);
+  return also;
 }
 
 ComparedData compared_data(const reading::StudyFile& baseline, const ManifestValues& old_values,
@@ -225,7 +278,15 @@ ComparedData compared_data(const reading::StudyFile& baseline, const ManifestVal
   data.in_worlds = value_or(new_values, "worlds", "0") != "0" || value_or(old_values, "worlds", "0") != "0";
   data.baseline_trials = compared_trials(rules, baseline, data.baseline_rigs);
   data.current_trials = compared_trials(rules, current, data.current_rigs);
-  data.of_current = needed_by(rules, current, data.current_rigs);
+  const std::optional<study::Goal> old_goal = goal_of(baseline, old_values);
+  const std::optional<study::Goal> new_goal = &baseline == &current ? old_goal : goal_of(current, new_values);
+  data.goal = judged_goal(rules, current, old_goal, new_goal);
+  data.goal_of_baseline = old_goal.has_value();
+  data.of_baseline = read_by(data.goal, baseline, old_values, data.baseline_rigs);
+  data.of_current = read_by(data.goal, current, new_values, data.current_rigs);
+  data.of_current.required = required_goal(rules, current, new_goal);
+  for (const GateMeasure& measure : measures_of_bands(rules))
+    data.of_current.bands.push_back(in_file(current, measure));
   return data;
 }
 
@@ -241,10 +302,8 @@ struct TrialsOfBoth {
 };
 
 TrialsOfBoth read_trials(const ComparedData& data, const MatchedPoint& point) {
-  TrialsOfBoth trials{read_point_trials(data.baseline, point.baseline, data.baseline_trials),
-                      read_point_trials(data.current, point.current, data.current_trials, data.of_current)};
-  trials.baseline.rigs = data.baseline_rigs;
-  return trials;
+  return {read_point_trials(data.baseline, point.baseline, data.baseline_trials, data.of_baseline),
+          read_point_trials(data.current, point.current, data.current_trials, data.of_current)};
 }
 
 void judge_points(StudyComparison& result, const GateRules& rules, const ComparedData& data) {
@@ -286,6 +345,11 @@ void forecast(StudyComparison& result, const GateRules& rules, const ComparedDat
            std::any_of(point.requirements.begin(), point.requirements.end(), open);
   });
   if (!any) return;
+  const bool all_forecast = std::ranges::all_of(result.points, [&](const PointComparison& point) {
+    return std::ranges::all_of(point.measures, [&](const MeasureComparison& measure) {
+      return !open(measure) || has_finite_bounds(measure);
+    });
+  });
   ForecastSamples samples(units_of_samples(result, rules, data), false);
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     const TrialsOfBoth trials = read_trials(data, data.points[i]);
@@ -300,8 +364,8 @@ void forecast(StudyComparison& result, const GateRules& rules, const ComparedDat
   const auto trials = static_cast<double>(std::max(samples.trials_of(0), samples.trials_of(1)));
   options.max_factor = std::max(options.max_factor, min_tried_trials / trials);
   const Forecast found = forecast_decision(samples, options);
-  result.max_trials_to_decide = found.max_trials;
-  if (result.verdict == GateVerdict::inconclusive) result.trials_to_decide = found.trials;
+  if (all_forecast) result.max_trials_to_decide = found.max_trials;
+  if (all_forecast && result.verdict == GateVerdict::inconclusive) result.trials_to_decide = found.trials;
   if (result.trials_to_decide > static_cast<double>(trial_limit(rules, data.current))) {
     result.notes.push_back(
         fmt::format("more than {} trials of each point are judged only with --max-trials (here {:.0f})",
@@ -310,7 +374,7 @@ void forecast(StudyComparison& result, const GateRules& rules, const ComparedDat
   auto next = found.judgements.begin();
   for (PointComparison& point : result.points) {
     for (MeasureComparison& measure : point.measures) {
-      if (!result.equal_to_the_bit && !std::isnan(measure.p)) take_forecast(measure, *next++);
+      if (!result.equal_to_the_bit && has_finite_bounds(measure)) take_forecast(measure, *next++);
     }
   }
   for (PointComparison& point : result.points) {
@@ -396,8 +460,21 @@ void note_trials(StudyComparison& result, const ComparedData& data) {
   note_unpaired_trials(result, data);
 }
 
+/// Says by which goal the points are judged where the manifests do not have the same.
+void note_goal(StudyComparison& result, const ComparedData& data) {
+  if (!data.goal) return;
+  const auto differs = [](const ManifestDifference& difference) {
+    return manifest::is_within(difference.key, "goal");
+  };
+  if (std::ranges::none_of(result.manifest_differences, differs)) return;
+  result.notes.push_back(fmt::format("the goals differ; both files are judged by that of {}",
+                                     data.goal_of_baseline ? result.baseline.path : result.current.path));
+}
+
 /// The judgements, and what follows from them.
 void judge(StudyComparison& result, const GateRules& rules, const ComparedData& data) {
+  result.goal = data.goal;
+  note_goal(result, data);
   note_trials(result, data);
   judge_points(result, rules, data);
   note_undecided_moves(result);
@@ -412,7 +489,8 @@ void judge(StudyComparison& result, const GateRules& rules, const ComparedData& 
   }
   if (data.in_worlds) {
     result.notes.push_back(
-        "means and rates are averages over the worlds, but for a goal, which is judged in the worst");
+        "means and rates, goal_rate and goal_machines too, are averages over the worlds; the goal itself is "
+        "judged in the worst");
   }
   if (result.equal_to_the_bit) pass_equal_data(result);
   result.verdict = verdict_of(result);

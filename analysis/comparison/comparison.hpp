@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/comparison/gate_rules.hpp"
+#include "analysis/goal/goal_verdict.hpp"
 #include "analysis/measures/undecided_moves.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/unknown.hpp"
@@ -103,6 +104,12 @@ struct RequirementResult {
   std::optional<double> trials_to_decide;  ///< per design point, as of a measure
 };
 
+/// The verdicts of both files on the goal at a design point, if it was chosen before.
+struct GoalStatuses {
+  goal::Status baseline{goal::Status::undecided};
+  goal::Status current{goal::Status::undecided};
+};
+
 /// One design point in the two files.
 struct PointComparison {
   std::string label;
@@ -116,6 +123,7 @@ struct PointComparison {
   GateVerdict verdict{GateVerdict::not_measured};
   std::vector<MeasureComparison> measures;
   std::vector<RequirementResult> requirements;
+  std::optional<GoalStatuses> goal;  ///< where the points are judged by one
 };
 
 /// A key that is in one manifest only, or has different values.
@@ -145,6 +153,7 @@ struct StudyComparison {
   double false_discovery_rate{0.05};
   std::int64_t tests{0};  ///< over which the false discoveries are controlled
   std::vector<PointComparison> points;
+  std::optional<study::Goal> goal;                 ///< by which the points are judged
   GateVerdict verdict{GateVerdict::inconclusive};  ///< never not_measured
   std::optional<double>
       trials_to_decide;  ///< per design point, that decide the whole, with decision_probability

@@ -89,6 +89,10 @@ Json point_json(const PointComparison& point) {
   for (const MeasureComparison& measure : point.measures) json["measures"].push_back(measure_json(measure));
   for (const RequirementResult& one : point.requirements)
     json["requirements"].push_back(requirement_json(one));
+  if (point.goal) {
+    json["goal"] = {{"baseline", goal::text_of(point.goal->baseline)},
+                    {"current", goal::text_of(point.goal->current)}};
+  }
   return json;
 }
 

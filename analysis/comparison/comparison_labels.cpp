@@ -207,7 +207,9 @@ std::string detectable_sentence(const StudyComparison& comparison) {
 
 std::string value_text(double value, std::string_view quantity, std::string_view unit) {
   if (std::isnan(value)) return "–";
-  if (quantity.ends_with("_rate")) return fmt::format("{:.4g} %", 100.0 * value);
+  if (std::isinf(value)) return value > 0.0 ? "∞" : "−∞";
+  if (quantity.ends_with("_rate") || quantity == "goal_machines")
+    return fmt::format("{:.4g} %", 100.0 * value);
   return unit == "1" ? text::short_number(value) : fmt::format("{} {}", text::short_number(value), unit);
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "analysis/comparison/comparison_report.hpp"
+#include "analysis/goal/goal_text.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::comparison {
@@ -54,6 +55,14 @@ std::string undecided_remark(const PointComparison& point, std::string_view quan
                      before.moves, after.off_target, after.moves);
 }
 
+/// "goal undecided in the baseline, missed in the file" beside the proportion of moves in the goal; empty
+/// elsewhere.
+std::string goal_remark(const PointComparison& point, std::string_view measure) {
+  if (measure != "goal_rate" || !point.goal) return {};
+  return fmt::format("goal {} in the baseline, {} in the file", goal::text_of(point.goal->baseline),
+                     goal::text_of(point.goal->current));
+}
+
 ComparisonRow row_of(const PointComparison& point, const MeasureComparison& measure, double max_trials) {
   const auto text = [&](double value) { return value_text(value, measure.measure, measure.unit); };
   ComparisonRow row;
@@ -68,8 +77,9 @@ ComparisonRow row_of(const PointComparison& point, const MeasureComparison& meas
   row.p = p_text(shown_p(measure));
   row.verdict = to_string(measure.change);
   row.gate = measure.verdict;
-  row.note = remarks(measure.note, undecided_remark(point, measure.measure), measure.trials_to_decide,
-                     margins_remark(measure, max_trials));
+  row.note =
+      remarks(measure.note, goal_remark(point, measure.measure) + undecided_remark(point, measure.measure),
+              measure.trials_to_decide, margins_remark(measure, max_trials));
   row.noteworthy = measure.verdict != GateVerdict::passed || measure.change == ChangeVerdict::better;
   return row;
 }
@@ -139,6 +149,7 @@ std::vector<std::pair<std::string, std::string>> comparison_facts(const StudyCom
                        fmt::format("{}: {} → {}", text::printable(difference.key), shown(difference.baseline),
                                    shown(difference.current)));
   }
+  if (comparison.goal) facts.emplace_back("goal", goal::goal_sentence(*comparison.goal));
   if (!comparison.changed_inputs.empty()) {
     facts.emplace_back("changed inputs", fmt::format("{}", fmt::join(comparison.changed_inputs, ", ")));
   }

@@ -94,7 +94,13 @@ GateVerdict worst_of(std::span<const GateVerdict> verdicts) {
   return verdicts.empty() ? GateVerdict::not_measured : *std::min_element(verdicts.begin(), verdicts.end());
 }
 
+bool has_finite_bounds(const TestedMeasure& measure) {
+  return !std::isnan(measure.p) && std::isfinite(measure.effect) && std::isfinite(measure.bounds.low) &&
+         std::isfinite(measure.bounds.high);
+}
+
 double detectable_change(const MeasureComparison& measure, const GateRules& rules, std::size_t tests) {
+  if (!has_finite_bounds(measure)) return statistics::unknown;
   const double error =
       (measure.bounds.high - measure.bounds.low) / 2.0 / statistics::normal_quantile(rules.confidence);
   const double rate = rules.false_discovery_rate / (measure.changed_fails ? 2.0 : 1.0);
@@ -126,7 +132,8 @@ std::int64_t decide(std::span<PointComparison> points, const GateRules& rules) {
     static_cast<TestedMeasure&>(measure) = tested[i];
     measure.detectable_change = detectable_change(measure, rules, tested.size());
     measure.verdict = gate_verdict(measure.change, measure.changed_fails);
-    if (measure.verdict == GateVerdict::inconclusive) measure.note = reason_of(measure);
+    if (measure.verdict == GateVerdict::inconclusive)
+      measure.note = (measure.note.empty() ? "" : measure.note + "; ") + reason_of(measure);
   }
   return std::ssize(tested);
 }

@@ -45,6 +45,17 @@ std::optional<std::int64_t> band_in(std::string_view name) {
   return error == std::errc{} && end == name.data() + close && band >= 0 ? std::optional(band) : std::nullopt;
 }
 
+bool is_named(const GateRules& rules, std::string_view name) {
+  return std::find(rules.measures.begin(), rules.measures.end(), name) != rules.measures.end();
+}
+
+/// Whether the rules give the measure a margin, at every point or at some.
+bool has_margin(const GateRules& rules, const std::string& name) {
+  return rules.margins.contains(name) || std::ranges::any_of(rules.margins_at, [&](const auto& point) {
+           return point.second.contains(name);
+         });
+}
+
 std::vector<const Requirement*> all_requirements(const GateRules& rules) {
   std::vector<const Requirement*> all;
   for (const Requirement& one : rules.requirements) all.push_back(&one);
@@ -64,14 +75,31 @@ std::vector<GateMeasure> gate_measures(const layout::MeasureTable& measures) {
       gated.push_back({&measure,
                        measure.gate->name,
                        measure.field.column.unit,
-                       {measure.gate->absolute, measure.gate->relative, false}});
+                       {measure.gate->absolute, measure.gate->relative, false},
+                       proportion ? GateStatistic::trials : GateStatistic::mean,
+                       measure.gate->worse});
     }
   }
   return gated;
 }
 
+std::vector<GateMeasure> goal_measures() {
+  using enum GateStatistic;
+  constexpr double few_points = 0.01;  // of a proportion
+  return {{nullptr, "goal_rate", "1", {.absolute = few_points}, moves, layout::Worse::less},
+          {nullptr, "goal_machines", "1", {.absolute = few_points}, machines, layout::Worse::less},
+          {nullptr, "goal_settling_time", "s", {.absolute = 1e-5, .relative = 0.05}, quantile}};
+}
+
+std::vector<GateMeasure> all_gate_measures() {
+  std::vector<GateMeasure> all = goal_measures();
+  const std::vector<GateMeasure> others = gate_measures();
+  all.insert(all.end(), others.begin(), others.end());
+  return all;
+}
+
 std::optional<GateMeasure> find_gate_measure(std::string_view name) {
-  const std::vector<GateMeasure> all = gate_measures();
+  const std::vector<GateMeasure> all = all_gate_measures();
   const auto found = find_named(all, name);
   return found == all.end() ? std::nullopt : std::optional(*found);
 }
@@ -110,9 +138,30 @@ std::vector<GateMeasure> measures_of_bands(const GateRules& rules) {
   return measures;
 }
 
-bool is_judged(const GateRules& rules, const GateMeasure& measure) {
-  return rules.measures.empty() ||
-         std::find(rules.measures.begin(), rules.measures.end(), measure.name) != rules.measures.end();
+std::vector<GateMeasure> judged_measures(const GateRules& rules, const layout::MeasureTable& table,
+                                         JudgedGoal goal) {
+  std::vector<GateMeasure> judged = goal_measures();
+  std::erase_if(judged, [&](const GateMeasure& measure) {
+    return goal == JudgedGoal::none ||
+           (measure.statistic == GateStatistic::machines && goal != JudgedGoal::of_machines);
+  });
+  const std::vector<GateMeasure> others = gate_measures(table);
+  judged.insert(judged.end(), others.begin(), others.end());
+  std::erase_if(judged, [&](const GateMeasure& measure) {
+    if (!rules.measures.empty()) return !is_named(rules, measure.name);
+    return goal != JudgedGoal::none && !measure.of_goal() && !has_margin(rules, std::string(measure.name));
+  });
+  return judged;
+}
+
+bool names_goal_measure(const GateRules& rules) {
+  return std::ranges::any_of(goal_measures(), [&](const GateMeasure& measure) {
+    return is_named(rules, measure.name) || has_margin(rules, std::string(measure.name));
+  });
+}
+
+bool judges_by_goal(const GateRules& rules) {
+  return rules.measures.empty() || names_goal_measure(rules);
 }
 
 GateMargin margin_of(const GateRules& rules, const std::string& label, const GateMeasure& measure) {

@@ -20,21 +20,41 @@ struct GateMargin {
   bool changed_fails{false};  ///< a change for the better beyond the margin is a failure too
 };
 
+/// What is compared of a measure.
+enum class GateStatistic {
+  trials,    ///< proportion of trials with a quality
+  mean,      ///< mean over the trials
+  moves,     ///< proportion of moves that meet the goal
+  machines,  ///< proportion of rigs that meet the goal in Goal::moves of their moves
+  quantile   ///< quantile over all moves of a time that may not be reached
+};
+
 /// One measure that a comparison judges.
 struct GateMeasure {
-  const layout::Measure* measure{nullptr};  ///< of the program's own table
+  const layout::Measure* measure{nullptr};  ///< of the program's own table; null for a measure of the goal
   std::string_view name{};
   std::string_view unit{};
   GateMargin margin{};  ///< the default
+  GateStatistic statistic{GateStatistic::mean};
+  layout::Worse worse{layout::Worse::more};
 
-  /// Judged by the proportion of trials with a quality; otherwise by a mean over trials.
-  bool proportion() const { return layout::is_quality(*measure); }
+  /// Judged by a proportion, of trials, moves or machines.
+  bool proportion() const { return statistic != GateStatistic::mean && statistic != GateStatistic::quantile; }
+  /// Whether it is of the goal of the manifest.
+  bool of_goal() const { return measure == nullptr; }
 };
 
 /// The gate measures of the table, in the order of the report: proportions before means.
 std::vector<GateMeasure> gate_measures(const layout::MeasureTable& measures = layout::measure_table());
 
-/// The gate measure of this name of the program's own table.
+/// The measures that judge a study by the goal of its manifest, in the order of the report: goal_rate,
+/// goal_machines, goal_settling_time.
+std::vector<GateMeasure> goal_measures();
+
+/// Every measure that can be judged: those of the goal, then those of the program's own table.
+std::vector<GateMeasure> all_gate_measures();
+
+/// The measure of this name among all_gate_measures().
 std::optional<GateMeasure> find_gate_measure(std::string_view name);
 
 enum class RequirementKind {
@@ -76,7 +96,7 @@ struct GateRules {
   double confidence{0.95};            ///< of every bound, one-sided
   double false_discovery_rate{0.05};  ///< over all measures at all points
   bool changed_fails{false};          ///< of every measure, a change for the better fails too
-  std::vector<std::string> measures;  ///< that are judged; empty: all
+  std::vector<std::string> measures;  ///< that are judged; empty: judged_measures() says which
   /// Trials of each point that are compared, the first ones; default: default_compared_moves / moves of each.
   std::optional<std::int64_t> max_trials;
   std::map<std::string, GateMargin> margins;
@@ -85,7 +105,22 @@ struct GateRules {
   std::map<std::string, std::vector<Requirement>> requirements_at;  ///< [label], beside those of every point
 };
 
-bool is_judged(const GateRules& rules, const GateMeasure& measure);
+/// The goal by which two studies are judged, if any.
+enum class JudgedGoal {
+  none,
+  of_moves,    ///< that asks for a proportion of moves
+  of_machines  ///< that asks for a proportion of machines too
+};
+
+/// The measures that are judged, in the order of the report. A goal is the question of its study: with one,
+/// and unless the rules name measures, they are those of the goal, and those that have a margin in the rules.
+std::vector<GateMeasure> judged_measures(const GateRules& rules, const layout::MeasureTable& table,
+                                         JudgedGoal goal);
+
+/// Whether the rules name a measure of the goal.
+bool names_goal_measure(const GateRules& rules);
+/// Whether a measure of the goal is judged where a study has one.
+bool judges_by_goal(const GateRules& rules);
 
 /// The margin of a measure at a point: the point's own, or that of all points, or the default.
 GateMargin margin_of(const GateRules& rules, const std::string& label, const GateMeasure& measure);

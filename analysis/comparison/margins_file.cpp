@@ -78,7 +78,7 @@ void read_margin_of(const yaml::Field& map, const yaml::YamlEntry& entry,
                     std::map<std::string, GateMargin>& margins, yaml::Problems& problems) {
   const std::optional<GateMeasure> measure = find_gate_measure(entry.key);
   if (!measure) {
-    parameters::add_unknown_key(map, entry, names_of(gate_measures()), problems);
+    parameters::add_unknown_key(map, entry, names_of(all_gate_measures()), problems);
     return;
   }
   const yaml::Field field = yaml::entry_of(map, entry);
@@ -197,7 +197,7 @@ void read_points(const yaml::Field& field, std::span<const std::string> labels, 
 }
 
 void read_measures(const yaml::Field& field, std::vector<std::string>& measures, yaml::Problems& problems) {
-  const std::vector<std::string> known = names_of(gate_measures());
+  const std::vector<std::string> known = names_of(all_gate_measures());
   const std::string expected = fmt::format("a list of some of {}", fmt::join(known, ", "));
   if (!yaml::check_list(field, expected, problems)) return;
   if (field.node->items.empty()) problems.add(field.node->place, field.path, "the list is empty", expected);

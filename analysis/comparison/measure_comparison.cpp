@@ -9,7 +9,8 @@
 
 #include "analysis/comparison/mean_tests.hpp"
 #include "analysis/comparison/proportion_tests.hpp"
-#include "analysis/comparison/rank_tests.hpp"
+#include "analysis/comparison/quantile_tests.hpp"
+#include "analysis/statistics/normal.hpp"
 
 namespace zerocount::comparison {
 namespace {
@@ -66,19 +67,67 @@ ComparedValues paired_values(const PointTrials& baseline, const PointTrials& cur
   return values;
 }
 
-/// 1 for each trial that failed, 0 for the others. If less of the quality is worse, a failed trial lacks it;
-/// otherwise a failed trial has it.
+/// The proportion of the moves of each trial that meet the goal, [trial].
+std::vector<double> moves_in_goal(const PointTrials& trials) {
+  std::vector<double> met = trials.judged->moves_in_goal;
+  for (double& value : met) value /= static_cast<double>(trials.moves);
+  return met;
+}
+
+/// 1 for each rig that meets the goal in Goal::moves of its moves, else 0, [rig].
+std::vector<double> rigs_in_goal(const PointTrials& trials) {
+  const GoalTrials& goal = *trials.judged;
+  const auto rigs = static_cast<std::size_t>(goal.rigs);
+  std::vector<double> met(rigs, 0.0);
+  std::vector<double> moves(rigs, 0.0);
+  for (std::size_t trial = 0; trial < goal.moves_in_goal.size(); ++trial) {
+    met[trial % rigs] += goal.moves_in_goal[trial];
+    moves[trial % rigs] += static_cast<double>(trials.moves);
+  }
+  for (std::size_t rig = 0; rig < rigs; ++rig)
+    met[rig] = met[rig] >= goal.goal.moves * moves[rig] ? 1.0 : 0.0;
+  return met;
+}
+
+/// The quality of each trial, or of each rig.
+std::vector<double> qualities_of(const PointTrials& trials, const GateMeasure& measure) {
+  switch (measure.statistic) {
+    case GateStatistic::moves:
+      return moves_in_goal(trials);
+    case GateStatistic::machines:
+      return rigs_in_goal(trials);
+    case GateStatistic::trials:
+    case GateStatistic::mean:
+    case GateStatistic::quantile:
+      break;
+  }
+  return trials.of(measure);
+}
+
+/// How far each trial (of machines: each rig) failed: 1 where it did, 0 where it did not. If less of the
+/// quality is worse, it failed where it lacks the quality; otherwise where it has it.
 std::vector<double> failures_of(const PointTrials& trials, const GateMeasure& measure) {
-  std::vector<double> failures = trials.of(measure);
-  if (measure.measure->gate->worse == layout::Worse::less) {
+  std::vector<double> failures = qualities_of(trials, measure);
+  if (measure.worse == layout::Worse::less) {
     for (double& quality : failures) quality = 1.0 - quality;
   }
   return failures;
 }
 
+/// The clusters in which the failures_of() are: the number of rigs or worlds, 0 where each is independent.
+std::int64_t clusters_of_failures(const PointTrials& trials, const GateMeasure& measure) {
+  return measure.statistic == GateStatistic::machines && trials.rigs == trials.judged->rigs ? 0 : trials.rigs;
+}
+
+/// Whether the failures_of() are independent, and each 0 or 1.
+bool are_whole(const PointTrials& trials, const GateMeasure& measure) {
+  return clusters_of_failures(trials, measure) == 0 &&
+         (measure.statistic != GateStatistic::moves || trials.moves == 1);
+}
+
 /// The proportion of trials with a quality, where a proportion `failures` of them failed.
 double proportion_with(const GateMeasure& measure, double failures) {
-  return measure.measure->gate->worse == layout::Worse::less ? 1.0 - failures : failures;
+  return measure.worse == layout::Worse::less ? 1.0 - failures : failures;
 }
 
 /// Failures as numbers: their means are the rates of failure.
@@ -89,7 +138,7 @@ ComparedValues compared_failures(const PointTrials& baseline, const PointTrials&
     for (std::size_t i = 0; i < values.baseline.size(); ++i)
       values.differences.push_back(values.current[i] - values.baseline[i]);
   }
-  return rig_values(values, baseline.rigs, current.rigs);
+  return rig_values(values, clusters_of_failures(baseline, measure), clusters_of_failures(current, measure));
 }
 
 /// @param baseline, current 1 for each trial that failed, else 0
@@ -101,6 +150,11 @@ PairedFailures paired_failures(const std::vector<double>& baseline, const std::v
     failures.only_baseline += baseline[trial] > current[trial];
   }
   return failures;
+}
+
+void take_p(MeasureComparison& result, const DirectionalP& p) {
+  result.p = p.worse;
+  result.improvement_p = p.better;
 }
 
 void compare_proportion(MeasureComparison& result, const GateMeasure& measure,
@@ -115,6 +169,7 @@ void compare_proportion(MeasureComparison& result, const GateMeasure& measure,
   result.baseline =
       proportion_with(measure, statistics::rate(counts.baseline_failures, counts.baseline_trials));
   result.current = proportion_with(measure, statistics::rate(counts.current_failures, counts.current_trials));
+  take_p(result, p_of_failures(baseline, current, paired));
   if (paired) {
     const PairedFailures failures = paired_failures(baseline, current);
     result.test = "McNemar, exact";
@@ -122,17 +177,12 @@ void compare_proportion(MeasureComparison& result, const GateMeasure& measure,
     result.effect = static_cast<double>(failures.only_current - failures.only_baseline) /
                     static_cast<double>(failures.pairs);
     result.bounds = tango(failures, confidence);
-    result.p = mcnemar(failures);
-    result.improvement_p = mcnemar({failures.pairs, failures.only_baseline, failures.only_current});
     return;
   }
   result.test = "Fisher, exact";
   result.effect = statistics::rate(counts.current_failures, counts.current_trials) -
                   statistics::rate(counts.baseline_failures, counts.baseline_trials);
   result.bounds = newcombe(counts, confidence);
-  result.p = fisher(counts);
-  result.improvement_p = fisher({counts.baseline_trials - counts.baseline_failures, counts.baseline_trials,
-                                 counts.current_trials - counts.current_failures, counts.current_trials});
 }
 
 /// Plausible difference of a single trial, the `unit` of cautious_bounds(): 1 for counts; for times the
@@ -151,19 +201,15 @@ std::string test_of_means(bool paired, bool over_rigs) {
 /// p is the larger of the p-values of a rank test and a t-test: both must show a change.
 void test_means(MeasureComparison& result, const ComparedValues& values, double unit, bool paired,
                 double confidence) {
-  MeanDifference worse;
   if (paired) {
-    worse = mean_difference(values.differences);
+    result.effect = mean_difference(values.differences).value;
     result.bounds = cautious_bounds(values.differences, unit, confidence);
-    result.p = std::max(signed_rank(values.differences), p_of(worse));
-    result.improvement_p = std::max(signed_rank(negated(values.differences)), 1.0 - p_of(worse));
+    take_p(result, p_of_differences(values.differences));
   } else {
-    worse = mean_difference(values.baseline, values.current);
+    result.effect = mean_difference(values.baseline, values.current).value;
     result.bounds = cautious_bounds(values.baseline, values.current, unit, confidence);
-    result.p = std::max(smirnov(values.baseline, values.current), p_of(worse));
-    result.improvement_p = std::max(smirnov(values.current, values.baseline), 1.0 - p_of(worse));
+    take_p(result, p_of_means(values.baseline, values.current));
   }
-  result.effect = worse.value;
 }
 
 void compare_mean(MeasureComparison& result, const GateMeasure& measure, const PointTrials& baseline,
@@ -182,20 +228,21 @@ void compare_mean(MeasureComparison& result, const GateMeasure& measure, const P
                               paired ? " in both files" : "");
     return;
   }
-  if (measure.measure->gate->worse == layout::Worse::less) {
+  if (measure.worse == layout::Worse::less) {
     values = {negated(values.baseline), negated(values.current), negated(values.differences)};
   }
   test_means(result, values, unit_of(measure, result.baseline, result.current), paired, confidence);
 }
 
-/// Compares the failure rates of the rigs. One more rig might fail in all of its trials, so the unit is 1.
-void compare_proportion_over_rigs(MeasureComparison& result, const GateMeasure& measure,
-                                  const ComparedValues& failures, bool paired, double confidence) {
+/// Compares the failure rates of rigs, or of trials with several moves. One more might fail in all of its
+/// moves, so the unit is 1.
+void compare_rates_of_units(MeasureComparison& result, const GateMeasure& measure,
+                            const ComparedValues& failures, bool paired, bool over_rigs, double confidence) {
   result.baseline_n = std::ssize(failures.baseline);
   result.current_n = std::ssize(failures.current);
   result.baseline = proportion_with(measure, mean_of(failures.baseline));
   result.current = proportion_with(measure, mean_of(failures.current));
-  result.test = test_of_means(paired, true);
+  result.test = test_of_means(paired, over_rigs);
   test_means(result, failures, 1.0, paired, confidence);
 }
 
@@ -211,7 +258,7 @@ MeasureSample sample_of_mean(const GateMeasure& measure, const PointTrials& base
   sample.current = means_of_units(values.current, current.rigs);
   const auto mean = [](const std::vector<double>& all) { return mean_of(means_by_rig(all, 0)); };
   sample.plausible = unit_of(measure, mean(sample.baseline), mean(sample.current));
-  if (measure.measure->gate->worse == layout::Worse::less) {
+  if (measure.worse == layout::Worse::less) {
     sample.baseline = negated(sample.baseline);
     sample.current = negated(sample.current);
   }
@@ -222,21 +269,128 @@ MeasureSample sample_of_proportion(const GateMeasure& measure, const PointTrials
                                    const PointTrials& current, bool paired) {
   MeasureSample sample;
   sample.paired = paired;
-  sample.proportion = baseline.rigs == 0 && current.rigs == 0;
-  sample.baseline = means_of_units(failures_of(baseline, measure), baseline.rigs);
-  sample.current = means_of_units(failures_of(current, measure), current.rigs);
+  sample.proportion = are_whole(baseline, measure) && are_whole(current, measure);
+  sample.baseline = means_of_units(failures_of(baseline, measure), clusters_of_failures(baseline, measure));
+  sample.current = means_of_units(failures_of(current, measure), clusters_of_failures(current, measure));
   return sample;
+}
+
+/// Probability of the quantile of the goal's settling time that is compared.
+constexpr double judged_quantile = 0.95;
+
+ClusteredValues clustered_times(const PointTrials& trials, const GateMeasure& measure) {
+  return {trials.of(measure), trials.moves, trials.rigs};
+}
+
+std::int64_t units_in(const PointTrials& trials) {
+  return trials.rigs > 0 ? std::min(trials.rigs, trials.trials) : trials.trials;
+}
+
+void compare_quantile(MeasureComparison& result, const GateMeasure& measure, const PointTrials& baseline,
+                      const PointTrials& current, bool paired, double confidence) {
+  const bool over_rigs = baseline.rigs > 0 || current.rigs > 0;
+  result.baseline_n = units_in(baseline);
+  result.current_n = units_in(current);
+  result.test = fmt::format("{} % quantile of all moves, by the moves later than that of both{}",
+                            100.0 * judged_quantile, over_rigs ? ", over rigs" : "");
+  if (std::min(result.baseline_n, result.current_n) < least_values) {
+    result.note = fmt::format("fewer than {} {}", least_values, over_rigs ? "rigs" : "trials");
+    return;
+  }
+  const QuantileDifference found =
+      quantile_difference(clustered_times(baseline, measure), clustered_times(current, measure), paired,
+                          judged_quantile, confidence);
+  result.baseline = found.baseline;
+  result.current = found.current;
+  if (std::isnan(found.effect)) {
+    result.note = "not within the hold in either";
+    return;
+  }
+  result.effect = found.effect;
+  result.bounds = found.bounds;
+  take_p(result, found.p);
+}
+
+/// A quantile is to first order the mean of what each unit has to do with it (Bahadur, Annals of Mathematical
+/// Statistics 37 (1966), 577): its proportion of moves later than the quantile, times the scale with which
+/// their mean varies as much as the bounds say.
+MeasureSample sample_of_quantile(const MeasureComparison& found, const GateMeasure& measure,
+                                 const PointTrials& baseline, const PointTrials& current, bool paired,
+                                 double confidence) {
+  const ClusteredValues before = clustered_times(baseline, measure);
+  const ClusteredValues after = clustered_times(current, measure);
+  const double x = pooled_quantile(before, after, judged_quantile);
+  MeasureSample sample;
+  sample.paired = paired;
+  sample.baseline = proportions_from(before, x);
+  sample.current = proportions_from(after, x);
+  std::vector<double> differences;
+  for (std::size_t i = 0; paired && i < sample.current.size(); ++i)
+    differences.push_back(sample.current[i] - sample.baseline[i]);
+  const MeanDifference mean =
+      paired ? mean_difference(differences) : mean_difference(sample.baseline, sample.current);
+  const double error = 0.5 * (found.bounds.high - found.bounds.low) / statistics::normal_quantile(confidence);
+  const double scale = mean.standard_error > 0.0 ? error / mean.standard_error : error;
+  const double rest = found.effect - scale * mean.value;
+  for (double& value : sample.baseline) value *= scale;
+  for (double& value : sample.current) value = scale * value + rest;
+  sample.plausible = std::max(scale, 1e-9);
+  return sample;
+}
+
+/// The larger of the two parts of a margin. Nothing is a proportion of a value that is unknown or infinite.
+double margin_at(const GateMargin& margin, double baseline) {
+  return std::isfinite(baseline) ? std::max(margin.absolute, margin.relative * std::abs(baseline))
+                                 : margin.absolute;
+}
+
+void compare_by_statistic(MeasureComparison& result, const GateMeasure& measure, const PointTrials& baseline,
+                          const PointTrials& current, bool paired, double confidence) {
+  if (measure.statistic == GateStatistic::quantile) {
+    compare_quantile(result, measure, baseline, current, paired, confidence);
+  } else if (!measure.proportion()) {
+    compare_mean(result, measure, baseline, current, paired, confidence);
+  } else if (are_whole(baseline, measure) && are_whole(current, measure)) {
+    compare_proportion(result, measure, baseline, current, paired, confidence);
+  } else {
+    compare_rates_of_units(result, measure, compared_failures(baseline, current, measure, paired), paired,
+                           baseline.rigs > 0 || current.rigs > 0, confidence);
+  }
+}
+
+/// Machines are judged by the moves that were seen of each, so both files must show as many.
+std::pair<PointTrials, PointTrials> as_many_moves(const PointTrials& baseline, const PointTrials& current) {
+  const std::int64_t each = std::min(baseline.trials / std::max<std::int64_t>(baseline.judged->rigs, 1),
+                                     current.trials / std::max<std::int64_t>(current.judged->rigs, 1));
+  const auto first = [&](const PointTrials& all) { return first_trials(all, each * all.judged->rigs); };
+  return {first(baseline), first(current)};
 }
 
 }  // namespace
 
-std::vector<MeasureSample> measure_samples(const GateRules& rules, const PointTrials& baseline,
-                                           const PointTrials& current, bool paired) {
+std::vector<GateMeasure> judged_measures(const GateRules& rules, const PointTrials& trials) {
+  const JudgedGoal goal = !trials.judged                 ? JudgedGoal::none
+                          : trials.judged->goal.machines ? JudgedGoal::of_machines
+                                                         : JudgedGoal::of_moves;
+  return judged_measures(rules, *trials.table, goal);
+}
+
+std::vector<MeasureSample> measure_samples(const GateRules& rules, std::span<const MeasureComparison> found,
+                                           const PointTrials& baseline, const PointTrials& current,
+                                           bool paired) {
   std::vector<MeasureSample> samples;
-  for (const GateMeasure& measure : gate_measures(*current.table)) {
-    if (!is_judged(rules, measure)) continue;
-    samples.push_back(measure.proportion() ? sample_of_proportion(measure, baseline, current, paired)
-                                           : sample_of_mean(measure, baseline, current, paired));
+  for (const GateMeasure& measure : judged_measures(rules, current)) {
+    if (measure.statistic == GateStatistic::machines) {
+      const auto [before, after] = as_many_moves(baseline, current);
+      samples.push_back(sample_of_proportion(measure, before, after, paired));
+    } else if (measure.statistic == GateStatistic::quantile) {
+      samples.push_back(
+          sample_of_quantile(found[samples.size()], measure, baseline, current, paired, rules.confidence));
+    } else if (measure.proportion()) {
+      samples.push_back(sample_of_proportion(measure, baseline, current, paired));
+    } else {
+      samples.push_back(sample_of_mean(measure, baseline, current, paired));
+    }
   }
   return samples;
 }
@@ -245,24 +399,20 @@ std::vector<MeasureComparison> compare_measures(const GateRules& rules, const st
                                                 const PointTrials& baseline, const PointTrials& current,
                                                 bool paired) {
   std::vector<MeasureComparison> results;
-  for (const GateMeasure& measure : gate_measures(*current.table)) {
-    if (!is_judged(rules, measure)) continue;
+  for (const GateMeasure& measure : judged_measures(rules, current)) {
     MeasureComparison result;
     result.measure = measure.name;
     result.unit = measure.unit;
-    if (!measure.proportion()) {
-      compare_mean(result, measure, baseline, current, paired, rules.confidence);
-    } else if (baseline.rigs > 0 || current.rigs > 0) {
-      compare_proportion_over_rigs(result, measure, compared_failures(baseline, current, measure, paired),
-                                   paired, rules.confidence);
+    if (measure.statistic == GateStatistic::machines) {
+      const auto [before, after] = as_many_moves(baseline, current);
+      compare_by_statistic(result, measure, before, after, paired, rules.confidence);
+      if (before.trials < baseline.trials || after.trials < current.trials)
+        result.note = fmt::format("by the first {} trials on each", after.trials / after.judged->rigs);
     } else {
-      compare_proportion(result, measure, baseline, current, paired, rules.confidence);
+      compare_by_statistic(result, measure, baseline, current, paired, rules.confidence);
     }
     const GateMargin margin = margin_of(rules, label, measure);
-    result.margin = margin.absolute;
-    if (!std::isnan(result.baseline)) {
-      result.margin = std::max(margin.absolute, margin.relative * std::abs(result.baseline));
-    }
+    result.margin = margin_at(margin, result.baseline);
     result.changed_fails = rules.changed_fails || margin.changed_fails;
     results.push_back(std::move(result));
   }

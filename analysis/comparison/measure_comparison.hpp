@@ -14,6 +14,9 @@ namespace zerocount::comparison {
 /// of arrivals shows the difference.
 inline constexpr std::int64_t least_values = 20;
 
+/// The measures that are judged at a point with these trials.
+std::vector<GateMeasure> judged_measures(const GateRules& rules, const PointTrials& trials);
+
 /// Tests all judged measures at one point. The verdicts follow in decide(), which controls the false
 /// discoveries over all points.
 /// @param paired whether trial i of both drew the same random numbers; both then have the same number of
@@ -33,8 +36,13 @@ struct MeasureSample {
 };
 
 /// The samples behind the results of compare_measures() with the same arguments, in the same order.
-std::vector<MeasureSample> measure_samples(const GateRules& rules, const PointTrials& baseline,
-                                           const PointTrials& current, bool paired);
+/// @param found these results; a quantile's sample follows from its effect and bounds
+std::vector<MeasureSample> measure_samples(const GateRules& rules, std::span<const MeasureComparison> found,
+                                           const PointTrials& baseline, const PointTrials& current,
+                                           bool paired);
+
+/// Whether the measure was tested, with bounds that a forecast can start from.
+bool has_finite_bounds(const TestedMeasure& measure);
 
 /// Adjusts the p-values of all measures of a comparison, and finds the verdict on the change of each.
 /// @param rate of false discoveries

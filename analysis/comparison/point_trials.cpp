@@ -9,16 +9,51 @@
 #include "analysis/statistics/unknown.hpp"
 
 namespace zerocount::comparison {
+namespace {
+
+/// @param first index of the first of these trials at its point
+void add_to_goal(GoalTrials& goal, std::int64_t first, std::int64_t moves,
+                 std::span<const trial::MoveOutcome> outcomes) {
+  for (auto move = outcomes.begin(); move != outcomes.end(); move += moves) {
+    const std::int64_t before = goal.counts.met;
+    count_moves(goal.counts, goal.counted, first++, goal.rigs, {move, move + moves});
+    goal.moves_in_goal.push_back(static_cast<double>(goal.counts.met - before));
+  }
+}
+
+/// Adds the settling times of the goal's band, s; of moves that do not settle infinity.
+void add_goal_times(PointTrials& trials, std::span<const trial::MoveOutcome> outcomes) {
+  std::vector<double>& times = trials.values["goal_settling_time"];
+  for (const trial::MoveOutcome& move : outcomes) {
+    const double time = move.bands[trials.judged->counted.slot].settling_time;
+    times.push_back(std::isnan(time) ? std::numeric_limits<double>::infinity() : time);
+  }
+}
+
+PointTrials empty_trials(std::int64_t moves, const layout::MeasureTable& table, const AlsoRead& also) {
+  PointTrials trials;
+  trials.moves = moves;
+  trials.table = &table;
+  trials.bands = also.bands;
+  trials.rigs = also.rigs;
+  const auto counted_by = [&](const std::optional<TrialGoal>& goal) -> std::optional<GoalTrials> {
+    if (!goal) return std::nullopt;
+    GoalTrials counted{*goal, also.goal_rigs, {}, {}};
+    counted.counts.worlds = also.worlds;
+    return counted;
+  };
+  trials.required = counted_by(also.required);
+  trials.judged = counted_by(also.judged);
+  return trials;
+}
+
+}  // namespace
 
 void add_trials(PointTrials& trials, std::span<const trial::MoveOutcome> outcomes) {
-  if (trials.counted) {
-    std::int64_t index = trials.trials;
-    for (auto move = outcomes.begin(); move != outcomes.end(); move += trials.moves) {
-      const std::int64_t before = trials.goal_counts.met;
-      count_moves(trials.goal_counts, *trials.counted, index++, trials.goal_rigs,
-                  {move, move + trials.moves});
-      trials.moves_in_goal.push_back(static_cast<double>(trials.goal_counts.met - before));
-    }
+  if (trials.required) add_to_goal(*trials.required, trials.trials, trials.moves, outcomes);
+  if (trials.judged) {
+    add_to_goal(*trials.judged, trials.trials, trials.moves, outcomes);
+    add_goal_times(trials, outcomes);
   }
   trials.trials += std::ssize(outcomes) / trials.moves;
   std::vector<GateMeasure> gathered = gate_measures(*trials.table);
@@ -39,24 +74,19 @@ void add_trials(PointTrials& trials, std::span<const trial::MoveOutcome> outcome
 
 PointTrials gather_trials(std::span<const trial::MoveOutcome> outcomes, std::int64_t moves,
                           const layout::MeasureTable& table) {
-  PointTrials result;
-  result.moves = moves;
-  result.table = &table;
+  return gather_trials(outcomes, moves, {}, table);
+}
+
+PointTrials gather_trials(std::span<const trial::MoveOutcome> outcomes, std::int64_t moves,
+                          const AlsoRead& also, const layout::MeasureTable& table) {
+  PointTrials result = empty_trials(moves, table, also);
   add_trials(result, outcomes);
   return result;
 }
 
 PointTrials read_point_trials(const reading::StudyFile& file, std::int64_t point, std::int64_t trials,
                               const AlsoRead& also) {
-  PointTrials result;
-  result.moves = file.moves();
-  result.table = &file.table();
-  result.bands = also.bands;
-  result.goal = also.goal;
-  result.counted = also.counted;
-  result.rigs = also.rigs;
-  result.goal_rigs = also.goal_rigs;
-  result.goal_counts.worlds = also.worlds;
+  PointTrials result = empty_trials(file.moves(), file.table(), also);
   measures::visit_blocks(
       file, {point * file.header().trials, trials},
       [&](layout::RowRange, std::span<const trial::MoveOutcome> outcomes) { add_trials(result, outcomes); });
@@ -69,6 +99,7 @@ PointTrials first_trials(const PointTrials& all, std::int64_t trials) {
   for (auto& [name, values] : some.values)
     values.resize(values.size() / static_cast<std::size_t>(all.trials) *
                   static_cast<std::size_t>(some.trials));
+  if (some.judged) some.judged->moves_in_goal.resize(static_cast<std::size_t>(some.trials));
   return some;
 }
 

@@ -16,26 +16,47 @@
 
 namespace zerocount::comparison {
 
+/// A goal, as the trials of a file are counted by it.
+struct TrialGoal {
+  study::Goal goal{};
+  measures::CountedGoal counted{};
+};
+
+/// The trials of one design point as a goal counts them.
+struct GoalTrials : TrialGoal {
+  std::int64_t rigs{0};  ///< number of rigs, also of a study with worlds; 0: none
+  measures::MoveCounts counts{};
+  std::vector<double> moves_in_goal{};  ///< [trial]
+};
+
 /// The compared values of the trials of one design point.
 struct PointTrials {
   std::int64_t trials{0};
   std::int64_t moves{0};  ///< of each
   /// [name of the gate measure] of qualities, as 1 or 0, and of sums: [trial]; of other measures:
-  /// [trial][move], flattened, NaN where a move has no value.
+  /// [trial][move], flattened, NaN where a move has no value; of goal_settling_time infinity where the error
+  /// does not settle.
   std::map<std::string, std::vector<double>, std::less<>> values{};
   measures::UndecidedMoves undecided{};  ///< of all moves
   std::int64_t rigs{0};  ///< number of rigs, or of worlds: trial i on rig i mod rigs; 0: no trials share one
-  std::int64_t goal_rigs{0};  ///< number of rigs, also of a study with worlds
   const layout::MeasureTable* table{&layout::measure_table()};
-  std::vector<GateMeasure> bands{};                ///< measures of error bands that have values, too
-  std::optional<study::Goal> goal{};               ///< that the trials are counted by
-  std::optional<measures::CountedGoal> counted{};  ///< likewise
-  measures::MoveCounts goal_counts{};
-  std::vector<double> moves_in_goal{};  ///< [trial]
+  std::vector<GateMeasure> bands{};      ///< measures of error bands that have values, too
+  std::optional<GoalTrials> required{};  ///< by the goal that a requirement asks for
+  std::optional<GoalTrials> judged{};    ///< by the goal whose measures are judged
 
   const std::vector<double>& of(const GateMeasure& measure) const {
     return values.find(measure.name)->second;
   }
+};
+
+/// Parts of the trials that are read besides the gate measures.
+struct AlsoRead {
+  std::vector<GateMeasure> bands{};  ///< measures of error bands, which the file has
+  std::optional<TrialGoal> required{};
+  std::optional<TrialGoal> judged{};
+  std::int64_t rigs{0};       ///< as PointTrials::rigs
+  std::int64_t goal_rigs{0};  ///< as GoalTrials::rigs
+  std::int64_t worlds{0};     ///< of the study
 };
 
 /// Adds trials, from the outcomes of all their moves, [trial][move], flattened.
@@ -45,16 +66,9 @@ void add_trials(PointTrials& trials, std::span<const trial::MoveOutcome> outcome
 /// @param moves of each trial
 PointTrials gather_trials(std::span<const trial::MoveOutcome> outcomes, std::int64_t moves,
                           const layout::MeasureTable& table = layout::measure_table());
-
-/// Parts of the trials that are read besides the gate measures.
-struct AlsoRead {
-  std::vector<GateMeasure> bands{};  ///< measures of error bands, which the file has
-  std::optional<study::Goal> goal{};
-  std::optional<measures::CountedGoal> counted{};
-  std::int64_t rigs{0};       ///< as PointTrials::rigs
-  std::int64_t goal_rigs{0};  ///< likewise
-  std::int64_t worlds{0};     ///< of the study
-};
+/// With the parts that are `also` asked for.
+PointTrials gather_trials(std::span<const trial::MoveOutcome> outcomes, std::int64_t moves,
+                          const AlsoRead& also, const layout::MeasureTable& table = layout::measure_table());
 
 /// The first `trials` trials of design point `point` of a whole study.
 /// @throws Failure (bad_data) where the file is damaged.

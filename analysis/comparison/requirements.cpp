@@ -104,11 +104,13 @@ void judge_mean(RequirementResult& result, const std::vector<double>& values, do
 
 /// The verdict of the goal; its confidence is that of the manifest.
 void judge_goal(RequirementResult& result, const PointTrials& trials) {
-  const goal::Verdict verdict = goal::judge_goal(*trials.goal, trials.goal_counts, 1);
-  const bool machines = trials.goal->machines.has_value();
+  const study::Goal& asked = trials.required->goal;
+  const measures::MoveCounts& counts = trials.required->counts;
+  const goal::Verdict verdict = goal::judge_goal(asked, counts, 1);
+  const bool machines = asked.machines.has_value();
   const goal::BoundedProportion& judged = machines ? verdict.machines : verdict.moves;
-  result.n = machines ? std::ssize(trials.goal_counts.rigs) : trials.goal_counts.moves;
-  result.limit = machines ? *trials.goal->machines : trials.goal->moves;
+  result.n = machines ? std::ssize(counts.rigs) : counts.moves;
+  result.limit = machines ? *asked.machines : asked.moves;
   result.value = judged.value;
   result.bounds = {judged.low, judged.high};
   result.verdict = verdict.status == goal::Status::met      ? GateVerdict::passed
@@ -132,14 +134,15 @@ RequirementSample by_group(RequirementSample sample, std::int64_t groups) {
 /// The moves of each rig or trial that meet the goal; if the goal asks for machines, whether the rig meets
 /// it.
 RequirementSample goal_sample(const PointTrials& trials) {
-  const study::Goal& goal = *trials.goal;
+  const GoalTrials& counted = *trials.required;
+  const study::Goal& goal = counted.goal;
   RequirementSample sample{RequirementKind::goal, true, goal.machines.value_or(goal.moves), true, {}, {}};
   const std::size_t units =
-      trials.goal_rigs > 0 ? static_cast<std::size_t>(trials.goal_rigs) : trials.moves_in_goal.size();
+      counted.rigs > 0 ? static_cast<std::size_t>(counted.rigs) : counted.moves_in_goal.size();
   sample.hits.assign(units, 0.0);
   sample.events.assign(units, 0.0);
-  for (std::size_t trial = 0; trial < trials.moves_in_goal.size(); ++trial) {
-    sample.hits[trial % units] += trials.moves_in_goal[trial];
+  for (std::size_t trial = 0; trial < counted.moves_in_goal.size(); ++trial) {
+    sample.hits[trial % units] += counted.moves_in_goal[trial];
     sample.events[trial % units] += static_cast<double>(trials.moves);
   }
   if (!goal.machines) return by_group(std::move(sample), trials.rigs);

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/comparison/comparison_report.hpp"
-#include "analysis/comparison/gate_rules.hpp"
+#include "analysis/goal/goal_text.hpp"
 #include "analysis/report/html.hpp"
 #include "analysis/report/report_sections.hpp"
 #include "analysis/text/text.hpp"
@@ -130,9 +130,10 @@ Figure margins_figure(const comparison::StudyComparison& comparison,
   return figure;
 }
 
-/// Figure of the change of the success rate at each point.
+/// Figure of the change at each point of the success rate, or of the proportion of moves that meet the goal.
 Figure success_change(const comparison::StudyComparison& comparison,
                       const std::vector<ComparedMeasure>& measures) {
+  const std::string_view rate = comparison.goal ? "goal_rate" : "success_rate";
   FigureData data{"changes",
                   {{"label", "point", ""},
                    {"change", "change", "percentage points"},
@@ -141,24 +142,25 @@ Figure success_change(const comparison::StudyComparison& comparison,
                    {"verdict", "verdict", ""},
                    {"margin", "margin", "percentage points"}}};
   for (const ComparedMeasure& one : measures) {
-    if (one.measure->measure != comparison::gate_measures().front().name || data.rows.size() == max_bars)
-      continue;
+    if (one.measure->measure != rate || data.rows.size() == max_bars) continue;
     data.rows.push_back(ordered_json::array(
         {one.point->label, datum(-100.0 * one.measure->effect), datum(-100.0 * one.measure->bounds.high),
          datum(-100.0 * one.measure->bounds.low), std::string(comparison::to_string(one.measure->change)),
          datum(-100.0 * one.measure->margin)}));
   }
   std::string caption = fmt::format(
-      "Success rate of each point minus that of the baseline (dot), with {:.0f} % bounds (bar). The tick is "
-      "the "
+      "{} of each point minus that of the baseline (dot), with {:.0f} % bounds (bar). The tick is the "
       "margin: the largest accepted loss. A point passes if its whole bar lies right of the tick. ",
+      comparison.goal ? "Proportion of moves that meet the goal" : "Success rate",
       100.0 * comparison.confidence);
   if (comparison.points.size() > max_bars)
     caption += fmt::format("Shown are the {} of {} points with the worst verdicts. ", max_bars,
                            comparison.points.size());
   const std::size_t bars = data.rows.size();
-  Figure figure = figure_of("success-change", "success-change", "Success against the baseline", caption,
-                            {std::move(data)});
+  Figure figure =
+      figure_of("success-change", "success-change",
+                comparison.goal ? "The goal against the baseline" : "Success against the baseline", caption,
+                {std::move(data)});
   set_rows(figure, bars, 24);
   return figure;
 }
@@ -173,6 +175,8 @@ PageSection comparison_section(const comparison::StudyComparison& comparison) {
                   html_prose(comparison::verdict_sentence(comparison)), html_text(comparison.layer_reason)) +
       html_facts(
           {{"Baseline", file_text(comparison.baseline)}, {"This study", file_text(comparison.current)}});
+  if (comparison.goal)
+    section.html += fmt::format("<p>Goal: {}</p>\n", html_text(goal::goal_sentence(*comparison.goal)));
   for (const std::string& note : comparison.notes)
     section.html += fmt::format("<p>{}</p>\n", html_text(note));
   section.html += differences_table(comparison);

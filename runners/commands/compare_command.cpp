@@ -24,7 +24,8 @@ namespace {
 
 constexpr const char* compare_help =
     "The regression gate: is FILE as good as BASELINE? Every design point is judged by its rates\n"
-    "of success, arrival and stability, its settling times and its jerks.\n"
+    "of success, arrival and stability, its settling times and its jerks; where a manifest has a\n"
+    "goal, by that alone: the moves and machines that meet it, and the settling time in its band.\n"
     "\n"
     "The same study run by the same build must give bitwise equal data. If trial i has the same\n"
     "random numbers in both files, trials are compared pairwise; otherwise distributions are\n"

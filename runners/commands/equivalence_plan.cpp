@@ -134,11 +134,11 @@ struct EquivalencePlan {
 comparison::ForecastPoint planned_point(EquivalencePlan& plan, const std::string& label,
                                         const comparison::PointTrials& trials) {
   const auto found = comparison::compare_measures(plan.rules, label, trials, trials, false);
-  const auto samples = comparison::measure_samples(plan.rules, trials, trials, false);
+  const auto samples = comparison::measure_samples(plan.rules, found, trials, trials, false);
   comparison::ForecastPoint point{plan.pilot, plan.pilot, {}, {}, {}};
   for (std::size_t k = 0; k < found.size(); ++k) {
     const comparison::MeasureComparison& one = found[k];
-    if (std::isnan(one.p)) continue;
+    if (!comparison::has_finite_bounds(one)) continue;
     point.measures.push_back(samples[k]);
     point.found.push_back(one);
     plan.measures.push_back({label, one});

@@ -16,10 +16,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const comparison::GateRules rules = comparison::parse_gate_rules(text, "margins.yaml", labels);
     for (const std::string& label : labels) {
       comparison::requirements_of(rules, label);
-      for (const comparison::GateMeasure& measure : comparison::gate_measures()) {
-        comparison::is_judged(rules, measure);
+      for (const comparison::GateMeasure& measure :
+           comparison::judged_measures(rules, layout::measure_table(), comparison::JudgedGoal::of_machines))
         comparison::margin_of(rules, label, measure);
-      }
     }
   });
   return 0;

@@ -53,6 +53,53 @@ TEST_F(Compare, TheSameStudyAgainPasses) {
   EXPECT_EQ(json["verdict"], "passed");
 }
 
+// A gain with which moves come in late fails, although zero counts and jerks would pass it.
+TEST_F(Compare, JudgesAStudyWithAGoalByThatAndNothingElse) {
+  const std::string goal = "goal: {band: 1, within: 0.02, moves: 0.9}\n";
+  study("a", gains("3.5e-5", 300) + goal, {"--force"});
+  study("b", gains("2.2e-5", 300) + "goal: {band: 1, within: 0.03, moves: 0.9}\n", {"--force"});
+  study("slow", gains("3.5e-5", 300) + goal, {"--force", "--set", "controller.delay=1.5"});
+  study("plain", gains("3.5e-5", 300), {"--force"});
+  const auto measures_of = [](const nlohmann::json& json) {
+    std::vector<std::string> names;
+    for (const auto& measure : json["points"][0]["measures"]) names.push_back(measure["measure"]);
+    return names;
+  };
+  const std::vector<std::string> of_goal{"goal_rate", "goal_settling_time"};
+  const nlohmann::json better = compared("a", "b", 0);
+  EXPECT_EQ(measures_of(better), of_goal);
+  EXPECT_NE(better["notes"].dump().find("judged by that of a.h5"), std::string::npos) << better["notes"];
+  const nlohmann::json worse = compared("a", "slow", 1);
+  EXPECT_EQ(measures_of(worse), of_goal);
+  EXPECT_EQ(worse["points"][0]["measures"][1]["verdict"], "worse");
+  EXPECT_EQ(worse["points"][0]["goal"]["baseline"], "met");
+  EXPECT_EQ(measures_of(compared("plain", "a", 0)), of_goal);  // of either manifest
+  EXPECT_EQ(measures_of(compared("plain", "plain", 0)).size(), 5u);
+
+  const ProgramResult points = run({"compare", "a.h5", "--points", "low", "high"});
+  EXPECT_NE(points.out.find("goal_settling_time"), std::string::npos) << points.out;
+  EXPECT_EQ(points.out.find("jerk_count"), std::string::npos) << points.out;
+  const ProgramResult junit = run({"compare", "a.h5", "slow.h5", "--format", "junit"});
+  EXPECT_NE(junit.out.find("name=\"low: goal_settling_time\"><failure"), std::string::npos) << junit.out;
+  const ProgramResult markdown = run({"compare", "a.h5", "slow.h5", "--format", "markdown"});
+  EXPECT_NE(markdown.out.find("**worse**"), std::string::npos) << markdown.out;
+  run({"report", "slow.h5", "-o", "slow.html", "--baseline", "a.h5"});
+  EXPECT_NE(folder_.read("slow.html").find("goal_settling_time"), std::string::npos);
+
+  folder_.write("others.yaml", "measures: [stable_rate]\n");
+  const ProgramResult others = run({"compare", "a.h5", "slow.h5", "--margins", "others.yaml"});
+  EXPECT_NE(others.out.find("low stable_rate"), std::string::npos) << others.out;
+  EXPECT_EQ(others.out.find("goal"), std::string::npos) << others.out;
+  folder_.write("goal.yaml", "measures: [goal_rate]\n");
+  const ProgramResult none = run({"compare", "plain.h5", "plain.h5", "--margins", "goal.yaml"});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_NE(none.err.find("plain.h5: its manifest has no goal"), std::string::npos) << none.err;
+  study("wide", gains("3.5e-5", 300) + "goal: {band: 3, within: 0.02, moves: 0.9}\n", {"--force"});
+  const ProgramResult no_band = run({"compare", "plain.h5", "wide.h5"});
+  EXPECT_EQ(no_band.code, 4);
+  EXPECT_NE(no_band.err.find("plain.h5: it cannot be judged by the goal"), std::string::npos) << no_band.err;
+}
+
 // The verdict of the goal is that of judge, the quantile of a band that of the stored statistics.
 TEST_F(Compare, RequiresTheGoalAndTimesOfErrorBands) {
   for (const std::string rigs : {"", "rigs: 100\n"}) {

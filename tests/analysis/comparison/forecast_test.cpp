@@ -58,7 +58,7 @@ Compared compare(const StudyPair& pair, const PairTrials& trials, const GateRule
     const comparison::PointTrials after = synthetic_trials(pair.after[i], trials.after);
     comparison::PointComparison& point = compared.emplace_back();
     point.measures = comparison::compare_measures(rules, "", before, after, pair.paired);
-    const auto samples = comparison::measure_samples(rules, before, after, pair.paired);
+    const auto samples = comparison::measure_samples(rules, point.measures, before, after, pair.paired);
     ForecastPoint& forecast = result.points.emplace_back();
     forecast.baseline_trials = forecast.current_trials = before.trials;
     for (std::size_t k = 0; k < samples.size(); ++k) {

@@ -47,8 +47,11 @@ points:
   EXPECT_EQ(comparison::margin_of(rules, "b-with-kp", settling).relative, 0.1);
   EXPECT_TRUE(comparison::margin_of(rules, "a", settling).changed_fails);
   EXPECT_FALSE(rules.changed_fails);
-  EXPECT_TRUE(comparison::is_judged(rules, settling));
-  EXPECT_FALSE(comparison::is_judged(rules, *comparison::find_gate_measure("jerk_count")));
+  std::vector<std::string> judged;
+  for (const comparison::GateMeasure& one :
+       comparison::judged_measures(rules, layout::measure_table(), comparison::JudgedGoal::of_machines))
+    judged.emplace_back(one.name);
+  EXPECT_EQ(judged, (std::vector<std::string>{"success_rate", "settling_time"}));
   ASSERT_EQ(comparison::requirements_of(rules, "a").size(), 1u);
   ASSERT_EQ(comparison::requirements_of(rules, "b-with-kp").size(), 3u);
   EXPECT_EQ(comparison::requirements_of(rules, "b-with-kp")[2].limit, 0.2);
@@ -80,7 +83,8 @@ TEST(MarginsFile, TellsEveryMistakeWithItsPlace) {
             "false_discovery_rate, fail_on, measures, margins, require, points");
   EXPECT_EQ(fault("margins: {sucess_rate: 0.1}\n"),
             "gate.yaml:1:11: margins.sucess_rate: unknown key, nearest known: success_rate; expected one of "
-            "success_rate, arrival_rate, stable_rate, settling_time, jerk_count");
+            "goal_rate, goal_machines, goal_settling_time, success_rate, arrival_rate, stable_rate, "
+            "settling_time, jerk_count");
   EXPECT_EQ(
       fault("margins: {success_rate: {}}\n"),
       "gate.yaml:1:25: margins.success_rate: the margin has no size; expected absolute or relative, or both");
@@ -100,10 +104,10 @@ TEST(MarginsFile, TellsEveryMistakeWithItsPlace) {
             "gate.yaml:1:11: require.0: 99.5 is not a proportion; expected a number from 0 to 1");
   EXPECT_EQ(fault("require: settling_time.p95 ≥ 0.1\n"),
             "gate.yaml:1:10: require: a least settling_time.p95 is asked for; expected ≤ and a limit");
-  EXPECT_EQ(
-      fault("measures: []\n"),
-      "gate.yaml:1:11: measures: the list is empty; expected a list of some of success_rate, arrival_rate, "
-      "stable_rate, settling_time, jerk_count");
+  EXPECT_EQ(fault("measures: []\n"),
+            "gate.yaml:1:11: measures: the list is empty; expected a list of some of goal_rate, "
+            "goal_machines, goal_settling_time, success_rate, arrival_rate, stable_rate, settling_time, "
+            "jerk_count");
   const std::string both = fault("margins: {success_rate: -1, jerk_count: no}\nconfidence: 2\n");
   EXPECT_NE(both.find("gate.yaml:1:25: margins.success_rate: "), std::string::npos) << both;
   EXPECT_NE(both.find("gate.yaml:1:41: margins.jerk_count: 'no' is a truth value; "), std::string::npos)

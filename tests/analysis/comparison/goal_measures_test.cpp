@@ -1,0 +1,220 @@
+// Studies with a goal are compared by it: how often that is wrong, and that it sees what there is.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "analysis/comparison/measure_comparison.hpp"
+#include "analysis/comparison/quantile_tests.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+using comparison::ChangeVerdict;
+using comparison::MeasureComparison;
+using comparison::PointTrials;
+
+/// How the machines of a study settle, and how many moves are seen of each.
+struct Machines {
+  std::int64_t rigs{0};  ///< 0: every trial on one of its own
+  std::int64_t trials{200};
+  std::int64_t moves{1};
+  double median{0.02};  ///< of the settling times, s
+  double of_rigs{0.2};  ///< sd of the logarithms of the medians of the rigs
+  double never{0.0};    ///< probability that a move does not settle
+  double shift{0.0};    ///< s, that every move is later
+};
+
+/// The trials of a study with the seed `draws`; `again` redraws some of them.
+PointTrials settled_trials(const Machines& machines, unsigned draws, unsigned again = 0) {
+  constexpr double sample = 1e-4;
+  constexpr double redrawn = 0.3;
+  std::mt19937_64 of_draws(draws);
+  std::mt19937_64 of_change(again);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform;
+  std::vector<double> of_rigs;
+  for (std::int64_t rig = 0; rig < std::max(machines.rigs, machines.trials); ++rig)
+    of_rigs.push_back(std::exp(machines.of_rigs * normal(of_draws)));
+  std::vector<trial::MoveOutcome> outcomes;
+  for (std::int64_t i = 0; i < machines.trials; ++i) {
+    const double rig = of_rigs[static_cast<std::size_t>(machines.rigs > 0 ? i % machines.rigs : i)];
+    for (std::int64_t move = 0; move < machines.moves; ++move) {
+      double z = normal(of_draws);
+      double u = uniform(of_draws);
+      const double z_again = normal(of_change);
+      const double u_again = uniform(of_change);
+      if (again > 0 && uniform(of_change) < redrawn) {
+        z = z_again;
+        u = u_again;
+      }
+      trial::MoveOutcome outcome;
+      const double time = machines.median * rig * std::exp(0.1 * z) + machines.shift;
+      if (u >= machines.never) outcome.bands[0].settling_time = sample * std::round(time / sample);
+      outcomes.push_back(outcome);
+    }
+  }
+  comparison::AlsoRead also;
+  also.rigs = also.goal_rigs = machines.rigs;
+  const std::optional<double> asked = machines.rigs > 0 ? std::optional(0.9) : std::nullopt;
+  also.judged = {{.band = 0, .within = 0.03, .moves = 0.9, .machines = asked}, {0, 0.03}};
+  return comparison::gather_trials(outcomes, machines.moves, also);
+}
+
+std::vector<MeasureComparison> compare_settled(const PointTrials& before, const PointTrials& after,
+                                               bool paired, const comparison::GateRules& rules = {}) {
+  std::vector<comparison::PointComparison> points(1);
+  points[0].measures = comparison::compare_measures(rules, "", before, after, paired);
+  comparison::decide(points, rules);
+  return points[0].measures;
+}
+
+/// Studies whose trials are independent, have several moves, or share rigs; paired or not.
+struct Layer {
+  Machines machines;
+  bool paired;
+};
+std::vector<Layer> layers() {
+  std::vector<Layer> all;
+  for (const bool paired : {false, true}) {
+    all.push_back({{.trials = 200}, paired});
+    all.push_back({{.trials = 100, .moves = 3}, paired});
+    all.push_back({{.rigs = 60, .trials = 240, .moves = 2, .never = 0.02}, paired});
+  }
+  return all;
+}
+
+std::vector<std::string> measure_names(const std::vector<MeasureComparison>& measures) {
+  std::vector<std::string> names;
+  for (const MeasureComparison& measure : measures) names.push_back(measure.measure);
+  return names;
+}
+
+TEST(GoalMeasures, AreJudgedInPlaceOfTheOthersUnlessTheRulesNameThese) {
+  using Names = std::vector<std::string>;
+  const PointTrials of_moves = settled_trials({}, 1);
+  const PointTrials of_machines = settled_trials({.rigs = 50}, 1);
+  const auto names = [](const comparison::GateRules& rules, const PointTrials& trials) {
+    return measure_names(comparison::compare_measures(rules, "a", trials, trials, true));
+  };
+  EXPECT_EQ(names({}, of_moves), (Names{"goal_rate", "goal_settling_time"}));
+  EXPECT_EQ(names({}, of_machines), (Names{"goal_rate", "goal_machines", "goal_settling_time"}));
+  comparison::GateRules rules;
+  rules.margins_at["b"]["jerk_count"] = {};  // a margin that had no effect would be ignored
+  EXPECT_EQ(names(rules, of_moves), (Names{"goal_rate", "goal_settling_time", "jerk_count"}));
+  rules.measures = {"stable_rate", "goal_machines"};
+  EXPECT_EQ(names(rules, of_machines), (Names{"goal_machines", "stable_rate"}));
+  PointTrials without = of_moves;
+  without.judged.reset();
+  EXPECT_EQ(names({}, without).front(), "success_rate");
+}
+
+TEST(GoalMeasures, RaiseFalseAlarmsNoMoreOftenThanStated) {
+  constexpr int comparisons = 120;
+  constexpr double rate = 0.2;
+  comparison::GateRules rules;
+  rules.false_discovery_rate = rate;
+  for (const comparison::GateMeasure& measure : comparison::goal_measures())
+    rules.margins[std::string(measure.name)] = {};
+  for (const auto& [machines, paired] : layers()) {
+    int alarms = 0;
+    int improvements = 0;
+    int small = 0;  // p at most the rate, of the times alone, without adjustment
+    for (unsigned seed = 1; seed <= comparisons; ++seed) {
+      const auto measures = compare_settled(
+          settled_trials(machines, seed),
+          paired ? settled_trials(machines, seed, seed) : settled_trials(machines, 1000 + seed), paired,
+          rules);
+      const auto any = [&](ChangeVerdict change) {
+        return std::ranges::any_of(measures, [&](const auto& one) { return one.change == change; });
+      };
+      alarms += any(ChangeVerdict::worse);
+      improvements += any(ChangeVerdict::better);
+      small += measures.back().p <= rate;
+    }
+    const std::string which = std::to_string(machines.moves) + (paired ? " moves, paired" : " moves");
+    EXPECT_LE(alarms, comparisons * rate) << which;
+    EXPECT_LE(improvements, comparisons * rate) << which;
+    EXPECT_LE(small, comparisons * rate + 3.0 * std::sqrt(comparisons * rate * (1.0 - rate))) << which;
+    EXPECT_GT(small, 0) << which;  // the level is used, not only kept
+  }
+}
+
+TEST(GoalMeasures, BoundTheDifferenceOfTheTimesAsOftenAsStated) {
+  constexpr int comparisons = 150;
+  constexpr double shift = 2e-3;
+  for (const auto& [machines, paired] : layers()) {
+    int too_low = 0;
+    int too_high = 0;
+    Machines later = machines;
+    later.shift = shift;
+    for (unsigned seed = 1; seed <= comparisons; ++seed) {
+      const MeasureComparison time =
+          compare_settled(settled_trials(machines, seed),
+                          paired ? settled_trials(later, seed, seed) : settled_trials(later, 1000 + seed),
+                          paired)
+              .back();
+      EXPECT_LE(time.bounds.low, time.effect + 1e-4);
+      EXPECT_GE(time.bounds.high, time.effect - 1e-4);
+      too_low += time.bounds.high < shift;
+      too_high += time.bounds.low > shift;
+    }
+    const double allowed = 0.05 * comparisons + 3.0 * std::sqrt(0.05 * 0.95 * comparisons);
+    EXPECT_LE(too_low, allowed) << machines.moves << paired;
+    EXPECT_LE(too_high, allowed) << machines.moves << paired;
+  }
+}
+
+TEST(GoalMeasures, FindARealWorsening) {
+  for (const auto& [machines, paired] : layers()) {
+    Machines many = machines;
+    many.trials *= 3;
+    many.rigs *= 3;
+    Machines worse = many;
+    worse.median *= 1.3;  // of the times; more of them come too late
+    for (unsigned seed = 1; seed <= 10; ++seed) {
+      const auto found = compare_settled(
+          settled_trials(many, seed),
+          paired ? settled_trials(worse, seed, seed) : settled_trials(worse, 1000 + seed), paired);
+      EXPECT_EQ(found.front().change, ChangeVerdict::worse) << machines.moves << paired << seed;
+      EXPECT_EQ(found.back().change, ChangeVerdict::worse) << machines.moves << paired << seed;
+    }
+  }
+}
+
+TEST(GoalMeasures, AMoveThatNeverSettlesIsLaterThanAnyTime) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const Machines settling{.trials = 2000, .never = 0.03};
+  Machines lost = settling;
+  lost.never = 0.08;
+  const MeasureComparison worse =
+      compare_settled(settled_trials(settling, 1), settled_trials(lost, 2), false).back();
+  EXPECT_TRUE(std::isfinite(worse.baseline));
+  EXPECT_EQ(worse.current, infinity);
+  EXPECT_EQ(worse.effect, infinity);
+  EXPECT_EQ(worse.change, ChangeVerdict::worse);
+  const MeasureComparison better =
+      compare_settled(settled_trials(lost, 2), settled_trials(settling, 1), false).back();
+  EXPECT_EQ(better.effect, -infinity);
+  EXPECT_EQ(better.change, ChangeVerdict::better);
+  const MeasureComparison neither =
+      compare_settled(settled_trials(lost, 1), settled_trials(lost, 2), false).back();
+  EXPECT_EQ(neither.verdict, comparison::GateVerdict::not_measured);
+}
+
+// Half as many trials on each rig show more rigs without a miss; they are no better.
+TEST(GoalMeasures, JudgeMachinesByAsManyMovesOfEach) {
+  const Machines few{.rigs = 200, .trials = 400};
+  Machines many = few;
+  many.trials = 4000;
+  const auto of_machines = [](const std::vector<MeasureComparison>& all) { return all[1]; };
+  const MeasureComparison found =
+      of_machines(compare_settled(settled_trials(many, 1), settled_trials(few, 2), false));
+  EXPECT_NE(found.note.find("first 2 trials on each"), std::string::npos) << found.note;
+  EXPECT_NEAR(found.effect, 0.0, 0.1);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -55,7 +55,7 @@ TEST_F(Compare, TheSameStudyAgainPasses) {
 
 // A gain with which moves come in late fails, although zero counts and jerks would pass it.
 TEST_F(Compare, JudgesAStudyWithAGoalByThatAndNothingElse) {
-  const std::string goal = "goal: {band: 1, within: 0.02, moves: 0.9}\n";
+  const std::string goal = "goal: {band: 1, within: 0.022, moves: 0.9}\n";
   study("a", gains("3.5e-5", 300) + goal, {"--force"});
   study("b", gains("2.2e-5", 300) + "goal: {band: 1, within: 0.03, moves: 0.9}\n", {"--force"});
   study("slow", gains("3.5e-5", 300) + goal, {"--force", "--set", "controller.delay=1.5"});
@@ -94,7 +94,7 @@ TEST_F(Compare, JudgesAStudyWithAGoalByThatAndNothingElse) {
   const ProgramResult none = run({"compare", "plain.h5", "plain.h5", "--margins", "goal.yaml"});
   EXPECT_EQ(none.code, 2);
   EXPECT_NE(none.err.find("plain.h5: its manifest has no goal"), std::string::npos) << none.err;
-  study("wide", gains("3.5e-5", 300) + "goal: {band: 3, within: 0.02, moves: 0.9}\n", {"--force"});
+  study("wide", gains("3.5e-5", 300) + "goal: {band: 3, within: 0.022, moves: 0.9}\n", {"--force"});
   const ProgramResult no_band = run({"compare", "plain.h5", "wide.h5"});
   EXPECT_EQ(no_band.code, 4);
   EXPECT_NE(no_band.err.find("plain.h5: it cannot be judged by the goal"), std::string::npos) << no_band.err;

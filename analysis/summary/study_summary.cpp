@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -18,7 +19,7 @@
 #include "analysis/summary/summary_parts.hpp"
 #include "analysis/summary/summed_point.hpp"
 #include "analysis/summary/undecided.hpp"
-#include "analysis/worlds/world_statistics.hpp"
+#include "analysis/worlds/derived_quantities.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/manifest_keys.hpp"
 #include "experiments/study/study.hpp"
@@ -44,6 +45,19 @@ double hold_of(const study::Study& study, std::int64_t point) {
   return hold;
 }
 
+/// The unknowns, and what follows from those of the friction.
+std::vector<worlds::WorldInput> inputs_of_worlds(const study::Study& study, std::int64_t point,
+                                                 const measures::PointSummary& statistics) {
+  std::vector<worlds::WorldInput> inputs = worlds::unknowns_of(study, point);
+  const bool friction = std::ranges::any_of(
+      inputs, [](const worlds::WorldInput& input) { return input.name.starts_with("friction."); });
+  if (friction && !study.open_loop)
+    std::ranges::move(
+        worlds::derived_of_worlds(study, point, statistics.of(&trial::MoveOutcome::holding_torque)),
+        std::back_inserter(inputs));
+  return inputs;
+}
+
 /// The properties of the study as a whole.
 StudySummary summary_of(const study::Study& study, double confidence) {
   StudySummary summary;
@@ -55,8 +69,6 @@ StudySummary summary_of(const study::Study& study, double confidence) {
   summary.features = study.features;
   summary.goal = study.goal;
   summary.worlds = study.worlds;
-  for (std::int64_t point = 0; study.worlds > 0 && point < study::point_count(study); ++point)
-    summary.world_inputs.push_back(study::world_values(study, point));
   summary.seed = study.seed;
   summary.design = manifest::design_labels[static_cast<std::size_t>(study.design)];
   return summary;
@@ -68,6 +80,9 @@ void complete_points(StudySummary& summary, const study::Study& study,
   for (std::size_t point = 0; point < summary.points.size(); ++point) {
     summary.points[point].hold = hold_of(study, static_cast<std::int64_t>(point));
     summary.points[point].undecided = undecided[point];
+    if (study.worlds > 0)
+      summary.world_inputs.push_back(
+          inputs_of_worlds(study, static_cast<std::int64_t>(point), summary.points[point]));
   }
   if (!study.open_loop)
     summary.sections.push_back(undecided_section(summary.points, short_labels(summary.labels, summary.axes)));

@@ -39,7 +39,7 @@ struct StudySummary {
   study::StudyFeatures features{};                     ///< what the table has columns for
   std::optional<study::Goal> goal{};                   ///< of the study
   std::int64_t worlds{0};                              ///< number of worlds of the study; 0: none
-  std::vector<std::vector<worlds::WorldInput>> world_inputs{};  ///< [point] what differs between them
+  std::vector<std::vector<worlds::WorldInput>> world_inputs{};  ///< [point] unknown and derived
   std::uint64_t seed{0};                                        ///< of the study
   std::optional<UnfinishedStudy> unfinished{};                  ///< where the run has not ended
   std::vector<measures::SummarySection> sections{};

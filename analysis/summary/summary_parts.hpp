@@ -115,21 +115,24 @@ measures::SummarySection goal_section(const StudySummary& summary);
 std::optional<worlds::PointWorlds> worlds_of_point(const StudySummary& summary, std::int64_t point,
                                                    std::size_t chosen_from = 1);
 
-/// Parameters that differ between the worlds at a point of a study with worlds.
+/// Parameters, and quantities derived from them, that differ between the worlds at a point of a study with
+/// worlds.
 inline const std::vector<worlds::WorldInput>& world_inputs_of(const StudySummary& summary,
                                                               std::int64_t point) {
   return summary.world_inputs[static_cast<std::size_t>(point)];
 }
 
 /// "5 of 30 worlds fall short of the goal: where friction.alpha > 1.4 1/s (5 of these 5, and 1 of the other
-/// 25; by chance with probability 0.0025)".
+/// 25; by chance with probability 0.0025); what separates them need not be the cause", with the other
+/// quantities that separate the same worlds, and what derived ones mean.
 std::string bad_worlds_sentence(const worlds::PointWorlds& point,
                                 const std::vector<worlds::WorldInput>& inputs, bool has_goal);
 
 /// {"n", "success": {"worst", "worst_low", "worst_high", "median", "best", "worst_world", "best_world"},
 /// "success_rates": [world], with a goal "goal_rates": [world], "goal_status": [world], "met", "missed",
 /// "undecided" (numbers of worlds), "bad_worlds": […], "rule": null or {"text", "conditions": [{"parameter",
-/// "relation", "value"}], "joined_by", "bad_named", "others_named", "error_rate", "p_value"}}
+/// "relation", "value"}], "same": […] likewise, "joined_by", "bad_named", "others_named", "error_rate",
+/// "p_value"}}
 nlohmann::ordered_json worlds_json(const worlds::PointWorlds& point,
                                    const std::vector<worlds::WorldInput>& inputs);
 

@@ -86,6 +86,36 @@ text::PointTable table_of(const std::vector<Worlds>& points, const std::vector<s
   return table;
 }
 
+/// ", or where creep_rate > 2e-05 rad/s, which are the same worlds".
+std::string same_text(const worlds::WorldRule& rule, const std::vector<worlds::WorldInput>& inputs) {
+  std::vector<std::string> conditions;
+  for (const worlds::Condition& one : rule.same) conditions.push_back(worlds::text_of(one, inputs));
+  if (conditions.empty()) return "";
+  return fmt::format(", or where {}, which are the same worlds", fmt::join(conditions, ", or "));
+}
+
+/// "; creep_rate: speed at which …" of each derived quantity in the rule.
+std::string meanings_text(const worlds::WorldRule& rule, const std::vector<worlds::WorldInput>& inputs) {
+  std::string text;
+  for (const std::vector<worlds::Condition>* conditions : {&rule.conditions, &rule.same}) {
+    for (const worlds::Condition& one : *conditions) {
+      const worlds::WorldInput& input = inputs[one.input];
+      if (input.is_derived()) text += fmt::format("; {}: {}", input.name, input.meaning);
+    }
+  }
+  return text;
+}
+
+Json conditions_json(const std::vector<worlds::Condition>& conditions,
+                     const std::vector<worlds::WorldInput>& inputs) {
+  Json json = Json::array();
+  for (const worlds::Condition& one : conditions)
+    json.push_back({{"parameter", inputs[one.input].name},
+                    {"relation", one.above ? ">" : "<"},
+                    {"value", one.threshold}});
+  return json;
+}
+
 }  // namespace
 
 Worlds worlds_of_point(const StudySummary& summary, std::int64_t point, std::size_t chosen_from) {
@@ -111,12 +141,13 @@ std::string bad_worlds_sentence(const worlds::PointWorlds& point,
         "significance of {})",
         bad, all, what, text::percent(worlds::significance_of_rules));
   }
+  const worlds::WorldRule& rule = *point.rule;
   return fmt::format(
       "{} of {} worlds {}: where {} ({} of these {}, and {} of the other {}: {} of worlds named wrongly; by "
-      "chance with probability {:.2g})",
-      bad, all, what, worlds::text_of(*point.rule, inputs), point.rule->bad_named, point.rule->bad,
-      point.rule->good_named, point.rule->good, text::percent_near(point.rule->error_rate()),
-      point.rule->p_value);
+      "chance with probability {:.2g}){}; what separates them need not be the cause{}",
+      bad, all, what, worlds::text_of(rule, inputs), rule.bad_named, rule.bad, rule.good_named, rule.good,
+      text::percent_near(rule.error_rate()), rule.p_value, same_text(rule, inputs),
+      meanings_text(rule, inputs));
 }
 
 Json worlds_json(const worlds::PointWorlds& point, const std::vector<worlds::WorldInput>& inputs) {
@@ -149,14 +180,9 @@ Json worlds_json(const worlds::PointWorlds& point, const std::vector<worlds::Wor
   json["rule"] = nullptr;
   if (point.rule) {
     const worlds::WorldRule& rule = *point.rule;
-    Json conditions = Json::array();
-    for (const worlds::Condition& one : rule.conditions) {
-      conditions.push_back({{"parameter", inputs[one.input].name},
-                            {"relation", one.above ? ">" : "<"},
-                            {"value", one.threshold}});
-    }
     json["rule"] = {{"text", worlds::text_of(rule, inputs)},
-                    {"conditions", std::move(conditions)},
+                    {"conditions", conditions_json(rule.conditions, inputs)},
+                    {"same", conditions_json(rule.same, inputs)},
                     {"joined_by", rule.all ? "and" : "or"},
                     {"bad_named", rule.bad_named},
                     {"others_named", rule.good_named},

@@ -3,43 +3,69 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
+#include "analysis/worlds/derived_quantities.hpp"
 #include "analysis/worlds/permutations.hpp"
 #include "experiments/designs/random_key.hpp"
 
 namespace zerocount::worlds {
 namespace {
 
-/// The other worlds that remain possible if `world` is the truth.
-std::vector<std::size_t> possible_worlds(const std::vector<double>& values, std::size_t world,
-                                         double precision) {
-  std::vector<std::size_t> others(values.size());
-  std::iota(others.begin(), others.end(), std::size_t{0});
-  std::erase(others, world);
-  const auto distance = [&](std::size_t other) { return std::abs(values[other] - values[world]); };
-  std::stable_sort(others.begin(), others.end(), [&](auto a, auto b) { return distance(a) < distance(b); });
-  const auto near = std::ranges::count_if(
-      others, [&](std::size_t other) { return distance(other) <= precision * std::abs(values[world]); });
-  others.resize(
-      std::min(others.size(), std::max<std::size_t>(static_cast<std::size_t>(near), min_possible_worlds)));
-  return others;
-}
+/// The other worlds that remain possible if one is the truth: neighbours in the order of their values.
+struct Possible {
+  std::size_t first;
+  std::size_t end;  ///< exclusive; the world itself is among them
+};
 
-/// [world] the other worlds that remain possible.
-using PossibleWorlds = std::vector<std::vector<std::size_t>>;
+/// The worlds in the order of one input, and those that remain possible at each place.
+struct Neighbours {
+  std::vector<std::size_t> order;  ///< [place] world
+  std::vector<Possible> possible;  ///< [place]
 
-Learned learned_of(const PossibleWorlds& possible_of, const std::vector<bool>& bad) {
+  Neighbours(const std::vector<double>& values, double precision) : order(values.size()) {
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t world) { return values[world]; });
+    for (std::size_t place = 0; place < order.size(); ++place)
+      possible.push_back(around(values, place, precision));
+  }
+
+ private:
+  Possible around(const std::vector<double>& values, std::size_t place, double precision) const {
+    const auto value = [&](std::size_t at) { return values[order[at]]; };
+    const double here = value(place);
+    const double near = precision * std::abs(here);
+    const auto of_place = [&](std::size_t world) { return values[world]; };
+    Possible found{
+        static_cast<std::size_t>(std::ranges::lower_bound(order, here - near, {}, of_place) - order.begin()),
+        static_cast<std::size_t>(std::ranges::upper_bound(order, here + near, {}, of_place) - order.begin())};
+    const std::size_t wanted = std::min(order.size(), min_possible_worlds + 1);
+    while (found.end - found.first < wanted) {
+      const bool downwards = found.end == order.size() ||
+                             (found.first > 0 && here - value(found.first - 1) <= value(found.end) - here);
+      downwards ? --found.first : ++found.end;
+    }
+    return found;
+  }
+};
+
+Learned learned_of(const Neighbours& neighbours, const std::vector<bool>& bad) {
+  std::vector<std::size_t> bad_before(1, 0);
+  for (const std::size_t world : neighbours.order)
+    bad_before.push_back(bad_before.back() + (bad[world] ? 1 : 0));
   Learned learned;
-  for (std::size_t world = 0; world < bad.size(); ++world) {
-    const std::vector<std::size_t>& possible = possible_of[world];
-    const auto of_them = std::ranges::count_if(possible, [&](std::size_t other) { return bad[other]; });
-    if (of_them != 0 && of_them != std::ssize(possible)) {
+  for (std::size_t place = 0; place < bad.size(); ++place) {
+    const auto [first, end] = neighbours.possible[place];
+    const bool is_bad = bad[neighbours.order[place]];
+    const std::size_t others = end - first - 1;
+    const std::size_t bad_others = bad_before[end] - bad_before[first] - (is_bad ? 1 : 0);
+    if (bad_others != 0 && bad_others != others) {
       ++learned.open;
-    } else if ((of_them != 0) != bad[world]) {
+    } else if ((bad_others != 0) != is_bad) {
       ++learned.misjudged;
     } else {
-      ++(bad[world] ? learned.decided_bad : learned.decided_good);
+      ++(is_bad ? learned.decided_bad : learned.decided_good);
     }
   }
   return learned;
@@ -47,6 +73,30 @@ Learned learned_of(const PossibleWorlds& possible_of, const std::vector<bool>& b
 
 std::int64_t net_of(const Learned& learned) {
   return learned.decided() - learned.misjudged;
+}
+
+/// Share of the values that are at least as large as one of them. @param sorted ascending
+double share_from(const std::vector<std::int64_t>& sorted, std::int64_t value) {
+  return static_cast<double>(sorted.end() - std::ranges::lower_bound(sorted, value)) /
+         static_cast<double>(sorted.size());
+}
+
+/// The p-values of the inputs, see Learned::p_value.
+/// @param nets [input][data set] net_of(); data set 0 is the observed one, the others are permutations
+std::vector<double> p_values_of(const std::vector<std::vector<std::int64_t>>& nets) {
+  std::vector<double> of_observed;
+  std::vector<double> smallest(1 + permutations, 1.0);
+  for (const std::vector<std::int64_t>& of_input : nets) {
+    std::vector<std::int64_t> sorted = of_input;
+    std::ranges::sort(sorted);
+    of_observed.push_back(share_from(sorted, of_input.front()));
+    for (std::size_t set = 0; set < of_input.size(); ++set)
+      smallest[set] = std::min(smallest[set], share_from(sorted, of_input[set]));
+  }
+  for (double& p : of_observed)
+    p = static_cast<double>(std::ranges::count_if(smallest, [&](double one) { return one <= p; })) /
+        static_cast<double>(smallest.size());
+  return of_observed;
 }
 
 struct RecordedParameter {
@@ -64,28 +114,25 @@ constexpr std::string_view other_laws = "loading before it slides (identify --mo
 
 std::vector<Learned> what_to_learn(const std::vector<WorldInput>& inputs, const std::vector<bool>& bad,
                                    double precision, std::uint64_t seed) {
-  std::vector<PossibleWorlds> possible(inputs.size());
+  std::vector<Neighbours> neighbours;
   std::vector<Learned> learned;
+  std::vector<std::vector<std::int64_t>> nets(inputs.size());
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    for (std::size_t world = 0; world < bad.size(); ++world)
-      possible[i].push_back(possible_worlds(inputs[i].values, world, precision));
-    learned.push_back(learned_of(possible[i], bad));
+    neighbours.emplace_back(inputs[i].values, precision);
+    learned.push_back(learned_of(neighbours[i], bad));
     learned.back().input = i;
+    nets[i].push_back(net_of(learned.back()));
   }
   const random::RandomKey key = designs::random_key(seed, "worlds/learning");
-  std::vector<std::int64_t> as_good(inputs.size());
   for (std::uint32_t number = 0; number < permutations; ++number) {
     std::vector<bool> permuted;
     for (const std::size_t world : permutation_of(bad.size(), key, number)) permuted.push_back(bad[world]);
     for (std::size_t i = 0; i < inputs.size(); ++i)
-      as_good[i] += net_of(learned_of(possible[i], permuted)) >= net_of(learned[i]) ? 1 : 0;
+      nets[i].push_back(net_of(learned_of(neighbours[i], permuted)));
   }
-  for (Learned& one : learned) {
-    const auto tests = static_cast<double>(inputs.size());  // Bonferroni
-    one.p_value = std::min(1.0, tests * p_value_of_permutations(as_good[one.input]));
-  }
-  std::stable_sort(learned.begin(), learned.end(),
-                   [](const Learned& a, const Learned& b) { return net_of(a) > net_of(b); });
+  const std::vector<double> p_values = p_values_of(nets);
+  for (Learned& one : learned) one.p_value = p_values[one.input];
+  std::ranges::stable_sort(learned, std::greater<>(), net_of);
   return learned;
 }
 
@@ -104,6 +151,8 @@ std::string_view record_of(std::string_view parameter) {
                                                               {"friction.stribeck_velocity", sliding},
                                                               {"friction.sigma0", other_laws},
                                                               {"friction.sigma1", other_laws}}};
+  const auto derived = std::ranges::find(derived_quantities(), parameter, &DerivedQuantity::name);
+  if (derived != derived_quantities().end()) parameter = derived->parameter;
   const auto found = std::ranges::find(records, parameter, &RecordedParameter::parameter);
   return found == records.end() ? std::string_view{} : found->record;
 }

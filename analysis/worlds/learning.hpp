@@ -20,8 +20,9 @@ struct Learned {
   std::int64_t decided_bad{0};   ///< worlds that fall short, as all that remain possible
   std::int64_t misjudged{0};     ///< worlds that are unlike all that remain possible
   std::int64_t open{0};          ///< worlds with both kinds among those that remain possible
-  /// Probability of as many decided, less misjudged, if good and bad worlds had nothing to do with any of the
-  /// parameters: an unknown that does not matter decides too where few worlds are bad.
+  /// Probability of as many decided, less misjudged, for this or any other parameter, if good and bad worlds
+  /// had nothing to do with any of them: an unknown that does not matter decides too where few worlds are
+  /// bad.
   double p_value{1.0};
 
   std::int64_t decided() const { return decided_good + decided_bad; }
@@ -30,13 +31,14 @@ struct Learned {
 /// The parameters in order of the worlds that their measurement would decide less those it would misjudge,
 /// the most first. If a world is the truth, the worlds whose values lie within ±`precision` of its own remain
 /// possible, but at least the four nearest; the world does not judge itself.
-/// @param bad [world] @param precision relative error of the measurement, above 0 @param seed of the
-/// permutations for the p-values, which allow for the number of parameters
+/// @param bad [world] @param precision relative error of the measurement, above 0 @param seed of the 399
+/// permutations for the p-values, which allow for the number of parameters and for what these have in common
+/// (the smallest p-value of each permutation: Westfall and Young, Resampling-Based Multiple Testing, 1993)
 std::vector<Learned> what_to_learn(const std::vector<WorldInput>& inputs, const std::vector<bool>& bad,
                                    double precision, std::uint64_t seed);
 
-/// Record from which `zerocount identify` estimates the parameter, such as "strokes that slide (identify
-/// --sliding)"; empty if there is none.
+/// Record from which `zerocount identify` estimates the parameter or derived quantity, such as "strokes that
+/// slide (identify --sliding)"; empty if there is none.
 std::string_view record_of(std::string_view parameter);
 
 }  // namespace zerocount::worlds

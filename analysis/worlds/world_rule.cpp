@@ -1,6 +1,7 @@
 #include "analysis/worlds/world_rule.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -76,6 +77,15 @@ class Search {
   }
 
   Candidate best_of_one_condition() const { return singles_.front().first; }
+
+  /// The best condition on each input, the best first.
+  std::vector<Condition> single_conditions() const {
+    std::vector<Condition> conditions;
+    for (const auto& [single, input] : singles_) {
+      if (!single.conditions.empty()) conditions.push_back(single.conditions.front());
+    }
+    return conditions;
+  }
 
   Candidate best() {
     const Candidate single = best_of_one_condition();
@@ -257,6 +267,24 @@ bool holds(const Condition& condition, double value) {
   return condition.above ? value > condition.threshold : value < condition.threshold;
 }
 
+/// Whether both conditions name the same worlds.
+bool names_alike(const Condition& a, const Condition& b, const std::vector<WorldInput>& inputs) {
+  const std::vector<double>& first = inputs[a.input].values;
+  const std::vector<double>& second = inputs[b.input].values;
+  return std::ranges::equal(first, second, [&](double x, double y) { return holds(a, x) == holds(b, y); });
+}
+
+/// The conditions on other inputs that name the worlds of the only condition of the rule.
+std::vector<Condition> same_as(const WorldRule& rule, std::vector<Condition> singles,
+                               const std::vector<WorldInput>& inputs) {
+  if (rule.conditions.size() != 1) return {};
+  const Condition& one = rule.conditions.front();
+  std::erase_if(singles, [&](const Condition& other) {
+    return other.input == one.input || !names_alike(one, other, inputs);
+  });
+  return singles;
+}
+
 /// The threshold in as few digits as leave every world on its side.
 std::string number_text(double threshold, const std::vector<double>& values) {
   for (int digits = 2; digits < 17; ++digits) {
@@ -285,14 +313,16 @@ std::optional<WorldRule> find_rule(const std::vector<WorldInput>& inputs, const 
   const Permuted permuted(worlds, seed);
   for (const Candidate& found : {search.best(), search.best_of_one_condition()}) {
     if (found.conditions.empty()) continue;
-    WorldRule rule{found.conditions,
-                   found.all,
-                   bad_worlds,
-                   found.named.bad,
-                   good_worlds,
-                   found.named.good,
-                   permuted.p_value_of(found, worlds)};
-    if (rule.p_value <= significance_of_rules) return rule;
+    WorldRule rule{.conditions = found.conditions,
+                   .all = found.all,
+                   .bad = bad_worlds,
+                   .bad_named = found.named.bad,
+                   .good = good_worlds,
+                   .good_named = found.named.good,
+                   .p_value = permuted.p_value_of(found, worlds)};
+    if (rule.p_value > significance_of_rules) continue;
+    rule.same = same_as(rule, search.single_conditions(), inputs);
+    return rule;
   }
   return std::nullopt;
 }
@@ -305,19 +335,24 @@ bool names(const WorldRule& rule, const std::vector<WorldInput>& inputs, std::si
                   : std::ranges::any_of(rule.conditions, in_world);
 }
 
+std::string text_of(const Condition& condition, const std::vector<WorldInput>& inputs) {
+  const WorldInput& input = inputs[condition.input];
+  return fmt::format("{} {} {}{}", input.name, condition.above ? '>' : '<',
+                     number_text(condition.threshold, input.values),
+                     input.unit == "1" ? "" : " " + input.unit);
+}
+
 std::string text_of(const WorldRule& rule, const std::vector<WorldInput>& inputs) {
-  std::string text;
-  for (const Condition& condition : rule.conditions) {
-    const WorldInput& input = inputs[condition.input];
-    text +=
-        fmt::format("{}{} {} {}{}",
-                    text.empty() ? ""
-                    : rule.all   ? " and "
-                                 : " or ",
-                    input.name, condition.above ? '>' : '<', number_text(condition.threshold, input.values),
-                    input.unit == "1" ? "" : " " + input.unit);
-  }
-  return text;
+  std::vector<std::string> conditions;
+  for (const Condition& condition : rule.conditions) conditions.push_back(text_of(condition, inputs));
+  return fmt::format("{}", fmt::join(conditions, rule.all ? " and " : " or "));
+}
+
+std::vector<WorldInput> unknowns_of(const study::Study& study, std::int64_t point) {
+  std::vector<WorldInput> unknowns;
+  for (study::WorldValues& one : study::world_values(study, point))
+    unknowns.push_back({std::move(one.name), std::move(one.unit), std::move(one.values)});
+  return unknowns;
 }
 
 }  // namespace zerocount::worlds

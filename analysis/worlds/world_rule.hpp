@@ -10,7 +10,18 @@
 /// A rule that separates bad worlds from the others.
 namespace zerocount::worlds {
 
-using WorldInput = study::WorldValues;
+/// What differs between worlds: an unknown parameter, or what follows from several (derived_quantities.hpp).
+struct WorldInput {
+  std::string name;  ///< dotted path of a parameter, name of a derived quantity
+  std::string unit;
+  std::vector<double> values;  ///< [world]
+  std::string meaning{};       ///< of a derived quantity; empty for a parameter
+
+  bool is_derived() const { return !meaning.empty(); }
+};
+
+/// The unknown parameters of a study at a design point.
+std::vector<WorldInput> unknowns_of(const study::Study& study, std::int64_t point);
 
 /// "friction.alpha > 1.4".
 struct Condition {
@@ -19,14 +30,16 @@ struct Condition {
   double threshold{0.0};  ///< halfway between the values of two worlds
 };
 
-/// A rule on one or two parameters that tells bad worlds from the others.
+/// A rule on one or two parameters that tells bad worlds from the others. It names what separates them, which
+/// need not be the cause: what varies together separates alike.
 struct WorldRule {
   std::vector<Condition> conditions;
-  bool all{true};              ///< worlds are named where all conditions hold; otherwise where one holds
-  std::int64_t bad{0};         ///< bad worlds
-  std::int64_t bad_named{0};   ///< of them, those that the rule names
-  std::int64_t good{0};        ///< other worlds
-  std::int64_t good_named{0};  ///< of them, those that the rule names wrongly
+  bool all{true};                 ///< worlds are named where all conditions hold; otherwise where one holds
+  std::vector<Condition> same{};  ///< on other inputs, each of which alone names the same worlds
+  std::int64_t bad{0};            ///< bad worlds
+  std::int64_t bad_named{0};      ///< of them, those that the rule names
+  std::int64_t good{0};           ///< other worlds
+  std::int64_t good_named{0};     ///< of them, those that the rule names wrongly
   /// Probability of such a rule if the worlds' rates had nothing to do with these parameters: twice the
   /// smaller of two p-values, of as good a rule, and of as strong a trend (Spearman) of the rates over each
   /// parameter of the rule, in its direction.
@@ -44,7 +57,8 @@ inline constexpr double significance_of_rules = 0.05;
 /// that it names. Two conditions take the place of one if they name at least two worlds fewer wrongly.
 /// Thresholds lie between the values of neighbouring worlds, and at 31 quantiles where there are more. The
 /// p-values are those of 399 permutations of the worlds' rates; they choose their rules, and the parameter
-/// with the strongest trend, likewise.
+/// with the strongest trend, likewise. Of inputs that separate the worlds alike, the first takes the rule,
+/// and the others are in WorldRule::same.
 /// @param rates [world] @param bad [world] those with rates too low @param seed of the permutations
 /// @returns nothing if all worlds are bad or none is, or the p-value is above significance_of_rules
 std::optional<WorldRule> find_rule(const std::vector<WorldInput>& inputs, const std::vector<double>& rates,
@@ -55,5 +69,8 @@ bool names(const WorldRule& rule, const std::vector<WorldInput>& inputs, std::si
 
 /// "friction.alpha > 1.4 1/s and friction.beta < 8e+04 1/rad".
 std::string text_of(const WorldRule& rule, const std::vector<WorldInput>& inputs);
+
+/// "friction.alpha > 1.4 1/s".
+std::string text_of(const Condition& condition, const std::vector<WorldInput>& inputs);
 
 }  // namespace zerocount::worlds

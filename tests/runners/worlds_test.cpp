@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -78,16 +79,49 @@ TEST_F(WorldStudy, HasASummaryByWorld) {
 TEST_F(WorldStudy, TellsWhatToMeasureNext) {
   const Json learned = json_of({"learn", "out.h5"});
   EXPECT_EQ(learned["worlds"], 12);
-  EXPECT_EQ(learned["unknowns"][0]["parameter"], "friction.n") << learned.dump(1);
-  EXPECT_EQ(learned["unknowns"].size(), 2U);
+  EXPECT_EQ(learned["unknowns"][0]["parameter"], "creep_extension")
+      << learned.dump(1);                     // of n, at one torque
+  EXPECT_EQ(learned["unknowns"].size(), 4U);  // with the extension and the rate of creep
   const ProgramResult text = program({"learn", "out.h5"});
   EXPECT_EQ(text.code, 0);
   EXPECT_NE(text.out.find("friction.n"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("creep_extension (rad): "), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("need not be the cause"), std::string::npos) << text.out;
   folder_.write("plain.yaml", small_manifest(4, ""));
   ASSERT_EQ(program({"run", "plain.yaml", "-o", "plain.h5"}).code, 0);
   const ProgramResult refused = program({"learn", "plain.h5"});
   EXPECT_EQ(refused.code, 2);
   EXPECT_NE(refused.err.find("nothing differs between worlds"), std::string::npos) << refused.err;
+}
+
+// Few trials decide no world, though all of them meet the goal as observed; many decide it. What is to be
+// done next follows from the verdict.
+TEST_F(WorldStudy, TellsWhatFollowsFromTheVerdict) {
+  struct Case {
+    std::string trials, moves, within, status, next;
+    int code;
+  };
+  for (const Case& one : {Case{"48", "0.3", "0.25", "undecided", "more_trials", 3},
+                          Case{"480", "0.2", "0.25", "met", "nothing", 0},
+                          Case{"480", "0.9", "0.02", "missed", "change_axis", 0}}) {
+    ASSERT_EQ(program({"run", "study.yaml", "-o", "case.h5", "--force", "--set", "trials=" + one.trials,
+                       "--set", "friction.n={interval: [1.9, 2.0]}", "--set",
+                       fmt::format("goal={{band: 0, within: {}, moves: {}}}", one.within, one.moves)})
+                  .code,
+              0);
+    const Json judged = json_of({"judge", "case.h5"});
+    const Json learned = json_of({"learn", "case.h5"});
+    EXPECT_EQ(judged["status"], one.status) << judged;
+    EXPECT_EQ(learned["status"], judged["status"]);
+    EXPECT_EQ(learned["needed"], judged["needed"]);
+    EXPECT_EQ(learned["next"], one.next) << learned;
+    EXPECT_EQ(learned["undecided"], judged["worlds"]["undecided"]);
+    const ProgramResult text = program({"learn", "case.h5"});
+    EXPECT_EQ(text.code, one.code);
+    EXPECT_EQ(text.out.find(program({"judge", "case.h5"}).out), 0U) << text.out;
+    EXPECT_EQ(text.out.find("no measurement is needed") != std::string::npos, one.status == "met")
+        << text.out;
+  }
 }
 
 TEST_F(WorldStudy, TellsApartWhatMattersWithinAndBetweenWorlds) {

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "analysis/measures/measure_statistics.hpp"
+#include "analysis/worlds/world_rule.hpp"
+#include "core/friction/parameters.hpp"
+#include "experiments/study/study.hpp"
+
+namespace zerocount::worlds {
+
+/// A property of a contact that follows from several of its parameters, and that a record shows more directly
+/// than each of them: k1, k2, β, α, λ and n are coefficients of a law, of which λ even has a unit that
+/// depends on n.
+struct DerivedQuantity {
+  std::string_view name;
+  std::string_view unit;       ///< on a rotary axis
+  std::string_view meaning;    ///< its formula in words, with the placeholders of parameters::text_on
+  std::string_view parameter;  ///< that the same record of `zerocount identify` tells, see record_of()
+  bool (*exists)(friction::FrictionModel model);
+  /// @param torque that the contact carries at rest, N m, above 0
+  double (*value)(const friction::FrictionParameters& contact, double torque);
+};
+
+/// The table of all derived quantities.
+std::span<const DerivedQuantity> derived_quantities();
+
+/// The derived quantities that differ between the worlds at a design point, each of the median machine of
+/// every world: all that differs between machines has the quantile ½. One common torque is taken for all
+/// worlds, the root mean square of what contacts carry at the end of a move: the holding torque and the
+/// constant disturbance.
+/// @param holding_torque statistics of the measure at this point
+std::vector<WorldInput> derived_of_worlds(const study::Study& study, std::int64_t point,
+                                          const measures::MeasureStatistics& holding_torque);
+
+}  // namespace zerocount::worlds

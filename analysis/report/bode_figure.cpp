@@ -62,10 +62,11 @@ const char* stability_label(theory::LoopStability stability) {
 }
 
 /// "at k1: 16.2 dB, 49.4°".
-std::string label_of_loop(const theory::TrialLoop& loop, const theory::StabilityMargins& margins) {
+std::string label_of_loop(const theory::TrialLoop& loop, const theory::StabilityMargins& margins,
+                          double hold) {
   return fmt::format("{}: {}, {}{}", loop.name, value_with_unit(decibels(margins.gain.value), " dB"),
                      value_with_unit(margins.phase.value, "°"),
-                     stability_label(theory::stability_of(loop.loop)));
+                     stability_label(theory::stability_of(loop.loop, hold)));
 }
 
 /// The curves from a decade below the lowest crossover, or below the lowest natural frequency on a spring
@@ -73,10 +74,11 @@ std::string label_of_loop(const theory::TrialLoop& loop, const theory::Stability
 std::vector<LoopCurve> loop_curves(const trial::TrialParameters& parameters) {
   double corner = 0.5 * parameters.controller.sample_rate;
   const std::vector<theory::TrialLoop> loops = theory::trial_loops(parameters);
+  const double hold = theory::longest_hold(parameters);
   std::vector<LoopCurve> curves;
   for (const theory::TrialLoop& loop : loops) {
     const theory::StabilityMargins margins = theory::stability_margins(loop.loop);
-    curves.push_back({label_of_loop(loop, margins), margins, {}});
+    curves.push_back({label_of_loop(loop, margins, hold), margins, {}});
     if (loop.stiffness > 0.0)
       corner = std::min(corner, theory::natural_frequency(loop.stiffness, parameters.plant));
     for (const double frequency : margin_frequencies(margins)) corner = std::min(corner, frequency);

@@ -5,7 +5,7 @@
 #include <complex>
 #include <numbers>
 
-#include "core/theory/margins.hpp"
+#include "core/theory/crossovers.hpp"
 
 namespace zerocount::theory {
 namespace {

@@ -86,6 +86,7 @@ struct LoopRanges {
   Range gain, gain_at;    ///< margin, dB, and its frequency, Hz
   Range phase, phase_at;  ///< margin, degrees, and its frequency, Hz
   std::set<LoopStability> stability;
+  Range slow;  ///< slowest time constants longer than the hold, s
 };
 
 /// Results of the theory (section 3 of the paper) for the trials of a design point.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -15,6 +16,7 @@ struct UnitResult {
   std::int32_t moves{0};
   std::int32_t met{0};         ///< moves that meet the goal
   std::vector<double> values;  ///< of the moves that have the criterion's measure; infinite for never
+  bool slid{false};            ///< whether the axis slid in a move
 };
 
 /// Proportion of a unit's moves that meet the goal; 0 without moves.
@@ -37,6 +39,11 @@ struct Candidate {
   Values values;
   std::vector<UnitResult> units;
 };
+
+/// Whether the axis slid in one of the units.
+inline bool has_slid(std::span<const UnitResult> units) {
+  return std::ranges::any_of(units, &UnitResult::slid);
+}
 
 /// Estimates from a candidate's first units; with worlds the rates are those of the worst, and the criterion
 /// is of all.

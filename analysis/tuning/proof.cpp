@@ -37,6 +37,7 @@ ProvenFinalist prove(const ProofProblem& problem) {
   for (;;) {
     ProvenFinalist proven{attempt, problem.run(attempt), {}};
     proven.verdict = goal::judge_goal(problem.goal, proven.counts, correction_of(attempt.number));
+    if (problem.rejects(attempt)) proven.verdict.status = goal::Status::missed;
     if (attempt.number == max_attempts || !problem.has_time()) return proven;
     const std::optional<Attempt> next = next_attempt(problem, proven);
     if (!next) return proven;

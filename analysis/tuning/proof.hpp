@@ -34,6 +34,8 @@ struct ProofProblem {
   /// Units that are expected to decide it, by the results of an attempt.
   std::function<std::int64_t(const measures::MoveCounts&, std::size_t correction)> more_units;
   std::function<measures::MoveCounts(const Attempt&)> run;
+  /// Whether the last run shows that the finalist does not keep a condition; it misses the goal then.
+  std::function<bool(const Attempt&)> rejects;
   std::function<bool()> has_time;  ///< for another attempt
 };
 

@@ -54,18 +54,26 @@ class Search {
 
   /// Adds the places that are admissible and new, up to `wanted` of them.
   void add_admissible(const std::vector<Place>& places, std::size_t wanted, std::vector<Candidate>& to) {
-    std::vector<Values> values;
-    std::vector<Place> kept;
+    std::vector<Candidate> drawn;
     for (const Place& place : places) {
       Values at = values_at(problem_.free, place);
       if (!tried_.insert(at).second) continue;
-      kept.push_back(place_of(problem_.free, at));
-      values.push_back(std::move(at));
+      drawn.push_back({place_of(problem_.free, at), at, {}});
     }
-    const std::vector<bool> admissible = problem_.admissible(values);
-    for (std::size_t i = 0; i < values.size() && to.size() < wanted; ++i) {
-      if (admissible[i]) to.push_back({kept[i], values[i], {}});
+    keep_admissible(drawn);
+    for (Candidate& one : drawn) {
+      if (to.size() == wanted) return;
+      to.push_back(std::move(one));
     }
+  }
+
+  void keep_admissible(std::vector<Candidate>& candidates) const {
+    const std::vector<bool> admissible = problem_.admissible(candidates);
+    std::vector<Candidate> kept;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      if (admissible[i]) kept.push_back(std::move(candidates[i]));
+    }
+    candidates = std::move(kept);
   }
 
   void first_generation() {
@@ -126,6 +134,7 @@ class Search {
     std::int64_t units = std::min(first_units, problem_.max_units);
     while (!candidates.empty()) {
       run_units(candidates, units);
+      keep_admissible(candidates);
       sort_by_merit(candidates, units);
       verify_best(candidates);
       if (candidates.empty()) return;
@@ -166,16 +175,9 @@ class Search {
 
   /// Removes leading candidates that do not keep all conditions.
   void verify_best(std::vector<Candidate>& candidates) {
-    while (!candidates.empty() && !problem_.verified(candidates.front().values)) {
-      std::vector<Values> values;
-      values.reserve(candidates.size());
-      for (const Candidate& one : candidates) values.push_back(one.values);
-      const std::vector<bool> admissible = problem_.admissible(values);
-      std::vector<Candidate> left;
-      for (std::size_t i = 1; i < candidates.size(); ++i) {
-        if (admissible[i]) left.push_back(std::move(candidates[i]));
-      }
-      candidates = std::move(left);
+    while (!candidates.empty() && !problem_.verified(candidates.front())) {
+      candidates.erase(candidates.begin());
+      keep_admissible(candidates);
     }
   }
 
@@ -240,12 +242,12 @@ class Search {
   }
 
   SearchResult finish() {
-    // Every finalist is to be fit for the proof.
+    // Every finalist is to be fit for the proof, by all units.
+    if (!population_.empty()) run_units(population_, problem_.max_units);
     for (Candidate& one : population_) {
-      if (problem_.verified(one.values)) result_.finalists.push_back(std::move(one));
+      if (problem_.verified(one)) result_.finalists.push_back(std::move(one));
     }
     if (!result_.finalists.empty()) {
-      run_units(result_.finalists, problem_.max_units);
       sort_by_merit(result_.finalists, problem_.max_units);
     }
     for (const Candidate& one : result_.finalists)

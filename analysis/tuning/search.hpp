@@ -25,11 +25,12 @@ struct SearchProblem {
 
   /// Appends the results of the units up to `to` to every candidate.
   std::function<void(std::span<Candidate* const>, std::int64_t to)> evaluate;
-  /// [candidate] whether the values may be tried at all. Cheap: called for many candidates.
-  std::function<std::vector<bool>(std::span<const Values>)> admissible;
-  /// Whether the values keep all conditions, also those that are costly to examine. Called for candidates
+  /// [candidate] whether it may be tried at all, or go on after what its units did. Cheap: called for many
+  /// candidates.
+  std::function<std::vector<bool>(std::span<const Candidate>)> admissible;
+  /// Whether a candidate keeps all conditions, also those that are costly to examine. Called for candidates
   /// that lead; what `admissible` says may become stricter by it.
-  std::function<bool(const Values&)> verified;
+  std::function<bool(const Candidate&)> verified;
 };
 
 /// Progress of a search.

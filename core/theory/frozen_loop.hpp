@@ -32,12 +32,23 @@ FrozenLoop frozen_loop(double stiffness, double damping, const motion::PlantPara
 /// L at z = exp(i·angle), angle = ωT.
 std::complex<double> open_loop(const FrozenLoop& loop, double angle);
 
+/// The poles z of the closed loop: the eigenvalues of loop_map.
+Eigen::VectorXcd poles_of(const FrozenLoop& loop);
+
+/// What becomes, within a move, of the motion that grows fastest or dies out last.
 enum class LoopStability {
-  stable,    ///< all eigenvalues of the closed loop lie inside the unit circle
-  marginal,  ///< the largest lies on it (to edge_of_stability): something neither grows nor dies out
-  unstable
+  stable,    ///< it dies out, by more than a thousandth within the hold, however slowly
+  marginal,  ///< it changes by less than a thousandth within the hold: an eigenvalue of 1, for practical use
+  unstable   ///< it grows, by more than a thousandth within the hold
 };
 
-LoopStability stability_of(const FrozenLoop& loop);
+/// The stability of a loop with these poles over a move of `hold` (s). The pole z of largest magnitude has
+/// the time constant τ = −T/ln|z|, and changes its motion by the factor exp(−hold/τ).
+LoopStability stability_of(const Eigen::VectorXcd& poles, double sample_time, double hold);
+LoopStability stability_of(const FrozenLoop& loop, double hold);
+
+/// The slowest time constant of an approach without oscillation, s: −T/ln z of the largest real pole z in
+/// (1e-6, 1); 0 without one, infinite where a pole does not decay.
+double slowest_time_constant(const Eigen::VectorXcd& poles, double sample_time);
 
 }  // namespace zerocount::theory

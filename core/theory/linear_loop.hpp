@@ -16,10 +16,6 @@ namespace zerocount::theory {
 /// decided and not yet applied.
 Eigen::MatrixXd loop_map(const HeldPlant& plant, const loop::LinearChain& controller);
 
-/// Distance from 1 below which the magnitude of an eigenvalue may be 1: a double eigenvalue of exactly 1
-/// rounds by about 1e-8.
-inline constexpr double edge_of_stability = 1e-7;
-
 /// max |eigenvalue| of the loop's map; below 1 the loop is stable.
 double spectral_radius(const HeldPlant& plant, const loop::LinearChain& controller);
 

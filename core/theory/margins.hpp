@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "core/theory/frozen_loop.hpp"
 
 /// Gain and phase margins of the sampled loop, from its exact frequency response
@@ -27,11 +25,6 @@ struct StabilityMargins {
   /// 180° + arg L where |L| = 1, in (−180, 180]: the value nearest to 0.
   Margin phase;
 };
-
-/// Angles ωT in increasing order that show the shape of L: from a millionth of π to just below π, spread by
-/// their logarithm, and around the plant's poles and the controller's poles and zeros near the unit circle by
-/// their width.
-std::vector<double> search_angles(const FrozenLoop& loop);
 
 /// The crossovers are searched between the search_angles, then bisected to 1e-12.
 StabilityMargins stability_margins(const FrozenLoop& loop);

@@ -2,10 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
+#include <numbers>
+#include <vector>
 
 #include "core/loop/controller.hpp"
 #include "core/numerics/dense.hpp"
+#include "core/theory/crossovers.hpp"
+#include "core/theory/frozen_loop.hpp"
 #include "core/theory/gains.hpp"
 #include "core/theory/linear_loop.hpp"
 
@@ -56,16 +61,8 @@ double slowest_time_constant(double stiffness, const motion::PlantParameters& pl
                              const loop::EncoderParameters& encoder,
                              const loop::ControllerParameters& controller, const LinearDrive& drive) {
   const HeldPlant held = presliding_plant(stiffness, plant, encoder, controller, drive);
-  const Eigen::VectorXcd eigenvalues =
-      numerics::eigenvalues(loop_map(held, loop::linear_chain(controller, loop::fine_resolution(encoder))));
-  if (!(eigenvalues.cwiseAbs().maxCoeff() < 1.0 - edge_of_stability))
-    return std::numeric_limits<double>::infinity();
-  double slowest = 0.0;
-  for (const auto& z : eigenvalues) {
-    if (z.imag() == 0.0) slowest = std::max(slowest, z.real());
-  }
-  constexpr double gone_at_once = 1e-6;  // eigenvalues that are 0 up to rounding
-  return slowest > gone_at_once ? -sample_time(controller) / std::log(slowest) : 0.0;
+  const loop::LinearChain chain = loop::linear_chain(controller, loop::fine_resolution(encoder));
+  return slowest_time_constant(numerics::eigenvalues(loop_map(held, chain)), sample_time(controller));
 }
 
 double integral_gain(const loop::ControllerParameters& controller) {
@@ -75,29 +72,35 @@ double integral_gain(const loop::ControllerParameters& controller) {
 double sampled_critical_integral_gain(double stiffness, const motion::PlantParameters& plant,
                                       const loop::EncoderParameters& encoder,
                                       loop::ControllerParameters controller, const LinearDrive& drive) {
-  const HeldPlant held = presliding_plant(stiffness, plant, encoder, controller, drive);
   double& ki = integral_gain_in(controller);
-  const auto stable = [&](double gain) {
+  const double scale = static_stiffness(stiffness, encoder, controller);
+  FrozenLoop loop{
+      presliding_plant(stiffness, plant, encoder, controller, drive), {}, sample_time(controller)};
+  const auto with_gain = [&](double gain) {
     ki = gain;
-    return spectral_radius(held, loop::linear_chain(controller, loop::fine_resolution(encoder))) < 1.0;
+    loop.controller = loop::linear_chain(controller, loop::fine_resolution(encoder));
+    return loop;
   };
-  const double lowest = 1e-6 * static_stiffness(stiffness, encoder, controller);
+  const double lowest = 1e-6 * scale;
   // Without stiffness and kp no integral gain is stable; the eigenvalue 1 of the free rotor may round
   // below 1.
-  if (lowest == 0.0 || !stable(lowest)) return 0.0;
-  constexpr double step = 1.02;
-  double low = lowest;
-  double high = low * step;
-  for (; stable(high); high *= step) {
-    if (high > 1e15 * lowest) return std::numeric_limits<double>::infinity();
-    low = high;
-  }
-  constexpr double tolerance = 1e-9;
-  while (high - low > tolerance * high) {
-    const double middle = 0.5 * (low + high);
-    (stable(middle) ? low : high) = middle;
-  }
-  return low;
+  if (lowest == 0.0 || spectral_radius(loop.plant, with_gain(lowest).controller) >= 1.0) return 0.0;
+  const FrozenLoop with = with_gain(scale);
+  const FrozenLoop without = with_gain(0.0);
+  const auto gain_on_circle = [&](double angle) {
+    const std::complex<double> rest = open_loop(without, angle);
+    return -scale * (1.0 + rest) / (open_loop(with, angle) - rest);
+  };
+  std::vector<double> angles = search_angles(with);
+  add_angles_around(poles_of(without), angles);
+  double bound = std::numeric_limits<double>::infinity();
+  const auto add = [&](double angle) {
+    const double gain = gain_on_circle(angle).real();
+    if (gain > lowest) bound = std::min(bound, gain);
+  };
+  for (const double angle : phase_crossovers(gain_on_circle, angles)) add(angle);
+  add(std::numbers::pi);
+  return bound;
 }
 
 }  // namespace zerocount::theory

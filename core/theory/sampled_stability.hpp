@@ -25,8 +25,7 @@ double sampled_spectral_radius(double stiffness, const motion::PlantParameters& 
                                const loop::ControllerParameters& controller, const LinearDrive& drive = {});
 
 /// The slowest time constant with which the sampled loop about a spring of `stiffness` (N m/rad) approaches
-/// its target, s: −T/ln z of the largest real eigenvalue z in (1e-6, 1), which decays as exp(−t/τ); 0
-/// without one, infinite for an unstable loop. Oscillating modes do not count.
+/// its target, s, by slowest_time_constant of its poles. Oscillating modes do not count.
 ///
 /// A slow integral control has τ ≈ T·(k·Δx + kp)/(2·ki).
 double slowest_time_constant(double stiffness, const motion::PlantParameters& plant,
@@ -40,9 +39,10 @@ double integral_gain(const loop::ControllerParameters& controller);
 /// m/rad) is stable: the end of the interval of stable gains that begins at 0, to 1e-9 relative. 0 where the
 /// loop without integral is unstable already. The gain of `controller` itself does not enter.
 ///
-/// The end is searched upwards from 1e-6 of the static stiffness in steps of 2 %, then bisected. The held
-/// plant has more poles than zeros, so a large enough gain drives an eigenvalue out of the unit circle;
-/// infinite if the blocks let no integral through.
+/// With L = L₀ + ki·L₁ the loop has a pole at z = exp(iωT) where ki = −(1 + L₀)/L₁ is a real number: the
+/// bound is the smallest such gain above 1e-6 of the static stiffness. The held plant has more poles than
+/// zeros, so a large enough gain drives a pole out of the unit circle; infinite if the blocks let no integral
+/// through.
 double sampled_critical_integral_gain(double stiffness, const motion::PlantParameters& plant,
                                       const loop::EncoderParameters& encoder,
                                       loop::ControllerParameters controller, const LinearDrive& drive = {});

@@ -21,12 +21,18 @@ std::string text(const Range& range) {
   return fmt::format("{:.3g} … {:.3g}", range.low, range.high);
 }
 
-std::string stability_text(const std::set<theory::LoopStability>& stability) {
+std::string stability_text(const theory::LoopRanges& loop) {
   using theory::LoopStability;
-  if (stability == std::set{LoopStability::stable}) return "stable";
+  const std::set<LoopStability>& stability = loop.stability;
+  if (stability == std::set{LoopStability::stable}) {
+    if (loop.slow.empty()) return "stable";
+    return fmt::format("stable, with a time constant of {} s, longer than the hold", text(loop.slow));
+  }
   if (stability == std::set{LoopStability::unstable}) return "unstable";
   if (stability.count(LoopStability::unstable) > 0) return "unstable in some trials";
-  return "marginal, with an eigenvalue of 1";
+  return stability.count(LoopStability::stable) > 0
+             ? "stable; in some trials marginal: a motion neither grows nor dies out within the hold"
+             : "marginal: a motion neither grows nor dies out within the hold";
 }
 
 void add_loops(Items& items, const std::vector<theory::LoopRanges>& loops) {
@@ -34,7 +40,7 @@ void add_loops(Items& items, const std::vector<theory::LoopRanges>& loops) {
     const auto add = [&](std::string_view what, std::string value, std::string brief = {}) {
       items.push_back({fmt::format("{}: {}", loop.name, what), std::move(value), std::move(brief)});
     };
-    add("loop", stability_text(loop.stability));
+    add("loop", stability_text(loop));
     if (!loop.bandwidth.empty()) add("crosses gain 1", fmt::format("at {} Hz", text(loop.bandwidth)));
     if (loop.gain.empty()) add("gain margin", "no phase crossover");
     if (!loop.gain.empty()) {

@@ -8,6 +8,7 @@
 
 #include "analysis/parallel/parallel.hpp"
 #include "analysis/theory/trial_loops.hpp"
+#include "core/friction/law.hpp"
 #include "core/friction/parameters.hpp"
 #include "core/loop/controller.hpp"
 #include "core/theory/margins.hpp"
@@ -20,33 +21,65 @@ constexpr int places_on_profile = 64;
 constexpr int stiffnesses = 4;  // from the softest to the stiffest
 constexpr double longest_delay = 10.0;
 
-/// The loops of a machine before it slides, with this much more delay.
-std::vector<theory::FrozenLoop> loops_of(trial::TrialParameters p, double softest, double stiffest,
-                                         double more_delay) {
-  p.controller.delay += more_delay;
+/// What is examined of a machine.
+struct MachineLoops {
+  double softest;   ///< contact before it slides, N m/rad; only of a spring of k1 and k2
+  double stiffest;  ///< N m/rad
+  bool slides;
+};
+
+struct Loops {
   std::vector<theory::FrozenLoop> loops;
-  if (!friction::has_spring(p.friction.model)) {
-    const bool free = !friction::has_friction(p.friction.model);
-    for (const theory::TrialLoop& one : theory::trial_loops(p)) {
-      if (!one.slides || free) loops.push_back(one.loop);
-    }
-    return loops;
-  }
-  const loop::ControllerParameters fine = loop::controller_in_phase(p.controller, loop::ControlPhase::fine);
-  for (int i = 0; i < stiffnesses; ++i) {
-    const double share = static_cast<double>(i) / (stiffnesses - 1);
-    const double stiffness = softest * std::pow(stiffest / softest, share);
-    loops.push_back(theory::frozen_loop(stiffness, p.plant.presliding_damping, p.plant, p.encoder, fine,
-                                        theory::drive_of(p)));
-    if (softest == stiffest) break;
-  }
-  return loops;
+  double hold{0.0};  ///< s
+  bool before_sliding{false};
+  bool sliding{false};
+};
+
+/// The control in the fine phase, and that at standstill if there is one.
+std::vector<loop::ControllerParameters> controls_before_sliding(const trial::TrialParameters& p) {
+  std::vector<loop::ControllerParameters> controls{
+      loop::controller_in_phase(p.controller, loop::ControlPhase::fine)};
+  if (const auto at_standstill = loop::controller_at_standstill(controls.front()))
+    controls.push_back(*at_standstill);
+  return controls;
 }
 
-bool all_stable(const std::vector<theory::FrozenLoop>& loops) {
-  return std::ranges::all_of(loops, [](const theory::FrozenLoop& one) {
-    return theory::stability_of(one) == theory::LoopStability::stable;
-  });
+void add_stiffnesses(const trial::TrialParameters& p, const MachineLoops& machine,
+                     std::vector<theory::FrozenLoop>& loops) {
+  for (const loop::ControllerParameters& control : controls_before_sliding(p)) {
+    for (int i = 0; i < stiffnesses; ++i) {
+      const double share = static_cast<double>(i) / (stiffnesses - 1);
+      const double stiffness = machine.softest * std::pow(machine.stiffest / machine.softest, share);
+      loops.push_back(theory::frozen_loop(stiffness, p.plant.presliding_damping, p.plant, p.encoder, control,
+                                          theory::drive_of(p)));
+      if (machine.softest == machine.stiffest) break;
+    }
+  }
+}
+
+/// The loops in which a machine moves, with this much more delay.
+Loops loops_of(trial::TrialParameters p, const MachineLoops& machine, double more_delay) {
+  p.controller.delay += more_delay;
+  const bool has_spring = friction::has_spring(p.friction.model);
+  const std::vector<theory::TrialLoop> of_trial = theory::trial_loops(p);
+  Loops found;
+  found.hold = theory::longest_hold(p);
+  found.before_sliding = !std::ranges::all_of(of_trial, &theory::TrialLoop::slides);
+  found.sliding = machine.slides || !found.before_sliding;
+  if (has_spring) add_stiffnesses(p, machine, found.loops);
+  for (const theory::TrialLoop& one : of_trial) {
+    if (one.slides ? found.sliding : !has_spring) found.loops.push_back(one.loop);
+  }
+  return found;
+}
+
+bool is_unstable(const theory::FrozenLoop& loop, double hold) {
+  return theory::stability_of(loop, hold) == theory::LoopStability::unstable;
+}
+
+bool none_unstable(const Loops& of) {
+  return std::ranges::none_of(of.loops,
+                              [&](const theory::FrozenLoop& one) { return is_unstable(one, of.hold); });
 }
 
 double decibels(double factor) {
@@ -57,16 +90,16 @@ double degrees(double phase) {
   return std::isnan(phase) ? std::numeric_limits<double>::infinity() : std::abs(phase);
 }
 
-bool keeps_margins(const trial::TrialParameters& p, double softest, double stiffest,
+bool keeps_margins(const trial::TrialParameters& p, const MachineLoops& machine,
                    const study::LoopMargins& margins) {
   if (!margins.gain && !margins.phase && !margins.delay) return true;
-  const std::vector<theory::FrozenLoop> loops = loops_of(p, softest, stiffest, 0.0);
-  if (!all_stable(loops)) return false;
+  const Loops of = loops_of(p, machine, 0.0);
+  if (!none_unstable(of)) return false;
   for (const double share : {0.5, 1.0}) {
-    if (margins.delay && !all_stable(loops_of(p, softest, stiffest, share * *margins.delay))) return false;
+    if (margins.delay && !none_unstable(loops_of(p, machine, share * *margins.delay))) return false;
   }
   if (!margins.gain && !margins.phase) return true;
-  return std::ranges::all_of(loops, [&](const theory::FrozenLoop& one) {
+  return std::ranges::all_of(of.loops, [&](const theory::FrozenLoop& one) {
     const theory::StabilityMargins found = theory::stability_margins(one);
     return !(margins.gain && decibels(found.gain.value) < *margins.gain) &&
            !(margins.phase && degrees(found.phase.value) < *margins.phase);
@@ -74,25 +107,26 @@ bool keeps_margins(const trial::TrialParameters& p, double softest, double stiff
 }
 
 /// The delay (samples) by which the loop may grow until it is unstable, to 0.01.
-double delay_margin(const trial::TrialParameters& p, double softest, double stiffest) {
-  const auto stable = [&](double more) { return all_stable(loops_of(p, softest, stiffest, more)); };
+double delay_margin(const trial::TrialParameters& p, const MachineLoops& machine) {
+  const auto bears = [&](double more) { return none_unstable(loops_of(p, machine, more)); };
   double kept = 0.0;
   double lost = 0.25;
-  if (!stable(0.0)) return 0.0;
-  while (stable(lost)) {
+  if (!bears(0.0)) return 0.0;
+  while (bears(lost)) {
     kept = lost;
     lost += 0.25;
     if (kept >= longest_delay) return longest_delay;
   }
   while (lost - kept > 0.01) {
     const double middle = 0.5 * (kept + lost);
-    (stable(middle) ? kept : lost) = middle;
+    (bears(middle) ? kept : lost) = middle;
   }
   return kept;
 }
 
-/// Whether the drawn quantities change nothing of the loop but the stiffness of the contact.
-bool differ_in_stiffness_alone(const study::Study& study) {
+/// Whether the drawn quantities change nothing of the loops but the stiffness of a spring.
+bool differ_in_stiffness_alone(const study::Study& study, friction::FrictionModel model) {
+  if (!friction::has_spring(model) && friction::traits_of(model).has_presliding_motion) return false;
   return std::ranges::all_of(study.input_columns, [](const study::InputColumn& column) {
     const auto is_of = [&column](std::string_view section) { return column.name.starts_with(section); };
     return is_of("friction.") || is_of("initial.") || is_of("command.");
@@ -118,7 +152,7 @@ std::pair<double, double> stiffness_range(const trial::TrialParameters& p, doubl
 LoopExaminer::LoopExaminer(const study::Study& study, std::int64_t machines) {
   const trial::TrialParameters first = study::study_trial(study, 0, 0).parameters;
   if (theory::has_no_linear_loop(first)) return;
-  const bool alike = friction::has_spring(first.friction.model) && differ_in_stiffness_alone(study);
+  const bool alike = differ_in_stiffness_alone(study, first.friction.model);
   examined_ = alike ? machines : std::min(machines, most_unlike_machines);
   machines_.resize(static_cast<std::size_t>(examined_));
   parallel::for_each_index(machines_.size(), [&](std::size_t i) {
@@ -143,20 +177,21 @@ LoopExaminer::LoopExaminer(const study::Study& study, std::int64_t machines) {
   if (critical_[0] == critical_[1]) critical_.pop_back();
 }
 
-bool LoopExaminer::may_keep(const study::Study& candidate, const study::LoopMargins& margins) const {
+bool LoopExaminer::may_keep(const study::Study& candidate, const study::LoopMargins& margins,
+                            bool slides) const {
   return std::ranges::all_of(critical_, [&](std::size_t index) {
     const Machine& one = machines_[index];
-    return keeps_margins(study::study_trial(candidate, 0, one.trial).parameters, one.softest, one.stiffest,
-                         margins);
+    return keeps_margins(study::study_trial(candidate, 0, one.trial).parameters,
+                         {one.softest, one.stiffest, slides}, margins);
   });
 }
 
-bool LoopExaminer::keeps(const study::Study& candidate, const study::LoopMargins& margins) {
+bool LoopExaminer::keeps(const study::Study& candidate, const study::LoopMargins& margins, bool slides) {
   std::vector<char> kept(machines_.size(), 1);
   parallel::for_each_index(machines_.size(), [&](std::size_t i) {
     const Machine& one = machines_[i];
-    kept[i] = keeps_margins(study::study_trial(candidate, 0, one.trial).parameters, one.softest, one.stiffest,
-                            margins)
+    kept[i] = keeps_margins(study::study_trial(candidate, 0, one.trial).parameters,
+                            {one.softest, one.stiffest, slides}, margins)
                   ? 1
                   : 0;
   });
@@ -167,16 +202,17 @@ bool LoopExaminer::keeps(const study::Study& candidate, const study::LoopMargins
   return false;
 }
 
-SmallestMargins LoopExaminer::margins_of(const study::Study& candidate) const {
+SmallestMargins LoopExaminer::margins_of(const study::Study& candidate, bool slides) const {
   std::vector<SmallestMargins> found(machines_.size());
   constexpr double none = std::numeric_limits<double>::infinity();
   parallel::for_each_index(machines_.size(), [&](std::size_t i) {
-    const Machine& one = machines_[i];
-    const trial::TrialParameters p = study::study_trial(candidate, 0, one.trial).parameters;
+    const MachineLoops machine{machines_[i].softest, machines_[i].stiffest, slides};
+    const trial::TrialParameters p = study::study_trial(candidate, 0, machines_[i].trial).parameters;
+    const Loops of = loops_of(p, machine, 0.0);
     SmallestMargins& smallest = found[i];
-    smallest = {true, none, none, delay_margin(p, one.softest, one.stiffest), 1};
-    for (const theory::FrozenLoop& each : loops_of(p, one.softest, one.stiffest, 0.0)) {
-      smallest.stable = smallest.stable && theory::stability_of(each) == theory::LoopStability::stable;
+    smallest = {true, none, none, delay_margin(p, machine), 1, of.before_sliding, of.sliding};
+    for (const theory::FrozenLoop& each : of.loops) {
+      smallest.stable = smallest.stable && !is_unstable(each, of.hold);
       const theory::StabilityMargins margins = theory::stability_margins(each);
       smallest.gain = std::min(smallest.gain, decibels(margins.gain.value));
       smallest.phase = std::min(smallest.phase, degrees(margins.phase.value));
@@ -188,6 +224,8 @@ SmallestMargins LoopExaminer::margins_of(const study::Study& candidate) const {
     all.gain = std::min(all.gain, one.gain);
     all.phase = std::min(all.phase, one.phase);
     all.delay = std::min(all.delay, one.delay);
+    all.before_sliding = all.before_sliding || one.before_sliding;
+    all.sliding = all.sliding || one.sliding;
   }
   return all;
 }

@@ -11,19 +11,22 @@ namespace zerocount::tuning {
 
 /// The smallest margins of the loops of all examined machines; infinite where no loop has a limit.
 struct SmallestMargins {
-  bool stable{true};
+  bool stable{true};  ///< no loop is unstable over the hold
   double gain{0.0};   ///< dB
   double phase{0.0};  ///< degrees
   double delay{0.0};  ///< samples by which the delay may grow until a loop is unstable; 10 means 10 or more
-  std::int64_t machines{0};  ///< that were examined
+  std::int64_t machines{0};    ///< that were examined
+  bool before_sliding{false};  ///< loops before the machines slide are among them
+  bool sliding{false};         ///< loops of sliding machines are among them
 };
 
-/// Examines whether the linear loops of the machines keep margins at every stiffness of the contact before it
-/// slides, from k1 to k1 + k2, over the friction profile of the machine.
+/// Examines whether the linear loops of the machines keep margins: at every stiffness of the contact before
+/// it slides, from k1 to k1 + k2 over the friction profile of the machine, or that of its bristles; and while
+/// the machines slide, if they do or friction has no stiffness.
 class LoopExaminer {
  public:
-  /// Machines that differ in their stiffness alone are examined as one with the stiffness of all; of others
-  /// the first 100.
+  /// Machines that differ in the stiffness of their spring alone are examined as one with the stiffness of
+  /// all; of others the first 100.
   /// @param study whose first trials are the machines; the friction must not depend on free parameters
   /// @param machines number of these trials
   LoopExaminer(const study::Study& study, std::int64_t machines);
@@ -32,17 +35,18 @@ class LoopExaminer {
   bool is_blind() const { return machines_.empty(); }
 
   /// Whether the machines that were critical so far keep the margins.
-  bool may_keep(const study::Study& candidate, const study::LoopMargins& margins) const;
+  /// @param slides whether machines of the candidate slide
+  bool may_keep(const study::Study& candidate, const study::LoopMargins& margins, bool slides) const;
   /// Whether all machines keep them; one that does not counts as critical from now on.
-  bool keeps(const study::Study& candidate, const study::LoopMargins& margins);
+  bool keeps(const study::Study& candidate, const study::LoopMargins& margins, bool slides);
 
-  SmallestMargins margins_of(const study::Study& candidate) const;
+  SmallestMargins margins_of(const study::Study& candidate, bool slides) const;
 
  private:
   /// A trial, and the range of stiffness of its machine.
   struct Machine {
     std::int64_t trial;
-    double softest;   ///< N m/rad; 0 for laws without a spring of k1 and k2
+    double softest;   ///< N m/rad
     double stiffest;  ///< N m/rad
   };
 

@@ -55,8 +55,8 @@ SearchResult StudySearch::run(const SearchSettings& settings) {
   problem.evaluate = [this](std::span<Candidate* const> candidates, std::int64_t to) {
     evaluate(candidates, to);
   };
-  problem.admissible = [this](std::span<const Values> values) { return admissible(values); };
-  problem.verified = [this](const Values& values) { return verified(values); };
+  problem.admissible = [this](std::span<const Candidate> candidates) { return admissible(candidates); };
+  problem.verified = [this](const Candidate& candidate) { return verified(candidate); };
   return search(problem, settings);
 }
 
@@ -88,25 +88,38 @@ void StudySearch::evaluate(std::span<Candidate* const> candidates, std::int64_t 
   }
 }
 
-std::vector<bool> StudySearch::admissible(std::span<const Values> values) {
-  std::vector<char> kept(values.size(), 0);
-  parallel::for_each_index(values.size(), [&](std::size_t i) {
+std::vector<bool> StudySearch::admissible(std::span<const Candidate> candidates) {
+  std::vector<char> kept(candidates.size(), 1);
+  std::vector<std::size_t> unknown;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (!may_keep_.contains(examination_of(candidates[i]))) unknown.push_back(i);
+  }
+  parallel::for_each_index(unknown.size(), [&](std::size_t k) {
     if (stop_.stop_requested()) return;
+    const Candidate& one = candidates[unknown[k]];
+    char& keeps = kept[unknown[k]];
     try {
-      kept[i] = examiner_.may_keep(candidate(values[i]), study_.tuning->margins);
+      keeps = examiner_.may_keep(candidate(one.values), study_.tuning->margins, has_slid(one.units)) ? 1 : 0;
     } catch (const Failure& failure) {
-      if (failure.code() != ExitCode::bad_input) throw;  // such values together are not allowed
+      if (failure.code() != ExitCode::bad_input) throw;
+      keeps = 0;  // such values together are not allowed
     }
   });
   if (stop_.stop_requested()) throw trial::Interrupted{};
-  examined_ += std::ssize(values);
+  for (const std::size_t i : unknown) {
+    if (kept[i] != 0) may_keep_.insert(examination_of(candidates[i]));
+    if (candidates[i].units.empty()) ++examined_;
+  }
   return {kept.begin(), kept.end()};
 }
 
-bool StudySearch::verified(const Values& values) {
-  if (kept_.contains(values)) return true;
-  if (!examiner_.keeps(candidate(values), study_.tuning->margins)) return false;
-  kept_.insert(values);
+bool StudySearch::verified(const Candidate& one) {
+  if (keeps_.contains(examination_of(one))) return true;
+  if (!examiner_.keeps(candidate(one.values), study_.tuning->margins, has_slid(one.units))) {
+    may_keep_.clear();  // there may be one more critical machine
+    return false;
+  }
+  keeps_.insert(examination_of(one));
   return true;
 }
 

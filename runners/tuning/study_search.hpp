@@ -3,6 +3,7 @@
 #include <functional>
 #include <set>
 #include <stop_token>
+#include <utility>
 #include <vector>
 
 #include "analysis/tuning/search.hpp"
@@ -30,13 +31,20 @@ class StudySearch {
   /// The study with these values, on the units of the search.
   study::Study candidate(const Values& values) const;
   const LoopExaminer& examiner() const { return examiner_; }
+  LoopExaminer& examiner() { return examiner_; }
   const Units& units() const { return units_; }
   std::int64_t examined() const { return examined_; }  ///< points whose margins were examined
 
  private:
   void evaluate(std::span<Candidate* const> candidates, std::int64_t to);
-  std::vector<bool> admissible(std::span<const Values> values);
-  bool verified(const Values& values);
+  std::vector<bool> admissible(std::span<const Candidate> candidates);
+  bool verified(const Candidate& candidate);
+
+  /// What the margins of a candidate depend on: its values, and whether it slid.
+  using Examination = std::pair<Values, bool>;
+  static Examination examination_of(const Candidate& candidate) {
+    return {candidate.values, has_slid(candidate.units)};
+  }
 
   const study::Study& study_;
   std::vector<study::FreeParameter> free_;
@@ -45,7 +53,8 @@ class StudySearch {
   LoopExaminer examiner_;
   TuningJournal& journal_;
   std::function<double()> elapsed_;
-  std::set<Values> kept_;
+  std::set<Examination> may_keep_;  ///< on the machines that are critical so far
+  std::set<Examination> keeps_;     ///< on all machines
   std::int64_t examined_{0};
   std::stop_token stop_;
 };

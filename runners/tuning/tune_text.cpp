@@ -48,7 +48,13 @@ std::string margin_limit(const std::optional<double>& limit) {
 }
 
 std::string margin_number(double margin) {
-  return std::isfinite(margin) ? text::short_number(margin) : "without limit:";
+  return std::isfinite(margin) ? text::short_number(margin) : "∞";
+}
+
+/// The loops that were examined.
+std::string_view loops_text(const SmallestMargins& margins) {
+  if (!margins.sliding) return " before they slide";
+  return margins.before_sliding ? " before they slide and while they slide" : " while they slide";
 }
 
 std::string margins_text(const TuneAnswer& answer, const study::LoopMargins& wanted) {
@@ -56,9 +62,9 @@ std::string margins_text(const TuneAnswer& answer, const study::LoopMargins& wan
     return "margins: none, because the controller is a plugin, whose transfer function is not known\n";
   const SmallestMargins& m = answer.margins;
   return fmt::format(
-      "smallest margins of {} machines before they slide: gain {} dB ({}), phase {}° ({}), delay {} samples "
+      "smallest margins of {} machines{}: gain {} dB ({}), phase {}° ({}), delay {} samples "
       "({})\n{}",
-      m.machines, margin_number(m.gain), margin_limit(wanted.gain), margin_number(m.phase),
+      m.machines, loops_text(m), margin_number(m.gain), margin_limit(wanted.gain), margin_number(m.phase),
       margin_limit(wanted.phase), m.delay >= 10.0 ? "10 or more" : text::short_number(m.delay),
       margin_limit(wanted.delay), m.stable ? "" : "  the linear loop of a machine is unstable\n");
 }

@@ -163,6 +163,12 @@ class Tuner {
       run = run_proof(study_, std::move(values), units, settings_.output, settings_.threads, stop_);
       return counts_of(study_, units, run.results);
     };
+    // The search examined the sliding loop of finalists that slid there.
+    problem.rejects = [&](const Attempt& attempt) {
+      const Candidate& finalist = result_.finalists[attempt.finalist];
+      return has_slid(run.results) && !has_slid(finalist.units) &&
+             !search_.examiner().keeps(search_.candidate(finalist.values), study_.tuning->margins, true);
+    };
     problem.has_time = [this] { return has_time(0.8); };
     const ProvenFinalist proven = tuning::prove(problem);
     adopt(proven, std::move(run));
@@ -171,6 +177,7 @@ class Tuner {
   void adopt(const ProvenFinalist& proven, ProofRun run) {
     const Candidate& candidate = result_.finalists[proven.attempt.finalist];
     answer_.gains = candidate.values;
+    slid_ = has_slid(candidate.units) || has_slid(run.results);
     answer_.status = proven.verdict.status;
     answer_.worst = worst_machine(run.study, 0, run.results);
     answer_.proof = Proof{std::move(run.study), proven.verdict, {}, proven.attempt.number};
@@ -188,7 +195,7 @@ class Tuner {
   void describe() {
     const study::Study tuned = search_.candidate(answer_.gains);
     answer_.delay = study::study_trial(tuned, 0, 0).parameters.controller.delay;
-    if (!answer_.blind) answer_.margins = search_.examiner().margins_of(tuned);
+    if (!answer_.blind) answer_.margins = search_.examiner().margins_of(tuned, slid_);
     name_edges();
     const TunedStudy details{tuned, answer_.free, answer_.gains, search_.units(), stop_};
     const auto tell = [this](std::string_view what) {
@@ -263,6 +270,7 @@ class Tuner {
   StudySearch search_;
   SearchResult result_;
   double search_seconds_{0.0};
+  bool slid_{false};  ///< the tuned axis slid, in the search or the proof
   TuneAnswer answer_;
 };
 

@@ -23,8 +23,8 @@ Values values_of_cell(const TunedStudy& tuned, const TuningMap& map, double x, d
 void simulate(const TunedStudy& tuned, const LoopExaminer& examiner, const Values& values, MapCell& cell) {
   try {
     const study::Study study = variant_of(tuned.study, overrides_of(tuned.free, values));
-    cell.keeps_margins = examiner.may_keep(study, study.tuning->margins);
     const Candidate candidate{{}, values, results_of(study, tuned.units, units_of_cell, nullptr, tuned.stop)};
+    cell.keeps_margins = examiner.may_keep(study, study.tuning->margins, has_slid(candidate.units));
     const Estimate estimate = estimate_of(aim_of(study), candidate, units_of_cell);
     cell.rate = estimate.rate;
     cell.criterion = estimate.criterion;

@@ -44,6 +44,7 @@ class TrialCounter {
       ++result.moves;
       result.met += measures::meets(goal_, move) ? 1 : 0;
       result.values.push_back(value_of(criterion_, move));
+      result.slid = result.slid || move.broke_away;
     }
   }
 

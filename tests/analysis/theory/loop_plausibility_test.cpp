@@ -31,9 +31,11 @@ bool contains(const std::vector<std::string>& lines, const std::string& text) {
 /// The smallest phase margin at rest of stable loops, °; NaN if a loop is unstable or has none.
 double smallest_phase_margin(const study::Study& study) {
   double smallest = std::numeric_limits<double>::infinity();
-  for (const TrialLoop& loop : trial_loops(study::study_trial(study, 0, 0).parameters)) {
+  const trial::TrialParameters p = study::study_trial(study, 0, 0).parameters;
+  for (const TrialLoop& loop : trial_loops(p)) {
     if (loop.slides) continue;
-    if (stability_of(loop.loop) != LoopStability::stable) return std::numeric_limits<double>::quiet_NaN();
+    if (stability_of(loop.loop, longest_hold(p)) != LoopStability::stable)
+      return std::numeric_limits<double>::quiet_NaN();
     const double margin = stability_margins(loop.loop).phase.value;
     if (!std::isnan(margin)) smallest = std::min(smallest, std::abs(margin));
   }

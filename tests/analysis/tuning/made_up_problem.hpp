@@ -56,10 +56,10 @@ struct MadeUpProblem {
         while (std::ssize(one->units) < to) one->units.push_back(result(one->values, one->units.size()));
       }
     };
-    problem.admissible = [](std::span<const Values> values) {
-      return std::vector<bool>(values.size(), true);
+    problem.admissible = [](std::span<const Candidate> candidates) {
+      return std::vector<bool>(candidates.size(), true);
     };
-    problem.verified = [](const Values&) { return true; };
+    problem.verified = [](const Candidate&) { return true; };
     return problem;
   }
 };

@@ -44,6 +44,7 @@ TEST(Proof, ItsClaimsHoldAndThoseOfTheSearchDoNot) {
       const auto first = static_cast<std::uint64_t>(attempt.number) << 16U;
       return counts_of(truth, found.finalists[attempt.finalist].values, first, attempt.units);
     };
+    problem.rejects = [](const Attempt&) { return false; };
     problem.has_time = [] { return true; };
     const ProvenFinalist proven = prove(problem);
     const Values& at = found.finalists[proven.attempt.finalist].values;
@@ -78,6 +79,7 @@ TEST(Proof, GoesOnToTheNextFinalistAfterAMissAndToMoreUnitsWhenUndecided) {
   problem.first_units = [](std::size_t, std::size_t) { return std::int64_t{1000}; };
   problem.more_units = [](const measures::MoveCounts&, std::size_t) { return std::int64_t{4000}; };
   problem.has_time = [] { return true; };
+  problem.rejects = [](const Attempt&) { return false; };
   problem.run = [&](const Attempt& attempt) {
     attempts.push_back(attempt);
     const double rate = attempt.finalist == 0 ? 0.8 : attempt.units == 1000 ? 0.955 : 0.97;
@@ -96,6 +98,30 @@ TEST(Proof, GoesOnToTheNextFinalistAfterAMissAndToMoreUnitsWhenUndecided) {
   EXPECT_EQ(attempts[2].finalist, 1U);
   EXPECT_EQ(attempts[2].units, 4000);
   EXPECT_EQ(proven.verdict.status, goal::Status::met);
+}
+
+// Such as margins of the sliding loop, where only the proof slides.
+TEST(Proof, GoesOnToTheNextFinalistWhereItRejectsOneThatMeetsTheGoal) {
+  ProofProblem problem;
+  problem.goal = {.within = 1.0, .moves = 0.95};
+  problem.promising = {true, true};
+  problem.first_units = [](std::size_t, std::size_t) { return std::int64_t{1000}; };
+  problem.has_time = [] { return true; };
+  problem.run = [](const Attempt& attempt) {
+    measures::MoveCounts counts;
+    for (std::int64_t i = 0; i < attempt.units; ++i) {
+      ++counts.moves;
+      ++counts.met;
+      counts.of_trials.add(1, 1);
+    }
+    return counts;
+  };
+  problem.rejects = [](const Attempt& attempt) { return attempt.finalist == 0; };
+  const ProvenFinalist proven = prove(problem);
+  EXPECT_EQ(proven.attempt.finalist, 1U);
+  EXPECT_EQ(proven.verdict.status, goal::Status::met);
+  problem.promising = {true};
+  EXPECT_EQ(prove(problem).verdict.status, goal::Status::missed);
 }
 
 }  // namespace

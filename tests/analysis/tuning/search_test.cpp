@@ -55,7 +55,7 @@ TEST(Search, DependsOnTheSeedAlone) {
 TEST(Search, KeepsConditionsThatAreCostlyToExamine) {
   const MadeUpProblem truth;
   SearchProblem problem = truth.problem(512);
-  problem.verified = [](const Values& at) { return at[0] <= 0.4; };
+  problem.verified = [](const Candidate& one) { return one.values[0] <= 0.4; };
   const SearchResult result = search(problem, {.seed = 2, .max_trials = 100'000});
   ASSERT_FALSE(result.finalists.empty());
   for (const Candidate& one : result.finalists) EXPECT_LE(one.values[0], 0.4);
@@ -64,7 +64,9 @@ TEST(Search, KeepsConditionsThatAreCostlyToExamine) {
 TEST(Search, WithoutAnAdmissiblePointFindsNothing) {
   const MadeUpProblem truth;
   SearchProblem problem = truth.problem(512);
-  problem.admissible = [](std::span<const Values> values) { return std::vector<bool>(values.size(), false); };
+  problem.admissible = [](std::span<const Candidate> candidates) {
+    return std::vector<bool>(candidates.size(), false);
+  };
   EXPECT_TRUE(search(problem, {.seed = 2}).finalists.empty());
 }
 

@@ -31,7 +31,7 @@ inline GainCrossover sliding_crossover(const motion::PlantParameters& plant,
 inline bool stable_while_sliding(const motion::PlantParameters& plant, const loop::EncoderParameters& encoder,
                                  const loop::ControllerParameters& controller,
                                  const LinearDrive& drive = {}) {
-  return stability_of(sliding_loop(plant, encoder, controller, drive)) == LoopStability::stable;
+  return stability_of(sliding_loop(plant, encoder, controller, drive), 1.0) == LoopStability::stable;
 }
 
 }  // namespace zerocount::theory

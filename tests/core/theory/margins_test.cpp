@@ -1,6 +1,7 @@
 // Gain and phase margins: what they say of the closed loop, and closed forms.
 #include "core/theory/margins.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -46,6 +47,80 @@ TEST(Margins, GainMarginIsTheFactorToTheEdgeOfStability) {
     EXPECT_LT(nearest, 1e-6) << i;
   }
   EXPECT_GT(found, 80);
+}
+
+/// A random loop, in every second case about a spring without damping, with up to 12 samples of delay.
+FrozenLoop random_loop(testing::RandomBlocks& draw, int i) {
+  const motion::PlantParameters plant{.inertia = draw.log_uniform(1e-4, 1e-2)};
+  const double stiffness = draw.log_uniform(50.0, 1000.0);
+  const double damping = i % 2 == 0 ? 0.0 : draw.log_uniform(1e-4, 1.0);
+  loop::ControllerParameters controller;
+  controller.sample_rate = draw.log_uniform(1e3, 2e4);
+  const double resolution = loop::fine_resolution({});
+  controller.kp = stiffness * resolution * draw.log_uniform(0.1, 20.0);
+  controller.ki = draw.some(stiffness * resolution * draw.log_uniform(1e-4, 0.1));
+  controller.kd = draw.some(draw.log_uniform(1e-4, 5e-3));
+  controller.delay = i % 25 / 2.0;
+  return frozen_loop(stiffness, damping, plant, {}, controller, {1.0, draw.some(2000.0)});
+}
+
+/// The smallest margins by a fine scan of the frequency response, apart from the search under test: of
+/// successive angles whose values lie on both sides of the unit circle or of the negative real axis.
+StabilityMargins scanned_margins(const FrozenLoop& loop) {
+  constexpr int points = 20'000;
+  constexpr double lowest = 1e-4;
+  StabilityMargins margins{{1e9, 0.0}, {1e9, 0.0}};
+  std::complex<double> last;
+  for (int i = 0; i <= points; ++i) {
+    const double angle = lowest + (std::numbers::pi - lowest) * i / points;
+    const std::complex<double> now = open_loop(loop, angle);
+    const bool jumps = i == 0 || std::abs(now / last - 1.0) > 0.5;  // across a resonance without damping
+    if (!jumps && (std::abs(now) > 1.0) != (std::abs(last) > 1.0))
+      margins.phase.value =
+          std::min(margins.phase.value, std::abs(std::arg(-now)) * 180.0 / std::numbers::pi);
+    if (!jumps && (now.imag() > 0.0) != (last.imag() > 0.0)) {
+      const double at = last.real() + (now.real() - last.real()) * last.imag() / (last.imag() - now.imag());
+      if (at < 0.0) margins.gain.value = std::min(margins.gain.value, std::abs(std::log(-at)));
+    }
+    last = now;
+  }
+  return margins;
+}
+
+TEST(Margins, AreThoseOfAFineScanWithAndWithoutDamping) {
+  testing::RandomBlocks draw(13);
+  int with_phase = 0;
+  for (int i = 0; i < 40; ++i) {
+    const FrozenLoop loop = random_loop(draw, i);
+    const StabilityMargins margins = stability_margins(loop);
+    const StabilityMargins scanned = scanned_margins(loop);
+    if (scanned.phase.value < 1e9) {
+      ++with_phase;
+      EXPECT_LT(std::abs(margins.phase.value), scanned.phase.value + 0.3) << i;
+      EXPECT_GT(std::abs(margins.phase.value), scanned.phase.value - 0.3) << i;
+    }
+    // A scan does not resolve the summit of a resonance.
+    if (scanned.gain.value > 3.0) continue;
+    EXPECT_NEAR(std::abs(std::log(margins.gain.value)), scanned.gain.value, 0.02) << i;
+  }
+  EXPECT_GT(with_phase, 25);
+}
+
+// With the delay that the phase margin allows, the loop has a pole on the unit circle at the crossover.
+TEST(Margins, PhaseMarginIsADelayToTheEdgeOfStability) {
+  testing::RandomBlocks draw(14);
+  int found = 0;
+  for (int i = 0; i < 60; ++i) {
+    const FrozenLoop loop = random_loop(draw, i);
+    const Margin phase = stability_margins(loop).phase;
+    if (std::isnan(phase.value)) continue;
+    ++found;
+    const double angle = 2.0 * std::numbers::pi * phase.frequency * loop.sample_time;
+    const double delay = phase.value / 180.0 * std::numbers::pi / angle;  // samples
+    const std::complex<double> value = open_loop(loop, angle) * std::polar(1.0, -angle * delay);
+    EXPECT_LT(std::abs(value + 1.0), 1e-6) << i;
+  }
+  EXPECT_GT(found, 40);
 }
 
 // An undamped mass under kp alone, its crossover by the closed form of SlidingCrossover's test.

@@ -156,6 +156,31 @@ TEST(SampledStability, LinearLoopDecaysBelowTheBoundAndGrowsAboveIt) {
   EXPECT_GT(judged, 30);
 }
 
+// The bound comes from the frequency response; the poles are those of the loop's map.
+TEST(SampledCriticalIntegralGain, BringsAPoleToTheUnitCircleAndNoSmallerGainDoes) {
+  std::mt19937_64 random(23);
+  std::uniform_real_distribution<double> part(0.0, 1.0);
+  int judged = 0;
+  for (int i = 0; i < 30; ++i) {
+    const double stiffness = 50.0 * std::pow(20.0, part(random));
+    loop::ControllerParameters controller;
+    controller.kp = part(random) * stiffness * loop::fine_resolution(paper_encoder);
+    controller.kd = i % 3 == 0 ? 0.0 : 1e-3 * part(random);
+    controller.delay = i % 4 == 0 ? 30.0 * part(random) : 2.0 * part(random);
+    const LinearDrive drive{1.0, i % 2 == 0 ? 0.0 : 300.0};
+    const double bound = sampled_critical_integral_gain(stiffness, rig, paper_encoder, controller, drive);
+    if (bound == 0.0) continue;
+    ++judged;
+    const auto radius = [&](double ki) {
+      controller.ki = ki;
+      return sampled_spectral_radius(stiffness, rig, paper_encoder, controller, drive);
+    };
+    EXPECT_NEAR(radius(bound), 1.0, 1e-9) << i;
+    for (const double less : {1e-3, 0.1, 0.5, 0.9, 0.999}) EXPECT_LT(radius(less * bound), 1.0) << i;
+  }
+  EXPECT_GT(judged, 20);
+}
+
 TEST(SampledStability, SpectralRadiusIsTheGrowthOfTheLinearLoop) {
   for (const double delay : {0.0, 0.3, 1.0, 3.0}) {
     loop::ControllerParameters controller;

@@ -1,0 +1,178 @@
+#include "core/theory/crossovers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/numerics/dense.hpp"
+
+namespace zerocount::theory {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double half_turn = std::numbers::pi;
+constexpr double lowest_angle = 1e-6 * half_turn;
+constexpr double highest_angle = (1.0 - 1e-9) * half_turn;
+constexpr double narrowest = 1e-9;  // distance from the unit circle below which a root lies on it
+
+/// A function of the angle whose changes of sign are sought.
+using Sought = std::function<double(double angle)>;
+
+void make_increasing(std::vector<double>& angles) {
+  std::erase_if(angles, [](double angle) { return !(angle >= lowest_angle && angle <= highest_angle); });
+  std::ranges::sort(angles);
+  angles.erase(std::unique(angles.begin(), angles.end()), angles.end());
+}
+
+double distance_from_circle(Complex root) {
+  return std::abs(std::log(std::abs(root)));
+}
+
+void add_around(Complex root, std::vector<double>& angles) {
+  if (std::abs(root) < 0.2) return;
+  const double centre = std::abs(std::arg(root));
+  const double width = std::max(distance_from_circle(root), narrowest);
+  for (const double part : {0.0, 0.1, 0.3, 0.6, 1.0, 1.7, 3.0, 6.0, 12.0}) {
+    for (const double angle : {centre - part * width, centre + part * width}) angles.push_back(angle);
+  }
+}
+
+/// The zeros of c₀ + c₁·z⁻¹ + c₂·z⁻² + …
+Eigen::VectorXcd zeros_of(const std::vector<double>& c) {
+  const auto first = std::ranges::find_if(c, [](double x) { return x != 0.0; });
+  const Eigen::Index order = std::max<Eigen::Index>(c.end() - first, 1) - 1;
+  if (order == 0) return {};
+  Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(order, order);
+  for (Eigen::Index i = 0; i < order; ++i) {
+    companion(0, i) = -first[i + 1] / *first;
+    if (i > 0) companion(i, i - 1) = 1.0;
+  }
+  return numerics::eigenvalues(companion);
+}
+
+/// Removes the angles at which a root on the unit circle makes the response infinite, or 0/0.
+void remove_at(const Eigen::VectorXcd& roots, std::vector<double>& angles) {
+  for (const Complex root : roots) {
+    if (distance_from_circle(root) > narrowest) continue;
+    const double centre = std::abs(std::arg(root));
+    std::erase_if(angles, [&](double angle) { return std::abs(angle - centre) < 0.05 * narrowest; });
+  }
+}
+
+/// The angle between low and high at which f changes its sign.
+double bisect(const Sought& f, double low, double high, double at_low) {
+  while (high - low > 1e-12 * high) {
+    const double middle = 0.5 * (low + high);
+    if (middle <= low || middle >= high) break;
+    ((f(middle) > 0.0) == (at_low > 0.0) ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+/// An angle between low and high at which f, that has the sign of `side` at both, has the other sign; NaN
+/// if there seems to be none. By golden sections of |f|.
+double other_side(const Sought& f, double low, double high, double side) {
+  constexpr double section = 0.381966011250105;
+  constexpr int steps = 40;
+  const auto height = [&](double angle) { return side > 0.0 ? f(angle) : -f(angle); };
+  double left = low + section * (high - low);
+  double right = high - section * (high - low);
+  double at_left = height(left);
+  double at_right = height(right);
+  for (int i = 0; i < steps; ++i) {
+    if (at_left <= 0.0) return left;
+    if (at_right <= 0.0) return right;
+    if (at_left < at_right) {
+      high = right;
+      right = left;
+      at_right = at_left;
+      left = low + section * (high - low);
+      at_left = height(left);
+    } else {
+      low = left;
+      left = right;
+      at_left = at_right;
+      right = high - section * (high - low);
+      at_right = height(right);
+    }
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+std::vector<double> sign_changes(const Sought& f, const std::vector<double>& angles) {
+  constexpr double near = 0.3;  // |f| below which it may change its sign and back between three angles
+  std::vector<double> found;
+  std::vector<double> values;
+  values.reserve(angles.size());
+  for (const double angle : angles) values.push_back(f(angle));
+  for (std::size_t i = 1; i < angles.size(); ++i) {
+    if ((values[i] > 0.0) != (values[i - 1] > 0.0)) {
+      found.push_back(bisect(f, angles[i - 1], angles[i], values[i - 1]));
+      continue;
+    }
+    const bool is_last = i + 1 == angles.size();
+    if (is_last || (values[i + 1] > 0.0) != (values[i] > 0.0) || !(std::abs(values[i]) < near)) continue;
+    if (std::abs(values[i]) > std::abs(values[i - 1]) || std::abs(values[i]) > std::abs(values[i + 1]))
+      continue;
+    const double between = other_side(f, angles[i - 1], angles[i + 1], values[i]);
+    if (std::isnan(between)) continue;
+    found.push_back(bisect(f, angles[i - 1], between, values[i - 1]));
+    found.push_back(bisect(f, between, angles[i + 1], -values[i + 1]));
+  }
+  return found;
+}
+
+}  // namespace
+
+void add_angles_around(const Eigen::VectorXcd& roots, std::vector<double>& angles) {
+  for (const Complex root : roots) add_around(root, angles);
+  make_increasing(angles);
+  remove_at(roots, angles);
+}
+
+std::vector<double> search_angles(const FrozenLoop& loop) {
+  constexpr int points = 600;
+  constexpr double largest_turn = 0.3;  // of the phase by the delay, rad
+  std::vector<double> angles;
+  for (int i = 0; i <= points; ++i)
+    angles.push_back(lowest_angle * std::pow(highest_angle / lowest_angle, double(i) / points));
+  const double step = largest_turn / (loop.plant.delay + 2);
+  for (double angle = step; angle < half_turn; angle += step) angles.push_back(angle);
+  std::vector<Eigen::VectorXcd> roots{numerics::eigenvalues(loop.plant.A)};
+  for (const loop::LinearBlock& stage : loop.controller) {
+    for (const loop::SignalPath& path : stage) {
+      roots.push_back(zeros_of(path.transfer.a));
+      roots.push_back(zeros_of(path.transfer.b));
+    }
+  }
+  for (const Eigen::VectorXcd& each : roots) {
+    for (const Complex root : each) add_around(root, angles);
+  }
+  make_increasing(angles);
+  for (const Eigen::VectorXcd& each : roots) remove_at(each, angles);
+  return angles;
+}
+
+std::vector<double> gain_crossovers(const Response& response, const std::vector<double>& angles) {
+  return sign_changes([&](double angle) { return std::log(std::abs(response(angle))); }, angles);
+}
+
+std::vector<double> phase_crossovers(const Response& response, const std::vector<double>& angles) {
+  const auto sine = [&](double angle) {
+    const Complex value = response(angle);
+    return value.imag() / std::abs(value);
+  };
+  std::vector<double> found = sign_changes(sine, angles);
+  // Across a pole on the unit circle the response jumps from one side of the real axis to the other.
+  std::erase_if(found, [&](double angle) {
+    constexpr double apart = 1e-11;
+    const Complex before = response(angle * (1.0 - apart));
+    const Complex after = response(angle * (1.0 + apart));
+    return !((before * std::conj(after)).real() > 0.0);
+  });
+  return found;
+}
+
+}  // namespace zerocount::theory

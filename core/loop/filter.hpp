@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/loop/block_formulas.hpp"
@@ -21,6 +22,12 @@ BiquadConstants<double> bilinear(double n2, double n1, double n0, double damping
 /// response at ω0 equals that of the continuous filter; `biquad` has the given coefficients. The frequency
 /// must be below half the sample rate.
 BiquadConstants<double> discretised(const Filter& filter, double sample_rate);
+
+/// The biquad at `ratio` times the sample rate to which its coefficients belong: to s by the inverse bilinear
+/// transform, and back at the new rate. Both are prewarped at the geometric mean of the natural frequencies
+/// of its zeros and its poles, so that a filter of discretised() becomes that of the new rate. Empty without
+/// such a filter in s: a pole at half the sample rate.
+std::optional<Filter> resampled(const Filter& biquad, double ratio);
 
 /// Whether both poles lie inside the unit circle (Jury's criterion).
 bool is_stable(const BiquadConstants<double>& filter);

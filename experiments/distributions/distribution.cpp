@@ -74,7 +74,7 @@ double quantile_of(const Triangular& d, double u) {
 }
 
 double quantile_of(const Integers& d, double u) {
-  return static_cast<double>(d.low + place_among(d.high - d.low + 1, u));
+  return d.unit * static_cast<double>(d.low + place_among(d.high - d.low + 1, u));
 }
 
 double quantile_of(const Choice& d, double u) {
@@ -117,8 +117,9 @@ Uniformly uniform_of_value(const Triangular& d, double x) {
 }
 
 Uniformly uniform_of_value(const Integers& d, double x) {
-  if (x != std::trunc(x)) return std::nullopt;
-  return middle_of_place(static_cast<std::int64_t>(x) - d.low, d.high - d.low + 1);
+  const double whole = x / d.unit;
+  if (whole != std::trunc(whole)) return std::nullopt;
+  return middle_of_place(static_cast<std::int64_t>(whole) - d.low, d.high - d.low + 1);
 }
 
 Uniformly uniform_of_value(const Choice& d, double x) {
@@ -137,8 +138,8 @@ numerics::Interval support(const Distribution& distribution) {
                              [](const Lognormal&) { return numerics::above(0.0); },
                              [](const Triangular& d) { return numerics::half_open(d.low, d.high); },
                              [](const Integers& d) {
-                               return numerics::closed(static_cast<double>(d.low),
-                                                       static_cast<double>(d.high));
+                               return numerics::closed(d.unit * static_cast<double>(d.low),
+                                                       d.unit * static_cast<double>(d.high));
                              },
                              [](const Choice& d) {
                                const auto [low, high] = std::minmax_element(d.values.begin(), d.values.end());
@@ -158,6 +159,37 @@ std::optional<double> uniform_of(const Distribution& distribution, double x) {
   return std::clamp(*u, 0x1p-53, 1.0 - 0x1p-53);
 }
 
+Distribution scaled(const Distribution& distribution, double factor) {
+  const auto times = [factor](double value) { return factor * value; };
+  return std::visit(
+      Overload{[&](const Uniform& d) -> Distribution {
+                 return Uniform{times(d.low), times(d.high)};
+               },
+               [&](const LogUniform& d) -> Distribution {
+                 return LogUniform{times(d.low), times(d.high)};
+               },
+               [&](const Normal& d) -> Distribution {
+                 return Normal{times(d.mean), times(d.sd)};
+               },
+               [&](const TruncatedNormal& d) -> Distribution {
+                 return TruncatedNormal{times(d.mean), times(d.sd), times(d.low), times(d.high)};
+               },
+               [&](const Lognormal& d) -> Distribution {
+                 return Lognormal{times(d.median), d.cv};
+               },
+               [&](const Triangular& d) -> Distribution {
+                 return Triangular{times(d.low), times(d.mode), times(d.high)};
+               },
+               [&](const Integers& d) -> Distribution {
+                 return Integers{d.low, d.high, times(d.unit)};
+               },
+               [&](Choice d) -> Distribution {
+                 std::ranges::transform(d.values, d.values.begin(), times);
+                 return d;
+               }},
+      distribution);
+}
+
 bool extremes_are_inside(const Distribution& distribution, const numerics::Interval& range) {
   try {
     return numerics::contains(range, quantile(distribution, 0x1p-53)) &&
@@ -168,7 +200,8 @@ bool extremes_are_inside(const Distribution& distribution, const numerics::Inter
 }
 
 bool whole_numbers_only(const Distribution& distribution) {
-  if (std::holds_alternative<Integers>(distribution)) return true;
+  if (const auto* integers = std::get_if<Integers>(&distribution))
+    return integers->unit == std::trunc(integers->unit);
   const auto* choice = std::get_if<Choice>(&distribution);
   return choice != nullptr && std::all_of(choice->values.begin(), choice->values.end(),
                                           [](double v) { return v == std::trunc(v); });

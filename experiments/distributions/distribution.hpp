@@ -59,10 +59,11 @@ struct Triangular {
   bool operator==(const Triangular&) const = default;
 };
 
-/// Uniform on the whole numbers `low` … `high`.
+/// Uniform on the whole numbers `low` … `high`, times `unit`.
 struct Integers {
   std::int64_t low{0};
   std::int64_t high{1};
+  double unit{1.0};  ///< above 0; other than 1 only by scaled()
   bool operator==(const Integers&) const = default;
 };
 
@@ -84,6 +85,9 @@ double quantile(const Distribution& distribution, double u);
 /// A uniform number whose quantile is x, to rounding; nothing if x cannot be drawn. Of a continuous
 /// distribution it is P(X ≤ x); of a discrete one the middle of the interval that gives x.
 std::optional<double> uniform_of(const Distribution& distribution, double x);
+
+/// The distribution of `factor` times the quantity. @param factor above 0
+Distribution scaled(const Distribution& distribution, double factor);
 
 /// Whether the extreme quantiles are in `range`. They may overflow for very large parameters.
 bool extremes_are_inside(const Distribution& distribution, const numerics::Interval& range);

@@ -235,4 +235,21 @@ std::vector<ValueRule> value_rules(const study::StudyPlan& plan) {
   return rules;
 }
 
+std::string first_fault(const study::StudyPlan& plan, std::size_t point) {
+  for (const ValueRule& rule : value_rules(plan)) {
+    if (rule.warn_only) continue;
+    const std::vector<std::size_t> named = study::slots_named(plan.table, rule.between);
+    const std::vector<std::size_t> listed =
+        rule.whole_list ? study::slots_of(plan.list) : std::vector<std::size_t>{};
+    const Faults faults =
+        rule.find_faults(study::limits_at(plan, named, point), study::limits_at(plan, listed, point));
+    if (faults.empty()) continue;
+    const ValueFault& fault = faults.front();
+    const std::size_t slot = fault.listed.empty() ? named.front() : listed[fault.listed.front()];
+    return parameters::text_on(plan.units.axis, fmt::format("{}: {}; expected {}", plan.table.rows[slot].name,
+                                                            fault.what, fault.expected));
+  }
+  return "";
+}
+
 }  // namespace zerocount::rules

@@ -43,4 +43,8 @@ std::vector<ValueRule> plugin_rules(const study::StudyPlan& plan);
 /// All rules for a plan of this kind.
 std::vector<ValueRule> value_rules(const study::StudyPlan& plan);
 
+/// The first inconsistency between the values of a design point that is an error, "path: what; expected …";
+/// empty if there is none.
+std::string first_fault(const study::StudyPlan& plan, std::size_t point);
+
 }  // namespace zerocount::rules

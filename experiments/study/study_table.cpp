@@ -43,7 +43,7 @@ RowGroup add_list(StudyTable& table, std::size_t row, std::size_t count) {
   const RowGroup group{row, table.rows.size(), count};
   const parameters::Parameter list = table.rows[row];
   for (std::size_t i = 0; i < count; ++i) {
-    const std::string& name = table.names.emplace_back(fmt::format("{}.{}", list.name, i));
+    const std::string& name = table.names->emplace_back(fmt::format("{}.{}", list.name, i));
     table.rows.push_back(parameters::value_row(list, i, name));
   }
   table.groups.push_back(group);
@@ -58,7 +58,7 @@ RowGroup add_element(StudyTable& table, const parameters::ElementList& list, std
   const std::size_t first_key = row_of_key(list.forms.front().keys.front());
   const RowGroup group{first_key, table.rows.size(), form.keys.size()};
   for (const std::string_view key : form.keys) {
-    const std::string& name = table.names.emplace_back(fmt::format("{}.{}.{}", list.path, index, key));
+    const std::string& name = table.names->emplace_back(fmt::format("{}.{}.{}", list.path, index, key));
     table.rows.push_back(
         parameters::element_row(parameters::parameter_table()[row_of_key(key)], index, name));
   }
@@ -76,7 +76,7 @@ RowGroup add_plugin(StudyTable& table, const plugin::PluginDescription& plugin) 
                        plugin.parameters.size()};
   for (const plugin::PluginParameter& parameter : plugin.parameters) {
     const std::string& name =
-        table.names.emplace_back(fmt::format("controller.parameters.{}", parameter.name));
+        table.names->emplace_back(fmt::format("controller.parameters.{}", parameter.name));
     table.rows.push_back(parameters::plugin_row(name, table.rows.size() - group.first, parameter));
   }
   table.groups.push_back(group);

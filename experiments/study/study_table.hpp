@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,11 +28,8 @@ struct StudyTable {
   std::vector<parameters::Parameter> rows{parameters::parameter_table().begin(),
                                           parameters::parameter_table().end()};
   std::vector<RowGroup> groups{};
-  std::deque<std::string> names{};  ///< of the rows of the groups, which refer to them
-
-  StudyTable() = default;
-  StudyTable(const StudyTable&) = delete;
-  StudyTable& operator=(const StudyTable&) = delete;
+  /// Of the rows of the groups, which refer to them. Copies of a table share them.
+  std::shared_ptr<std::deque<std::string>> names{std::make_shared<std::deque<std::string>>()};
 };
 
 /// Lets the positions of the command be in rad (command.units: si). To be called before rows are added.

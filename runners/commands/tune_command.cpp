@@ -23,6 +23,7 @@
 #include "runners/study_run/engine_use.hpp"
 #include "runners/study_run/interruption.hpp"
 #include "runners/study_run/study_runner.hpp"
+#include "runners/tuning/limits_text.hpp"
 #include "runners/tuning/tune_text.hpp"
 #include "runners/tuning/tuner.hpp"
 #include "runners/tuning/tuning_page.hpp"
@@ -55,8 +56,9 @@ constexpr const char* tune_help =
 constexpr const char* limits_help =
     "Tells what stands between a point and its goal: the rate of the goal with each cause of\n"
     "failures switched off alone, and with the best pair of causes: creep, the converter (16 times\n"
-    "finer), the encoder (4 times finer), the sample rate (twice), delay and amplifier lag, noise.\n"
-    "All are simulated with the same random numbers. Of several points --point chooses one.\n"
+    "finer), the encoder (4 times finer), the sample rate (twice), delay and amplifier lag, noise,\n"
+    "disturbance, missed and late samples. The gains are not tuned again. All are simulated with\n"
+    "the same random numbers. Of several points --point chooses one.\n"
     "\n"
     "Example: zerocount limits my-axis.yaml\n";
 

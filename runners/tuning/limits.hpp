@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -11,7 +12,8 @@ namespace zerocount::tuning {
 /// Rate of the goal with a cause of failures switched off.
 struct Limit {
   std::string cause;
-  double rate{0.0};
+  std::optional<double> rate{};  ///< empty if it cannot be simulated, for the reason in `note`
+  std::string note{};            ///< what the rate does not show
 };
 
 /// Rate of the goal (Estimate::rate) on the first `count` units.
@@ -19,8 +21,9 @@ struct Limit {
 double rate_of(const study::Study& study, const Units& units, std::int64_t count, const Change* change,
                const std::stop_token& stop);
 
-/// Rates of the goal on all units, with each cause of failures switched off that the study has, and with the
-/// best pair of them. The first entry is "none".
+/// Rates of the goal on all units, with each cause of failures switched off that a trial of the point can
+/// have, and with the best pair of them, if that is better than each alone. The first entry is "none". A
+/// change that makes a study which its manifest could not describe is not simulated.
 /// @throws trial::Interrupted
 std::vector<Limit> limits_of(const study::Study& study, const Units& units, const std::stop_token& stop);
 

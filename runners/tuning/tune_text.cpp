@@ -11,6 +11,7 @@
 #include "analysis/text/text.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/theory/gains.hpp"
+#include "runners/tuning/limits_text.hpp"
 
 namespace zerocount::tuning {
 namespace {
@@ -147,12 +148,6 @@ std::string frontier_text(const TuneAnswer& answer) {
          text::aligned_table(columns);
 }
 
-Json list_of(const std::vector<Limit>& limits) {
-  Json json = Json::array();
-  for (const Limit& one : limits) json.push_back({{"cause", one.cause}, {"rate", one.rate}});
-  return json;
-}
-
 Json object_of(const WorstMachine& worst) {
   return {
       {"rig", worst.rig}, {"trial", worst.trial}, {"met", worst.met}, {"inputs", values_json(worst.inputs)}};
@@ -198,34 +193,9 @@ std::vector<std::string> proof_lines(const TuneAnswer& answer, const study::Stud
   return lines;
 }
 
-std::string limits_text(const std::vector<Limit>& limits, bool of_machines, bool in_worlds) {
-  std::vector<text::TextColumn> columns{
-      {"idealisation", false, {}},
-      {fmt::format("{} that meet the goal{}", of_machines ? "machines" : "moves",
-                   in_worlds ? " (worst world)" : ""),
-       true,
-       {}},
-      {"of the failures", true, {}}};
-  const double base = limits.front().rate;
-  for (const Limit& one : limits) {
-    columns[0].cells.push_back(one.cause);
-    columns[1].cells.push_back(fmt::format("{:.2f} %", 100.0 * one.rate));
-    const double share = base < 1.0 ? (one.rate - base) / (1.0 - base) : 0.0;
-    columns[2].cells.push_back(
-        &one == &limits.front() || base == 1.0
-            ? ""
-            : fmt::format("{:.0f} % {}", std::abs(100.0 * share), share >= 0.0 ? "fewer" : "more"));
-  }
-  return text::aligned_table(columns);
-}
-
 std::string worst_text(const WorstMachine& worst, bool on_rigs) {
   return fmt::format("worst machine: {} {}, {:.4g} % of its moves meet the goal; {}\n",
                      on_rigs ? "rig" : "trial", worst.rig, 100.0 * worst.met, values_text(worst.inputs));
-}
-
-std::string limits_json(const std::vector<Limit>& limits) {
-  return text::json_text({{"limits", list_of(limits)}});
 }
 
 std::string worst_text(const WorstInBox& in_box, const WorstInBox& likely) {
@@ -320,7 +290,7 @@ std::string json_of(const TuneAnswer& answer) {
                                 {"rate", one.estimate.rate},
                                 {"criterion", finite_or_null(one.estimate.criterion)}});
   }
-  json["limits"] = list_of(answer.limits);
+  json["limits"] = limits_array(answer.limits);
   json["worst"] = answer.worst ? object_of(*answer.worst) : Json();
   json["wider_band_rate"] = answer.wider_band_rate ? Json(*answer.wider_band_rate) : Json();
   json["searched"] = {{"points", answer.points},

@@ -20,10 +20,6 @@ std::vector<std::string> proof_lines(const TuneAnswer& answer, const study::Stud
 /// @param study that was tuned. @param output the results file of the proof
 std::string text_of(const TuneAnswer& answer, const study::Study& study, const std::string& output);
 
-std::string limits_json(const std::vector<Limit>& limits);
-/// A table: each cause, the rate without it, and the part of the failures that it causes.
-std::string limits_text(const std::vector<Limit>& limits, bool of_machines, bool in_worlds);
-
 std::string worst_json(const WorstMachine& worst, const WorstInBox& in_box, const WorstInBox& likely);
 /// A table: the worst machine of the box, and of the likely ones.
 std::string worst_text(const WorstInBox& in_box, const WorstInBox& likely);

@@ -161,13 +161,14 @@ Figure limits_figure(const TuneAnswer& answer) {
       "limits",
       {{"cause", "switched off", ""}, {"rate", "rate of the goal", "1"}, {"none", "nothing off", "1"}}};
   for (const Limit& one : answer.limits)
-    data.rows.push_back({one.cause, datum(one.rate), datum(answer.limits.front().rate)});
+    if (one.rate) data.rows.push_back({one.cause, datum(*one.rate), datum(*answer.limits.front().rate)});
+  const std::size_t rows = data.rows.size();
   Figure figure = report::figure_of(
       "tuning-limits", "tuning-limits", "What limits the goal",
       "The rate of the goal at the tuned point with a cause of failures switched off, on machines of the "
       "search. A bar begins at the rate with nothing switched off.",
       {std::move(data)});
-  report::set_rows(figure, answer.limits.size(), 24);
+  report::set_rows(figure, rows, 24);
   return figure;
 }
 

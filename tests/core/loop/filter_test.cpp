@@ -2,9 +2,11 @@
 // on from a torque in force.
 #include "core/loop/filter.hpp"
 
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <optional>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -51,6 +53,36 @@ TEST(Filter, HasTheContinuousResponseAtItsFrequencyAtZeroAndAtHalfTheSampleRate)
     expect_near(response(lead, 0.5 * filter_rate), 4.0);
     EXPECT_TRUE(is_stable(lowpass) && is_stable(notch) && is_stable(lead));
   }
+}
+
+// A biquad with the coefficients of a filter of 2 kHz, moved to another rate, is that filter of the other
+// rate.
+TEST(Filter, OfCoefficientsMovesToAnotherSampleRateAsTheFilterThatTheyAreOf) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int i = 0; i < 300; ++i) {
+    Filter filter{.kind = static_cast<FilterKind>(i % 3),
+                  .frequency = 5.0 + 900.0 * unit(random),
+                  .damping = 0.05 + unit(random),
+                  .depth = unit(random),
+                  .ratio = 1.5 + 8.0 * unit(random)};
+    const double ratio = i % 2 == 0 ? 2.0 : 1.0 + 3.0 * unit(random);
+    const BiquadConstants<double> here = discretised(filter, filter_rate);
+    const Filter given{.kind = FilterKind::biquad, .b = {here.b0, here.b1, here.b2}, .a = {here.a1, here.a2}};
+    const std::optional<Filter> moved = resampled(given, ratio);
+    ASSERT_TRUE(moved);
+    const BiquadConstants<double> there = discretised(filter, ratio * filter_rate);
+    const double expected[] = {there.b0, there.b1, there.b2, there.a1, there.a2};
+    const double found[] = {moved->b[0], moved->b[1], moved->b[2], moved->a[0], moved->a[1]};
+    for (int k = 0; k < 5; ++k) EXPECT_NEAR(found[k], expected[k], 1e-8) << i << ' ' << k;
+  }
+}
+
+TEST(Filter, OfCoefficientsWithAPoleAtHalfTheSampleRateIsOfNoOtherRate) {
+  EXPECT_FALSE(resampled({.kind = FilterKind::biquad, .b = {1.0, 0.0, 0.0}, .a = {1.0, 0.0}}, 2.0));
+  const std::optional<Filter> gain = resampled({.kind = FilterKind::biquad, .b = {3.0, 0.0, 0.0}}, 2.0);
+  ASSERT_TRUE(gain);
+  EXPECT_EQ(gain->b, (std::array<double, 3>{3.0, 0.0, 0.0}));
 }
 
 TEST(Filter, IsStableWhereBothPolesLieInsideTheUnitCircle) {

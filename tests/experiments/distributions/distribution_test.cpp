@@ -175,6 +175,22 @@ TEST(Distribution, QuantilesOfTheUniformNumberOfAValueIsTheValue) {
   }
 }
 
+TEST(Distribution, ScaledDrawsTheMultipleWithTheSameUniformNumber) {
+  std::mt19937_64 numbers(4);
+  std::uniform_real_distribution<double> uniform(0.001, 0.999);
+  for (int repetition = 0; repetition < 100; ++repetition) {
+    const double factor = repetition % 2 == 0 ? 4.0 : 5.0 * uniform(numbers);
+    for (const Distribution& distribution : random_distributions(numbers)) {
+      const Distribution multiple = scaled(distribution, factor);
+      const double u = uniform(numbers);
+      const double expected = factor * quantile(distribution, u);
+      EXPECT_NEAR(quantile(multiple, u), expected, 1e-12 * (1.0 + std::abs(expected)))
+          << "kind " << distribution.index();
+      EXPECT_EQ(whole_numbers_only(multiple), factor == 4.0 && whole_numbers_only(distribution));
+    }
+  }
+}
+
 TEST(Distribution, AValueThatCannotBeDrawnHasNoUniformNumber) {
   EXPECT_FALSE(uniform_of(Uniform{1, 2}, 2.1));
   EXPECT_FALSE(uniform_of(LogUniform{1, 2}, 0.9));

@@ -1,0 +1,132 @@
+#include "experiments/study/point_edit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+
+namespace zerocount::study {
+namespace {
+
+std::size_t slot_named(const StudyPlan& plan, std::string_view parameter) {
+  return slots_named(plan.table, {&parameter, 1}).front();
+}
+
+}  // namespace
+
+PointEdit::PointEdit(const Study& study, std::int64_t point)
+    : study_(study),
+      plan_(std::make_shared<StudyPlan>(*study.plan)),
+      point_(static_cast<std::size_t>(point)) {
+  plan_->axes.push_back({{0, 0}, {}});
+}
+
+ValueLimits PointEdit::limits(std::string_view parameter) const {
+  return limits_of(*plan_, value_of(slot_named(*plan_, parameter)));
+}
+
+void PointEdit::set(std::size_t slot, double number) {
+  assign(slot, {.kind = Value::Kind::number, .number = number});
+}
+
+void PointEdit::set(std::string_view parameter, double number) {
+  set(slot_named(*plan_, parameter), number);
+}
+
+void PointEdit::scale(std::size_t slot, double factor) {
+  const Value value = value_of(slot);
+  const std::optional<double> none = plan_->table.rows[slot].none;
+  switch (value.kind) {
+    case Value::Kind::number:
+      if (value.number != none && !std::isnan(value.number)) set(slot, factor * value.number);
+      return;
+    case Value::Kind::distribution: {
+      const distributions::Distribution& before = plan_->distributions[value.index];
+      distributions::Distribution after = distributions::scaled(before, factor);
+      if (auto* choice = std::get_if<distributions::Choice>(&after)) {
+        const std::vector<double>& values = std::get<distributions::Choice>(before).values;
+        for (std::size_t i = 0; i < values.size(); ++i)
+          if (values[i] == none) choice->values[i] = *none;
+      }
+      assign(slot, drawn_from(value, std::move(after)));
+      return;
+    }
+    case Value::Kind::profile:  // of friction, which has no unit that depends on the loop
+      return;
+  }
+}
+
+void PointEdit::scale(std::string_view parameter, double factor) {
+  scale(slot_named(*plan_, parameter), factor);
+}
+
+void PointEdit::add(std::string_view parameter, std::int64_t number) {
+  const std::size_t slot = slot_named(*plan_, parameter);
+  const Value value = value_of(slot);
+  if (value.kind == Value::Kind::number) return set(slot, value.number + static_cast<double>(number));
+  distributions::Distribution distribution = plan_->distributions[value.index];
+  if (auto* integers = std::get_if<distributions::Integers>(&distribution)) {
+    integers->low += number;
+    integers->high += number;
+  } else {
+    for (double& one : std::get<distributions::Choice>(distribution).values)
+      one += static_cast<double>(number);
+  }
+  assign(slot, drawn_from(value, std::move(distribution)));
+}
+
+std::string PointEdit::out_of_range() const {
+  for (const Assignment& one : plan_->axes.back().assignments) {
+    const parameters::Parameter& parameter = plan_->table.rows[one.slot];
+    const ValueLimits limits = limits_of(*plan_, one.value);
+    const auto is_allowed = [&](double value) {
+      return value == parameter.none || numerics::contains(parameter.range, value);
+    };
+    const bool drawn = one.value.kind == Value::Kind::distribution;
+    if (drawn ? distributions::extremes_are_inside(plan_->distributions[one.value.index], parameter.range)
+              : is_allowed(limits.low))
+      continue;
+    return fmt::format("{}: it would be {}; expected {}", parameter.name,
+                       limits.low == limits.high ? fmt::format("{:.6g}", limits.low)
+                                                 : fmt::format("{:.6g} to {:.6g}", limits.low, limits.high),
+                       numerics::notation(parameter.range));
+  }
+  return "";
+}
+
+Study PointEdit::study() const {
+  Study study = study_;
+  study.plan = plan_;
+  return study;
+}
+
+const Value& PointEdit::value_of(std::size_t slot) const {
+  return *value_at_point(*plan_, slot, point_);
+}
+
+void PointEdit::assign(std::size_t slot, const Value& value) {
+  const auto number = static_cast<std::uint32_t>(slot);
+  PlanAxis& axis = plan_->axes.back();
+  const auto same =
+      std::ranges::find_if(axis.assignments, [number](const Assignment& one) { return one.slot == number; });
+  if (same != axis.assignments.end()) {
+    same->value = value;
+    return;
+  }
+  axis.assignments.push_back({number, value});
+  axis.first.back() = static_cast<std::uint32_t>(axis.assignments.size());
+  std::vector<std::uint32_t>& inputs = plan_->input_slots;
+  if (std::ranges::find(inputs, number) == inputs.end()) inputs.push_back(number);
+}
+
+Value PointEdit::drawn_from(const Value& like, distributions::Distribution distribution) {
+  Value value = like;
+  value.index = static_cast<std::uint32_t>(plan_->distributions.size());
+  plan_->distributions.push_back(std::move(distribution));
+  return value;
+}
+
+}  // namespace zerocount::study

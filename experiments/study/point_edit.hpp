@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "experiments/study/point_limits.hpp"
+
+namespace zerocount::study {
+
+/// A study with other values at one of its design points, in the units of its manifest. All other values and
+/// all random numbers stay: a scaled value is drawn as before.
+class PointEdit {
+ public:
+  PointEdit(const Study& study, std::int64_t point);
+
+  std::size_t point() const { return point_; }
+  const StudyPlan& plan() const { return *plan_; }
+  StudyPlan& plan() { return *plan_; }
+  /// @param parameter dotted path
+  ValueLimits limits(std::string_view parameter) const;
+
+  void set(std::size_t slot, double number);
+  void set(std::string_view parameter, double number);
+  /// The value "none" stays, and a required one that the study does not have. @param factor above 0
+  void scale(std::size_t slot, double factor);
+  void scale(std::string_view parameter, double factor);
+  /// For a slot of whole numbers.
+  void add(std::string_view parameter, std::int64_t number);
+
+  /// The first new value outside the range of its parameter, "path: what; expected …"; empty if there is
+  /// none.
+  std::string out_of_range() const;
+
+  /// Its trials at the point are those with the new values.
+  Study study() const;
+
+ private:
+  const Value& value_of(std::size_t slot) const;
+  void assign(std::size_t slot, const Value& value);
+  Value drawn_from(const Value& like, distributions::Distribution distribution);
+
+  Study study_;
+  std::shared_ptr<StudyPlan> plan_;  // its last axis has one option, the new values
+  std::size_t point_;
+};
+
+}  // namespace zerocount::study

@@ -1,0 +1,270 @@
+// `limits`: which causes a study has, and that the rate without one is that of the manifest which says so.
+#include <map>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/runners/program.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::string_view noted = "same gains, not tuned again";
+
+class Limits : public ::testing::Test {
+ protected:
+  Json limits_of(const std::string& manifest, const std::vector<std::string>& more = {}) {
+    folder_.write("axis.yaml", manifest);
+    std::vector<std::string> words{"limits", "axis.yaml", "--format", "json"};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult result = zerocount_program(words, folder_.path());
+    EXPECT_EQ(result.code, 0) << result.err;
+    return result.code == 0 ? Json::parse(result.out)["limits"] : Json::array();
+  }
+
+  /// Rate of the goal of the manifest with these values.
+  double rate_with(const std::string& manifest, const std::vector<std::string>& values) {
+    folder_.write("changed.yaml", manifest);
+    std::vector<std::string> words{"run", "changed.yaml", "-o", "changed.h5", "--force", "--quiet"};
+    for (const std::string& value : values) words.insert(words.end(), {"--set", value});
+    const ProgramResult run = zerocount_program(words, folder_.path());
+    EXPECT_EQ(run.code, 0) << run.err;
+    return Json::parse(
+        zerocount_program({"judge", "changed.h5", "--format", "json"}, folder_.path()).out)["rate"];
+  }
+
+  static Json row(const Json& limits, const std::string& cause) {
+    for (const Json& one : limits) {
+      if (one["cause"] == cause) return one;
+    }
+    return {};
+  }
+
+  TemporaryFolder folder_;
+};
+
+constexpr std::string_view in_counts = R"(zerocount: 1
+name: in-counts
+seed: 5
+trials: 60
+friction: {k1: {lognormal: {median: 130, cv: 0.2}}}
+encoder: {fine: 400000, fine_errors: {noise: 0.3, interpolation: 0.5}}
+dac: {nonlinearity: 0.6, noise: 1.0e-4}
+command: {targets: [{integers: [3, 8]}, -2], hold: 0.2}
+initial: {encoder_phase: {uniform: [0, 1]}}
+verdict: {dwell: 0.02, window: 0.02}
+controller:
+  ki: {log_uniform: [5.0e-5, 3.0e-4]}
+  kp: 1.0e-4
+  kd: 3.0e-3
+  integrator_zone: 40
+  delay: {uniform: [0, 2]}
+  standstill: {band: 2, dwell: 0.01, kp: 2.0e-4, ki: 5.0e-5, kd: 2.0e-3}
+  filters: [{lowpass: {frequency: 600, damping: 0.7}}]
+goal: {band: 1, within: 0.08, moves: 0.9}
+)";
+
+constexpr std::string_view of_two_phases = R"(zerocount: 1
+name: of-two-phases
+axis: linear
+seed: 6
+trials: 40
+plant: {inertia: 3, presliding_damping: 400, sliding_damping: 20}
+friction: {k1: 3.0e+4, k2: {uniform: [1.0e+6, 3.0e+6]}, beta: 4.0e+5, breakaway: 4, stribeck_velocity: 1.0e-3, alpha: 0}
+encoder: {resolution: 2.0e-8, coarse_resolution: 1.0e-7, fine_errors: {noise: 0.3}, coarse_errors: {noise: 0.2}}
+dac: {bits: {choice: [11, 12]}, range: 60}
+controller:
+  units: si
+  sample_rate: 4000
+  ki: 8.0e+7
+  coarse: {kp: 1.0e+6, ki: 5.0e+7, kd: 3000, encoder: coarse, coarse_beyond: 60, fine_within: 30, fine_rate: 2}
+command: {units: si, targets: [5.0e-6, 0], hold: 0.2}
+initial: {encoder_phase: {uniform: [0, 1]}}
+goal: {band: 3, within: 0.1, moves: 0.9}
+)";
+
+// The rate without a cause is that of the manifest that describes it, to the last move.
+TEST_F(Limits, AreTheRatesOfTheManifestsThatTheyStandFor) {
+  const std::string counts(in_counts);
+  const std::string phases(of_two_phases);
+  const std::string cascade = R"(zerocount: 1
+name: cascade
+seed: 8
+trials: 40
+command: {targets: [30, 0], hold: 0.2, profile: {shape: trapezoidal, velocity_limit: 0.01}}
+initial: {encoder_phase: {uniform: [0, 1]}}
+controller: {structure: cascade, cascade: {kv: {uniform: [20, 200]}, kp: 0.3, ki: 40}, missed: 0.3}
+goal: {band: 1, within: 0.1, moves: 0.9}
+)";
+  struct Case {
+    const std::string& manifest;
+    const char* cause;
+    std::vector<std::string> values;
+  };
+  const std::vector<Case> cases{
+      {counts,
+       "twice the sample rate",
+       {"controller.sample_rate=4000", "controller.ki={log_uniform: [2.5e-5, 1.5e-4]}",
+        "controller.kd=6.0e-3", "controller.standstill.ki=2.5e-5", "controller.standstill.kd=4.0e-3"}},
+      {counts,
+       "an encoder 4 times finer",
+       {"encoder.fine=1600000", "encoder.fine_errors.noise=1.2", "encoder.fine_errors.interpolation=2",
+        "encoder.fine_errors.interpolation_period=16",
+        "command.targets=[{choice: [12, 16, 20, 24, 28, 32]}, -8]",
+        "controller.ki={log_uniform: [1.25e-5, 7.5e-5]}", "controller.kp=2.5e-5", "controller.kd=7.5e-4",
+        "controller.integrator_zone=160", "controller.standstill.band=8", "controller.standstill.kp=5.0e-5",
+        "controller.standstill.ki=1.25e-5", "controller.standstill.kd=5.0e-4", "goal.band=6"}},
+      {counts,
+       "a converter 16 times finer",
+       {"dac.bits=16", "dac.resolution=1.5e-5", "dac.nonlinearity=9.6"}},
+      {counts, "no delay, no amplifier lag", {"controller.delay=0"}},
+      {counts, "no noise", {"encoder.fine_errors.noise=0", "dac.noise=0"}},
+      {counts, "creep off", {"friction.alpha=0"}},
+      {phases, "twice the sample rate", {"controller.sample_rate=8000", "controller.coarse.fine_rate=1"}},
+      {phases,
+       "an encoder 4 times finer",
+       {"encoder.resolution=5.0e-9", "encoder.coarse_resolution=2.5e-8", "encoder.fine_errors.noise=1.2",
+        "encoder.coarse_errors.noise=0.8", "controller.coarse.coarse_beyond=240",
+        "controller.coarse.fine_within=120", "controller.coarse.fine_rate=8", "goal.band=14"}},
+      {phases, "a converter 16 times finer", {"dac.bits={choice: [15, 16]}"}},
+      {phases, "no noise", {"encoder.fine_errors.noise=0", "encoder.coarse_errors.noise=0"}},
+      {cascade, "twice the sample rate", {"controller.sample_rate=4000"}},
+      {cascade, "no missed or late samples", {"controller.missed=0"}},
+  };
+  std::map<std::string, Json> found_for;
+  for (const std::string* manifest : {&counts, &phases, &cascade})
+    found_for[*manifest] = limits_of(*manifest);
+  for (const Case& one : cases) {
+    const Json& limits = found_for[one.manifest];
+    const Json found = row(limits, one.cause);
+    ASSERT_FALSE(found.is_null()) << one.cause << limits;
+    EXPECT_DOUBLE_EQ(found["rate"], rate_with(one.manifest, one.values)) << one.cause << one.manifest;
+  }
+}
+
+// Where the coarse encoder closes the loop, it is the one that is refined; nothing else is.
+TEST_F(Limits, RefineTheEncoderThatClosesTheLoop) {
+  const std::string manifest = R"(zerocount: 1
+name: coarse
+seed: 3
+trials: 60
+encoder: {fine: 1000000, coarse: 40000}
+controller: {units: si, sample_rate: 4000, ki: 1.0e+4, encoder: coarse}
+command: {targets: [{integers: [-90, 90]}], hold: 0.3}
+initial: {encoder_phase: {uniform: [0, 1]}}
+goal: {band: 8, within: 0.1, moves: 0.95}
+)";
+  const Json finer = row(limits_of(manifest), "an encoder 4 times finer");
+  EXPECT_DOUBLE_EQ(finer["rate"], rate_with(manifest, {"encoder.coarse=160000"}));
+  EXPECT_GT(finer["rate"].get<double>(), rate_with(manifest, {}));
+}
+
+// A cause is there if a trial can have it, whichever trials the seed draws; one that none can have is not.
+TEST_F(Limits, HaveTheSameCausesForEverySeed) {
+  const std::string manifest = R"(zerocount: 1
+name: rare-causes
+seed: 1
+trials: 2
+rigs: 2
+friction: {alpha: {choice: [0, 0, 0, 0, 0.5]}, model: presliding}
+encoder: {coarse_errors: {noise: 0.5}}
+amplifier: {bandwidth: 0}
+controller: {ki: 2.0e-5, delay: {choice: [0, 0, 0, 2], per: rig}, missed: {uniform: [0, 0.01]}}
+disturbance: {ripple: [{amplitude: {choice: [0, 0, 0, 1.0e-3]}, periods: 40}]}
+command: {targets: [10], hold: 0.2}
+goal: {band: 1, within: 0.1, moves: 0.9}
+)";
+  for (int seed = 1; seed < 8; ++seed) {
+    const Json limits = limits_of(manifest, {"--set", fmt::format("seed={}", seed)});
+    for (const char* cause :
+         {"creep off", "no delay, no amplifier lag", "no disturbance", "no missed or late samples"})
+      EXPECT_FALSE(row(limits, cause).is_null()) << cause << " with seed " << seed;
+    EXPECT_TRUE(row(limits, "no noise").is_null()) << "the coarse encoder does not close the loop";
+  }
+  const Json limits = limits_of(manifest, {"--set", "friction.model=spring", "--set", "controller.delay=0",
+                                           "--set", "controller.missed=0", "--set", "disturbance.ripple=[]"});
+  for (const Json& one : limits) {
+    const std::string cause = one["cause"];
+    EXPECT_TRUE(cause == "none" || cause.find("finer") != std::string::npos ||
+                cause.find("twice the sample rate") != std::string::npos)
+        << cause;
+  }
+}
+
+// What a manifest cannot describe is not simulated, and the reason is given.
+TEST_F(Limits, SayWhatTheyDoNotSimulate) {
+  const std::string late = R"(zerocount: 1
+name: late
+seed: 2
+trials: 20
+dac: {bits: 30, resolution: 1.0e-9}
+controller: {ki: 2.0e-5, filters: [{biquad: {b: [0.5, 0.5, 0], a: [1, 0]}}]}
+command: {targets: [10], hold: 0.2}
+goal: {band: 1, within: 0.1, moves: 0.9}
+)";
+  const Json limits = limits_of(late);
+  EXPECT_TRUE(row(limits, "a converter 16 times finer")["rate"].is_null()) << limits;
+  EXPECT_NE(row(limits, "a converter 16 times finer")["note"].get<std::string>().find("dac.bits"),
+            std::string::npos);
+  EXPECT_TRUE(row(limits, "twice the sample rate")["rate"].is_null());
+  EXPECT_NE(
+      row(limits, "twice the sample rate")["note"].get<std::string>().find("pole at half the sample rate"),
+      std::string::npos)
+      << limits;
+  const Json jitter = row(limits_of(late, {"--set", "controller.jitter={uniform: [0, 3.0e-4]}", "--set",
+                                           "controller.filters=[]"}),
+                          "twice the sample rate");
+  EXPECT_TRUE(jitter["rate"].is_null()) << jitter;
+  EXPECT_NE(jitter["note"].get<std::string>().find("controller.jitter"), std::string::npos) << jitter;
+  const std::string text = zerocount_program({"limits", "axis.yaml"}, folder_.path()).out;
+  EXPECT_NE(text.find("is not simulated: "), std::string::npos) << text;
+  EXPECT_NE(text.find(noted), std::string::npos) << text;
+}
+
+// The load of a machine and the integral that carries it are drawn together, and go together.
+TEST_F(Limits, TakeALoadAwayWithWhatHoldsIt) {
+  folder_.write("loads.csv", "disturbance.torque,initial.integral\n-100,100\n-110,110\n-90,90\n-20,20\n");
+  const std::string manifest = R"(zerocount: 1
+name: z-axis
+axis: linear
+seed: 4
+trials: 20
+plant: {inertia: 12, presliding_damping: 1500, sliding_damping: 100}
+friction: {k1: 1.0e+5, k2: 2.0e+6, beta: 1.0e+6, alpha: 0, breakaway: 15, stribeck_velocity: 1.0e-3}
+encoder: {resolution: 1.0e-7}
+dac: {bits: 16, range: 400}
+controller: {units: si, sample_rate: 4000, kp: 1.0e+6, ki: 2.0e+7, kd: 5000}
+command: {targets: [0, 1000], hold: 0.3}
+goal: {band: 2, within: 0.1, moves: 0.95}
+)";
+  const double without = rate_with(manifest, {});
+  for (const char* load : {"samples: loads.csv\n",
+                           "disturbance: {torque: {uniform: [-110, -90]}}\n"
+                           "initial: {integral: 100}\n",
+                           "disturbance: {torque: 9}\ninitial: {holding: true}\n",
+                           "disturbance: {torque: 9}\ninitial: {preload: -9}\n"}) {
+    EXPECT_EQ(row(limits_of(manifest + load), "no disturbance")["rate"], without) << load;
+  }
+  // An integral that no load explains stays.
+  EXPECT_EQ(row(limits_of(manifest + "disturbance: {torque: -1}\ninitial: {integral: 80}\n"),
+                "no disturbance")["rate"],
+            rate_with(manifest, {"initial.integral=79"}));
+}
+
+TEST_F(Limits, NoteThatTheGainsAreNotTunedAgain) {
+  for (const Json& one : limits_of(std::string(in_counts))) {
+    const std::string cause = one["cause"];
+    const bool of_the_loop = cause.find("rate") != std::string::npos ||
+                             cause.find("encoder") != std::string::npos ||
+                             cause.find("delay") != std::string::npos;
+    EXPECT_EQ(one["note"] == Json(noted), of_the_loop) << one;
+  }
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -9,9 +9,9 @@
 #include <ceres/dynamic_numeric_diff_cost_function.h>
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
-#include <ceres/solver.h>
 
 #include "analysis/parallel/parallel.hpp"
+#include "analysis/record_fit/least_squares_search.hpp"
 #include "core/friction/spring.hpp"
 
 namespace zerocount::identification {
@@ -155,15 +155,12 @@ SlowFit fit_coordinates(const SlowPartsResiduals& residuals, const ContactPoint&
   }
   if (fixed.size() == coordinate_count) return {start, std::numeric_limits<double>::infinity()};
   problem.SetManifold(point.data(), new ceres::SubsetManifold(static_cast<int>(coordinate_count), fixed));
-  ceres::Solver::Options options;
-  options.logging_type = ceres::SILENT;
-  options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = steps;
-  options.function_tolerance = 1e-5;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
-  if (!summary.IsSolutionUsable()) return {start, std::numeric_limits<double>::infinity()};
-  return {point, 2.0 * summary.final_cost};
+  record_fit::SearchSetting search;
+  search.max_steps = steps;
+  search.tolerance = 1e-5;
+  const record_fit::SearchResult found = record_fit::search_least_squares(problem, search);
+  if (!found.found) return {start, std::numeric_limits<double>::infinity()};
+  return {point, found.squares};
 }
 
 double squares_at(const SlowPartsResiduals& residuals, const ContactPoint& point) {

@@ -8,10 +8,9 @@
 #include <ceres/iteration_callback.h>
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
-#include <ceres/solver.h>
-#include <glog/logging.h>
 
 #include "analysis/parallel/parallel.hpp"
+#include "analysis/record_fit/least_squares_search.hpp"
 #include "analysis/record_fit/residual_checks.hpp"
 
 namespace zerocount::record_fit {
@@ -27,15 +26,6 @@ std::vector<FitResult> by_squares(std::vector<FitResult> fits, std::size_t most)
                    [](const FitResult& one, const FitResult& other) { return one.squares < other.squares; });
   if (fits.size() > most) fits.resize(most);
   return fits;
-}
-
-/// Turns off the log that Ceres writes to standard error through glog; its summary has the same information.
-/// Fatal errors are still printed.
-void quieten_log() {
-  [[maybe_unused]] static const bool quiet = [] {
-    FLAGS_minloglevel = google::GLOG_FATAL;
-    return true;
-  }();
 }
 
 /// Ceres cost function: the residuals of all records and of the prior. Parameter blocks: the contact's
@@ -144,7 +134,6 @@ Observations observations_along(Records records, const FittedModel& model, const
 
 FitResult fit_jointly(Records records, const Observations& observations, const FitPoint& start,
                       const FitSetting& given) {
-  quieten_log();
   // Its own counter, so that the end does not depend on fits that run beside this one.
   FitSetting setting = given;
   setting.model.simulated = std::make_shared<std::atomic<std::int64_t>>(0);
@@ -154,20 +143,16 @@ FitResult fit_jointly(Records records, const Observations& observations, const F
   problem.AddResidualBlock(new JointResiduals(records, observations, setting), nullptr, point.axis.data(),
                            point.offset.data());
   keep_fixed(problem, point.axis.data(), setting.free);
-  ceres::Solver::Options options;
-  options.logging_type = ceres::SILENT;
-  options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = setting.max_steps;
-  options.function_tolerance = setting.tolerance;
-  options.parameter_tolerance = 1e-9;
-  options.max_num_consecutive_invalid_steps = setting.max_steps;
-  options.callbacks.push_back(&end);
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
+  SearchSetting search;
+  search.max_steps = setting.max_steps;
+  search.max_invalid_steps = setting.max_steps;
+  search.tolerance = setting.tolerance;
+  search.parameter_tolerance = 1e-9;
+  search.end = &end;
+  const SearchResult found = search_least_squares(problem, search);
   given.model.simulated->fetch_add(setting.model.simulated->load());
-  if (!summary.IsSolutionUsable()) return {start, std::numeric_limits<double>::infinity(), false};
-  return {point, 2.0 * summary.final_cost,  // Ceres' cost is half the sum
-          summary.termination_type == ceres::CONVERGENCE};
+  if (!found.found) return {start, std::numeric_limits<double>::infinity(), false};
+  return {point, found.squares, found.converged};
 }
 
 FitResult fit_from(Records records, const Observations& observations, const FitPoint& start,

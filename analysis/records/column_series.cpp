@@ -232,6 +232,16 @@ std::vector<RawSeries> split(const RawSeries& series, std::vector<std::size_t> s
   return parts;
 }
 
+/// The flags of the column `mode` of a trace. Other files may have another column of that name.
+std::vector<bool> sliding_flags(const ColumnSource& source) {
+  if (!source.has("mode")) return {};
+  std::vector<bool> slides = source.equals("mode", "slide");
+  std::vector<bool> known = source.equals("mode", "stick");
+  for (std::size_t k = 0; k < slides.size(); ++k) known[k] = known[k] || slides[k];
+  if (std::ranges::count(known, false) > 0) slides.clear();
+  return slides;
+}
+
 }  // namespace
 
 std::string place_of(const RawSeries& series, std::size_t sample) {
@@ -306,7 +316,7 @@ std::vector<RawSeries> read_columns(const ColumnSource& source, const SeriesChoi
   series.delay = delay_of(series, choice, 0.0);
   if (!series.lines.empty() && source.has("code")) series.code = source.numbers("code");
   series.dac_bits = choice.dac_bits.value_or(0);
-  if (source.has("mode")) series.sliding = source.equals("mode", "slide");
+  series.sliding = sliding_flags(source);
   series.start.preload = choice.preload.value_or(0.0);
   series.start.hardening = choice.hardening.value_or(0.0);
   std::vector<double> repetition;

@@ -7,9 +7,10 @@
 #include <ceres/cost_function.h>
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
-#include <ceres/solver.h>
 #include <fmt/format.h>
 
+#include "analysis/record_fit/least_squares_search.hpp"
+#include "analysis/sliding_identification/torque_balance.hpp"
 #include "core/failure/failure.hpp"
 #include "core/numerics/dense.hpp"
 
@@ -41,23 +42,20 @@ double solve(SlidingFit& fit) {
   }
   problem.SetManifold(fit.point.data(),
                       new ceres::SubsetManifold(static_cast<int>(sliding_dimension), known));
-  ceres::Solver::Options options;
-  options.logging_type = ceres::SILENT;
-  options.linear_solver_type = ceres::DENSE_SCHUR;
-  options.max_num_iterations = 60;
-  options.initial_trust_region_radius = 1e12;  // Gauss–Newton steps, damped where they fail
-  options.function_tolerance = 1e-9;
-  options.num_threads = 1;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
-  if (!summary.IsSolutionUsable()) {
+  record_fit::SearchSetting search;
+  search.max_steps = 60;
+  search.tolerance = 1e-9;
+  search.trust_region = 1e12;  // Gauss–Newton steps, damped where they fail
+  search.many_blocks = true;
+  const record_fit::SearchResult found = record_fit::search_least_squares(problem, search);
+  if (!found.found) {
     throw Failure(
         ExitCode::bad_data,
         fmt::format("{}: the simulated motion cannot be fitted to the positions; expected torque and "
                     "position in the units that --column gives",
                     fit.windows.front().record->name));
   }
-  return 2.0 * summary.final_cost;
+  return found.squares;
 }
 
 /// Contribution of a window, or of several, to the estimating equations, the initial states eliminated.
@@ -121,22 +119,24 @@ SlidingPoint starting_point(std::span<const SlidingRecord> records, bool both_di
   Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
   Eigen::Vector4d right = Eigen::Vector4d::Zero();
   for (const SlidingRecord& record : records) {
-    const std::size_t h = record.smoothing;
+    const std::size_t reach = balance_reach(record);
     for (const Window& stroke : record.strokes) {
       for (std::size_t k = stroke.first; k <= stroke.last; ++k) {
-        if (k < 2 * h || k + 2 * h >= record.time.size()) continue;
-        const double acceleration =
-            (record.velocity[k + h] - record.velocity[k - h]) / (record.time[k + h] - record.time[k - h]);
-        double torque = 0.0;  // mean over the samples that the acceleration is from
-        for (std::size_t i = k - 2 * h; i < k + 2 * h; ++i) torque += record.torque[i].now;
-        const Eigen::Vector4d row(acceleration, stroke.direction, record.velocity[k],
-                                  both_directions ? 1.0 : 0.0);
-        normal += row * row.transpose();
-        right += row * (torque / static_cast<double>(4 * h));
+        if (k < reach || k + reach >= record.time.size()) continue;
+        TorqueBalance balance = torque_balance(record, k, stroke.direction);
+        if (!both_directions) balance.terms[offset_term] = 0.0;
+        normal += balance.terms * balance.terms.transpose();
+        right += balance.terms * balance.torque;
       }
     }
   }
   const Eigen::VectorXd found = numerics::least_squares(normal, right);
+  if (!(found[0] > 0.0) && found[direction_term] > 0.0) {
+    throw Failure(ExitCode::bad_data,
+                  fmt::format("{}: shows no sliding: it accelerates against the {}, as on a spring; material "
+                              "tests within the pre-sliding range are identified without --sliding",
+                              records.front().name, parameters::text_on(records.front().axis, "$torque")));
+  }
   if (!(found[0] > 0.0)) {
     throw Failure(
         ExitCode::bad_data,

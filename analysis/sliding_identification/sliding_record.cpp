@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "analysis/identification/checked_record.hpp"
+#include "analysis/sliding_identification/presliding_travel.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "core/failure/failure.hpp"
 
@@ -61,28 +62,45 @@ double travel_of(const SlidingRecord& record, const Window& part) {
   return std::abs(record.position[part.last] - record.position[part.first]);
 }
 
-/// Direction of the motion at each sample: −1, 1, or 0 where it rests or is too slow to tell.
-std::vector<int> directions_of(const SlidingRecord& record, const std::vector<bool>& excluded) {
+/// Direction of the motion at each sample: −1, 1, or 0 where it rests, is too slow to tell, sticks or is
+/// masked.
+std::vector<int> directions_of(const SlidingRecord& record, const records::RawSeries& series) {
   std::vector<int> direction(record.position.size(), 0);
   const std::size_t h = record.smoothing;
   for (std::size_t k = h; k + h < record.position.size(); ++k) {
     const double moved = record.position[k + h] - record.position[k - h];
     if (std::abs(moved) < min_steps_per_span * record.resolution) continue;
-    if (stops_at(record, k, std::abs(moved)) || (!excluded.empty() && excluded[k])) continue;
+    if (stops_at(record, k, std::abs(moved))) continue;
+    if (!series.excluded.empty() && series.excluded[k]) continue;
+    if (!series.sliding.empty() && !series.sliding[k]) continue;
     direction[k] = moved > 0.0 ? 1 : -1;
   }
   return direction;
 }
 
-void find_strokes(SlidingRecord& record, const std::vector<bool>& excluded) {
-  const std::vector<int> direction = directions_of(record, excluded);
-  const std::size_t margin = record.smoothing;
+/// The motions in one direction, from a standstill or a reversal to the next.
+std::vector<Window> runs_of(const std::vector<int>& direction) {
+  std::vector<Window> runs;
   for (std::size_t from = 0, end = 0; from < direction.size(); from = end) {
     while (end < direction.size() && direction[end] == direction[from]) ++end;
-    if (direction[from] == 0 || end - from < min_stroke_samples + 2 * margin) continue;
-    const Window stroke{from + margin, end - 1 - margin, record.strokes.size(),
-                        static_cast<double>(direction[from])};
-    if (travel_of(record, stroke) >= min_window_steps * record.resolution) record.strokes.push_back(stroke);
+    if (direction[from] != 0) runs.push_back({from, end - 1, 0, static_cast<double>(direction[from])});
+  }
+  return runs;
+}
+
+void find_strokes(SlidingRecord& record, const std::vector<Window>& runs) {
+  for (const Window& run : runs) {
+    Window stroke = run;
+    stroke.first += record.smoothing;
+    stroke.last -= std::min(stroke.last, record.smoothing);
+    const auto slides = [&](std::size_t k) {
+      return std::abs(record.position[k] - record.position[run.first]) > record.presliding_travel;
+    };
+    while (stroke.first < stroke.last && !slides(stroke.first)) ++stroke.first;
+    stroke.stroke = record.strokes.size();
+    if (stroke.first + min_stroke_samples <= stroke.last + 1 &&
+        travel_of(record, stroke) >= min_window_steps * record.resolution)
+      record.strokes.push_back(stroke);
   }
 }
 
@@ -119,7 +137,9 @@ SlidingRecord sliding_record(const records::RawSeries& series) {
   record.resolution = std::max(least_step(record.position), 3.0 * noise_of(record.position));
   if (!(record.resolution > 0.0)) record.resolution = std::numeric_limits<double>::min();
   set_velocities(record);
-  find_strokes(record, series.excluded);
+  const std::vector<Window> runs = runs_of(directions_of(record, series));
+  if (series.sliding.empty()) record.presliding_travel = presliding_travel(record, runs);
+  find_strokes(record, runs);
   if (record.strokes.empty()) {
     refuse(series,
            fmt::format("shows no sliding: nowhere does it move on by {:g} steps of its readings ({:.3g} {}) "

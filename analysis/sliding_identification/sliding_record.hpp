@@ -30,6 +30,7 @@ struct SlidingRecord {
   std::vector<double> velocity;  ///< [sample] over `smoothing` samples to both sides, for the start
   double resolution{0.0};        ///< step of the readings, or three standard deviations of their noise
   std::size_t smoothing{1};
+  double presliding_travel{0.0};  ///< from a standstill or a reversal, before the axis slides; 0: not seen
   std::vector<Window> strokes;
   std::vector<Window> windows;
   double min_velocity{0.0};  ///< smallest |velocity| in the strokes
@@ -43,10 +44,13 @@ inline std::size_t samples_of(const Window& window) {
 constexpr std::size_t max_window_samples = 256;
 constexpr std::size_t min_window_samples = 16;
 
-/// Finds the strokes of a series, and cuts them into windows of max_window_samples. A stroke is a longest run
-/// of samples at which the velocity, over 5 samples to both sides, has one sign and moves the axis by at
-/// least 3 steps of the readings, without a stop in between; 5 samples at each of its ends are left out,
-/// because the reversal may be among them. Strokes shorter than 50 steps or 20 samples are left out.
+/// Finds the strokes of a series, and cuts them into windows of max_window_samples.
+///
+/// A run is a longest sequence of samples at which the velocity, over 5 samples to both sides, has one sign
+/// and moves the axis by at least 3 steps of the readings, without a stop in between. A stroke is the part of
+/// a run in which the axis slides: where the series says so, or else beyond the presliding_travel() from the
+/// run's start. 5 samples at each end of a run are left out, because the reversal may be among them. Strokes
+/// shorter than 50 steps or 20 samples are left out.
 /// @throws Failure (bad_data) if the times do not increase or have gaps, the torque is constant, or there is
 /// no stroke.
 SlidingRecord sliding_record(const records::RawSeries& series);

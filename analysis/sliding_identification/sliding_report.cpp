@@ -38,10 +38,16 @@ std::string record_line(const SlidingRecord& record) {
   const std::string length = parameters::unit_on(record.axis, "rad");
   return fmt::format(
       "  {}: {} samples, {:.4g} s, read in steps of {:.3g} {}\n"
-      "    {} samples in {} windows of {} strokes were used, at {:.3g} to {:.3g} {}/s\n",
+      "    {} samples in {} windows of {} strokes were used, at {:.3g} to {:.3g} {}/s{}\n",
       text::printable(record.name), record.time.size(), record.time.back(), record.resolution, length,
       used_samples(record), record.windows.size(), record.strokes.size(), record.min_velocity,
-      record.max_velocity, length);
+      record.max_velocity, length,
+      record.presliding_travel > 0.0
+          ? fmt::format(
+                ";\n    the first {:.3g} {} after a standstill or a reversal were left out, where the "
+                "friction is below its level of sliding",
+                record.presliding_travel, length)
+          : "");
 }
 
 std::string fragment_line(const SlidingIdentification& identification, const std::string& parameter,
@@ -121,6 +127,7 @@ std::string sliding_json(const SlidingIdentification& identification) {
                                {"samples", record.time.size()},
                                {"duration", record.time.back()},
                                {"resolution", record.resolution},
+                               {"presliding_travel", record.presliding_travel},
                                {"strokes", record.strokes.size()},
                                {"windows", record.windows.size()},
                                {"used", used_samples(record)},

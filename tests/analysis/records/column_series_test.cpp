@@ -250,5 +250,13 @@ TEST_F(Datasets, WhatDoesNotFitIsNamed) {
   }
 }
 
+// A trace says where the axis slides. A logger may call something else its mode.
+TEST_F(ColumnSeries, OnlyTheModesOfATraceAreFlagsOfSliding) {
+  const RawSeries trace = one("t,torque,theta,mode\n0,1,0,stick\n1,1,1,slide\n2,1,3,slide\n", {});
+  EXPECT_EQ(trace.sliding, (std::vector<bool>{false, true, true}));
+  EXPECT_TRUE(one("t,torque,theta,mode\n0,1,0,auto\n1,1,1,auto\n", {}).sliding.empty());
+  EXPECT_TRUE(one("t,torque,theta,mode\n0,1,0,stick\n1,1,1,1\n", {}).sliding.empty());
+}
+
 }  // namespace
 }  // namespace zerocount::testing

@@ -137,7 +137,7 @@ std::vector<Learned> what_to_learn(const std::vector<WorldInput>& inputs, const 
 }
 
 std::string_view record_of(std::string_view parameter) {
-  static constexpr std::array<RecordedParameter, 14> records{{{"friction.k1", loading},
+  static constexpr std::array<RecordedParameter, 18> records{{{"friction.k1", loading},
                                                               {"friction.k2", loading},
                                                               {"friction.beta", loading},
                                                               {"plant.inertia", step},
@@ -145,6 +145,10 @@ std::string_view record_of(std::string_view parameter) {
                                                               {"friction.alpha", creep},
                                                               {"friction.lambda", creep},
                                                               {"friction.n", creep},
+                                                              {"friction.measured.creep.torque", creep},
+                                                              {"friction.measured.creep.extension", creep},
+                                                              {"friction.measured.creep.rate", creep},
+                                                              {"friction.measured.creep.exponent", creep},
                                                               {"plant.sliding_damping", sliding},
                                                               {"friction.breakaway", sliding},
                                                               {"friction.coulomb_ratio", sliding},

@@ -18,20 +18,6 @@ namespace {
 
 constexpr std::size_t max_reported = 20;
 
-// Whether the manifest gives the slot a value at every point.
-bool given_everywhere(const PlanPlaces& places, const study::StudyPlan& plan, std::size_t slot) {
-  if (places.written[slot]) return true;
-  return std::any_of(plan.axes.begin(), plan.axes.end(), [slot](const study::PlanAxis& axis) {
-    for (std::size_t option = 0; option < study::option_count(axis); ++option) {
-      const auto begin = axis.assignments.begin() + axis.first[option];
-      const auto end = axis.assignments.begin() + axis.first[option + 1];
-      if (std::none_of(begin, end, [slot](const study::Assignment& a) { return a.slot == slot; }))
-        return false;
-    }
-    return true;
-  });
-}
-
 bool has_effect(const study::StudyPlan& plan, const std::vector<rules::EffectRule>& rules,
                 const parameters::Parameter& parameter) {
   return std::all_of(rules.begin(), rules.end(), [&](const rules::EffectRule& rule) {
@@ -79,9 +65,11 @@ void check_required_values(const PlanPlaces& places, Reading& reading) {
   const auto table = parameters::parameter_table();
   for (std::size_t row = 0; row < table.size(); ++row) {
     const parameters::Parameter& parameter = table[row];
-    if (!is_required(plan, rules, parameter) || given_everywhere(places, plan, row)) continue;
-    reading.problems.add(places.base[row], parameter.name, why_required(parameter),
-                         fmt::format("its value in {}", parameters::unit_of(parameter, plan.units)));
+    if (!is_required(plan, rules, parameter) || is_given_everywhere(places, plan, row) ||
+        plan.base[row].kind == study::Value::Kind::following)
+      continue;
+    reading.problems.add_missing(places.base[row], parameter.name, why_required(parameter),
+                                 fmt::format("its value in {}", parameters::unit_of(parameter, plan.units)));
   }
 }
 
@@ -157,20 +145,6 @@ void check_values(Checking& c) {
   }
 }
 
-// Place in the manifest of the parameter's value: outside the sweep, or the first one in it.
-std::optional<yaml::Place> given_place(const Checking& c, std::size_t slot) {
-  if (c.places.written[slot]) return c.places.base[slot];
-  for (std::size_t a = 0; a < c.plan().axes.size(); ++a) {
-    const std::vector<study::Assignment>& assignments = c.plan().axes[a].assignments;
-    const auto found =
-        std::find_if(assignments.begin(), assignments.end(),
-                     [&](const study::Assignment& assignment) { return assignment.slot == slot; });
-    if (found != assignments.end())
-      return c.places.axes[a][static_cast<std::size_t>(found - assignments.begin())];
-  }
-  return std::nullopt;
-}
-
 bool is_off(const Checking& c, std::size_t slot) {
   const double nothing = c.plan().table.rows[slot].none.value_or(0.0);
   const std::vector<const study::Value*> values = study::values_of(c.plan(), slot);
@@ -198,7 +172,7 @@ void check_effects(Checking& c) {
       const bool covered = std::any_of(rule.keys.begin(), rule.keys.end(), [&](std::string_view key) {
         return is_within(table.rows[slot].name, key);
       });
-      const auto place = covered ? given_place(c, slot) : std::nullopt;
+      const auto place = covered ? given_place(c.places, c.plan(), slot) : std::nullopt;
       if (!place || reported_rows.count(reported_row(table, slot)) > 0 ||
           (rule.off_at_zero && is_off(c, slot)))
         continue;
@@ -211,6 +185,33 @@ void check_effects(Checking& c) {
 }
 
 }  // namespace
+
+bool is_given_everywhere(const PlanPlaces& places, const study::StudyPlan& plan, std::size_t slot) {
+  if (places.written[slot]) return true;
+  return std::any_of(plan.axes.begin(), plan.axes.end(), [slot](const study::PlanAxis& axis) {
+    for (std::size_t option = 0; option < study::option_count(axis); ++option) {
+      const auto begin = axis.assignments.begin() + axis.first[option];
+      const auto end = axis.assignments.begin() + axis.first[option + 1];
+      if (std::none_of(begin, end, [slot](const study::Assignment& a) { return a.slot == slot; }))
+        return false;
+    }
+    return true;
+  });
+}
+
+std::optional<yaml::Place> given_place(const PlanPlaces& places, const study::StudyPlan& plan,
+                                       std::size_t slot) {
+  if (places.written[slot]) return places.base[slot];
+  for (std::size_t a = 0; a < plan.axes.size(); ++a) {
+    const std::vector<study::Assignment>& assignments = plan.axes[a].assignments;
+    const auto found =
+        std::find_if(assignments.begin(), assignments.end(),
+                     [&](const study::Assignment& assignment) { return assignment.slot == slot; });
+    if (found != assignments.end())
+      return places.axes[a][static_cast<std::size_t>(found - assignments.begin())];
+  }
+  return std::nullopt;
+}
 
 FaultPlace place_of_fault(const PlanPlaces& places, const study::StudyPlan& plan,
                           std::span<const std::size_t> slots, std::size_t point) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,14 @@ struct PlanPlaces {
 /// (effect_rules.hpp), and required values must be given. A problem is reported at the
 /// place of a swept value, if one is involved.
 void check_points(const PlanPlaces& places, Reading& reading);
+
+/// Whether the manifest gives the slot a value at every point.
+bool is_given_everywhere(const PlanPlaces& places, const study::StudyPlan& plan, std::size_t slot);
+
+/// Place in the manifest of the slot's value: outside the sweep, or the first one in it. Nothing if the
+/// manifest does not give it.
+std::optional<yaml::Place> given_place(const PlanPlaces& places, const study::StudyPlan& plan,
+                                       std::size_t slot);
 
 struct FaultPlace {
   yaml::Place place;

@@ -33,6 +33,8 @@ std::string fault_of(const study::Value& value) {
   switch (value.kind) {
     case study::Value::Kind::number:
       return "";
+    case study::Value::Kind::following:
+      return "it follows from measured values, which can be correlated in its place";
     case study::Value::Kind::profile:
       return "it is a profile at some design point";
     case study::Value::Kind::distribution:

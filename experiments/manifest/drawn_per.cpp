@@ -1,5 +1,7 @@
 #include "experiments/manifest/drawn_per.hpp"
 
+#include "experiments/parameters/measured_parameters.hpp"
+
 namespace zerocount::manifest {
 namespace {
 
@@ -35,7 +37,7 @@ std::optional<Misfit> misfit_of(study::Per per, const parameters::Parameter& par
         return Misfit{"a profile belongs to a rotor; a contact takes the value at its position",
                       "study or rig"};
       }
-      if (parameter.profiled != nullptr) return std::nullopt;
+      if (parameter.profiled != nullptr || parameters::is_measured(parameter.name)) return std::nullopt;
       return Misfit{"only friction can be drawn at each contact", "study, rig or trial"};
   }
   return std::nullopt;

@@ -11,6 +11,7 @@
 #include "experiments/manifest/correlations.hpp"
 #include "experiments/manifest/goal.hpp"
 #include "experiments/manifest/manifest_keys.hpp"
+#include "experiments/manifest/measured.hpp"
 #include "experiments/manifest/observations.hpp"
 #include "experiments/manifest/sections.hpp"
 #include "experiments/manifest/stopping.hpp"
@@ -42,7 +43,7 @@ struct Manifest {
 // The value of a top-level key. Reports a missing key.
 std::optional<yaml::Field> find_required(Manifest& m, std::string_view key, std::string_view expected) {
   auto field = yaml::find_field(m.root, key);
-  if (!field) m.problems().add(m.root.node->place, key, "the key is missing", expected);
+  if (!field) m.problems().add_missing(m.root.node->place, key, expected);
   return field;
 }
 
@@ -145,7 +146,14 @@ void check_travel(const yaml::Field& root, Reading& reading) {
 void read_axes(Manifest& m) {
   if (const auto field = yaml::find_field(m.root, "sweep")) m.axes = read_sweep(*field, m.reading);
   for (const SweptAxis& axis : m.axes) {
-    if (axis.labels.empty()) continue;  // could not be read
+    if (axis.labels.empty()) {  // could not be read, but gives these values
+      for (const std::size_t slot : axis.slots) {
+        m.plan().base[slot] = unreadable_value();
+        m.places.base[slot] = axis.place;
+        m.places.written[slot] = true;
+      }
+      continue;
+    }
     m.plan().axes.push_back(axis.axis);
     m.places.axes.push_back(axis.places);
   }
@@ -297,11 +305,9 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, con
                            const SamplesTable* samples, yaml::Problems& problems) {
   auto plan = std::make_shared<study::StudyPlan>();
   Manifest m{.root = {&root, ""}, .reading = {problems, *plan, version}};
-  if (root.kind != yaml::YamlNode::Kind::map) {
-    yaml::add_wrong_type({&root, "manifest"}, "a map with the keys zerocount, name, seed, trials, command",
-                         problems);
+  if (!yaml::check_map({&root, "manifest"}, "a map with the keys zerocount, name, seed, trials, command",
+                       problems))
     return {};
-  }
   parameters::check_keys(m.root, keys_below(""), problems);
   read_version(m);
   read_texts(m);
@@ -312,6 +318,7 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, con
   read_sections(m.root, m.reading, m.places);
   read_axes(m);
   if (samples != nullptr) join_samples(*samples, m.axes, m.reading, m.study);
+  let_follow_from_measured(m.places, m.reading);
   read_correlations(m.root, m.reading, m.study);
   read_retained(m);
   read_kept(m);
@@ -325,6 +332,7 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, con
   read_observed(m);
   realise_profiles(m.reading.profiles, m.study, companions.rotors, *plan);
   check_profiles(m.reading);
+  check_what_follows(m.places, m.reading);
   check_points(m.places, m.reading);
   check_travel(m.root, m.reading);
   if (problems.empty()) check_rows(m);

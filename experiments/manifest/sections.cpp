@@ -131,8 +131,8 @@ void read_element(SectionReading& s, const yaml::Field& element, std::size_t ind
     } else if (parameters::has_default(row)) {
       s.plan().base[rows.first + i].number = parameters::default_value(row);
     } else {
-      s.problems().add(
-          map.node->place, fmt::format("{}.{}", map.path, keys[i]), "the key is missing",
+      s.problems().add_missing(
+          map.node->place, fmt::format("{}.{}", map.path, keys[i]),
           fmt::format("its value: {}",
                       parameters::meaning_of(s.plan().table.rows[rows.first + i], s.plan().units)));
     }
@@ -224,8 +224,10 @@ bool is_short_form(const yaml::Field& field) {
 }
 
 void read_section(SectionReading& s, const yaml::Field& section) {
-  if (!yaml::check_map(section, "a map", s.problems())) return;
   const std::vector<std::string> known = keys_below(section.path);
+  const std::string expected = fmt::format("a map of keys, such as {}: {{{}: ...}}",
+                                           section.path.substr(section.path.rfind('.') + 1), known.front());
+  if (!yaml::check_map(section, expected, s.problems())) return;
   for (const yaml::YamlEntry& entry : section.node->entries) {
     const yaml::Field field = yaml::entry_of(section, entry);
     if (is_form_too_many(s, section, entry.key)) continue;
@@ -311,10 +313,11 @@ void check_form_complete(SectionReading& s, const yaml::Field& command) {
     if (!row || parameters::has_default(parameters::parameter_table()[*row]) || yaml::find_field(*form, key))
       continue;
     const parameters::Parameter& parameter = parameters::parameter_table()[*row];
-    s.problems().add(form->node->place, name, "the key is missing",
-                     parameters::is_list(parameter)
-                         ? fmt::format("a list of {}", key)
-                         : fmt::format("its value: {}", parameters::meaning_of(parameter, s.plan().units)));
+    s.problems().add_missing(
+        form->node->place, name,
+        parameters::is_list(parameter)
+            ? fmt::format("a list of {}", key)
+            : fmt::format("its value: {}", parameters::meaning_of(parameter, s.plan().units)));
   }
 }
 
@@ -336,8 +339,7 @@ void read_sections(const yaml::Field& root, Reading& reading, PlanPlaces& places
   if (command) {
     choose_form(s, *command);
   } else {
-    reading.problems.add(root.node->place, required_section, "the key is missing",
-                         "command: {targets: [..]}");
+    reading.problems.add_missing(root.node->place, required_section, "command: {targets: [..]}");
   }
   take_defaults(s);
   add_plugin_parameters(s);

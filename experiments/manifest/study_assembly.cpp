@@ -27,6 +27,11 @@ std::vector<bool> swept_slots(const study::StudyPlan& plan) {
   for (const study::PlanAxis& axis : plan.axes) {
     for (const study::Assignment& assignment : axis.assignments) swept[assignment.slot] = true;
   }
+  for (std::size_t slot = 0; slot < plan.base.size(); ++slot) {
+    if (plan.base[slot].kind != study::Value::Kind::following) continue;
+    for (const std::uint32_t source : plan.following[plan.base[slot].index].from)
+      swept[slot] = swept[slot] || swept[source];
+  }
   return swept;
 }
 
@@ -137,6 +142,10 @@ study::Per most_frequent_per(const study::StudyPlan& plan, std::size_t slot) {
         break;
       case study::Value::Kind::profile:  // its value at the trial's start position
         per = std::max(per, study::Per::trial);
+        break;
+      case study::Value::Kind::following:
+        for (const std::uint32_t source : plan.following[value->index].from)
+          per = std::max(per, most_frequent_per(plan, source));
         break;
     }
   }

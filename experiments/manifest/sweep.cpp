@@ -224,12 +224,12 @@ void read_grid(const yaml::Field& sweep, const yaml::Field& grid, std::vector<Sw
     const auto slots = find_swept(grid, entry, state);
     if (!slots) continue;
     const yaml::Field field = yaml::entry_of(grid, entry);
-    SweptAxis axis{.name = entry.key};
+    SweptAxis axis{.name = entry.key, .place = field.node->place};
     note_slots(axis, *slots);
     if (!take_for_grid(grid, entry, axis, state)) continue;
     if (field.node->kind == yaml::YamlNode::Kind::map) {
       read_spaced(sweep, field, *slots, axis, state);
-    } else if (yaml::check_list(field, "a list of values", state.reading.problems)) {
+    } else if (yaml::check_list(field, "a list of values, such as [1, 2]", state.reading.problems)) {
       if (field.node->items.empty()) {
         state.reading.problems.add(field, "the list is empty", "at least one value");
       } else if (check_point_count(sweep, field.node->items.size(), state)) {
@@ -269,10 +269,25 @@ void read_cases(const yaml::Field& sweep, const yaml::Field& cases, std::vector<
   if (!yaml::check_map(cases, "a map from names to cases", state.reading.problems)) return;
   const auto& entries = cases.node->entries;
   if (entries.empty() || !check_point_count(sweep, entries.size(), state)) return;
-  SweptAxis axis{.cases = true, .name = "case"};
+  SweptAxis axis{.cases = true, .name = "case", .place = cases.node->place};
   for (const yaml::YamlEntry& entry : entries) read_case(cases, entry, axis, state);
   state.in_cases.insert(axis.slots.begin(), axis.slots.end());
   axes.push_back(std::move(axis));
+}
+
+// Reports keys other than grid and cases.
+void check_parts(const yaml::Field& sweep, Reading& reading) {
+  const std::vector<std::string> parts{"grid", "cases"};
+  for (const yaml::YamlEntry& entry : sweep.node->entries) {
+    if (std::find(parts.begin(), parts.end(), entry.key) != parts.end()) continue;
+    if (study::find_slots(entry.key, reading.plan.table)) {
+      reading.problems.add(entry.place, yaml::entry_of(sweep, entry).path,
+                           "a swept parameter stands in the grid or in a case",
+                           fmt::format("sweep: {{grid: {{{}: [...]}}}}", entry.key));
+    } else {
+      parameters::add_unknown_key(sweep, entry, parts, reading.problems);
+    }
+  }
 }
 
 }  // namespace
@@ -280,7 +295,7 @@ void read_cases(const yaml::Field& sweep, const yaml::Field& cases, std::vector<
 std::vector<SweptAxis> read_sweep(const yaml::Field& sweep, Reading& reading) {
   std::vector<SweptAxis> axes;
   if (!yaml::check_map(sweep, "a map with grid, cases or both", reading.problems)) return axes;
-  parameters::check_keys(sweep, std::vector<std::string>{"grid", "cases"}, reading.problems);
+  check_parts(sweep, reading);
   SweepReading state{.reading = reading};
   if (const auto cases = yaml::find_field(sweep, "cases")) read_cases(sweep, *cases, axes, state);
   if (const auto grid = yaml::find_field(sweep, "grid")) read_grid(sweep, *grid, axes, state);

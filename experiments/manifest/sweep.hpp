@@ -14,6 +14,7 @@ constexpr std::size_t max_points = 1'000'000;
 struct SweptAxis {
   bool cases{false};
   std::string name;                   ///< the swept key; "case" for the cases
+  yaml::Place place{};                ///< of its values
   std::vector<std::string> labels{};  ///< [option]
   study::PlanAxis axis{};
   std::vector<yaml::Place> places{};  ///< [assignment]

@@ -4,6 +4,7 @@ namespace zerocount::parameters {
 namespace {
 
 constexpr std::size_t max_gms_elements = 16;
+constexpr std::string_view instead_of_creep = "in place of alpha, lambda and n";
 
 template <double friction::FrictionParameters::*field>
 Parameter friction(Parameter row) {
@@ -89,6 +90,18 @@ std::vector<Parameter> friction_rows() {
                        "1; default on a rotary axis: 0.9875, 0.0009, 0.0032, 0.0084",
                        "required", {.low = 0, .high = 1, .high_included = true}),
               [](auto& p, std::size_t i) { return &p.friction.gms_elements[i].weight; }),
+      real_row("friction.measured.creep.torque", beyond_moves(268), "N m",
+               "$torque under which creep was measured; with extension in place of friction.lambda",
+               instead_of_creep, numerics::above(0)),
+      real_row("friction.measured.creep.extension", beyond_moves(269), "rad",
+               "extension at which creep under that $torque ends: lambda = $torque^exponent / extension",
+               instead_of_creep, numerics::above(0)),
+      real_row("friction.measured.creep.rate", beyond_moves(270), "1/s",
+               "rate of creep, in place of friction.alpha; 0 switches creep off", instead_of_creep,
+               numerics::at_least(0)),
+      real_row("friction.measured.creep.exponent", beyond_moves(271), "1",
+               "exponent of the $torque in the creep law, in place of friction.n", instead_of_creep,
+               numerics::at_least(1)),
   };
 }
 

@@ -375,7 +375,7 @@ std::vector<EffectRule> rules_of_the_model() {
       with_models([](const LawTraits& law) { return law.remembers_loading; },
                   {"initial.preload", "initial.history"}),
       with_models([](const LawTraits& law) { return uses(law, &friction::FrictionParameters::alpha); },
-                  {"initial.hardening"}),
+                  {"initial.hardening", "friction.measured.creep"}),
       with_models(
           [](const LawTraits& law) { return uses(law, &friction::FrictionParameters::gms_attraction); },
           {"friction.gms.stiffness", "friction.gms.weight"}),
@@ -392,11 +392,12 @@ std::vector<EffectRule> rules_of_the_model() {
 // Only warnings: another value may switch off a term of friction.
 std::vector<EffectRule> rules_of_vanished_terms() {
   return {
-      {.keys = {"friction.lambda", "friction.n", "initial.hardening"},
+      {.keys = {"friction.lambda", "friction.n", "friction.measured.creep.torque",
+                "friction.measured.creep.extension", "friction.measured.creep.exponent", "initial.hardening"},
        .depends_on = {"friction.model", "friction.alpha"},
        .has_effect =
            [](Limits l) { return friction::has_creep(friction_model(l[0])) && can_be_positive(l[1]); },
-       .what = "it has no effect: friction.alpha is 0 wherever friction.model is presliding",
+       .what = "it has no effect: the rate of creep is 0 wherever friction.model is presliding",
        .off_at_zero = true,
        .warn_only = true},
       {.keys = {"friction.beta"},

@@ -5,6 +5,7 @@
 
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/plan.hpp"
+#include "experiments/study/point_limits.hpp"
 
 namespace zerocount::study {
 namespace {
@@ -33,13 +34,15 @@ LowEnd low_end_of(const distributions::Distribution& distribution) {
 
 LowEnd low_end(const Study& study, std::int64_t point, std::string_view parameter) {
   const StudyPlan& plan = *study.plan;
-  const Value& value =
-      *value_at_point(plan, parameters::find_parameter(parameter).value(), static_cast<std::size_t>(point));
+  const std::size_t slot = parameters::find_parameter(parameter).value();
+  const Value& value = *value_at_point(plan, slot, static_cast<std::size_t>(point));
   switch (value.kind) {
     case Value::Kind::number:
       return {LowEnd::Kind::number, value.number};
     case Value::Kind::distribution:
       return low_end_of(plan.distributions[value.index]);
+    case Value::Kind::following:
+      return {LowEnd::Kind::support, limits_of_slot(plan, slot, static_cast<std::size_t>(point)).low};
     case Value::Kind::profile:
       break;
   }

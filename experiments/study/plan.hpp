@@ -4,6 +4,7 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/plugin/controller_plugin.hpp"
@@ -23,11 +24,22 @@ namespace zerocount::study {
 
 /// The value of one slot in the manifest.
 struct Value {
-  enum class Kind : std::uint8_t { number, distribution, profile };
+  enum class Kind : std::uint8_t {
+    number,
+    distribution,
+    profile,
+    following  ///< computed from the values of other slots
+  };
   Kind kind{Kind::number};
-  std::uint32_t index{0};  ///< into the plan's distributions or profiles
+  std::uint32_t index{0};  ///< into the plan's distributions, profiles or following values
   Per per{Per::trial};     ///< how often it is drawn; for a profile study or rig
   double number{0.0};      ///< if kind is number
+};
+
+/// A value that follows from those of other slots, which are numbers or distributions.
+struct FollowingValue {
+  std::vector<std::uint32_t> from;                ///< slots
+  double (*value)(std::span<const double> from);  ///< monotonic in each of them
 };
 
 /// A value that one option of an axis gives to a slot.
@@ -77,6 +89,7 @@ struct StudyPlan {
   std::vector<PlanAxis> axes;  ///< the last axis changes fastest, and takes precedence over the others
   std::vector<distributions::Distribution> distributions;
   std::vector<std::shared_ptr<const Rotors>> profiles;
+  std::vector<FollowingValue> following;
   std::optional<GaussianCopula> copula;        ///< of correlated values
   std::vector<std::uint32_t> sampled_slots;    ///< slots whose values share one random number: `samples`
   std::vector<SlotRandomness> randomness;      ///< [slot]
@@ -100,6 +113,14 @@ const Value* value_at_point(const StudyPlan& plan, std::size_t slot, std::size_t
 
 /// The values of all slots at a design point.
 std::vector<const Value*> values_at(const StudyPlan& plan, std::size_t point);
+
+/// A following value, from the numbers of its sources. @param number of a slot
+template <class NumberOf>
+double following_value(const FollowingValue& following, NumberOf number) {
+  std::vector<double> from;
+  for (const std::uint32_t slot : following.from) from.push_back(number(slot));
+  return following.value(from);
+}
 
 /// The features of a study whose other members are set, from the limits of the parameters in its plan.
 StudyFeatures find_features(const StudyPlan& plan, const Study& study);

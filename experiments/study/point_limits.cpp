@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <variant>
 
@@ -16,6 +17,36 @@ bool can_be_zero(const distributions::Distribution& distribution) {
     return std::find(choice->values.begin(), choice->values.end(), 0.0) != choice->values.end();
   }
   return numerics::contains(distributions::support(distribution), 0.0);
+}
+
+/// The lowest and the highest number that are drawn, which unlike the ends of a support are finite.
+std::pair<double, double> extremes_of(const StudyPlan& plan, const Value& value) {
+  if (value.kind == Value::Kind::number) return {value.number, value.number};
+  const distributions::Distribution& distribution = plan.distributions[value.index];
+  return {distributions::quantile(distribution, 0x1p-53),
+          distributions::quantile(distribution, 1.0 - 0x1p-53)};
+}
+
+/// At the corners of the box of its sources, because the value is monotonic in each of them.
+ValueLimits limits_of_following(const StudyPlan& plan, const FollowingValue& following, std::size_t point) {
+  const auto value_of = [&](std::size_t slot) -> const Value& { return *value_at_point(plan, slot, point); };
+  ValueLimits limits{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (std::size_t corner = 0; corner < (std::size_t{1} << following.from.size()); ++corner) {
+    std::size_t sides = corner;
+    const double number = following_value(following, [&](std::uint32_t slot) {
+      const auto [low, high] = extremes_of(plan, value_of(slot));
+      const bool is_high = sides % 2 == 1;
+      sides /= 2;
+      return is_high ? high : low;
+    });
+    if (std::isnan(number)) return {number, number, false, number};
+    limits.low = std::min(limits.low, number);
+    limits.high = std::max(limits.high, number);
+  }
+  limits.can_be_zero = limits.low <= 0.0;
+  limits.typical =
+      following_value(following, [&](std::uint32_t slot) { return limits_of(plan, value_of(slot)).typical; });
+  return limits;
 }
 
 bool assigns_any(const PlanAxis& axis, const std::vector<bool>& wanted) {
@@ -36,6 +67,12 @@ ValueLimits limits_of(const StudyPlan& plan, const Value& value) {
   const Rotors& rotors = *plan.profiles[value.index];
   const numerics::Interval values = rotors.all_limits();
   return {values.low, values.high, numerics::contains(values, 0.0), rotors.mean(0)};
+}
+
+ValueLimits limits_of_slot(const StudyPlan& plan, std::size_t slot, std::size_t point) {
+  const Value& value = *value_at_point(plan, slot, point);
+  return value.kind == Value::Kind::following ? limits_of_following(plan, plan.following[value.index], point)
+                                              : limits_of(plan, value);
 }
 
 bool can_have_coarse_phase(const ValueLimits& coarse_beyond) {
@@ -65,7 +102,11 @@ void visit_points(const StudyPlan& plan, std::span<const std::size_t> slots,
     std::size_t option;
   };
   std::vector<bool> wanted(plan.base.size(), false);
-  for (const std::size_t slot : slots) wanted[slot] = true;
+  for (const std::size_t slot : slots) {
+    wanted[slot] = true;
+    if (plan.base[slot].kind != Value::Kind::following) continue;
+    for (const std::uint32_t source : plan.following[plan.base[slot].index].from) wanted[source] = true;
+  }
   std::vector<Turning> turning;  // the relevant axes, fastest first
   std::size_t stride = 1;
   for (std::size_t a = plan.axes.size(); a-- > 0;) {
@@ -98,7 +139,7 @@ std::vector<ValueLimits> limits_at(const StudyPlan& plan, std::span<const std::s
                                    std::size_t point) {
   std::vector<ValueLimits> limits;
   limits.reserve(slots.size());
-  for (const std::size_t slot : slots) limits.push_back(limits_of(plan, *value_at_point(plan, slot, point)));
+  for (const std::size_t slot : slots) limits.push_back(limits_of_slot(plan, slot, point));
   return limits;
 }
 

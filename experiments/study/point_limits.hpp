@@ -10,7 +10,8 @@
 namespace zerocount::study {
 
 /// Range of a value over all trials of a design point: the support of its distribution, the limits of its
-/// profile, or the number itself. NaN for a value that could not be read.
+/// profile, what can follow from the draws of its sources, or the number itself. NaN for a value that could
+/// not be read.
 struct ValueLimits {
   double low{0.0};
   double high{0.0};
@@ -18,7 +19,11 @@ struct ValueLimits {
   double typical{0.0};  ///< the number, the median of the distribution, or the mean of the profile
 };
 
+/// The limits of a value that does not follow from others.
 ValueLimits limits_of(const StudyPlan& plan, const Value& value);
+
+/// The limits of the slot at a design point.
+ValueLimits limits_of_slot(const StudyPlan& plan, std::size_t slot, std::size_t point);
 
 /// Whether the control has a coarse phase in some trial, from the limits of controller.coarse.coarse_beyond.
 bool can_have_coarse_phase(const ValueLimits& coarse_beyond);

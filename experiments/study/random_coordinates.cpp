@@ -35,6 +35,7 @@ void add_coordinates(const Study& study, std::uint32_t slot, const Value& value,
   const std::string name(study.plan->table.rows[slot].name);
   switch (value.kind) {
     case Value::Kind::number:
+    case Value::Kind::following:
       break;
     case Value::Kind::distribution:
       if (is_drawn_for_trials(value.per))

@@ -176,6 +176,23 @@ void check_exists(const Study& study, std::int64_t point, std::int64_t index) {
   }
 }
 
+/// The value of the slot outside the sweep, which is not a profile.
+double base_number(const TrialDraws& draws, std::uint32_t slot) {
+  const StudyPlan& plan = draws.plan();
+  const Value& value = plan.base[slot];
+  switch (value.kind) {
+    case Value::Kind::distribution:
+      return distributions::quantile(plan.distributions[value.index], uniform_of(draws, slot, value.per));
+    case Value::Kind::following:
+      return following_value(plan.following[value.index],
+                             [&](std::uint32_t source) { return base_number(draws, source); });
+    case Value::Kind::number:
+    case Value::Kind::profile:
+      break;
+  }
+  return value.number;
+}
+
 /// The inputs that all trials of one rig (or world) share, of its first trial, which has its index.
 std::vector<double> inputs_of(const Study& study, std::string_view unit, std::int64_t index,
                               std::int64_t count, const std::vector<InputSource>& sources) {
@@ -189,11 +206,8 @@ std::vector<double> inputs_of(const Study& study, std::string_view unit, std::in
   std::vector<double> inputs;
   inputs.reserve(sources.size());
   for (const InputSource& source : sources) {
-    const Value& value = plan.base[source.slot];
-    inputs.push_back(source.profile_mean
-                         ? profile_mean(draws, source.slot, value)
-                         : distributions::quantile(plan.distributions[value.index],
-                                                   uniform_of(draws, source.slot, value.per)));
+    inputs.push_back(source.profile_mean ? profile_mean(draws, source.slot, plan.base[source.slot])
+                                         : base_number(draws, source.slot));
   }
   return inputs;
 }
@@ -215,6 +229,32 @@ struct TrialInProgress {
   }
 };
 
+/// The source of a following value that is drawn anew at each contact, if any; there is at most one.
+std::optional<std::uint32_t> contact_source(const TrialDraws& draws, const FollowingValue& following,
+                                            std::int64_t point) {
+  const auto source = std::ranges::find_if(following.from, [&](std::uint32_t slot) {
+    const Value& value = value_of(draws.plan(), slot, point);
+    return value.kind == Value::Kind::distribution && value.per == Per::contact;
+  });
+  return source == following.from.end() ? std::nullopt : std::optional(*source);
+}
+
+/// Sets the value that follows from those of other slots, which are set.
+void set_following(const TrialDraws& draws, std::int64_t point, std::uint32_t slot, TrialInProgress& t) {
+  const FollowingValue& following = t.plan.following[value_of(t.plan, slot, point).index];
+  t.set(slot, following_value(following, [&](std::uint32_t source) { return t.numbers[source]; }));
+  const auto source = contact_source(draws, following, point);
+  if (!source) return;
+  friction::ContactParameter contact = contact_parameter(draws, *source, value_of(t.plan, *source, point));
+  contact.parameter = t.plan.table.rows[slot].profiled;
+  contact.quantile = [of_source = std::move(contact.quantile), following, numbers = t.numbers,
+                      source = *source](double u) {
+    return following_value(following,
+                           [&](std::uint32_t from) { return from == source ? of_source(u) : numbers[from]; });
+  };
+  t.trial.parameters.friction.per_contact.push_back(std::move(contact));
+}
+
 /// With all values but those of profiles.
 TrialInProgress begin_trial(const TrialDraws& draws, std::int64_t point) {
   const StudyPlan& plan = draws.plan();
@@ -228,9 +268,12 @@ TrialInProgress begin_trial(const TrialDraws& draws, std::int64_t point) {
     } else if (value.kind == Value::Kind::distribution) {
       t.set(slot,
             distributions::quantile(plan.distributions[value.index], uniform_of(draws, slot, value.per)));
-      if (value.per == Per::contact)
+      if (value.per == Per::contact && plan.table.rows[slot].profiled != nullptr)
         t.trial.parameters.friction.per_contact.push_back(contact_parameter(draws, slot, value));
     }
+  }
+  for (const std::uint32_t slot : plan.input_slots) {
+    if (value_of(plan, slot, point).kind == Value::Kind::following) set_following(draws, point, slot, t);
   }
   return t;
 }

@@ -20,13 +20,23 @@ void Problems::add(const Place& place, std::string_view path, std::string_view w
   entries_.push_back({place, at_place(place, path, fmt::format("{}; expected {}", what, expected))});
 }
 
+void Problems::add_missing(const Place& place, std::string_view path, std::string_view expected) {
+  add_missing(place, path, "the key is missing", expected);
+}
+
+void Problems::add_missing(const Place& place, std::string_view path, std::string_view what,
+                           std::string_view expected) {
+  add(place, path, what, expected);
+  entries_.back().is_missing = true;
+}
+
 void Problems::raise_if_any() const {
   if (empty()) return;
   std::vector<Entry> sorted = entries_;
   std::stable_sort(sorted.begin(), sorted.end(), [](const Entry& a, const Entry& b) {
-    // Overrides (line 0) after the file.
+    // Overrides (line 0) after the file, and missing keys last.
     const auto key = [](const Entry& e) {
-      return std::tuple(e.place.line == 0, e.place.line, e.place.column);
+      return std::tuple(e.is_missing, e.place.line == 0, e.place.line, e.place.column);
     };
     return key(a) < key(b);
   });

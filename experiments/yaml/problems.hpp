@@ -23,17 +23,24 @@ class Problems {
   /// At the place of the field's value.
   void add(const Field& field, std::string_view what, std::string_view expected);
 
+  /// A key that is missing. It may be there under a wrong name, or in a part that cannot be read, which is
+  /// the cause then: missing keys are reported after all other problems.
+  void add_missing(const Place& place, std::string_view path, std::string_view expected);
+  void add_missing(const Place& place, std::string_view path, std::string_view what,
+                   std::string_view expected);
+
   bool empty() const { return entries_.empty(); }
   std::size_t size() const { return entries_.size(); }
 
   /// @throws Failure (bad_input) with one line `file:line:column: path: what; expected` per problem, in the
-  /// order of the file, if there is any.
+  /// order of the file, then those of overrides and the missing keys, if there is any.
   void raise_if_any() const;
 
  private:
   struct Entry {
     Place place;
     std::string text;
+    bool is_missing{false};  ///< a missing key
   };
   std::vector<Entry> entries_;
 };

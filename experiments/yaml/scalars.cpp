@@ -236,7 +236,7 @@ std::optional<std::string> read_text(const Field& field, Problems& problems) {
 
 void require_key(const Field& map, const std::string& key, const std::string& expected, Problems& problems) {
   if (find_field(map, key)) return;
-  problems.add(map.node->place, fmt::format("{}.{}", map.path, key), "the key is missing", expected);
+  problems.add_missing(map.node->place, fmt::format("{}.{}", map.path, key), expected);
 }
 
 bool check_map(const Field& field, const std::string& expected, Problems& problems) {

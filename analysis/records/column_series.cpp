@@ -72,6 +72,11 @@ bool seems_to_have_factor(const std::string& column) {
          name.find_first_not_of("0123456789.eE+- ", slash + 1) == std::string::npos;
 }
 
+/// The option for the size of a count.
+std::string_view count_size_option(bool linear) {
+  return linear ? "--resolution" : "--counts-per-revolution";
+}
+
 void require_column(const ColumnSource& source, const std::string& column) {
   if (source.has(column)) return;
   refuse_column(
@@ -113,6 +118,44 @@ std::vector<double> scaled_numbers(const ColumnSource& source, const FoundColumn
   return values;
 }
 
+/// The unit of the readings where neither the mapping nor the file says one. Whole numbers are counts if
+/// their size is given, and nothing without: an angle in rad, or a position in m, has decimals.
+Unit unit_of_readings(const ColumnSource& source, const ColumnMapping& mapping, const SeriesChoice& choice) {
+  const std::vector<double> values = source.numbers(mapping.column);
+  const bool whole = std::ranges::all_of(values, [](double value) { return value == std::round(value); }) &&
+                     std::ranges::any_of(values, [&](double value) { return value != values.front(); });
+  if (whole && choice.count_size) return unit_named("count").value();
+  const Unit usual = si_unit(mapping.quantity);
+  if (!whole && !choice.count_size) return usual;
+  const std::string as_column =
+      fmt::format("{}={}", name_of(mapping.quantity), text::printable(mapping.column));
+  refuse_column(source, whole
+                            ? fmt::format("column '{}' has no unit, and whole numbers as an encoder counts; "
+                                          "expected --column '{}[count]' with {} for the size of a count, or "
+                                          "--column '{}[{}]'",
+                                          text::printable(mapping.column), as_column,
+                                          count_size_option(choice.linear), as_column, usual.name)
+                            : fmt::format("column '{}' has no unit, and is not in counts, which are whole "
+                                          "numbers, although {} gives their size; expected its unit, such as "
+                                          "--column '{}[{}]'",
+                                          text::printable(mapping.column), count_size_option(choice.linear),
+                                          as_column, usual.name));
+}
+
+/// The column of the encoder's readings.
+FoundColumn angle_column(const ColumnSource& source, const SeriesChoice& choice, bool linear) {
+  if (const ColumnMapping* mapping = mapping_of(choice, {Quantity::angle, Quantity::position})) {
+    require_column(source, mapping->column);
+    const bool named = mapping->unit || !source.unit(mapping->column).empty();
+    return mapped_column(source, *mapping,
+                         named ? si_unit(mapping->quantity) : unit_of_readings(source, *mapping, choice));
+  }
+  std::vector<std::string> names{"theta", "count"};
+  if (linear) names.insert(names.begin(), "position");
+  if (choice.count_size) std::rotate(names.begin(), names.end() - 1, names.end());
+  return usual_column(source, linear ? Quantity::position : Quantity::angle, choice.angle, names);
+}
+
 void read_time(const ColumnSource& source, const SeriesChoice& choice, RawSeries& series) {
   if (choice.sample_time) {
     for (std::size_t k = 0; k < series.torque.size(); ++k) {
@@ -144,16 +187,9 @@ void read_torque(const ColumnSource& source, const SeriesChoice& choice, RawSeri
 }
 
 void read_angle(const ColumnSource& source, const SeriesChoice& choice, RawSeries& series) {
-  const ColumnMapping* mapping = mapping_of(choice, {Quantity::angle, Quantity::position});
-  std::vector<std::string> names{"theta", "count"};
-  if (series.linear) names.insert(names.begin(), "position");
-  if (choice.count_size) std::rotate(names.begin(), names.end() - 1, names.end());
-  FoundColumn column =
-      mapping != nullptr
-          ? mapped_column(source, *mapping, si_unit(mapping->quantity))
-          : usual_column(source, series.linear ? Quantity::position : Quantity::angle, choice.angle, names);
+  FoundColumn column = angle_column(source, choice, series.linear);
   if (column.unit.dimension == Dimension::count) {
-    const std::string_view option = series.linear ? "--resolution" : "--counts-per-revolution";
+    const std::string_view option = count_size_option(series.linear);
     const std::string_view what = name_of(column.quantity);
     if (!column.has_factor && !choice.count_size) {
       refuse_column(source, fmt::format("the {} is in counts; {} is missing", what, option));

@@ -62,6 +62,12 @@ po::parsed_options parse(const CommandSpec& spec, const std::vector<std::string>
   return po::command_line_parser(words).options(all).positional(operands).style(unguessed).run();
 }
 
+/// A condition as the user writes it: "--format json".
+std::string shown(std::string condition) {
+  std::ranges::replace(condition, '=', ' ');
+  return "--" + condition;
+}
+
 /// "table (default), json or csv"
 std::string words_text(const std::vector<std::string>& words) {
   std::string text = words.front() + " (default)";
@@ -75,6 +81,21 @@ OptionSpec choice_option(std::string name, std::string value, std::vector<std::s
                          const std::string& help) {
   OptionSpec option{std::move(name), std::move(value), words_text(words) + (help.empty() ? "" : ": " + help)};
   option.words = std::move(words);
+  return option;
+}
+
+OptionSpec needing(std::vector<std::string> conditions, OptionSpec option) {
+  option.needs = std::move(conditions);
+  return option;
+}
+
+OptionSpec excluding(std::vector<std::string> conditions, OptionSpec option) {
+  option.excludes = std::move(conditions);
+  return option;
+}
+
+OptionSpec of_operands(std::vector<std::string> operands, OptionSpec option) {
+  option.operands = std::move(operands);
   return option;
 }
 
@@ -112,10 +133,35 @@ Arguments::Arguments(const CommandSpec& spec, const std::vector<std::string>& wo
     refuse(fmt::format("unexpected argument '{}'", operands_[spec.max_operands]));
   }
   const std::vector<std::string>& words_of_operand = spec.operand_words;
-  if (words_of_operand.empty() || operands_.empty()) return;
-  if (std::find(words_of_operand.begin(), words_of_operand.end(), operands_.front()) ==
-      words_of_operand.end())
+  if (!words_of_operand.empty() && !operands_.empty() &&
+      std::ranges::find(words_of_operand, operands_.front()) == words_of_operand.end())
     refuse(fmt::format("'{}' is not one of {}", operands_.front(), fmt::join(words_of_operand, ", ")));
+  for (const OptionSpec& option : spec.options) {
+    if (has(long_name(option))) refuse_without_effect(option);
+  }
+}
+
+bool Arguments::holds(const std::string& condition) const {
+  const std::size_t equals = condition.find('=');
+  if (equals == std::string::npos) return has(condition);
+  return choice(condition.substr(0, equals)) == condition.substr(equals + 1);
+}
+
+void Arguments::refuse_without_effect(const OptionSpec& option) const {
+  const std::string name = long_name(option);
+  const auto held = [&](const std::string& condition) { return holds(condition); };
+  if (!option.operands.empty() &&
+      std::ranges::find(option.operands, operands_.front()) == option.operands.end())
+    refuse(fmt::format("option '--{}' does not apply to '{} {}'", name, spec_.name, operands_.front()));
+  if (!option.needs.empty() && std::ranges::none_of(option.needs, held)) {
+    std::string alternatives;
+    for (const std::string& condition : option.needs)
+      alternatives += (alternatives.empty() ? "'" : " or '") + shown(condition) + "'";
+    refuse(fmt::format("option '--{}' needs {}", name, alternatives));
+  }
+  const auto found = std::ranges::find_if(option.excludes, held);
+  if (found != option.excludes.end())
+    refuse(fmt::format("options '--{}' and '{}' exclude each other", name, shown(*found)));
 }
 
 void Arguments::take_values(const OptionSpec& option, const std::vector<std::string>& words) {

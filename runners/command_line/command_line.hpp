@@ -14,9 +14,23 @@ struct OptionSpec {
   std::string value;  ///< name of its value in the help; empty for a flag
   std::string help;
   bool repeatable{false};
-  std::size_t count{1};              ///< number of its values
-  std::vector<std::string> words{};  ///< its allowed values, the default first; empty: any text
+  std::size_t count{1};                 ///< number of its values
+  std::vector<std::string> words{};     ///< its allowed values, the default first; empty: any text
+  std::vector<std::string> needs{};     ///< it has an effect only beside one of these; empty: always
+  std::vector<std::string> excludes{};  ///< it has none beside any of these
+  std::vector<std::string> operands{};  ///< it has one only with such a first operand; empty: with all
 };
+
+// An option without an effect is an error. Those of one question among several say so where they are
+// declared, and Arguments refuses them elsewhere. A condition is the name of an option, "posterior", or also
+// its word, "format=json", which may be the default.
+
+/// The option, which needs one of the conditions.
+OptionSpec needing(std::vector<std::string> conditions, OptionSpec option);
+/// The option, which has no effect beside one of the conditions.
+OptionSpec excluding(std::vector<std::string> conditions, OptionSpec option);
+/// The option, which belongs to these first operands.
+OptionSpec of_operands(std::vector<std::string> operands, OptionSpec option);
 
 /// An option whose value is one of `words`, the default first; its help begins with them.
 OptionSpec choice_option(std::string name, std::string value, std::vector<std::string> words,
@@ -59,6 +73,8 @@ class Arguments {
 
  private:
   void take_values(const OptionSpec& option, const std::vector<std::string>& words);
+  bool holds(const std::string& condition) const;
+  void refuse_without_effect(const OptionSpec& option) const;
 
   CommandSpec spec_;
   std::vector<std::string> operands_;

@@ -96,7 +96,7 @@ Command controller_command() {
             {"output,o", "FILE", "the file to write; default: standard output"},
             command_line::choice_option("language", "LANGUAGE", {"c", "linuxcnc"}),
             {"set", "KEY=VALUE", "override a manifest key, e.g. controller.ki=3e-5; may be repeated", true},
-            command_line::force_option()}},
+            command_line::needing({"output"}, command_line::force_option())}},
           "write the controller of a point as C",
           controller_help,
           write_controller};

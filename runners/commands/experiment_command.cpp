@@ -203,7 +203,7 @@ Command experiment_command() {
             {"set", "KEY=VALUE", "override a manifest key; may be repeated", true},
             command_line::format_option({"text", "json"}),
             {"quiet,q", "", "print no progress"},
-            command_line::force_option()}},
+            command_line::needing({"output", "streamer", "record", "plot"}, command_line::force_option())}},
           "design the torque over time from which identify tells the friction",
           experiment_help,
           experiment};

@@ -95,17 +95,14 @@ ExitCode plot_history(const command_line::Arguments& arguments) {
   return ExitCode::success;
 }
 
-/// An action on a history, and its options.
+/// An action on a history.
 struct HistoryAction {
   std::string_view name;
-  std::vector<std::string_view> options;
   ExitCode (*run)(const command_line::Arguments&);
 };
 
 std::vector<HistoryAction> actions() {
-  return {{"add", {"compare"}, add},
-          {"show", {"study", "point", "measure", "format"}, show},
-          {"plot", {"study", "point", "measure", "output", "force"}, plot_history}};
+  return {{"add", add}, {"show", show}, {"plot", plot_history}};
 }
 
 std::vector<std::string> names_of(const std::vector<HistoryAction>& all) {
@@ -119,12 +116,6 @@ ExitCode run_history(const command_line::Arguments& arguments) {
   const std::vector<HistoryAction> all = actions();
   const std::string& name = arguments.operands()[0];
   const auto action = std::ranges::find(all, name, &HistoryAction::name);
-  for (const HistoryAction& other : all) {
-    for (const std::string_view option : other.options) {
-      if (arguments.has(option) && std::ranges::find(action->options, option) == action->options.end())
-        arguments.refuse(fmt::format("option '--{}' does not apply to 'history {}'", option, name));
-    }
-  }
   if (name != "add" && arguments.operands().size() > 1)
     arguments.refuse(fmt::format("'history {}' takes no file; name the history with --database", name));
   return action->run(arguments);
@@ -136,13 +127,19 @@ Command history_command() {
   return {{"history",
            "add FILE | show | plot -o PLOT",
            {{"database", "DB", "the history (default: history.sqlite)"},
-            {"compare", "FILE", "add: the output of 'zerocount compare --json FILE' for the results file"},
-            {"study", "NAME", "only this study"},
-            {"point", "LABEL", "only this design point"},
-            {"measure", "NAME", "only this measure, such as success_rate"},
-            command_line::format_option({"text", "json", "csv"}, "of 'show'"),
-            {"output,o", "PLOT", "plot: a page of all series (*.html), or one series as *.svg or *.png"},
-            command_line::force_option()},
+            command_line::of_operands(
+                {"add"}, {"compare", "FILE",
+                          "add: the output of 'zerocount compare --json FILE' for the results file"}),
+            command_line::of_operands({"show", "plot"}, {"study", "NAME", "only this study"}),
+            command_line::of_operands({"show", "plot"}, {"point", "LABEL", "only this design point"}),
+            command_line::of_operands({"show", "plot"},
+                                      {"measure", "NAME", "only this measure, such as success_rate"}),
+            command_line::of_operands({"show"},
+                                      command_line::format_option({"text", "json", "csv"}, "of 'show'")),
+            command_line::of_operands(
+                {"plot"},
+                {"output,o", "PLOT", "plot: a page of all series (*.html), or one series as *.svg or *.png"}),
+            command_line::of_operands({"plot"}, command_line::force_option())},
            1,
            2,
            names_of(actions())},

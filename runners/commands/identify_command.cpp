@@ -132,6 +132,8 @@ records::SeriesChoice series_choice(const command_line::Arguments& arguments) {
       arguments.choice("axis") == "linear" ||
       std::any_of(choice.columns.begin(), choice.columns.end(),
                   [](const records::ColumnMapping& one) { return records::is_linear(one.quantity); });
+  if (arguments.has("axis") && arguments.choice("axis") == "rotary" && choice.linear)
+    arguments.refuse("'--axis rotary' has a torque and an angle, '--column' gives a force or a position");
   choice.rotary = (arguments.has("axis") && !choice.linear) || arguments.has("counts-per-revolution");
   choice.count_size = count_size_option(arguments, choice);
   return choice;
@@ -178,9 +180,6 @@ identification::IdentificationOptions identification_options(const command_line:
       arguments.refuse(fmt::format("option '--fix': '{}' is fixed twice", text.substr(0, text.find('='))));
     }
   }
-  if (arguments.has("draws") && !arguments.has("posterior")) {
-    arguments.refuse("option '--draws' needs '--posterior'");
-  }
   if (arguments.has("posterior")) {
     constexpr std::int64_t least = 1, most = 10'000, usual = 1000;
     options.draws = static_cast<std::size_t>(arguments.whole_number("draws", least, most).value_or(usual));
@@ -204,19 +203,51 @@ std::vector<std::int64_t> points_of(const command_line::Arguments& arguments, co
   return traced.points;
 }
 
+/// Refuses options that no record is read by.
+void refuse_options_without_file(const command_line::Arguments& arguments,
+                                 const std::vector<RecordFile>& files) {
+  const auto any = [&](RecordFile kind) { return std::ranges::find(files, kind) != files.end(); };
+  const auto require = [&](bool there, std::initializer_list<const char*> options, const char* what) {
+    for (const char* option : options) {
+      if (!there && arguments.has(option))
+        arguments.refuse(fmt::format("option '--{}' needs {}", option, what));
+    }
+  };
+  require(any(RecordFile::results), {"point", "trial"}, "a results file");
+  require(any(RecordFile::table), {"separator"}, "a text table");
+  require(any(RecordFile::table) || any(RecordFile::datasets), {"sample-time", "axis", "any-magnitude"},
+          "a table; a results file says this itself");
+}
+
+/// Refuses options of which no record that was read has anything.
+void refuse_options_without_effect(const command_line::Arguments& arguments,
+                                   const std::vector<records::RawSeries>& series) {
+  const auto counted = [](const records::RawSeries& one) { return one.count_size > 0.0; };
+  if (std::ranges::none_of(series, counted)) {
+    for (const char* option : {"counts-per-revolution", "resolution"}) {
+      if (!arguments.has(option)) continue;
+      arguments.refuse(fmt::format(
+          "option '--{}' has no effect, because the {} is not in counts; expected a column count, or "
+          "--column '{}=COLUMN[count]'",
+          option, series.front().linear ? "position" : "angle",
+          series.front().linear ? "position" : "angle"));
+    }
+  }
+  const auto coded = [](const records::RawSeries& one) { return !one.code.empty(); };
+  if (arguments.has("dac-bits") && std::ranges::none_of(series, coded))
+    arguments.refuse("option '--dac-bits' has no effect without a column code");
+}
+
 std::vector<records::RawSeries> read_all_series(const command_line::Arguments& arguments) {
   const records::SeriesChoice choice = series_choice(arguments);
-  const auto holds_results = [&](const std::string& path) {
-    return record_file(path, choice) == RecordFile::results;
-  };
   const std::vector<std::string>& paths = arguments.operands();
-  if ((arguments.has("point") || arguments.has("trial")) &&
-      std::none_of(paths.begin(), paths.end(), holds_results)) {
-    arguments.refuse("options '--point' and '--trial' need a results file");
-  }
+  std::vector<RecordFile> files;
+  for (const std::string& path : paths) files.push_back(record_file(path, choice));
+  refuse_options_without_file(arguments, files);
   std::vector<records::RawSeries> found;
-  for (const std::string& path : paths) {
-    if (!holds_results(path)) {
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const std::string& path = paths[i];
+    if (files[i] != RecordFile::results) {
       for (records::RawSeries& series : read_series(path, choice)) found.push_back(std::move(series));
       continue;
     }
@@ -226,18 +257,13 @@ std::vector<records::RawSeries> read_all_series(const command_line::Arguments& a
       found.push_back(records::read_study_series(path, point, index, choice));
     }
   }
+  refuse_options_without_effect(arguments, found);
   exclude_times(arguments, found);
   return found;
 }
 
-/// Refuses the options of material tests. Windows of sliding begin at samples, and so must their torque.
-void refuse_material_options(const command_line::Arguments& arguments) {
-  for (const char* option : {"fix", "effort", "model", "series-compliance", "preload", "hardening",
-                             "dac-bits", "any-magnitude", "posterior", "plot"}) {
-    if (arguments.has(option)) {
-      arguments.refuse(fmt::format("options '--{}' and '--sliding' exclude each other", option));
-    }
-  }
+/// Windows of sliding begin at samples, and so must their torque.
+void refuse_fractional_delay(const command_line::Arguments& arguments) {
   const std::optional<double> delay = delay_option(arguments);
   if (delay && *delay != std::floor(*delay)) {
     arguments.refuse(
@@ -334,7 +360,7 @@ ExitCode identify_records(const command_line::Arguments& arguments) {
   identification::IdentificationOptions options = identification_options(arguments);
   const IdentifyOutputs outputs = identify_outputs(arguments);
   if (arguments.has("sliding")) {
-    refuse_material_options(arguments);
+    refuse_fractional_delay(arguments);
     command_line::write_text(outputs.report, identify_sliding_axis(arguments, format));
     return ExitCode::success;
   }
@@ -352,6 +378,11 @@ ExitCode identify_records(const command_line::Arguments& arguments) {
                               format, outputs, wanted_draws);
 }
 
+/// An option of material tests.
+command_line::OptionSpec of_tests(command_line::OptionSpec option) {
+  return command_line::excluding({"sliding"}, std::move(option));
+}
+
 std::vector<command_line::OptionSpec> identify_options() {
   std::vector<command_line::OptionSpec> options{
       {"counts-per-revolution", "N", "resolution of the encoder, for an angle in counts"},
@@ -362,7 +393,7 @@ std::vector<command_line::OptionSpec> identify_options() {
     options.insert(options.end(), more.begin(), more.end());
   };
   append(column_options());
-  append(law_options());
+  for (command_line::OptionSpec& option : law_options()) options.push_back(of_tests(std::move(option)));
   append(
       {{"sliding", "", "identify inertia and sliding friction from motion records"},
        {"angle", "COLUMN",
@@ -371,17 +402,20 @@ std::vector<command_line::OptionSpec> identify_options() {
        {"amplifier-bandwidth", "HZ", "bandwidth of the amplifier (default 0: ideal amplifier)"},
        {"delay", "SAMPLES",
         "delay of the column torque, such as 1.5 (default 0); the time offset is fitted about it"},
-       {"dac-bits", "BITS", "word length of the converter of the column code, to detect clipping"},
-       {"preload", "TORQUE", "torque of a slow load and unload before the test, N m or N (default 0)"},
-       {"hardening", "XH", "work hardening before the test, rad or m (default 0)"},
-       {"fix", "KEY=VALUE", "a known parameter, such as friction.n=2 or time_offset=0; may be repeated",
-        true},
-       {"effort", "FACTOR",
-        "time for other starting points, if the first does not fit (default 1: about 20 s)"},
-       {"any-magnitude", "", "accept values that suggest other units"},
-       {"posterior", "FILE", "write joint draws of the parameters there, for the key samples"},
-       {"draws", "N", "number of joint draws (default 1000, up to 10000)"},
-       {"plot", "FILE", "draw the fit: a page of all records (*.html), or one record as *.svg or *.png"},
+       of_tests({"dac-bits", "BITS", "word length of the converter of the column code, to detect clipping"}),
+       of_tests(
+           {"preload", "TORQUE", "torque of a slow load and unload before the test, N m or N (default 0)"}),
+       of_tests({"hardening", "XH", "work hardening before the test, rad or m (default 0)"}),
+       of_tests({"fix", "KEY=VALUE",
+                 "a known parameter, such as friction.n=2 or time_offset=0; may be repeated", true}),
+       of_tests({"effort", "FACTOR",
+                 "time for other starting points, if the first does not fit (default 1: about 20 s)"}),
+       of_tests({"any-magnitude", "", "accept values that suggest other units"}),
+       of_tests({"posterior", "FILE", "write joint draws of the parameters there, for the key samples"}),
+       command_line::needing({"posterior"},
+                             {"draws", "N", "number of joint draws (default 1000, up to 10000)"}),
+       of_tests(
+           {"plot", "FILE", "draw the fit: a page of all records (*.html), or one record as *.svg or *.png"}),
        {"point", "P",
         "design point in a results file, by label or number (default: all with a trace); may be repeated",
         true},
@@ -389,7 +423,7 @@ std::vector<command_line::OptionSpec> identify_options() {
        command_line::format_option({"text", "json", "yaml"}),
        {"output,o", "FILE", "write there instead of to standard output"},
        {"quiet,q", "", "print no progress"},
-       command_line::force_option()});
+       command_line::needing({"output", "posterior", "plot"}, command_line::force_option())});
   return options;
 }
 

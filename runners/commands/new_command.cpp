@@ -113,10 +113,6 @@ ExitCode make_new(const command_line::Arguments& arguments) {
   if (static_cast<int>(list) + static_cast<int>(guide) + static_cast<int>(std::ssize(arguments.operands())) !=
       1)
     arguments.refuse("expected either the name of a manifest, --guide or --list");
-  for (const char* option : {"preload", "mass", "resolution"}) {
-    if (arguments.has(option) && !guide)
-      arguments.refuse(fmt::format("option '--{}' needs '--guide'", option));
-  }
   if (list) {
     print_list();
   } else if (guide) {
@@ -128,24 +124,29 @@ ExitCode make_new(const command_line::Arguments& arguments) {
   return ExitCode::success;
 }
 
+command_line::OptionSpec of_guide(command_line::OptionSpec option) {
+  return command_line::needing({"guide"}, std::move(option));
+}
+
 }  // namespace
 
 Command new_command() {
-  return {{"new",
-           "[NAME]",
-           {{"list", "", "print the names and questions of the manifests, and the guides"},
-            guide_choice(),
-            {"preload", "N", "with --guide: normal force on all its carriages together, N"},
-            {"mass", "KG", "with --guide: moving mass of a linear axis, kg"},
-            {"resolution", "M", "with --guide: encoder of a linear axis, m per count; default 1e-8"},
-            {"output,o", "FILE", "the manifest to make; default: NAME.yaml"},
-            command_line::force_option()},
-           0,
-           1,
-           manifest_names()},
-          "start a study from a manifest that comes with the program",
-          new_help,
-          make_new};
+  return {
+      {"new",
+       "[NAME]",
+       {{"list", "", "print the names and questions of the manifests, and the guides"},
+        guide_choice(),
+        of_guide({"preload", "N", "with --guide: normal force on all its carriages together, N"}),
+        of_guide({"mass", "KG", "with --guide: moving mass of a linear axis, kg"}),
+        of_guide({"resolution", "M", "with --guide: encoder of a linear axis, m per count; default 1e-8"}),
+        command_line::excluding({"list"}, {"output,o", "FILE", "the manifest to make; default: NAME.yaml"}),
+        command_line::excluding({"list"}, command_line::force_option())},
+       0,
+       1,
+       manifest_names()},
+      "start a study from a manifest that comes with the program",
+      new_help,
+      make_new};
 }
 
 }  // namespace zerocount::commands

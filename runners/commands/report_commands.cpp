@@ -65,10 +65,6 @@ report::StudyReport report_of(const command_line::Arguments& arguments, const re
     compare.changed_fails = arguments.has("changed-fails");
     options.comparison = comparison::compare_studies(reading::StudyFile(*baseline), file,
                                                      comparison::rules_of(compare, file.point_labels()));
-  } else {
-    for (const char* const option : {"margins", "changed-fails"}) {
-      if (arguments.has(option)) arguments.refuse(fmt::format("option '--{}' needs '--baseline'", option));
-    }
   }
   if (const auto database = arguments.value("history")) options.history = history_of_study(*database, file);
   options.check = [&file](const report::ReplayedTrial& replayed) {
@@ -121,7 +117,6 @@ std::string figure_text(const report::Figure& figure, const std::string& title,
 ExitCode plot(const command_line::Arguments& arguments) {
   const std::string input = arguments.operands()[0];
   if (!arguments.has("figure")) {
-    if (arguments.has("output")) arguments.refuse("option '--output' needs '--figure'");
     const reading::StudyFile file(input);
     for (const std::string& name : report::figure_names(report_of(arguments, file).page))
       standard_output::print("{}\n", name);
@@ -139,11 +134,13 @@ ExitCode plot(const command_line::Arguments& arguments) {
 std::vector<command_line::OptionSpec> options_of_report(std::vector<command_line::OptionSpec> own) {
   own.insert(own.end(),
              {{"baseline", "FILE", "compare with these results"},
-              {"margins", "FILE", "the margins and requirements of that comparison"},
-              {"changed-fails", "", "in that comparison an improvement fails too"},
+              command_line::needing({"baseline"},
+                                    {"margins", "FILE", "the margins and requirements of that comparison"}),
+              command_line::needing({"baseline"},
+                                    {"changed-fails", "", "in that comparison an improvement fails too"}),
               {"history", "DB", "show the earlier runs of the study in this history ('zerocount history')"},
               {"point", "P", "design point whose trials are shown, by label or number (default: the best)"},
-              command_line::force_option()});
+              command_line::needing({"output"}, command_line::force_option())});
   return own;
 }
 
@@ -162,8 +159,10 @@ Command plot_command() {
   return {{"plot", "FILE",
            options_of_report(
                {{"figure", "NAME", "name of the figure"},
-                {"output,o", "PICTURE",
-                 "the file to write: *.svg, *.png, *.html or *.json; - is standard output, as SVG"}})},
+                command_line::needing(
+                    {"figure"},
+                    {"output,o", "PICTURE",
+                     "the file to write: *.svg, *.png, *.html or *.json; - is standard output, as SVG"})})},
           "draw one figure of the report",
           plot_help,
           plot};

@@ -14,6 +14,7 @@ namespace {
 /// The labels of the design points of a manifest or a results file.
 std::vector<std::string> point_labels(const command_line::Arguments& arguments, const std::string& file) {
   if (!is_results_file(file)) return load_study(file, arguments).point_labels;
+  if (arguments.has("set")) arguments.refuse("option '--set' needs a manifest instead of a results file");
   const reading::ResultsFile results(file, reading::Require::any_part);
   return layout::recorded_study(results.header(), file, nullptr).point_labels;
 }
@@ -42,7 +43,8 @@ ExitCode print_manual(const command_line::Arguments&) {
 Command completion_command() {
   return {{"completion",
            "bash|zsh|points [FILE]",
-           {{"set", "KEY=VALUE", "override a key of that manifest; may be repeated", true}},
+           {command_line::of_operands(
+               {"points"}, {"set", "KEY=VALUE", "override a key of that manifest; may be repeated", true})},
            1,
            2,
            {"bash", "zsh", "points"}},

@@ -13,28 +13,22 @@ namespace {
 
 ExitCode print_parameters_of_study(const command_line::Arguments& arguments, const std::string& manifest,
                                    bool text) {
-  if (arguments.has("axis") || arguments.has("units"))
-    arguments.refuse("--axis and --units cannot be given with --manifest, which decides the units");
   const study::Study study = load_study(manifest, arguments);
   standard_output::print(
       "{}", text ? manifest::parameters_as_text(study) : manifest::parameters_as_markdown(study));
   return ExitCode::success;
 }
 
-ExitCode print_guides(const command_line::Arguments& arguments, bool text) {
-  for (const char* option : {"manifest", "set", "axis", "units"}) {
-    if (arguments.has(option)) arguments.refuse(fmt::format("--guides cannot be given with --{}", option));
-  }
+ExitCode print_guides(bool text) {
   standard_output::print("{}", text ? manifest::guides_as_text() : manifest::guides_as_markdown());
   return ExitCode::success;
 }
 
 ExitCode print_parameters(const command_line::Arguments& arguments) {
   const std::string format = arguments.choice("format");
-  if (arguments.has("guides")) return print_guides(arguments, format == "text");
+  if (arguments.has("guides")) return print_guides(format == "text");
   if (const auto manifest = arguments.value("manifest"))
     return print_parameters_of_study(arguments, *manifest, format == "text");
-  if (arguments.has("set")) arguments.refuse("option '--set' needs '--manifest'");
   parameters::StudyUnits units;
   if (arguments.choice("axis") == "linear") units.axis = parameters::AxisKind::linear;
   if (arguments.choice("units") == "si") units.gains = parameters::GainUnits::si;
@@ -51,22 +45,29 @@ ExitCode print_schema(const command_line::Arguments&) {
 }  // namespace
 
 Command parameters_command() {
-  return {{"parameters",
-           "",
-           {command_line::format_option({"text", "markdown"}),
-            {"manifest", "FILE", "list the parameters of this study, including each value of its lists"},
-            {"set", "KEY=VALUE", "override a key of that manifest; may be repeated", true},
-            command_line::choice_option("axis", "AXIS", {"rotary", "linear"}, "units on this kind of axis"),
-            command_line::choice_option("units", "UNITS", {"count", "si"},
-                                        "unit of the gains (controller.units)"),
-            {"guides", "", "list the starting values of guides and bearings, with their sources"}},
-           0,
-           0},
-          "list every parameter: unit, default, range, source",
-          "Every physical value of a manifest is a number or a distribution. Missing values take the\n"
-          "default, unless its unit differs: on a linear axis most values are required, and with\n"
-          "--units si the integral gain. Such values of friction show the range of common guides.\n",
-          print_parameters};
+  return {
+      {"parameters",
+       "",
+       {command_line::format_option({"text", "markdown"}),
+        command_line::excluding({"guides"}, {"manifest", "FILE",
+                                             "list the parameters of this study, which decides the units, "
+                                             "including each value of its lists"}),
+        command_line::needing({"manifest"},
+                              {"set", "KEY=VALUE", "override a key of that manifest; may be repeated", true}),
+        command_line::excluding(
+            {"manifest", "guides"},
+            command_line::choice_option("axis", "AXIS", {"rotary", "linear"}, "units on this kind of axis")),
+        command_line::excluding({"manifest", "guides"},
+                                command_line::choice_option("units", "UNITS", {"count", "si"},
+                                                            "unit of the gains (controller.units)")),
+        {"guides", "", "list the starting values of guides and bearings, with their sources"}},
+       0,
+       0},
+      "list every parameter: unit, default, range, source",
+      "Every physical value of a manifest is a number or a distribution. Missing values take the\n"
+      "default, unless its unit differs: on a linear axis most values are required, and with\n"
+      "--units si the integral gain. Such values of friction show the range of common guides.\n",
+      print_parameters};
 }
 
 Command schema_command() {

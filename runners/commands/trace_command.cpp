@@ -174,7 +174,7 @@ Command trace_command() {
             {"trial", "I", "trial of the point, from 0 (default 0)"},
             command_line::format_option({"csv", "json"}),
             {"output,o", "FILE", "write there instead of to standard output"},
-            command_line::force_option(),
+            command_line::needing({"output"}, command_line::force_option()),
             {"plugin", "LIBRARY", "the controller plugin of a results file"},
             {"set", "KEY=VALUE", "override a manifest key; may be repeated", true}}},
           "run one trial again, sample by sample",

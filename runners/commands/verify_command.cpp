@@ -80,6 +80,8 @@ ExitCode verify(const command_line::Arguments& arguments) {
   settings.trials = arguments.whole_number("trials", 0, std::int64_t{1} << 53).value_or(default_trials);
   settings.seed = static_cast<std::uint64_t>(
       arguments.whole_number("seed", 0, std::int64_t{1} << 53).value_or(default_seed));
+  if (settings.trials == 0 && arguments.has("seed"))
+    arguments.refuse("option '--seed' needs trials to run again, but '--trials' is 0");
   settings.plugin = plugin_option(arguments);
   const study_run::InterruptionWatch interruption;  // so that no temporary folder is left behind
   settings.stop = interruption.token();

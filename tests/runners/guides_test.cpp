@@ -65,7 +65,8 @@ TEST_F(NewGuide, RefusesWhatItDoesNotKnow) {
   expect_refused({"new", "--guide", "air-bearing", "--preload", "5"}, "has no effect on air-bearing");
   expect_refused({"new", "--guide", "rotary-ball", "--mass", "5"}, "has no effect on rotary-ball");
   expect_refused({"new", "--guide", "plain", "--mass", "-5"}, "expected a number above 0");
-  expect_refused({"parameters", "--guides", "--axis", "linear"}, "--guides cannot be given with --axis");
+  expect_refused({"parameters", "--guides", "--axis", "linear"},
+                 "options '--axis' and '--guides' exclude each other");
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 // Refusals of `zerocount identify`: data without information, contradictory options, missing columns.
+#include <cmath>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/runners/program.hpp"
@@ -100,6 +102,65 @@ TEST_F(IdentifyRefusals, ColumnsAreRefusedWithTheReason) {
   EXPECT_NE(refusal({"log.txt", "--sample-time", "0"}).find("not a positive number"), std::string::npos);
   EXPECT_NE(refusal({"log.txt", "--separator", "dot"}).find("comma, semicolon, tab"), std::string::npos);
   EXPECT_NE(refusal({"old.mat"}).find("version 7.3"), std::string::npos);
+}
+
+/// A table of a motor that turns, with its time in ms and its angle in the unit of `angle`.
+std::string turning(double per_count, const std::string& head) {
+  std::string text = head + "\n";
+  for (int k = 0; k < 400; ++k) {
+    const double angle = std::round(2000.0 * std::sin(0.02 * k)) * per_count;
+    text += fmt::format("{},{},{}\n", 0.5 * k, 0.03 * std::sin(0.05 * k), angle);
+  }
+  return text;
+}
+
+// Without its unit an angle is never taken for rad where counts are meant.
+TEST_F(IdentifyRefusals, WholeNumbersWithoutUnitAreCountsOrAnError) {
+  folder_.write("log.csv", turning(1.0, "ms,Nm,pos"));
+  folder_.write("rad.csv", turning(1e-3, "ms,Nm,pos"));
+  const auto identified = [&](const std::string& file, const std::string& angle,
+                              const std::vector<std::string>& more) {
+    std::vector<std::string> words{"identify", "--sliding",      file,       "--column", "time=ms[ms]",
+                                   "--column", "torque=Nm[N m]", "--column", angle};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words);
+  };
+  const ProgramResult said = identified("log.csv", "angle=pos[count]", {"--counts-per-revolution", "5000"});
+  EXPECT_EQ(said.code, 4) << said.err;  // the motion of a sine is not that of this torque
+  const ProgramResult unsaid = identified("log.csv", "angle=pos", {"--counts-per-revolution", "5000"});
+  EXPECT_EQ(unsaid.err, said.err);
+  const auto refusal = [&](const std::string& file, const std::string& angle,
+                           const std::vector<std::string>& more) {
+    const ProgramResult refused = identified(file, angle, more);
+    EXPECT_EQ(refused.code, 2) << refused.err;
+    return refused.err;
+  };
+  EXPECT_NE(refusal("log.csv", "angle=pos", {}).find("expected --column 'angle=pos[count]'"),
+            std::string::npos);
+  EXPECT_NE(refusal("rad.csv", "angle=pos", {"--counts-per-revolution", "5000"}).find("is not in counts"),
+            std::string::npos);
+  EXPECT_NE(
+      refusal("rad.csv", "angle=pos[mrad]", {"--resolution", "1e-3"}).find("'--resolution' has no effect"),
+      std::string::npos);
+  EXPECT_NE(identified("rad.csv", "angle=pos", {}).code, 2);
+}
+
+TEST_F(IdentifyRefusals, OptionsThatNoRecordHasAnythingOfAreErrors) {
+  folder_.write("log.csv", turning(1e-3, "time,torque,theta"));
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"--counts-per-revolution", "5000"},
+           {"--dac-bits", "12"},
+           {"--trial", "0"},
+           {"--point", "0"},
+           {"--sliding", "--any-magnitude"},
+           {"--axis", "rotary", "--column", "force=torque[N]", "--column", "position=theta[mm]"},
+           {"--force"}}) {
+    std::vector<std::string> all{"identify", "log.csv"};
+    all.insert(all.end(), words.begin(), words.end());
+    const ProgramResult refused = run(all);
+    EXPECT_EQ(refused.code, 2) << words.front() << refused.err;
+    EXPECT_NE(refused.err.find(words.front()), std::string::npos) << refused.err;
+  }
 }
 
 }  // namespace

@@ -93,6 +93,24 @@ TEST_F(ColumnSeries, CountsStayWholeNumbersOfKnownResolution) {
   EXPECT_EQ(one("t,u,enc\n0,0,-7\n1,0,8\n", choice).count_size, 1e-3);
 }
 
+// Without a unit, whole numbers are counts if their size is given, and nothing otherwise.
+TEST_F(ColumnSeries, AnAngleWithoutUnitIsNeverTakenForCountsOrRadSilently) {
+  const std::string counts = "t,M,pos\n0,1,5\n1,1,7\n2,1,-3\n";
+  SeriesChoice sized = columns({"torque=M[N m]", "angle=pos"});
+  sized.count_size = 1e-3;
+  const RawSeries series = one(counts, sized);
+  EXPECT_EQ(series.count_size, 1e-3);
+  EXPECT_EQ(series.angle, (std::vector<double>{5.0, 7.0, -3.0}));
+  EXPECT_NE(
+      refusal(counts, columns({"torque=M[N m]", "angle=pos"})).find("expected --column 'angle=pos[count]'"),
+      std::string::npos);
+  const std::string rad = "t,M,pos\n0,1,0.5\n1,1,0.75\n2,1,-3\n";
+  EXPECT_NE(refusal(rad, sized).find("is not in counts"), std::string::npos);
+  EXPECT_EQ(one(rad, columns({"torque=M[N m]", "angle=pos"})).angle[1], 0.75);
+  // The header's unit decides, too.
+  EXPECT_EQ(one("t,M,pos [mrad]\n0,1,5\n1,1,7\n", sized).count_size, 0.0);
+}
+
 TEST_F(ColumnSeries, ALinearAxisHasForceAndPosition) {
   const RawSeries series =
       one("t,u,enc\n0,2,-7\n1,3,8\n", columns({"drive_force=u[V]*35.15", "position=enc[count]*2e-6"}));
@@ -104,7 +122,7 @@ TEST_F(ColumnSeries, ALinearAxisHasForceAndPosition) {
 }
 
 TEST_F(ColumnSeries, ARecordWithoutTimesHasASamplingInterval) {
-  SeriesChoice choice = columns({"torque=#1", "angle=#2"});
+  SeriesChoice choice = columns({"torque=#1", "angle=#2[rad]"});
   choice.sample_time = 0.5;
   EXPECT_EQ(one("1 2\n3 4\n5 6\n", choice).time, (std::vector<double>{0.0, 0.5, 1.0}));
 }
@@ -225,8 +243,9 @@ TEST_F(Datasets, VectorsOfAnyTypeAndShapeAreRead) {
 }
 
 TEST_F(Datasets, VectorsOfAMatrixHaveNumbers) {
-  EXPECT_EQ(read({"time=/t", "torque=/all#2", "angle=/all#3"}).torque, (std::vector<double>{5, 6, 7, 8, 9}));
-  EXPECT_EQ(read({"time=/t", "torque=/rows#2", "angle=/all#3"}).torque,
+  EXPECT_EQ(read({"time=/t", "torque=/all#2", "angle=/all#3[rad]"}).torque,
+            (std::vector<double>{5, 6, 7, 8, 9}));
+  EXPECT_EQ(read({"time=/t", "torque=/rows#2", "angle=/all#3[rad]"}).torque,
             (std::vector<double>{1, 4, 7, 10, 13}));
 }
 
@@ -239,7 +258,7 @@ TEST_F(Datasets, WhatDoesNotFitIsNamed) {
             "'; its columns are /all (3×5), /bad (5), /cube (2×2×2), /flat (5), /group/i (5×1), /rows (5×3), "
             "/short (4), /t (1×5)");
   }
-  EXPECT_EQ(mat_refusal({"time=/t", "torque=/short", "angle=/flat"}),
+  EXPECT_EQ(mat_refusal({"time=/t", "torque=/short", "angle=/flat[rad]"}),
             "time, torque and angle have 5, 4 and 5 samples; expected as many of each");
   try {
     read({"time=/t", "torque=/bad", "angle=/flat"});

@@ -1,4 +1,7 @@
 // The command line: help, usage errors, exit codes.
+#include "runners/command_line/command_line.hpp"
+
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 
@@ -6,6 +9,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/failure/failure.hpp"
+#include "runners/commands/commands.hpp"
 #include "tests/runners/program.hpp"
 
 namespace zerocount::testing {
@@ -261,6 +266,87 @@ TEST_F(CommandLine, AReaderThatHasEnoughEndsTheProgram) {
   std::system(command.c_str());
   EXPECT_EQ(folder_.read("code"), fmt::format("{}\n", 128 + SIGPIPE));
   EXPECT_EQ(folder_.read("err"), "");
+}
+
+std::string name_of(const command_line::OptionSpec& option) {
+  return option.name.substr(0, option.name.find(','));
+}
+
+/// "--name", with a value where it has one.
+std::vector<std::string> given(const command_line::OptionSpec& option) {
+  std::vector<std::string> words{"--" + name_of(option)};
+  for (std::size_t i = 0; i < option.count && !option.value.empty(); ++i)
+    words.push_back(option.words.empty() ? "1" : option.words.front());
+  return words;
+}
+
+/// The message with which a command refuses options beside enough operands; empty if it does not.
+std::string refusal_of(const command_line::CommandSpec& spec, const std::string& first_operand,
+                       const std::vector<const command_line::OptionSpec*>& options) {
+  std::vector<std::string> words;
+  for (const command_line::OptionSpec* option : options) {
+    for (const std::string& word : given(*option)) words.push_back(word);
+  }
+  words.emplace_back("--");
+  const std::size_t operands = std::min(spec.max_operands, std::max<std::size_t>(spec.min_operands, 1));
+  for (std::size_t i = 0; i < operands; ++i) words.push_back(i == 0 ? first_operand : "x");
+  try {
+    command_line::Arguments(spec, words);
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.code(), ExitCode::bad_input);
+    return failure.what();
+  }
+  return "";
+}
+
+/// The option that a condition names.
+const command_line::OptionSpec& option_of(const command_line::CommandSpec& spec,
+                                          const std::string& condition) {
+  const std::string name = condition.substr(0, condition.find('='));
+  const auto found = std::ranges::find(spec.options, name, name_of);
+  EXPECT_NE(found, spec.options.end()) << spec.name << ": " << condition;
+  if (condition.find('=') != std::string::npos) {
+    EXPECT_EQ(std::ranges::count(found->words, condition.substr(condition.find('=') + 1)), 1) << condition;
+  }
+  return *found;
+}
+
+// Each verb says of which question an option is; elsewhere the option would have no effect.
+TEST(OptionsWithoutEffect, AreErrorsOfEveryVerb) {
+  int conditions = 0;
+  for (const commands::Command& command : commands::commands()) {
+    const command_line::CommandSpec& spec = command.spec;
+    const std::string usual = spec.operand_words.empty() ? "x" : spec.operand_words.front();
+    for (const command_line::OptionSpec& option : spec.options) {
+      const std::string own = "'--" + name_of(option) + "'";
+      const std::string operand = option.operands.empty() ? usual : option.operands.front();
+      if (!option.needs.empty()) {
+        ++conditions;
+        EXPECT_NE(refusal_of(spec, operand, {&option}).find("option " + own + " needs '--"),
+                  std::string::npos)
+            << spec.name << own;
+      }
+      for (const std::string& need : option.needs) {
+        std::vector<const command_line::OptionSpec*> all{&option, &option_of(spec, need)};
+        for (const std::string& more : all.back()->needs) all.push_back(&option_of(spec, more));
+        EXPECT_EQ(refusal_of(spec, operand, all), "") << spec.name << own << need;
+      }
+      for (const std::string& excluded : option.excludes) {
+        ++conditions;
+        EXPECT_NE(refusal_of(spec, operand, {&option, &option_of(spec, excluded)}).find("exclude each other"),
+                  std::string::npos)
+            << spec.name << own << excluded;
+      }
+      for (const std::string& word : spec.operand_words) {
+        const bool belongs = option.operands.empty() || std::ranges::count(option.operands, word) > 0;
+        if (belongs) continue;
+        ++conditions;
+        EXPECT_NE(refusal_of(spec, word, {&option}).find("does not apply to"), std::string::npos)
+            << spec.name << own << word;
+      }
+    }
+  }
+  EXPECT_GT(conditions, 30);
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "analysis/tuning/proof.hpp"
 
-#include <optional>
 #include <utility>
 
 namespace zerocount::tuning {
@@ -32,17 +31,19 @@ std::size_t correction_of(int attempt) {
   return attempt == 1 ? 2 : 4;
 }
 
-ProvenFinalist prove(const ProofProblem& problem) {
-  Attempt attempt{1, 0, problem.first_units(0, correction_of(1))};
-  for (;;) {
-    ProvenFinalist proven{attempt, problem.run(attempt), {}};
-    proven.verdict = goal::judge_goal(problem.goal, proven.counts, correction_of(attempt.number));
-    if (problem.rejects(attempt)) proven.verdict.status = goal::Status::missed;
-    if (attempt.number == max_attempts || !problem.has_time()) return proven;
-    const std::optional<Attempt> next = next_attempt(problem, proven);
-    if (!next) return proven;
-    attempt = *next;
+std::optional<ProvenFinalist> prove(const ProofProblem& problem) {
+  std::optional<ProvenFinalist> proven;
+  std::optional<Attempt> attempt = Attempt{1, 0, problem.first_units(0, correction_of(1))};
+  while (attempt) {
+    std::optional<measures::MoveCounts> counts = problem.run(*attempt);
+    if (!counts) break;
+    proven = ProvenFinalist{*attempt, std::move(*counts), {}};
+    proven->verdict = goal::judge_goal(problem.goal, proven->counts, correction_of(attempt->number));
+    if (problem.rejects(*attempt)) proven->verdict.status = goal::Status::missed;
+    if (attempt->number == max_attempts || !problem.goes_on()) break;
+    attempt = next_attempt(problem, *proven);
   }
+  return proven;
 }
 
 }  // namespace zerocount::tuning

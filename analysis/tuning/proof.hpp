@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "analysis/goal/goal_verdict.hpp"
@@ -33,10 +34,11 @@ struct ProofProblem {
   std::function<std::int64_t(std::size_t finalist, std::size_t correction)> first_units;
   /// Units that are expected to decide it, by the results of an attempt.
   std::function<std::int64_t(const measures::MoveCounts&, std::size_t correction)> more_units;
-  std::function<measures::MoveCounts(const Attempt&)> run;
+  /// Nothing if the effort ended before the attempt.
+  std::function<std::optional<measures::MoveCounts>(const Attempt&)> run;
   /// Whether the last run shows that the finalist does not keep a condition; it misses the goal then.
   std::function<bool(const Attempt&)> rejects;
-  std::function<bool()> has_time;  ///< for another attempt
+  std::function<bool()> goes_on;  ///< whether the effort is enough for another attempt
 };
 
 /// The last attempt and its verdict.
@@ -47,7 +49,8 @@ struct ProvenFinalist {
 };
 
 /// Proves the best finalist. One that misses the goal is followed by the next; one that stays undecided is
-/// run again on more units, if more are expected to decide.
-ProvenFinalist prove(const ProofProblem& problem);
+/// run again on more units, if more are expected to decide. Nothing if the effort ended before the first
+/// attempt.
+std::optional<ProvenFinalist> prove(const ProofProblem& problem);
 
 }  // namespace zerocount::tuning

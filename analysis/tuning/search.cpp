@@ -12,16 +12,14 @@
 namespace zerocount::tuning {
 namespace {
 
-constexpr std::int64_t first_units = 64;
-constexpr int first_candidates = 48;  // and as many for each free parameter
-constexpr int candidates_of_generation = 32;
-constexpr int elite_candidates = 8;
 constexpr double error_of_dropping = 0.01;
 constexpr int tries_of_candidate = 60;       // draws for one admissible candidate
+constexpr std::size_t places_at_once = 32;   // to be examined
 constexpr double first_step = 0.15;          // in the unit cube
 constexpr double step_ratio = 0.8;           // from generation to generation
 constexpr int patience = 4;                  // generations without improvement
 constexpr double least_improvement = 0.005;  // of the criterion
+constexpr double examining = 0.3;            // of the time left, at most, to find candidates of a generation
 
 class Search {
  public:
@@ -34,7 +32,9 @@ class Search {
   SearchResult run() {
     first_generation();
     int without = 0;
-    while (!population_.empty() && goes_on()) {
+    while (!population_.empty()) {
+      tell();
+      if (!goes_on()) break;
       const Estimate before = best_estimate();
       next_generation();
       if (population_.empty()) break;
@@ -76,21 +76,32 @@ class Search {
     candidates = std::move(kept);
   }
 
+  /// Calls `add` until it has found a generation, or some candidates in a part of the time.
+  void find(std::vector<Candidate>& candidates, const std::function<bool()>& add) {
+    const double end = (1.0 - examining) * settings_.effort.seconds_left();
+    const bool ended = within(settings_.effort, [&] {
+      while (add() && (candidates.empty() || !(settings_.effort.seconds_left() < end))) {
+      }
+    });
+    result_.cut = result_.cut || !ended;
+  }
+
   void first_generation() {
-    const auto wanted = static_cast<std::size_t>(first_candidates) * (1 + problem_.free.size());
+    const auto wanted = static_cast<std::size_t>(problem_.size.first_candidates);
     std::vector<double> start;
     for (std::size_t i = 0; i < problem_.free.size(); ++i) start.push_back(numbers_.uniform());
     std::vector<Candidate> candidates;
     std::vector<Place> places;
     for (const Values& values : problem_.starts) places.push_back(place_of(problem_.free, values));
-    add_admissible(places, wanted, candidates);
     std::int64_t drawn = 0;
     const auto most = static_cast<std::int64_t>(wanted) * tries_of_candidate;
-    while (candidates.size() < wanted && drawn < most) {
-      places.clear();
-      for (std::size_t i = 0; i < wanted; ++i) places.push_back(spread_place(start, drawn++));
+    find(candidates, [&] {
       add_admissible(places, wanted, candidates);
-    }
+      if (candidates.size() >= wanted || drawn >= most) return false;
+      places.clear();
+      for (std::size_t i = 0; i < places_at_once; ++i) places.push_back(spread_place(start, drawn++));
+      return true;
+    });
     race(std::move(candidates));
   }
 
@@ -114,13 +125,15 @@ class Search {
   /// Where few places are admissible, they are near those that are: each try takes shorter steps.
   void next_generation() {
     std::vector<Candidate> candidates;
-    constexpr auto wanted = static_cast<std::size_t>(candidates_of_generation);
-    for (int tries = 0; tries < tries_of_candidate && candidates.size() < wanted; ++tries) {
+    const auto wanted = static_cast<std::size_t>(problem_.size.candidates);
+    int tries = 0;
+    find(candidates, [&] {
       std::vector<Place> places;
       for (std::size_t i = candidates.size(); i < wanted; ++i)
         places.push_back(place_near_elites(step_ / (1.0 + 0.2 * tries)));
       add_admissible(places, wanted, candidates);
-    }
+      return ++tries < tries_of_candidate && candidates.size() < wanted;
+    });
     race(std::move(candidates));
     step_ *= step_ratio;
   }
@@ -131,30 +144,55 @@ class Search {
     result_.points += std::ssize(candidates);
     for (Candidate& one : population_) candidates.push_back(std::move(one));
     population_.clear();
-    std::int64_t units = std::min(first_units, problem_.max_units);
-    while (!candidates.empty()) {
-      run_units(candidates, units);
-      keep_admissible(candidates);
-      sort_by_merit(candidates, units);
-      verify_best(candidates);
-      if (candidates.empty()) return;
-      drop(candidates, units);
-      if (units == problem_.max_units) break;
-      units = std::min(2 * units, problem_.max_units);
+    std::int64_t units = std::min(problem_.size.first_units, problem_.size.max_units);
+    const bool ended = within(settings_.effort, [&] {
+      while (!candidates.empty()) {
+        run_units(candidates, units);
+        keep_admissible(candidates);
+        sort_by_merit(candidates, units);
+        verify_best(candidates);
+        if (candidates.empty()) return;
+        drop(candidates, units);
+        if (units == problem_.size.max_units) return;
+        units = std::min(2 * units, problem_.size.max_units);
+      }
+    });
+    if (!ended) {
+      result_.cut = true;
+      keep_those_with_most_units(candidates);
     }
-    if (candidates.size() > elite_candidates) candidates.resize(elite_candidates);
+    const auto elites = static_cast<std::size_t>(problem_.size.elites);
+    if (candidates.size() > elites) candidates.resize(elites);
     population_ = std::move(candidates);
   }
 
+  /// Runs the candidates that are behind, in their order, and drops those for which no trials are left.
+  /// @throws Spent if none are left for the first of them
   void run_units(std::vector<Candidate>& candidates, std::int64_t units) {
     std::vector<Candidate*> behind;
+    std::int64_t trials = 0;
     for (Candidate& one : candidates) {
-      const std::int64_t missing = units - std::ssize(one.units);
+      const std::int64_t missing = (units - std::ssize(one.units)) * problem_.trials_of_unit;
       if (missing <= 0) continue;
+      if (trials + missing > settings_.effort.trials_left()) {
+        if (behind.empty()) throw Spent{};
+        break;
+      }
       behind.push_back(&one);
-      result_.trials += missing * problem_.trials_of_unit;
+      trials += missing;
     }
+    settings_.effort.spend(trials);
+    result_.trials += trials;
     problem_.evaluate(behind, units);
+    std::erase_if(candidates, [units](const Candidate& one) { return std::ssize(one.units) < units; });
+  }
+
+  /// Few units make candidates look better than they are: those with fewer than others are dropped.
+  void keep_those_with_most_units(std::vector<Candidate>& candidates) {
+    std::int64_t most = 1;
+    for (const Candidate& one : candidates) most = std::max(most, std::ssize(one.units));
+    std::erase_if(candidates, [most](const Candidate& one) { return std::ssize(one.units) < most; });
+    sort_by_merit(candidates, most);
   }
 
   void sort_by_merit(std::vector<Candidate>& candidates, std::int64_t units) {
@@ -203,8 +241,7 @@ class Search {
              (sure == candidates.end() || &one == &*sure ||
               !surely_later(aim, one, *sure, error_of_dropping));
     };
-    const auto most = static_cast<std::size_t>(
-        std::max<std::int64_t>(elite_candidates, 4 * candidates_of_generation * first_units / units));
+    const auto most = static_cast<std::size_t>(most_after(problem_.size, units));
     std::vector<char> chosen(candidates.size(), 0);
     std::size_t count = 0;
     const auto choose = [&](std::size_t i) {
@@ -224,7 +261,7 @@ class Search {
   }
 
   Estimate best_estimate() const {
-    return estimate_of(problem_.aim, population_.front(), problem_.max_units);
+    return estimate_of(problem_.aim, population_.front(), problem_.size.max_units);
   }
 
   bool improves(const Estimate& before, const Estimate& now) const {
@@ -234,24 +271,25 @@ class Search {
     return now.rate > before.rate + 0.001;
   }
 
-  bool goes_on() const {
-    if (result_.generations >= settings_.generations || result_.trials >= settings_.max_trials) return false;
-    if (!settings_.go_on) return true;
-    return settings_.go_on(
+  void tell() const {
+    if (!settings_.tell) return;
+    settings_.tell(
         {result_.generations, result_.points, result_.trials, &population_.front(), best_estimate()});
   }
 
+  /// A generation of which no candidate can end its race is not begun.
+  bool goes_on() const {
+    return result_.generations < settings_.generations && !settings_.effort.is_spent() &&
+           settings_.effort.trials_left() >= problem_.size.max_units * problem_.trials_of_unit;
+  }
+
   SearchResult finish() {
-    // Every finalist is to be fit for the proof, by all units.
-    if (!population_.empty()) run_units(population_, problem_.max_units);
+    // Every finalist is to be fit for the proof.
     for (Candidate& one : population_) {
       if (problem_.verified(one)) result_.finalists.push_back(std::move(one));
     }
-    if (!result_.finalists.empty()) {
-      sort_by_merit(result_.finalists, problem_.max_units);
-    }
     for (const Candidate& one : result_.finalists)
-      result_.estimates.push_back(estimate_of(problem_.aim, one, problem_.max_units));
+      result_.estimates.push_back(estimate_of(problem_.aim, one, problem_.size.max_units));
     result_.tried.reserve(estimates_.size());
     for (const auto& [values, estimate] : estimates_) result_.tried.push_back({values, estimate});
     return std::move(result_);

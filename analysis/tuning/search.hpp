@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "analysis/tuning/candidate.hpp"
+#include "analysis/tuning/effort.hpp"
 #include "analysis/tuning/frontier.hpp"
+#include "analysis/tuning/search_size.hpp"
 #include "experiments/study/tuning.hpp"
 
 /// Iterated racing (López-Ibáñez et al., "The irace package", Operations Research Perspectives 3, 2016): a
@@ -20,10 +22,11 @@ struct SearchProblem {
   std::vector<study::FreeParameter> free;
   Aim aim;
   std::vector<Values> starts{};  ///< candidates of the first generation, such as the manifest's values
-  std::int64_t max_units{2048};
+  SearchSize size{};
   std::int64_t trials_of_unit{1};
 
-  /// Appends the results of the units up to `to` to every candidate.
+  /// Appends the results of the units up to `to` to every candidate; to none of them if it throws
+  /// trial::Interrupted, because the time is over.
   std::function<void(std::span<Candidate* const>, std::int64_t to)> evaluate;
   /// [candidate] whether it may be tried at all, or go on after what its units did. Cheap: called for many
   /// candidates.
@@ -45,8 +48,8 @@ struct SearchProgress {
 struct SearchSettings {
   std::uint64_t seed{0};
   int generations{30};
-  std::int64_t max_trials{500'000};                    ///< after the generation in which they are run
-  std::function<bool(const SearchProgress&)> go_on{};  ///< asked after each generation
+  Effort effort{};                                    ///< the search spends its trials
+  std::function<void(const SearchProgress&)> tell{};  ///< called after each generation
 };
 
 struct SearchResult {
@@ -57,8 +60,12 @@ struct SearchResult {
   std::int64_t trials{0};
   int generations{0};
   bool converged{false};  ///< the last generations improved nothing
+  bool cut{false};        ///< the effort ended within a generation
 };
 
+/// Seeks the best values within the effort. Where that ends within a race, the candidates with the most units
+/// stay.
+/// @throws trial::Interrupted
 SearchResult search(const SearchProblem& problem, const SearchSettings& settings);
 
 }  // namespace zerocount::tuning

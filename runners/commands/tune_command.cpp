@@ -45,8 +45,10 @@ constexpr const char* tune_help =
     "that cannot win is dropped early. The bounds are of the proof alone. FILE is its results\n"
     "file, whose manifest has the tuned values.\n"
     "\n"
-    "--budget bounds the search: 500000 trials by default, or a time such as 60s or 5min for all.\n"
-    "With a number of trials the answer depends on the seed alone, not on the number of threads.\n"
+    "--budget bounds all together: the search, which takes half, the proof, and what follows it. It\n"
+    "is a number of trials, with which the answer depends on the seed alone, or a time such as 60s\n"
+    "or 5min. What it is not enough for is named. Without it the search takes 500000 trials, and the\n"
+    "proof and the rest what they need.\n"
     "Ctrl-C keeps the simulated points; the same command goes on with them.\n"
     "The exit code is 0 if the goal is met, 1 if no values in the ranges meet it, 3 if the proof\n"
     "does not decide it.\n"
@@ -72,21 +74,15 @@ constexpr const char* worst_help =
     "\n"
     "Example: zerocount worst my-axis.yaml -o worst.yaml\n";
 
-void read_budget(const command_line::Arguments& arguments, tuning::TuneSettings& settings) {
-  const command_line::Budget budget = command_line::budget_option(arguments);
-  if (budget.trials) settings.max_trials = *budget.trials;
-  if (!budget.seconds) return;
-  settings.seconds = budget.seconds;
-  settings.max_trials = std::int64_t{1} << 50;
-}
-
 ExitCode tune(const command_line::Arguments& arguments) {
   tuning::TuneSettings settings;
   settings.output = command_line::output_place(arguments);
   const study::Study study = load_study(arguments.operands()[0], arguments, {&settings.output, 1});
   settings.threads = static_cast<int>(arguments.whole_number("threads", 1, 4096).value_or(0));
   settings.quiet = arguments.has("quiet");
-  read_budget(arguments, settings);
+  const command_line::Budget budget = command_line::budget_option(arguments);
+  settings.budget = {budget.trials, budget.seconds};
+  const bool json = arguments.choice("format") == "json";
   settings.force = arguments.has("force");
   const std::optional<std::filesystem::path> page = command_line::text_place(arguments, "report");
   if (page) {
@@ -104,13 +100,19 @@ ExitCode tune(const command_line::Arguments& arguments) {
   const study_run::InterruptionWatch interruption;
   const storage::OutputLock lock(settings.output);
   print_fallback_lock(lock, settings.output);
+  bool printed = false;
+  settings.proven = [&](const tuning::TuneAnswer& proven) {
+    if (!json) standard_output::write_fitted(tuning::proven_text(proven, study, settings.output.string()));
+    printed = true;
+  };
   const tuning::TuneAnswer answer = tuning::tune(study, settings, interruption.token());
-  if (page && answer.proof)
+  if (page)
     command_line::write_text(*page, report::html_page(tuning::tuning_page(answer, study, settings.output)));
-  if (arguments.choice("format") == "json") {
-    standard_output::write(tuning::json_of(answer));
+  if (json) {
+    standard_output::write(tuning::json_of(answer, study));
   } else {
-    standard_output::write_fitted(tuning::text_of(answer, study, settings.output.string()));
+    if (!printed) standard_output::write_fitted(tuning::proven_text(answer, study, settings.output.string()));
+    standard_output::write_fitted(tuning::rest_text(answer, study));
   }
   return exit_code_of(answer.status);
 }
@@ -225,7 +227,7 @@ Command tune_command() {
            "MANIFEST -o FILE",
            {{"output,o", "FILE", "the results file of the proof (required)"},
             command_line::format_option({"text", "json"}),
-            {"budget", "B", "of the search: a number of trials, or a time such as 60s or 5min"},
+            {"budget", "B", "of all: a number of trials, or a time such as 60s or 5min"},
             {"report", "PAGE", "write a page (*.html) with maps, what was tried, and the proof"},
             {"threads", "N", "threads to use; default: all cores"},
             set_option(),

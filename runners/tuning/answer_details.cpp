@@ -10,10 +10,8 @@
 namespace zerocount::tuning {
 namespace {
 
-constexpr std::int64_t units_of_details = 1024;
-
 bool seems_met(const TunedStudy& tuned, const study::Study& study, const Change* change) {
-  return rate_of(study, tuned.units, units_of_details, change, tuned.stop) >= wanted_rate(aim_of(study));
+  return rate_of(study, tuned.units, tuned.count, change, tuned.effort) >= wanted_rate(aim_of(study));
 }
 
 /// The place in [kept, lost], or [lost, kept], where `holds` ends.
@@ -45,7 +43,7 @@ double rate_in_wider_band(const TunedStudy& tuned) {
   const Change wider = [slot](trial::TrialParameters& p) {
     for (std::size_t b = slot; b < p.verdict.bands.count; ++b) ++p.verdict.bands.limits[b];
   };
-  return rate_of(tuned.study, tuned.units, tuned.units.count, &wider, tuned.stop);
+  return rate_of(tuned.study, tuned.units, tuned.count, &wider, tuned.effort);
 }
 
 std::vector<Room> room_of(const TunedStudy& tuned) {

@@ -2,13 +2,13 @@
 
 #include <optional>
 #include <span>
-#include <stop_token>
 #include <string>
 #include <vector>
 
 #include "runners/tuning/unit_runner.hpp"
 
 /// Properties of the tuned values, by simulation of the units of the search. None of them is proven.
+/// All functions throw trial::Interrupted and Spent.
 namespace zerocount::tuning {
 
 /// The tuned study on the units of the search.
@@ -17,7 +17,8 @@ struct TunedStudy {
   std::span<const study::FreeParameter> free;
   const Values& gains;
   Units units;
-  std::stop_token stop;
+  std::int64_t count;  ///< of these units, that a point is simulated on
+  Effort effort;
 };
 
 /// Range of a free parameter, the others as tuned, in which the goal seems to be met.

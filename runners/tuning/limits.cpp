@@ -20,7 +20,7 @@ std::string refusal_of(std::initializer_list<const Idealisation*> together, cons
 }
 
 Limit limit_of(std::initializer_list<const Idealisation*> together, const study::Study& study,
-               const Units& units, const std::stop_token& stop) {
+               const Units& units, const Effort& effort) {
   study::PointEdit at(study, units.point);
   Limit limit;
   for (const Idealisation* one : together) {
@@ -36,7 +36,7 @@ Limit limit_of(std::initializer_list<const Idealisation*> together, const study:
     }
   };
   try {
-    limit.rate = rate_of(at.study(), units, units.count, &change, stop);
+    limit.rate = rate_of(at.study(), units, units.count, &change, effort);
   } catch (const Failure& failure) {
     if (failure.code() != ExitCode::bad_input) throw;
     return {limit.cause, std::nullopt, failure.what()};
@@ -51,20 +51,20 @@ bool is_lower(const Limit& a, const Limit& b) {
 }  // namespace
 
 double rate_of(const study::Study& study, const Units& units, std::int64_t count, const Change* change,
-               const std::stop_token& stop) {
-  const Candidate candidate{{}, {}, results_of(study, units, count, change, stop)};
+               const Effort& effort) {
+  const Candidate candidate{{}, {}, results_of(study, units, count, change, effort)};
   return estimate_of(aim_of(study), candidate, units.count).rate;
 }
 
-std::vector<Limit> limits_of(const study::Study& study, const Units& units, const std::stop_token& stop) {
+std::vector<Limit> limits_of(const study::Study& study, const Units& units, const Effort& effort) {
   const std::vector<Idealisation> all = idealisations_of(study, units.point);
-  std::vector<Limit> limits{{"none", rate_of(study, units, units.count, nullptr, stop)}};
-  for (const Idealisation& one : all) limits.push_back(limit_of({&one}, study, units, stop));
+  std::vector<Limit> limits{{"none", rate_of(study, units, units.count, nullptr, effort)}};
+  for (const Idealisation& one : all) limits.push_back(limit_of({&one}, study, units, effort));
   Limit best = *std::ranges::max_element(limits, is_lower);
   const double best_alone = *best.rate;
   for (auto a = all.begin(); a != all.end(); ++a) {
     for (auto b = a + 1; b != all.end() && *best.rate < 1.0; ++b)
-      best = std::max(best, limit_of({&*a, &*b}, study, units, stop), is_lower);
+      best = std::max(best, limit_of({&*a, &*b}, study, units, effort), is_lower);
   }
   if (*best.rate > best_alone) limits.push_back(best);
   return limits;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -19,12 +18,12 @@ struct Limit {
 /// Rate of the goal (Estimate::rate) on the first `count` units.
 /// @param change null: none
 double rate_of(const study::Study& study, const Units& units, std::int64_t count, const Change* change,
-               const std::stop_token& stop);
+               const Effort& effort);
 
 /// Rates of the goal on all units, with each cause of failures switched off that a trial of the point can
 /// have, and with the best pair of them, if that is better than each alone. The first entry is "none". A
 /// change that makes a study which its manifest could not describe is not simulated.
-/// @throws trial::Interrupted
-std::vector<Limit> limits_of(const study::Study& study, const Units& units, const std::stop_token& stop);
+/// @throws trial::Interrupted, Spent
+std::vector<Limit> limits_of(const study::Study& study, const Units& units, const Effort& effort);
 
 }  // namespace zerocount::tuning

@@ -12,6 +12,7 @@
 #include "core/friction/parameters.hpp"
 #include "core/loop/controller.hpp"
 #include "core/theory/margins.hpp"
+#include "core/trial/trial.hpp"
 
 namespace zerocount::tuning {
 namespace {
@@ -186,9 +187,11 @@ bool LoopExaminer::may_keep(const study::Study& candidate, const study::LoopMarg
   });
 }
 
-bool LoopExaminer::keeps(const study::Study& candidate, const study::LoopMargins& margins, bool slides) {
+bool LoopExaminer::keeps(const study::Study& candidate, const study::LoopMargins& margins, bool slides,
+                         const std::stop_token& stop) {
   std::vector<char> kept(machines_.size(), 1);
   parallel::for_each_index(machines_.size(), [&](std::size_t i) {
+    if (stop.stop_requested()) throw trial::Interrupted{};
     const Machine& one = machines_[i];
     kept[i] = keeps_margins(study::study_trial(candidate, 0, one.trial).parameters,
                             {one.softest, one.stiffest, slides}, margins)
@@ -202,10 +205,12 @@ bool LoopExaminer::keeps(const study::Study& candidate, const study::LoopMargins
   return false;
 }
 
-SmallestMargins LoopExaminer::margins_of(const study::Study& candidate, bool slides) const {
+SmallestMargins LoopExaminer::margins_of(const study::Study& candidate, bool slides,
+                                         const std::stop_token& stop) const {
   std::vector<SmallestMargins> found(machines_.size());
   constexpr double none = std::numeric_limits<double>::infinity();
   parallel::for_each_index(machines_.size(), [&](std::size_t i) {
+    if (stop.stop_requested()) throw trial::Interrupted{};
     const MachineLoops machine{machines_[i].softest, machines_[i].stiffest, slides};
     const trial::TrialParameters p = study::study_trial(candidate, 0, machines_[i].trial).parameters;
     const Loops of = loops_of(p, machine, 0.0);

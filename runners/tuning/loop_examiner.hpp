@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -38,9 +39,13 @@ class LoopExaminer {
   /// @param slides whether machines of the candidate slide
   bool may_keep(const study::Study& candidate, const study::LoopMargins& margins, bool slides) const;
   /// Whether all machines keep them; one that does not counts as critical from now on.
-  bool keeps(const study::Study& candidate, const study::LoopMargins& margins, bool slides);
+  /// @throws trial::Interrupted
+  bool keeps(const study::Study& candidate, const study::LoopMargins& margins, bool slides,
+             const std::stop_token& stop = {});
 
-  SmallestMargins margins_of(const study::Study& candidate, bool slides) const;
+  /// @throws trial::Interrupted
+  SmallestMargins margins_of(const study::Study& candidate, bool slides,
+                             const std::stop_token& stop = {}) const;
 
  private:
   /// A trial, and the range of stiffness of its machine.

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,9 +25,12 @@ measures::MoveCounts with_trials_each(measures::MoveCounts counts, std::int64_t 
 /// Units with which the proof of a candidate with such counts is expected to be decided, and half as many
 /// more.
 /// @param each trials of a unit @param points from which the bounds have to allow for a choice
-/// @param most_trials limit of the proof
+/// @param most_trials limit of the proof, at least least_proof_trials()
 std::int64_t proof_units(const study::Study& study, const measures::MoveCounts& counts, std::int64_t each,
                          std::size_t points, std::int64_t most_trials);
+
+/// Trials of the smallest proof in this attempt that can meet the goal, if no move misses it.
+std::int64_t least_proof_trials(const study::Study& study, int attempt);
 
 /// A finished run of some units.
 struct ProofRun {
@@ -38,8 +40,9 @@ struct ProofRun {
 
 /// Runs the study with these values ("key=value") in its text on fresh units, into a results file that keeps
 /// its trials. A file with the same run is not made again.
-/// @throws Failure: interrupted; the finished trials are kept in shards.
+/// @throws Failure: interrupted; the finished trials are kept in shards. Spent: the effort ended before, and
+/// nothing is kept.
 ProofRun run_proof(const study::Study& study, std::vector<std::string> values, const Units& units,
-                   const std::filesystem::path& output, int threads, const std::stop_token& stop);
+                   const std::filesystem::path& output, int threads, const Effort& effort);
 
 }  // namespace zerocount::tuning

@@ -1,6 +1,7 @@
 #include "runners/tuning/study_search.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "analysis/parallel/parallel.hpp"
@@ -13,16 +14,23 @@ namespace zerocount::tuning {
 namespace {
 
 constexpr std::int64_t max_search_trials_of_machine = 20;
+constexpr std::int64_t examined_machines = 2048;
 
-/// The values of the free parameters in the manifest, where they lie inside the ranges.
-std::vector<Values> starts_of(const study::Study& study, std::span<const study::FreeParameter> free) {
+/// The values of the free parameters in the manifest.
+Values manifest_values(const study::Study& study, std::span<const study::FreeParameter> free) {
   Values values;
   for (const study::FreeParameter& one : free) {
     const std::size_t slot = study::find_slots(one.name, study.plan->table).value().first;
     values.push_back(study.plan->base[slot].number);
-    if (!(values.back() >= one.low && values.back() <= one.high)) return {};
   }
-  return {values};
+  return values;
+}
+
+bool lie_in_ranges(const Values& values, std::span<const study::FreeParameter> free) {
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    if (!(values[i] >= free[i].low && values[i] <= free[i].high)) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -32,25 +40,34 @@ std::int64_t trials_of_machine(const study::Study& study) {
   return std::max<std::int64_t>(study.trials / study.rigs, 10);
 }
 
+std::int64_t search_trials_of_machine(const study::Study& study) {
+  return std::min(trials_of_machine(study), max_search_trials_of_machine);
+}
+
 StudySearch::StudySearch(const study::Study& study, std::vector<study::FreeParameter> free,
-                         std::int64_t most_units, TuningJournal& journal, std::function<double()> elapsed,
-                         const std::stop_token& stop)
+                         const SearchSize& size, TuningJournal& journal, std::function<double()> elapsed,
+                         Effort effort)
     : study_(study),
       free_(std::move(free)),
-      units_{in_equal_worlds(study, most_units),
-             std::min(trials_of_machine(study), max_search_trials_of_machine)},
+      size_(size),
+      units_{size.max_units, search_trials_of_machine(study)},
       base_(variant_of(study, overrides_for(study, units_))),
-      examiner_(base_, units_.count),
+      examined_units_{in_equal_worlds(study, examined_machines), units_.trials_each},
+      examined_base_(variant_of(study, overrides_for(study, examined_units_))),
+      examiner_(examined_base_, examined_units_.count),
       journal_(journal),
       elapsed_(std::move(elapsed)),
-      stop_(stop) {}
+      effort_(std::move(effort)) {}
 
-SearchResult StudySearch::run(const SearchSettings& settings) {
+SearchResult StudySearch::run(const SearchSettings& settings, std::vector<Values> starts) {
+  stop_ = settings.effort.stop();
   SearchProblem problem;
   problem.free = free_;
   problem.aim = aim_of(study_);
-  problem.starts = starts_of(study_, free_);
-  problem.max_units = units_.count;
+  starts.insert(starts.begin(), manifest_values(study_, free_));
+  std::erase_if(starts, [this](const Values& values) { return !lie_in_ranges(values, free_); });
+  problem.starts = std::move(starts);
+  problem.size = size_;
   problem.trials_of_unit = units_.trials_each;
   problem.evaluate = [this](std::span<Candidate* const> candidates, std::int64_t to) {
     evaluate(candidates, to);
@@ -62,6 +79,10 @@ SearchResult StudySearch::run(const SearchSettings& settings) {
 
 study::Study StudySearch::candidate(const Values& values) const {
   return variant_of(base_, overrides_of(free_, values));
+}
+
+study::Study StudySearch::examined_candidate(const Values& values) const {
+  return variant_of(examined_base_, overrides_of(free_, values));
 }
 
 void StudySearch::evaluate(std::span<Candidate* const> candidates, std::int64_t to) {
@@ -81,8 +102,18 @@ void StudySearch::evaluate(std::span<Candidate* const> candidates, std::int64_t 
   entries.reserve(unknown.size());
   for (std::size_t i = 0; i < unknown.size(); ++i)
     entries.push_back({&studies[i], from[i], to, &unknown[i]->units, nullptr});
-  run_units(entries, units_, stop_);
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    run_units(entries, units_, stop_);
+  } catch (const trial::Interrupted&) {
+    for (std::size_t i = 0; i < unknown.size(); ++i)
+      unknown[i]->units.resize(static_cast<std::size_t>(from[i]));
+    throw;
+  }
+  simulation_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  for (const Candidate* const one : candidates) some_slid_ = some_slid_ || has_slid(one->units);
   for (std::size_t i = 0; i < unknown.size(); ++i) {
+    simulated_ += (to - from[i]) * units_.trials_each;
     journal_.add(base_.study_sha256, unknown[i]->values, from[i],
                  std::span(unknown[i]->units).subspan(static_cast<std::size_t>(from[i])), elapsed_());
   }
@@ -99,7 +130,9 @@ std::vector<bool> StudySearch::admissible(std::span<const Candidate> candidates)
     const Candidate& one = candidates[unknown[k]];
     char& keeps = kept[unknown[k]];
     try {
-      keeps = examiner_.may_keep(candidate(one.values), study_.tuning->margins, has_slid(one.units)) ? 1 : 0;
+      keeps = examiner_.may_keep(examined_candidate(one.values), study_.tuning->margins, has_slid(one.units))
+                  ? 1
+                  : 0;
     } catch (const Failure& failure) {
       if (failure.code() != ExitCode::bad_input) throw;
       keeps = 0;  // such values together are not allowed
@@ -108,14 +141,15 @@ std::vector<bool> StudySearch::admissible(std::span<const Candidate> candidates)
   if (stop_.stop_requested()) throw trial::Interrupted{};
   for (const std::size_t i : unknown) {
     if (kept[i] != 0) may_keep_.insert(examination_of(candidates[i]));
-    if (candidates[i].units.empty()) ++examined_;
+    if (candidates[i].units.empty()) examined_.push_back(candidates[i].values);
   }
   return {kept.begin(), kept.end()};
 }
 
 bool StudySearch::verified(const Candidate& one) {
   if (keeps_.contains(examination_of(one))) return true;
-  if (!examiner_.keeps(candidate(one.values), study_.tuning->margins, has_slid(one.units))) {
+  if (!examiner_.keeps(examined_candidate(one.values), study_.tuning->margins, has_slid(one.units),
+                       effort_.stop())) {
     may_keep_.clear();  // there may be one more critical machine
     return false;
   }

@@ -17,23 +17,34 @@ namespace zerocount::tuning {
 /// Trials of a machine that tell whether it meets the goal; 1 where the goal does not ask for machines.
 std::int64_t trials_of_machine(const study::Study& study);
 
+/// Those of the search, which takes fewer.
+std::int64_t search_trials_of_machine(const study::Study& study);
+
 /// The search for the best values of `free`, with the other values of the study.
 class StudySearch {
  public:
-  /// @param most_units machines of the search
+  /// @param size whose largest number of units is a multiple of the worlds
   /// @param elapsed s that the tuning took so far, for the journal
-  StudySearch(const study::Study& study, std::vector<study::FreeParameter> free, std::int64_t most_units,
-              TuningJournal& journal, std::function<double()> elapsed, const std::stop_token& stop);
+  /// @param effort of the tuning: its end stops what a search examines at last
+  StudySearch(const study::Study& study, std::vector<study::FreeParameter> free, const SearchSize& size,
+              TuningJournal& journal, std::function<double()> elapsed, Effort effort);
 
+  /// @param starts candidates of the first generation beside the manifest's values
   /// @throws trial::Interrupted
-  SearchResult run(const SearchSettings& settings);
+  SearchResult run(const SearchSettings& settings, std::vector<Values> starts = {});
 
   /// The study with these values, on the units of the search.
   study::Study candidate(const Values& values) const;
+  /// The same on the machines whose margins are examined: 2048, however small the search is.
+  study::Study examined_candidate(const Values& values) const;
   const LoopExaminer& examiner() const { return examiner_; }
   LoopExaminer& examiner() { return examiner_; }
   const Units& units() const { return units_; }
-  std::int64_t examined() const { return examined_; }  ///< points whose margins were examined
+  const std::vector<Values>& examined() const { return examined_; }  ///< points whose margins were examined
+  bool some_slid() const { return some_slid_; }                      ///< a candidate that was simulated slid
+  /// Trials that were simulated, and the time that they took, s; without those of an earlier run.
+  std::int64_t simulated() const { return simulated_; }
+  double simulation_seconds() const { return simulation_seconds_; }
 
  private:
   void evaluate(std::span<Candidate* const> candidates, std::int64_t to);
@@ -48,15 +59,22 @@ class StudySearch {
 
   const study::Study& study_;
   std::vector<study::FreeParameter> free_;
+  SearchSize size_;
   Units units_;
   study::Study base_;
+  Units examined_units_;
+  study::Study examined_base_;
   LoopExaminer examiner_;
   TuningJournal& journal_;
   std::function<double()> elapsed_;
   std::set<Examination> may_keep_;  ///< on the machines that are critical so far
   std::set<Examination> keeps_;     ///< on all machines
-  std::int64_t examined_{0};
-  std::stop_token stop_;
+  std::vector<Values> examined_;
+  bool some_slid_{false};
+  std::int64_t simulated_{0};
+  double simulation_seconds_{0.0};
+  Effort effort_;
+  std::stop_token stop_;  ///< of the search
 };
 
 }  // namespace zerocount::tuning

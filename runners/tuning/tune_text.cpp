@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "analysis/goal/goal_text.hpp"
@@ -25,6 +26,12 @@ Json values_json(const NamedValues& values) {
   return json;
 }
 
+NamedValues named(const std::vector<study::FreeParameter>& free, const Values& values) {
+  NamedValues named;
+  for (std::size_t i = 0; i < values.size(); ++i) named.emplace_back(free[i].name, values[i]);
+  return named;
+}
+
 Json finite_or_null(double value) {
   return std::isfinite(value) ? Json(value) : Json();
 }
@@ -44,12 +51,11 @@ std::string criterion_number(double value) {
   return std::isfinite(value) ? text::short_number(value) : "not within the hold";
 }
 
-std::string margin_limit(const std::optional<double>& limit) {
-  return limit ? fmt::format("wanted: {:g}", *limit) : "off";
-}
-
-std::string margin_number(double margin) {
-  return std::isfinite(margin) ? text::short_number(margin) : "∞";
+/// "gain margin 7.2 dB (at least 6 wanted)".
+std::string margin_text(const char* name, double margin, const char* unit,
+                        const std::optional<double>& wanted) {
+  return fmt::format("{} margin {}{} ({})", name, std::isfinite(margin) ? text::short_number(margin) : "∞",
+                     unit, wanted ? fmt::format("at least {:g} wanted", *wanted) : "none wanted");
 }
 
 /// The loops that were examined.
@@ -58,16 +64,20 @@ std::string_view loops_text(const SmallestMargins& margins) {
   return margins.before_sliding ? " before they slide and while they slide" : " while they slide";
 }
 
+std::string margins_text(const SmallestMargins& margins, const study::LoopMargins& wanted) {
+  return fmt::format("{}, {}, {}", margin_text("gain", margins.gain, " dB", wanted.gain),
+                     margin_text("phase", margins.phase, "°", wanted.phase),
+                     margin_text("delay", margins.delay,
+                                 margins.delay >= 10.0 ? " samples or more" : " samples", wanted.delay));
+}
+
 std::string margins_text(const TuneAnswer& answer, const study::LoopMargins& wanted) {
   if (answer.blind)
     return "margins: none, because the controller is a plugin, whose transfer function is not known\n";
-  const SmallestMargins& m = answer.margins;
-  return fmt::format(
-      "smallest margins of {} machines{}: gain {} dB ({}), phase {}° ({}), delay {} samples "
-      "({})\n{}",
-      m.machines, loops_text(m), margin_number(m.gain), margin_limit(wanted.gain), margin_number(m.phase),
-      margin_limit(wanted.phase), m.delay >= 10.0 ? "10 or more" : text::short_number(m.delay),
-      margin_limit(wanted.delay), m.stable ? "" : "  the linear loop of a machine is unstable\n");
+  if (!answer.margins) return "";
+  return fmt::format("smallest margins of {} machines{}: {}\n{}", answer.margins->machines,
+                     loops_text(*answer.margins), margins_text(*answer.margins, wanted),
+                     answer.margins->stable ? "" : "  the linear loop of a machine is unstable\n");
 }
 
 /// kp, ki and kd in the other system of units, where they are free.
@@ -87,9 +97,6 @@ std::string other_units(const TuneAnswer& answer, const study::Study& study) {
 std::string gains_table(const TuneAnswer& answer) {
   std::vector<text::TextColumn> columns{
       {"parameter", false, {}}, {"tuned", true, {}}, {"unit", false, {}}, {"range", false, {}}};
-  const bool room = !answer.room.empty();
-  if (room) columns.push_back({"goal seems met from", true, {}});
-  if (room) columns.push_back({"to", true, {}});
   for (std::size_t i = 0; i < answer.free.size(); ++i) {
     const study::FreeParameter& one = answer.free[i];
     columns[0].cells.push_back(one.name);
@@ -97,11 +104,21 @@ std::string gains_table(const TuneAnswer& answer) {
     columns[2].cells.push_back(one.unit);
     columns[3].cells.push_back(
         fmt::format("{} … {}", text::short_number(one.low), text::short_number(one.high)));
-    if (!room) continue;
-    columns[4].cells.push_back(text::short_number(answer.room[i].low));
-    columns[5].cells.push_back(text::short_number(answer.room[i].high));
   }
   return text::aligned_table(columns);
+}
+
+std::string room_table(const TuneAnswer& answer) {
+  if (answer.room.empty()) return "";
+  std::vector<text::TextColumn> columns{
+      {"parameter", false, {}}, {"goal seems met from", true, {}}, {"to", true, {}}, {"unit", false, {}}};
+  for (std::size_t i = 0; i < answer.room.size(); ++i) {
+    columns[0].cells.push_back(answer.room[i].name);
+    columns[1].cells.push_back(text::short_number(answer.room[i].low));
+    columns[2].cells.push_back(text::short_number(answer.room[i].high));
+    columns[3].cells.push_back(answer.free[i].unit);
+  }
+  return "\nroom of each parameter, the others as tuned:\n\n" + text::aligned_table(columns);
 }
 
 std::string alternatives_text(const TuneAnswer& answer) {
@@ -117,8 +134,7 @@ std::string alternatives_text(const TuneAnswer& answer) {
       {"at least", true, {}},
       {"criterion", true, {}}};
   for (const Alternative& one : answer.alternatives) {
-    const bool added = one.gains.size() > answer.free.size();
-    columns[0].cells.push_back(added ? "observer added" : values_text(one.fixed));
+    columns[0].cells.push_back(one.name);
     columns[1].cells.push_back(one.verdict ? values_text(one.gains) : "none keeps the margins");
     columns[2].cells.emplace_back(one.verdict ? goal::text_of(one.verdict->status) : "");
     columns[3].cells.push_back(one.verdict ? fmt::format("{:.4g} %", 100.0 * one.verdict->moves.value) : "");
@@ -137,15 +153,40 @@ std::string frontier_text(const TuneAnswer& answer) {
       {"criterion", true, {}}, {"rate of the goal", true, {}}, {"values", false, {}}};
   for (const std::int64_t i : statistics::spread_over(std::ssize(answer.frontier), most)) {
     const TriedPoint& one = answer.frontier[static_cast<std::size_t>(i)];
-    NamedValues values;
-    for (std::size_t k = 0; k < one.values.size(); ++k)
-      values.emplace_back(answer.free[k].name, one.values[k]);
     columns[0].cells.push_back(criterion_number(one.estimate.criterion));
     columns[1].cells.push_back(fmt::format("{:.2f} %", 100.0 * one.estimate.rate));
-    columns[2].cells.push_back(values_text(values));
+    columns[2].cells.push_back(values_text(named(answer.free, one.values)));
   }
   return "\nsuccess and speed, by the search (its rates are a little too good):\n\n" +
          text::aligned_table(columns);
+}
+
+Json margins_json(const SmallestMargins& margins) {
+  return {{"gain", finite_or_null(margins.gain)},
+          {"phase", finite_or_null(margins.phase)},
+          {"delay", margins.delay},
+          {"stable", margins.stable},
+          {"machines", margins.machines}};
+}
+
+/// The margins that the nearest point lacks, and by how much: dB, degrees, samples.
+NamedValues lacking(const NearestPoint& nearest, const study::LoopMargins& wanted) {
+  NamedValues lacking;
+  if (!nearest.margins.stable) return lacking;
+  const auto add = [&](const char* name, double found, const std::optional<double>& least) {
+    if (least && found < *least) lacking.emplace_back(name, *least - found);
+  };
+  add("gain", nearest.margins.gain, wanted.gain);
+  add("phase", nearest.margins.phase, wanted.phase);
+  add("delay", nearest.margins.delay, wanted.delay);
+  return lacking;
+}
+
+Json nearest_json(const TuneAnswer& answer, const study::LoopMargins& wanted) {
+  if (!answer.nearest) return {};
+  return {{"gains", values_json(named(answer.free, answer.nearest->values))},
+          {"margins", margins_json(answer.nearest->margins)},
+          {"lacking", values_json(lacking(*answer.nearest, wanted))}};
 }
 
 Json object_of(const WorstMachine& worst) {
@@ -155,16 +196,47 @@ Json object_of(const WorstMachine& worst) {
 
 }  // namespace
 
-std::string headline(const TuneAnswer& answer) {
+std::string headline(const TuneAnswer& answer, const study::Study& study) {
+  if (!answer.proof) {
+    return fmt::format("unreachable in these ranges: none of {} points that were tried keeps the margins",
+                       answer.examined);
+  }
+  const bool of_machines = study.goal->machines.has_value();
+  const goal::Verdict& verdict = answer.proof->verdict;
   switch (answer.status) {
     case goal::Status::met:
       return "met: the goal is met by these values";
     case goal::Status::missed:
-      return "unreachable in these ranges: the best values found miss the goal";
+      return fmt::format(
+          "unreachable in these ranges: at the best values found {:.4g} % of the {}{} meet the goal, and at "
+          "least {:g} % are wanted",
+          100.0 * (of_machines ? verdict.machines.value : verdict.moves.value),
+          of_machines ? "machines" : "moves", study.worlds > 0 ? " of the worst world" : "",
+          100.0 * study.goal->machines.value_or(study.goal->moves));
     case goal::Status::undecided:
       break;
   }
   return "undecided: the trials of the proof do not decide whether the best values found meet the goal";
+}
+
+std::vector<std::string> nearest_lines(const TuneAnswer& answer, const study::Study& study) {
+  if (!answer.nearest) return {};
+  const SmallestMargins& margins = answer.nearest->margins;
+  const std::string at = values_text(named(answer.free, answer.nearest->values));
+  if (!margins.stable) {
+    return {
+        fmt::format("the loop of a machine is unstable at all of them; nearest, at {}, by {} of gain", at,
+                    std::isfinite(margins.gain) ? text::short_number(margins.gain) + " dB" : "any factor")};
+  }
+  std::vector<std::string> lines{
+      fmt::format("nearest: {}, with {}", at, margins_text(margins, study.tuning->margins))};
+  for (const auto& [name, amount] : lacking(*answer.nearest, study.tuning->margins)) {
+    lines.push_back(fmt::format("  its {} margin is {} {} too small", name, text::short_number(amount),
+                                name == "gain"    ? "dB"
+                                : name == "phase" ? "degrees"
+                                                  : "samples"));
+  }
+  return lines;
 }
 
 std::vector<std::string> proof_lines(const TuneAnswer& answer, const study::Study& study) {
@@ -235,10 +307,10 @@ std::string worst_json(const WorstMachine& worst, const WorstInBox& in_box, cons
   return text::json_text(json);
 }
 
-std::string json_of(const TuneAnswer& answer) {
-  Json gains = Json::object();
-  for (std::size_t i = 0; i < answer.gains.size(); ++i) gains[answer.free[i].name] = answer.gains[i];
-  Json json{{"status", word_of(answer.status)}, {"gains", gains}, {"proof", nullptr}};
+std::string json_of(const TuneAnswer& answer, const study::Study& study) {
+  Json json{{"status", word_of(answer.status)},
+            {"gains", values_json(named(answer.free, answer.gains))},
+            {"proof", nullptr}};
   if (answer.proof) {
     const goal::Verdict& verdict = answer.proof->verdict;
     json["proof"] = {{"rate", verdict.moves.value},          {"rate_low", verdict.moves.low},
@@ -255,12 +327,7 @@ std::string json_of(const TuneAnswer& answer) {
     json["needed"] = nullptr;
     if (answer.proof->needs && answer.proof->needs->trials > 0)
       json["needed"] = {{"rigs", answer.proof->needs->rigs}, {"trials", answer.proof->needs->trials}};
-    json["margins"] = {{"gain", finite_or_null(answer.margins.gain)},
-                       {"phase", finite_or_null(answer.margins.phase)},
-                       {"delay", answer.margins.delay},
-                       {"stable", answer.margins.stable},
-                       {"machines", answer.margins.machines}};
-    if (answer.blind) json["margins"] = nullptr;
+    json["margins"] = answer.margins ? margins_json(*answer.margins) : Json();
     json["delay_lost"] = answer.delay_lost ? Json(*answer.delay_lost) : Json();
   }
   json["at_edges"] = answer.at_edges;
@@ -284,9 +351,7 @@ std::string json_of(const TuneAnswer& answer) {
   }
   json["frontier"] = Json::array();
   for (const TriedPoint& one : answer.frontier) {
-    Json values = Json::object();
-    for (std::size_t i = 0; i < one.values.size(); ++i) values[answer.free[i].name] = one.values[i];
-    json["frontier"].push_back({{"gains", values},
+    json["frontier"].push_back({{"gains", values_json(named(answer.free, one.values))},
                                 {"rate", one.estimate.rate},
                                 {"criterion", finite_or_null(one.estimate.criterion)}});
   }
@@ -297,35 +362,85 @@ std::string json_of(const TuneAnswer& answer) {
                       {"trials", answer.trials},
                       {"seconds", answer.seconds},
                       {"converged", answer.converged}};
+  json["nearest"] = nearest_json(answer, study.tuning->margins);
+  json["spent_trials"] = answer.spent_trials;
+  json["left_out"] = answer.left_out;
   return text::json_text(json);
 }
 
-std::string text_of(const TuneAnswer& answer, const study::Study& study, const std::string& output) {
-  std::string text = fmt::format("goal: {}\n", goal::goal_sentence(*study.goal));
-  const std::string searched = fmt::format("searched: {} points, {} trials, {:.0f} s{}\n", answer.points,
-                                           answer.trials, answer.seconds,
-                                           answer.converged ? ""
-                                                            : "; the last generation still improved, "
-                                                              "a larger --budget may find better values");
-  if (!answer.proof) {
-    return text +
-           fmt::format("unreachable: none of {} points that were tried keeps the margins\n",
-                       answer.examined) +
-           searched + "tune.margins: {gain: …, phase: …, delay: …} makes them smaller, or off\n";
-  }
-  text += headline(answer) + "\n\n" + gains_table(answer) + other_units(answer, study) + "\n";
+namespace {
+
+/// "19986 of 20000 trials in 21 s", "14688 trials in 4 of 4 s".
+std::string spent_text(const TuneAnswer& answer) {
+  const TuneBudget& budget = answer.budget;
+  return fmt::format("{}{} trials in {:.3g}{} s", answer.spent_trials,
+                     budget.trials ? fmt::format(" of {}", *budget.trials) : "", answer.seconds,
+                     budget.seconds ? fmt::format(" of {:g}", *budget.seconds) : "");
+}
+
+std::string effort_text(const TuneAnswer& answer) {
+  std::string text =
+      fmt::format("searched: {} points, {} trials{}\nspent: {}\n", answer.points, answer.trials,
+                  answer.converged || answer.points == 0
+                      ? ""
+                      : "; the last generation still improved, a larger --budget may find better values",
+                  spent_text(answer));
+  if (answer.left_out.empty()) return text;
+  return text + fmt::format("not found out, because the budget is not enough: {}\n",
+                            fmt::join(answer.left_out, ", "));
+}
+
+/// The time after which the wanted proportion of moves are within the band for good.
+std::string late_sentence(const TuneAnswer& answer, const study::Study& study) {
+  const std::string moves = fmt::format("{:g} % of the moves{}", 100.0 * study.goal->moves,
+                                        study.worlds > 0 ? " of all worlds together" : "");
+  if (!std::isfinite(answer.late_limit))
+    return fmt::format("  fewer than {} are within the band for good at the end of the hold\n", moves);
+  return fmt::format("  {} are within the band for good after {} s\n", moves,
+                     text::short_number(answer.late_limit));
+}
+
+/// "band_settling_time.p95 by the proof: 0.0385 s".
+std::string criterion_sentence(const TuneAnswer& answer, const study::Study& study) {
+  const std::string& unit = criterion_of(study).measure->field.column.unit;
+  return fmt::format(
+      "{} by the proof{}: {}{}\n", study.tuning->minimise, study.worlds > 0 ? ", of all worlds together" : "",
+      criterion_number(answer.criterion),
+      std::isfinite(answer.criterion) && unit != "1" && !unit.empty() ? " " + unit : std::string());
+}
+
+/// What the search and the examination of the loops say of a study without a proof.
+std::string unproven_text(const TuneAnswer& answer, const study::Study& study) {
+  std::string text;
+  for (const std::string& line : nearest_lines(answer, study)) text += line + "\n";
+  return text + effort_text(answer) +
+         "no results file is written: there are no values to prove\n"
+         "tune.margins: {gain: …, phase: …, delay: …} makes the margins smaller, or off\n";
+}
+
+}  // namespace
+
+std::string proven_text(const TuneAnswer& answer, const study::Study& study, const std::string& output) {
+  std::string text = fmt::format("goal: {}\n{}\n", goal::goal_sentence(*study.goal), headline(answer, study));
+  if (!answer.proof) return text + unproven_text(answer, study);
+  text += "\n" + gains_table(answer) + other_units(answer, study) + "\n";
   for (const std::string& line : proof_lines(answer, study)) text += line + "\n";
-  text += fmt::format("{}: {} by the proof{}\n", study.tuning->minimise, criterion_number(answer.criterion),
-                      study.worlds > 0 ? ", of all worlds together" : "");
+  text += criterion_sentence(answer, study);
   if (answer.status != goal::Status::met && study.tuning->minimise.starts_with("band_settling_time"))
-    text += fmt::format("  {:g} % of the moves{} would be within the band for good after {} s\n",
-                        100.0 * study.goal->moves, study.worlds > 0 ? ", of all worlds together," : "",
-                        criterion_number(answer.late_limit));
+    text += late_sentence(answer, study);
+  for (const std::string& edge : answer.at_edges) text += edge + ": values beyond may be better\n";
+  if (answer.worst) text += worst_text(*answer.worst, study.rigs > 0);
+  return text + fmt::format("wrote {}: the proof, with the tuned manifest\n", output);
+}
+
+std::string rest_text(const TuneAnswer& answer, const study::Study& study) {
+  if (!answer.proof) return "";
+  std::string text;
   if (answer.wider_band_rate)
-    text += fmt::format("  within ±{} counts {:.4g} % of the {} would meet the goal\n", study.goal->band + 1,
+    text += fmt::format("within ±{} counts {:.4g} % of the {} would meet the goal\n", study.goal->band + 1,
                         100.0 * *answer.wider_band_rate, study.goal->machines ? "machines" : "moves");
   text += margins_text(answer, study.tuning->margins);
-  if (answer.status == goal::Status::met) {
+  if (answer.delay_sought) {
     text +=
         answer.delay_lost
             ? fmt::format("the goal seems lost at controller.delay = {:.3g} samples; it is {:g} here\n",
@@ -333,14 +448,11 @@ std::string text_of(const TuneAnswer& answer, const study::Study& study, const s
             : fmt::format("the goal seems met up to 5 samples more of controller.delay; it is {:g} here\n",
                           answer.delay);
   }
-  for (const std::string& edge : answer.at_edges) text += edge + ": values beyond may be better\n";
-  if (answer.worst) text += worst_text(*answer.worst, study.rigs > 0);
+  text += room_table(answer) + alternatives_text(answer);
   if (!answer.limits.empty())
     text += "\nwhat limits it, each by simulation on the machines of the search:\n\n" +
             limits_text(answer.limits, study.goal->machines.has_value(), study.worlds > 0);
-  text += alternatives_text(answer);
-  text += frontier_text(answer);
-  return text + "\n" + searched + fmt::format("wrote {}: the proof, with the tuned manifest\n", output);
+  return text + frontier_text(answer) + "\n" + effort_text(answer);
 }
 
 }  // namespace zerocount::tuning

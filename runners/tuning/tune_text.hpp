@@ -8,17 +8,24 @@
 
 namespace zerocount::tuning {
 
-std::string json_of(const TuneAnswer& answer);
+/// @param study that was tuned
+std::string json_of(const TuneAnswer& answer, const study::Study& study);
 
-/// "met: the goal is met by these values"
-std::string headline(const TuneAnswer& answer);
+/// "met: the goal is met by these values".
+std::string headline(const TuneAnswer& answer, const study::Study& study);
+
+/// The margins that are missing at the nearest point, in sentences; none where some values keep them all.
+std::vector<std::string> nearest_lines(const TuneAnswer& answer, const study::Study& study);
 
 /// The statement of the proof, in sentences.
 std::vector<std::string> proof_lines(const TuneAnswer& answer, const study::Study& study);
 
-/// The answer in sentences and tables: what is proven first, then what it rests on.
+/// What is proven, in sentences and tables, or that nothing could be.
 /// @param study that was tuned. @param output the results file of the proof
-std::string text_of(const TuneAnswer& answer, const study::Study& study, const std::string& output);
+std::string proven_text(const TuneAnswer& answer, const study::Study& study, const std::string& output);
+
+/// What it rests on, by simulation; empty without a proof.
+std::string rest_text(const TuneAnswer& answer, const study::Study& study);
 
 std::string worst_json(const WorstMachine& worst, const WorstInBox& in_box, const WorstInBox& likely);
 /// A table: the worst machine of the box, and of the likely ones.

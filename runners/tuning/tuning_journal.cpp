@@ -69,6 +69,10 @@ void TuningJournal::read_line(const std::string& line) {
   const Json json = Json::parse(line, nullptr, false);
   if (json.is_discarded()) return;
   try {
+    if (json.contains("speed")) {
+      speed_ = json.at("speed").get<double>();
+      return;
+    }
     std::vector<UnitResult>& known = known_[{json.at("search"), json.at("values").get<Values>()}];
     if (json.at("from").get<std::size_t>() != known.size()) return;
     for (const Json& unit : json.at("units")) known.push_back(unit_of(unit));
@@ -92,6 +96,11 @@ void TuningJournal::add(const std::string& search, const Values& values, std::in
   for (const UnitResult& unit : units) list.push_back(json_of(unit));
   append(Json{{"search", search}, {"values", values}, {"from", from}, {"units", list}, {"seconds", seconds}}
              .dump());
+}
+
+void TuningJournal::keep_speed(double speed) {
+  if (!speed_) append(Json{{"speed", speed}}.dump());
+  speed_ = speed;
 }
 
 void TuningJournal::append(const std::string& line) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -27,6 +28,10 @@ class TuningJournal {
 
   bool resumed() const { return resumed_; }
   double seconds() const { return seconds_; }  ///< that the earlier runs took
+  /// Trials per second that an earlier run measured, so that the search has the same size again.
+  std::optional<double> speed() const { return speed_; }
+  /// @throws Failure (machine_failed)
+  void keep_speed(double speed);
 
   /// Moves units [from, to) behind `units`, as far as they are known.
   void take(const std::string& search, const Values& values, std::int64_t from, std::int64_t to,
@@ -51,6 +56,7 @@ class TuningJournal {
   bool begun_{false};  ///< this run has written the header
   bool torn_{false};   ///< the file may end within a line
   double seconds_{0.0};
+  std::optional<double> speed_;
   std::map<std::pair<std::string, Values>, std::vector<UnitResult>> known_;
 };
 

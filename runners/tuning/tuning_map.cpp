@@ -1,5 +1,7 @@
 #include "runners/tuning/tuning_map.hpp"
 
+#include <algorithm>
+
 #include "core/failure/failure.hpp"
 
 namespace zerocount::tuning {
@@ -23,7 +25,8 @@ Values values_of_cell(const TunedStudy& tuned, const TuningMap& map, double x, d
 void simulate(const TunedStudy& tuned, const LoopExaminer& examiner, const Values& values, MapCell& cell) {
   try {
     const study::Study study = variant_of(tuned.study, overrides_of(tuned.free, values));
-    const Candidate candidate{{}, values, results_of(study, tuned.units, units_of_cell, nullptr, tuned.stop)};
+    const Candidate candidate{
+        {}, values, results_of(study, tuned.units, units_of_cell, nullptr, tuned.effort)};
     cell.keeps_margins = examiner.may_keep(study, study.tuning->margins, has_slid(candidate.units));
     const Estimate estimate = estimate_of(aim_of(study), candidate, units_of_cell);
     cell.rate = estimate.rate;
@@ -35,6 +38,11 @@ void simulate(const TunedStudy& tuned, const LoopExaminer& examiner, const Value
 }
 
 }  // namespace
+
+std::int64_t trials_of_maps(const Units& units, std::size_t free) {
+  const auto pairs = static_cast<std::int64_t>(free * (free - 1) / 2);
+  return pairs * cells_of_side * cells_of_side * std::min(units_of_cell, units.count) * units.trials_each;
+}
 
 std::vector<TuningMap> maps_of(const TunedStudy& tuned, const LoopExaminer& examiner) {
   std::vector<TuningMap> maps;

@@ -26,8 +26,11 @@ struct TuningMap {
   std::vector<MapCell> cells;
 };
 
+/// Trials of the maps of so many free parameters.
+std::int64_t trials_of_maps(const Units& units, std::size_t free);
+
 /// Maps over all pairs of free parameters.
-/// @throws trial::Interrupted
+/// @throws trial::Interrupted, Spent
 std::vector<TuningMap> maps_of(const TunedStudy& tuned, const LoopExaminer& examiner);
 
 }  // namespace zerocount::tuning

@@ -185,21 +185,25 @@ Figure worst_figure(const WorstMachine& worst, const study::Study& study, const 
 
 report::ReportPage tuning_page(const TuneAnswer& answer, const study::Study& study,
                                const std::filesystem::path& proof) {
-  const reading::StudyFile file(proof);
-  report::ReportPage page = report::study_report(file).page;
-  page.title = fmt::format("{}: tuning", study.name);
-  const std::string text = text_of(answer, study, proof.string());
+  const std::string text = proven_text(answer, study, proof.string()) + rest_text(answer, study);
+  const std::vector<std::string> lines =
+      answer.proof ? proof_lines(answer, study) : nearest_lines(answer, study);
   report::PageSection section{"tuning",
                               "Tuning",
-                              report::html_verdict(headline(answer), proof_lines(answer, study)) +
+                              report::html_verdict(headline(answer, study), lines) +
                                   report::html_preformatted("the answer as the command prints it", text),
                               {}};
+  const std::string title = fmt::format("{}: tuning", study.name);
+  if (!answer.proof) return {title, study.description, "There is no proof.", {std::move(section)}};
+  const reading::StudyFile file(proof);
   for (const TuningMap& map : answer.maps) section.figures.push_back(map_figure(answer, map, aim_of(study)));
   if (!answer.tried.empty()) section.figures.push_back(frontier_figure(answer, study));
   if (!answer.room.empty()) section.figures.push_back(room_figure(answer));
   if (!answer.limits.empty()) section.figures.push_back(limits_figure(answer));
   if (answer.worst && !study.plugin)
     section.figures.push_back(worst_figure(*answer.worst, answer.proof->study, file));
+  report::ReportPage page = report::study_report(file).page;
+  page.title = title;
   page.sections.insert(page.sections.begin(), std::move(section));
   return page;
 }

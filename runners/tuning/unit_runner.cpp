@@ -174,10 +174,11 @@ void run_units(std::span<const UnitsToRun> entries, const Units& units, const st
 }
 
 std::vector<UnitResult> results_of(const study::Study& study, const Units& units, std::int64_t count,
-                                   const Change* change, const std::stop_token& stop) {
+                                   const Change* change, const Effort& effort) {
   std::vector<UnitResult> results;
   const UnitsToRun all{&study, 0, std::min(count, units.count), &results, change};
-  run_units({&all, 1}, units, stop);
+  effort.spend(all.to * units.trials_each);
+  run_units({&all, 1}, units, effort.stop());
   return results;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/tuning/candidate.hpp"
+#include "analysis/tuning/effort.hpp"
 #include "core/batch/batch.hpp"
 #include "core/trial/parameters.hpp"
 #include "experiments/study/study.hpp"
@@ -71,9 +72,9 @@ void run_units(std::span<const UnitsToRun> entries, const Units& units, const st
 
 /// The results of the first `count` units of a study.
 /// @param change null: none
-/// @throws trial::Interrupted
+/// @throws trial::Interrupted, Spent
 std::vector<UnitResult> results_of(const study::Study& study, const Units& units, std::int64_t count,
-                                   const Change* change, const std::stop_token& stop);
+                                   const Change* change, const Effort& effort);
 
 /// The results of all units of a study of one point, from its results file.
 std::vector<UnitResult> results_in(const reading::StudyFile& file, const study::Study& study,

@@ -49,7 +49,7 @@ def tuned(quick: pathlib.Path) -> zc.Tuning:
     """The same task, given by the call to a study that sweeps the free gain."""
     study = zc.study(quick).without("goal", "tune", "controller.ki").sweep("controller.ki", [1e-5, 9e-5])
     free = {"controller.ki": {"log": [1e-5, 6e-5]}}
-    return zc.tune(study, quick.with_name("tuned.h5"), goal={"band": 1, "within": 0.1, "moves": 0.9}, free=free, margins="off", budget=200)
+    return zc.tune(study, quick.with_name("tuned.h5"), goal={"band": 1, "within": 0.1, "moves": 0.9}, free=free, margins="off", budget=2000)
 
 
 def test_a_study_with_a_sweep_and_observations_is_tuned(axis: zc.Study, tmp_path: pathlib.Path) -> None:
@@ -64,7 +64,7 @@ def test_a_study_with_a_sweep_and_observations_is_tuned(axis: zc.Study, tmp_path
 
 def test_a_tuning_is_that_of_the_program(quick: pathlib.Path, tuned: zc.Tuning) -> None:
     """The answer of `tune` is the JSON of the program for the same call; its study has the gains, its results the proof."""
-    record = json.loads(by_program("tune", quick, "-o", quick.with_name("again.h5"), "--format", "json", "--budget", 200))
+    record = json.loads(by_program("tune", quick, "-o", quick.with_name("again.h5"), "--format", "json", "--budget", 2000))
     for seconds in (record["searched"], tuned.answer["searched"], tuned.searched):
         seconds.pop("seconds", None)
     assert has_all_of(tuned, record, but={"proof", "manifest", "results"})
@@ -80,7 +80,7 @@ def test_a_finished_tuning_is_kept(quick: pathlib.Path, tuned: zc.Tuning) -> Non
     """An output that exists is replaced only by force."""
     before = tuned.results.path.read_bytes()
     with pytest.raises(zc.ManifestError, match="exists already"):
-        zc.tune(quick, tuned.results.path, budget=200)
+        zc.tune(quick, tuned.results.path, budget=2000)
     assert tuned.results.path.read_bytes() == before
 
 

@@ -41,9 +41,9 @@ class Tune : public ::testing::Test {
     return zerocount_program(words, folder_.path());
   }
   void write_axis(const std::string& more) { folder_.write("axis.yaml", std::string(axis) + more); }
-  ProgramResult tune(std::vector<std::string> more = {}) {
+  ProgramResult tune(std::vector<std::string> more = {}, const std::string& budget = "20000") {
     std::vector<std::string> words{"tune", "axis.yaml", "-o",       "tuned.h5", "--format",
-                                   "json", "--force",   "--budget", "20000"};
+                                   "json", "--force",   "--budget", budget};
     words.insert(words.end(), more.begin(), more.end());
     return program(words);
   }
@@ -84,7 +84,7 @@ TEST_F(Tune, NamesTheDelayAtWhichTheGoalIsLost) {
   write_axis(
       "goal: {band: 1, within: 0.03, moves: 0.98}\ntune: {free: {controller.ki: {log: [1.0e-5, 1.0e-3]}, "
       "controller.kp: [0, 2.0e-3], controller.kd: [0, 5.0e-3]}, margins: off}\n");
-  const ProgramResult result = tune();
+  const ProgramResult result = tune({}, "100000");
   ASSERT_EQ(result.code, 0) << result.out << result.err;
   const Json answer = Json::parse(result.out);
   ASSERT_TRUE(answer["delay_lost"].is_number()) << result.out;
@@ -106,7 +106,7 @@ TEST_F(Tune, NamesTheDelayAtWhichTheGoalIsLost) {
 TEST_F(Tune, WritesAPage) {
   write_axis("goal: {band: 1, within: 0.1, moves: 0.95}\n" + std::string(two_gains));
   EXPECT_EQ(tune({"--report", "page.txt"}).code, 2);
-  const ProgramResult result = tune({"--report", "page.html"});
+  const ProgramResult result = tune({"--report", "page.html"}, "90000");
   ASSERT_EQ(result.code, 0) << result.err;
   const std::string page = folder_.read("page.html");
   for (const char* const part : {"tuning-map-1-2", "tuning-frontier", "tuning-room", "tuning-limits",
@@ -155,6 +155,116 @@ TEST_F(Tune, GoesOnAfterAnInterruption) {
   EXPECT_GT(interruptions, 0);
   EXPECT_EQ(answer_of(result.out), answer_of(whole.out));
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "tuned.h5.tuning"));
+}
+
+/// Trials of all parts of an answer.
+std::int64_t trials_in(const Json& answer) {
+  return answer["searched"]["trials"].get<std::int64_t>() + answer["proof"]["trials"].get<std::int64_t>();
+}
+
+// Of any size, on machines or trials of their own, with worlds, met or missed.
+TEST_F(Tune, HoldsItsBudgetOfTrialsInAllThatItRuns) {
+  const std::string moves = "goal: {band: 1, within: 0.06, moves: 0.9}\n";
+  const std::string machines = "goal: {band: 1, within: 0.06, moves: 0.9, machines: 0.8}\n";
+  const std::string missed = "goal: {band: 0, within: 0.004, moves: 0.9}\n";
+  const std::string worlds = "worlds: 5\n" + moves;
+  for (const std::string& kind : {moves, machines, missed, worlds}) {
+    std::int64_t last = 0;
+    for (const std::int64_t budget : {1500, 6000}) {
+      write_axis(kind + std::string(two_gains));
+      const ProgramResult result = tune({}, std::to_string(budget));
+      if (result.code == 2) {
+        EXPECT_LT(budget, 6000) << kind;
+        EXPECT_NE(result.err.find("the smallest search takes"), std::string::npos) << result.err;
+        continue;
+      }
+      const Json answer = Json::parse(result.out);
+      EXPECT_LE(answer["spent_trials"], budget) << kind;
+      EXPECT_LE(trials_in(answer), answer["spent_trials"]) << kind;
+      EXPECT_GT(answer["searched"]["points"], last) << kind << ": a smaller budget makes a smaller search";
+      last = answer["searched"]["points"];
+      if (budget == 1500) {
+        EXPECT_FALSE(answer["left_out"].empty()) << result.out;
+      }
+    }
+  }
+}
+
+// What a budget must be for the search and the proof is what it says.
+// The margins that are missing, and by how much, in the text, the JSON and the page.
+TEST_F(Tune, WithoutAPointThatKeepsTheMarginsNamesTheNearest) {
+  const auto write = [this](const std::string& margins) {
+    write_axis(
+        "goal: {band: 1, within: 0.05, moves: 0.9}\ntune: {free: {controller.ki: {log: [2.0e-5, 1.0e-4]}, "
+        "controller.kp: [0, 5.0e-4]}, margins: {" +
+        margins + "}}\n");
+  };
+  write("gain: 14, phase: off, delay: off");
+  const ProgramResult result = tune({"--report", "none.html"}, "3000");
+  EXPECT_EQ(result.code, 1) << result.err;
+  const Json nearest = Json::parse(result.out)["nearest"];
+  EXPECT_NEAR(nearest["margins"]["gain"].get<double>() + nearest["lacking"]["gain"].get<double>(), 14.0,
+              1e-9);
+  EXPECT_LT(nearest["lacking"]["gain"], 14.0) << "nearest: stable";
+  EXPECT_FALSE(nearest["lacking"].contains("phase")) << "off";
+  const std::string page = folder_.read("none.html");
+  EXPECT_NE(page.find("its gain margin is"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "tuned.h5"));
+  // With as much less as is missing there the point is found.
+  const double kept = nearest["margins"]["gain"].get<double>();
+  write("gain: " + std::to_string(kept - 0.01) + ", phase: off, delay: off");
+  EXPECT_FALSE(Json::parse(tune({}, "3000").out)["gains"].empty());
+}
+
+TEST_F(Tune, RefusesABudgetThatIsTooSmallWithWhatItNeeds) {
+  write_axis("goal: {band: 1, within: 0.06, moves: 0.97}\n" + std::string(two_gains));
+  const ProgramResult refused = tune({}, "100");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "tuned.h5"));
+  const std::size_t at = refused.err.find("expected at least ");
+  ASSERT_NE(at, std::string::npos) << refused.err;
+  const int needed = std::stoi(refused.err.substr(at + 18));
+  EXPECT_EQ(tune({}, std::to_string(needed - 1)).code, 2);
+  const ProgramResult result = tune({}, std::to_string(needed));
+  ASSERT_NE(result.code, 2) << result.err;
+  EXPECT_LE(Json::parse(result.out)["spent_trials"], needed);
+}
+
+TEST_F(Tune, HoldsItsBudgetOfTime) {
+  write_axis("goal: {band: 1, within: 0.06, moves: 0.9}\n" + std::string(two_gains));
+  for (const double seconds : {2.0, 4.0}) {
+    const auto start = std::chrono::steady_clock::now();
+    const ProgramResult result = tune({}, std::to_string(seconds) + "s");
+    const double taken = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    EXPECT_LE(taken, 1.1 * seconds + 0.5) << "half a second for a busy machine";
+    EXPECT_LE(Json::parse(result.out)["searched"]["seconds"], 1.1 * seconds);
+  }
+  const ProgramResult none = tune({}, "0.06s");
+  EXPECT_EQ(none.code, 3);
+  EXPECT_NE(none.err.find("s are not enough"), std::string::npos) << none.err;
+}
+
+/// Proportion of moves that meet the goal with the tuned gains, and with an observer beside them.
+std::pair<double, double> without_and_with_observer(const Json& answer) {
+  for (const Json& one : answer["alternatives"]) {
+    if (one["fixed"].empty()) return {answer["proof"]["rate"], one["rate"]};
+  }
+  return {0.0, -1.0};
+}
+
+// A control with one block more, of which nearly nothing acts, is the control without it.
+TEST_F(Tune, AnObserverBesideTheTunedGainsIsWorseOnlyByChance) {
+  const std::string slow = "command: {targets: [29], hold: 0.3}";
+  const std::string fast = "command: {targets: [{integers: [3, 40]}], hold: 0.2}";
+  const std::string goals[] = {"{band: 1, within: 0.05, moves: 0.95}", "{band: 0, within: 0.15, moves: 0.7}",
+                               "{band: 2, within: 0.03, moves: 0.9}"};
+  for (const std::string& goal : goals) {
+    std::string manifest = std::string(axis) + "goal: " + goal + "\n" + std::string(two_gains);
+    if (&goal != &goals[0]) manifest.replace(manifest.find(slow), slow.size(), fast);
+    folder_.write("axis.yaml", manifest);
+    const auto [without, with] = without_and_with_observer(Json::parse(tune({}, "12000").out));
+    EXPECT_GE(with, without - 0.04) << goal;
+  }
 }
 
 TEST_F(Tune, KeepsUnfinishedRunsAndTuningsOfOthers) {

@@ -74,7 +74,8 @@ class Tuning:
     searched : dict
         Points and trials of the search, and whether it converged.
     answer : dict
-        The whole JSON of ``zerocount tune``.
+        The whole JSON of ``zerocount tune``; ``left_out`` of it names what the budget was not enough for,
+        ``nearest`` the point that came nearest to the margins where none keeps them.
     """
 
     status: str
@@ -127,7 +128,7 @@ def tune(
     margins : dict, optional
         Least margins ``gain`` (dB), ``phase`` (degrees) and ``delay`` (samples).
     budget : int or str, optional
-        A number of trials, or a time such as ``"60s"``.
+        Of the search, the proof and all else: a number of trials, or a time such as ``"60s"``.
     threads : int, optional
         Default: all cores.
     report : path, optional
@@ -149,11 +150,11 @@ def tune(
     Examples
     --------
     >>> free = {"controller.ki": {"log": [5e3, 5e4]}}
-    >>> tuned = zc.tune("my-axis.yaml", "tuned.h5", free=free, margins={"gain": 1, "phase": 10}, budget=2000)
+    >>> tuned = zc.tune("my-axis.yaml", "tuned.h5", free=free, margins={"gain": 1, "phase": 10}, budget=20000)
     >>> tuned.status
     'met'
     >>> tuned.manifest
-    <Study 'my-axis': 1 design point × 1869 trials>
+    <Study 'my-axis': 1 design point × 7387 trials>
     """
     from .results import Results
     from .studies import study

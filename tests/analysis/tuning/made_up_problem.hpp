@@ -50,7 +50,7 @@ struct MadeUpProblem {
     SearchProblem problem;
     problem.free = {{.name = "x", .low = 0.0, .high = 1.0}, {.name = "y", .low = 0.0, .high = 1.0}};
     problem.aim = {.moves = goal.moves, .quantile = 0.95};
-    problem.max_units = units;
+    problem.size = search_size({.free = problem.free.size(), .max_units = units}, std::int64_t{1} << 40);
     problem.evaluate = [this](std::span<Candidate* const> candidates, std::int64_t to) {
       for (Candidate* one : candidates) {
         while (std::ssize(one->units) < to) one->units.push_back(result(one->values, one->units.size()));

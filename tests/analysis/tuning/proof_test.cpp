@@ -40,13 +40,13 @@ TEST(Proof, ItsClaimsHoldAndThoseOfTheSearchDoNot) {
       problem.promising.push_back(seems_to_meet({.moves = truth.goal.moves}, one));
     problem.first_units = [](std::size_t, std::size_t) { return std::int64_t{2000}; };
     problem.more_units = [](const measures::MoveCounts&, std::size_t) { return std::int64_t{6000}; };
-    problem.run = [&](const Attempt& attempt) {
+    problem.run = [&](const Attempt& attempt) -> std::optional<measures::MoveCounts> {
       const auto first = static_cast<std::uint64_t>(attempt.number) << 16U;
       return counts_of(truth, found.finalists[attempt.finalist].values, first, attempt.units);
     };
     problem.rejects = [](const Attempt&) { return false; };
-    problem.has_time = [] { return true; };
-    const ProvenFinalist proven = prove(problem);
+    problem.goes_on = [] { return true; };
+    const ProvenFinalist proven = prove(problem).value();
     const Values& at = found.finalists[proven.attempt.finalist].values;
     claims += proven.verdict.status == goal::Status::met ? 1 : 0;
     wrong_claims += proven.verdict.status == goal::Status::met && truth.rate(at) < truth.goal.moves ? 1 : 0;
@@ -78,9 +78,9 @@ TEST(Proof, GoesOnToTheNextFinalistAfterAMissAndToMoreUnitsWhenUndecided) {
   problem.promising = {true, true};
   problem.first_units = [](std::size_t, std::size_t) { return std::int64_t{1000}; };
   problem.more_units = [](const measures::MoveCounts&, std::size_t) { return std::int64_t{4000}; };
-  problem.has_time = [] { return true; };
+  problem.goes_on = [] { return true; };
   problem.rejects = [](const Attempt&) { return false; };
-  problem.run = [&](const Attempt& attempt) {
+  problem.run = [&](const Attempt& attempt) -> std::optional<measures::MoveCounts> {
     attempts.push_back(attempt);
     const double rate = attempt.finalist == 0 ? 0.8 : attempt.units == 1000 ? 0.955 : 0.97;
     measures::MoveCounts counts;
@@ -92,7 +92,7 @@ TEST(Proof, GoesOnToTheNextFinalistAfterAMissAndToMoreUnitsWhenUndecided) {
     }
     return counts;
   };
-  const ProvenFinalist proven = prove(problem);
+  const ProvenFinalist proven = prove(problem).value();
   ASSERT_EQ(attempts.size(), 3U);
   EXPECT_EQ(attempts[1].finalist, 1U);
   EXPECT_EQ(attempts[2].finalist, 1U);
@@ -106,8 +106,8 @@ TEST(Proof, GoesOnToTheNextFinalistWhereItRejectsOneThatMeetsTheGoal) {
   problem.goal = {.within = 1.0, .moves = 0.95};
   problem.promising = {true, true};
   problem.first_units = [](std::size_t, std::size_t) { return std::int64_t{1000}; };
-  problem.has_time = [] { return true; };
-  problem.run = [](const Attempt& attempt) {
+  problem.goes_on = [] { return true; };
+  problem.run = [](const Attempt& attempt) -> std::optional<measures::MoveCounts> {
     measures::MoveCounts counts;
     for (std::int64_t i = 0; i < attempt.units; ++i) {
       ++counts.moves;
@@ -117,11 +117,11 @@ TEST(Proof, GoesOnToTheNextFinalistWhereItRejectsOneThatMeetsTheGoal) {
     return counts;
   };
   problem.rejects = [](const Attempt& attempt) { return attempt.finalist == 0; };
-  const ProvenFinalist proven = prove(problem);
+  const ProvenFinalist proven = prove(problem).value();
   EXPECT_EQ(proven.attempt.finalist, 1U);
   EXPECT_EQ(proven.verdict.status, goal::Status::met);
   problem.promising = {true};
-  EXPECT_EQ(prove(problem).verdict.status, goal::Status::missed);
+  EXPECT_EQ(prove(problem).value().verdict.status, goal::Status::missed);
 }
 
 }  // namespace

@@ -23,11 +23,15 @@ double best_time(const MadeUpProblem& truth) {
   return best;
 }
 
+Effort effort_of(std::int64_t trials) {
+  return Effort().share(trials, {});
+}
+
 TEST(Search, FindsTheFastestPointThatMeetsTheGoal) {
   int found = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const MadeUpProblem truth{.seed = seed};
-    const SearchResult result = search(truth.problem(2048), {.seed = seed, .max_trials = 200'000});
+    const SearchResult result = search(truth.problem(2048), {.seed = seed, .effort = effort_of(200'000)});
     ASSERT_FALSE(result.finalists.empty());
     const Values& best = result.finalists.front().values;
     found += truth.typical_time(best) <= 1.3 * best_time(truth) && truth.rate(best) >= 0.944 ? 1 : 0;
@@ -41,11 +45,55 @@ TEST(Search, RunsMostTrialsWhereTheDecisionIsOpen) {
   EXPECT_LT(result.trials, result.points * 2048 / 2);
 }
 
+// An effort of any size is kept to the trial, and a smaller one makes a smaller search.
+TEST(Search, SpendsNoMoreThanItsEffort) {
+  const MadeUpProblem truth;
+  std::int64_t last = 0;
+  for (std::int64_t trials = 500; trials < 60'000; trials = trials * 3 / 2) {
+    SearchProblem problem = truth.problem(2048);
+    problem.size = search_size({.free = 2}, trials);
+    const Effort whole = Effort().share(trials + 77, {});
+    const SearchResult result = search(problem, {.seed = 3, .effort = whole.share(trials, {})});
+    EXPECT_LE(result.trials, trials);
+    EXPECT_EQ(result.trials, whole.spent_trials());
+    EXPECT_GT(result.trials, last / 2);
+    last = result.trials;
+    ASSERT_FALSE(result.finalists.empty()) << trials;
+    for (const Candidate& one : result.finalists)
+      EXPECT_EQ(one.units.size(), result.finalists.front().units.size()) << "compared on equal units";
+  }
+}
+
+// Trials that end within a race: the candidates are judged by the units that all of them had.
+TEST(Search, WithTooFewTrialsForARaceKeepsThoseWithTheMostUnits) {
+  const MadeUpProblem truth;
+  for (std::int64_t trials = 64; trials < 40'000; trials = 2 * trials + 1) {
+    const SearchResult result = search(truth.problem(2048), {.seed = 4, .effort = effort_of(trials)});
+    EXPECT_LE(result.trials, trials);
+    ASSERT_FALSE(result.finalists.empty());
+    EXPECT_TRUE(result.cut);
+    for (const Candidate& one : result.finalists)
+      EXPECT_EQ(one.units.size(), result.finalists.front().units.size());
+  }
+}
+
+// A tuned point that no evenly spread candidate is near: the search is worse than it only by chance.
+TEST(Search, IsNotWorseThanItsStarts) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const MadeUpProblem truth{.seed = seed, .highest_rate = 0.99, .fall = 4e4, .reliable = {0.123, 0.877}};
+    SearchProblem problem = truth.problem(512);
+    problem.starts = {{0.123, 0.877}};
+    const SearchResult result = search(problem, {.seed = seed, .effort = effort_of(20'000)});
+    ASSERT_FALSE(result.finalists.empty());
+    EXPECT_GE(truth.rate(result.finalists.front().values), 0.94);
+  }
+}
+
 TEST(Search, DependsOnTheSeedAlone) {
   const MadeUpProblem truth;
-  const SearchResult a = search(truth.problem(512), {.seed = 5, .max_trials = 50'000});
-  const SearchResult b = search(truth.problem(512), {.seed = 5, .max_trials = 50'000});
-  const SearchResult c = search(truth.problem(512), {.seed = 6, .max_trials = 50'000});
+  const SearchResult a = search(truth.problem(512), {.seed = 5, .effort = effort_of(50'000)});
+  const SearchResult b = search(truth.problem(512), {.seed = 5, .effort = effort_of(50'000)});
+  const SearchResult c = search(truth.problem(512), {.seed = 6, .effort = effort_of(50'000)});
   EXPECT_EQ(a.finalists.front().values, b.finalists.front().values);
   EXPECT_EQ(a.trials, b.trials);
   EXPECT_NE(a.finalists.front().values, c.finalists.front().values);
@@ -56,7 +104,7 @@ TEST(Search, KeepsConditionsThatAreCostlyToExamine) {
   const MadeUpProblem truth;
   SearchProblem problem = truth.problem(512);
   problem.verified = [](const Candidate& one) { return one.values[0] <= 0.4; };
-  const SearchResult result = search(problem, {.seed = 2, .max_trials = 100'000});
+  const SearchResult result = search(problem, {.seed = 2, .effort = effort_of(100'000)});
   ASSERT_FALSE(result.finalists.empty());
   for (const Candidate& one : result.finalists) EXPECT_LE(one.values[0], 0.4);
 }

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <stop_token>
+
+#include "analysis/tuning/search_space.hpp"
+#include "experiments/study/study.hpp"
+#include "runners/tuning/loop_examiner.hpp"
+
+namespace zerocount::tuning {
+
+/// The point that comes nearest to the wanted margins, where none keeps them.
+struct NearestPoint {
+  Values values;
+  SmallestMargins margins;  ///< of all examined machines
+};
+
+/// Of the points that keep the largest part of all margins together, the first; where every loop is unstable,
+/// one of those with the smallest gain margin. Nothing without points.
+/// @param tried points whose margins were examined; of many about a thousand are taken
+/// @param candidate the study with such values, of the machines of `examiner`
+/// @param slides whether machines slide
+/// @throws trial::Interrupted
+std::optional<NearestPoint> nearest_point(std::span<const Values> tried, const LoopExaminer& examiner,
+                                          const study::LoopMargins& wanted,
+                                          const std::function<study::Study(const Values&)>& candidate,
+                                          bool slides, const std::stop_token& stop);
+
+}  // namespace zerocount::tuning

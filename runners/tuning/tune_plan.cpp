@@ -1,0 +1,134 @@
+#include "runners/tuning/tune_plan.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/failure/failure.hpp"
+#include "runners/tuning/proof_runner.hpp"
+#include "runners/tuning/study_search.hpp"
+#include "runners/tuning/unit_runner.hpp"
+
+namespace zerocount::tuning {
+namespace {
+
+constexpr std::int64_t max_units = 2048;
+constexpr std::int64_t default_search_trials = 500'000;
+constexpr double search_part = 0.5;      // of a budget
+constexpr double simulating_part = 0.7;  // of the time of a search; the rest examines margins
+constexpr double spendable_part = 0.9;   // of the time; the rest starts and ends the proof
+constexpr double judgement_part = 0.2;   // of the effort of another control
+constexpr std::int64_t most_units_of_judgement = 1000;
+constexpr std::int64_t least_units_of_judgement = 50;
+
+SearchScope scope_of(const study::Study& study, std::size_t free, std::int64_t units) {
+  return {free, units, study.worlds};
+}
+
+std::int64_t least_search_trials(const study::Study& study, std::size_t free) {
+  return first_race_units(smallest_search(scope_of(study, free, max_units))) *
+         search_trials_of_machine(study);
+}
+
+/// Trials as a whole number; the largest where there is no limit.
+std::int64_t whole_trials(double trials) {
+  constexpr double largest = 1e15;
+  return static_cast<std::int64_t>(std::min(trials, largest));
+}
+
+}  // namespace
+
+std::int64_t affordable_trials(const Effort& effort, double speed) {
+  const double seconds = std::max(effort.seconds_left(), 0.0);
+  if (std::isinf(seconds)) return effort.trials_left();
+  return std::min(effort.trials_left(), whole_trials(speed * seconds));
+}
+
+double measured_speed(const study::Study& study, const Effort& effort) {
+  constexpr std::int64_t most_units = 512;
+  constexpr double part_of_time = 0.05;
+  using Clock = std::chrono::steady_clock;
+  const Units units{in_equal_worlds(study, most_units), search_trials_of_machine(study)};
+  const study::Study measured = variant_of(study, overrides_for(study, units));
+  const Effort part = effort.share({}, part_of_time * effort.seconds_left());
+  double fastest = 0.0;
+  for (std::int64_t count = 8; count <= units.count; count *= 2) {
+    const Clock::time_point start = Clock::now();
+    const bool ended = within(part, [&] { results_of(measured, units, count, nullptr, part); });
+    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    const double speed = static_cast<double>(count * units.trials_each) / std::max(seconds, 1e-6);
+    if (ended || fastest == 0.0) fastest = std::max(fastest, speed);
+    if (!ended) break;
+  }
+  return fastest;
+}
+
+SearchPlan plan_search(const study::Study& study, const TuneBudget& budget, const Effort& whole,
+                       double speed) {
+  const std::size_t free = study.tuning->free.size();
+  const std::int64_t each = search_trials_of_machine(study);
+  const SearchScope scope = scope_of(study, free, max_units);
+  if (!budget.trials && !budget.seconds)
+    return {search_size(scope, default_search_trials / each), whole.share(default_search_trials, {})};
+  const std::int64_t search = least_search_trials(study, free);
+  const std::int64_t proof = least_proof_trials(study, 1);  // in its first attempt
+  const std::int64_t left = affordable_trials(whole, spendable_part * speed);
+  if (left < search + proof) {
+    const std::string needs = fmt::format(
+        "the smallest search takes {} trials and the smallest proof of this goal {}", search, proof);
+    if (budget.trials)
+      throw Failure(ExitCode::bad_input,
+                    fmt::format("option '--budget': {} trials are not enough: {}; expected at least {}",
+                                *budget.trials, needs, search + proof));
+    throw Failure(
+        ExitCode::inconclusive,
+        fmt::format("option '--budget': {:.3g} s are not enough: {}, about {:.3g} s on this machine",
+                    *budget.seconds, needs, static_cast<double>(search + proof) / (spendable_part * speed)));
+  }
+  const auto half = static_cast<std::int64_t>(search_part * static_cast<double>(left));
+  const std::int64_t trials = std::clamp(half, search, left - proof);
+  if (budget.trials) return {search_size(scope, trials / each), whole.share(trials, {})};
+  const auto simulated = static_cast<std::int64_t>(simulating_part * static_cast<double>(trials));
+  return {search_size(scope, simulated / each), whole.share({}, search_part * whole.seconds_left())};
+}
+
+SearchPlan plan_other_search(const study::Study& study, std::span<const study::FreeParameter> free,
+                             const Effort& share, double speed) {
+  const std::int64_t each = search_trials_of_machine(study);
+  const std::int64_t judgement = std::min(
+      static_cast<std::int64_t>(judgement_part * static_cast<double>(affordable_trials(share, speed))),
+      most_units_of_judgement * trials_of_machine(study));
+  const std::int64_t trials = affordable_trials(share, speed) - judgement;
+  if (trials < least_search_trials(study, free.size())) throw Spent{};
+  const std::optional<double> seconds = std::isinf(share.seconds_left())
+                                            ? std::nullopt
+                                            : std::optional((1.0 - judgement_part) * share.seconds_left());
+  return {search_size(scope_of(study, free.size(), max_units / 2), trials / each),
+          share.share(trials, seconds)};
+}
+
+RestPlan plan_rest(const study::Study& study, std::int64_t points, std::int64_t trials_of_maps,
+                   std::span<const OtherControl> controls, const Effort& effort, double speed) {
+  constexpr std::int64_t most = 1024;
+  constexpr std::int64_t least = 64;
+  double others = 0.0;
+  for (const OtherControl& one : controls)
+    others += static_cast<double>(least_search_trials(study, one.free.size())) / (1.0 - judgement_part);
+  const std::int64_t each = points * search_trials_of_machine(study);
+  const std::int64_t left = affordable_trials(effort, speed) - whole_trials(others);
+  if ((left - trials_of_maps) / each < least) trials_of_maps = 0;
+  return {std::clamp((left - trials_of_maps) / each, least, most), trials_of_maps};
+}
+
+std::int64_t units_of_judgement(const study::Study& study, const Effort& share, double speed) {
+  const std::int64_t worlds = std::max<std::int64_t>(study.worlds, 1);
+  const std::int64_t most = std::min(in_equal_worlds(study, most_units_of_judgement),
+                                     affordable_trials(share, speed) / trials_of_machine(study));
+  if (most < least_units_of_judgement) throw Spent{};
+  return most / worlds * worlds;
+}
+
+}  // namespace zerocount::tuning

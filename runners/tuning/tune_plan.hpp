@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "analysis/tuning/effort.hpp"
+#include "analysis/tuning/search_size.hpp"
+#include "experiments/study/study.hpp"
+#include "runners/tuning/other_controls.hpp"
+
+namespace zerocount::tuning {
+
+/// What a tuning may spend on the search, the proof and all that follows; without both values what the search
+/// takes by default, and what the proof and the rest need.
+struct TuneBudget {
+  std::optional<std::int64_t> trials{};
+  std::optional<double> seconds{};
+};
+
+/// Trials that an effort is enough for.
+/// @param speed trials/s
+std::int64_t affordable_trials(const Effort& effort, double speed);
+
+/// Trials per second of the study at the values of its manifest, on the units of a search, measured in a
+/// twentieth of the time of the effort.
+/// @throws trial::Interrupted
+double measured_speed(const study::Study& study, const Effort& effort);
+
+/// A search and its part of the effort.
+struct SearchPlan {
+  SearchSize size;
+  Effort effort;
+};
+
+/// Plans the search of a tuning: half of the budget, and so much less that the smallest proof is possible.
+/// @param speed trials/s; infinite without a limit of time
+/// @throws Failure if the budget is not enough for a search and a proof: bad_input for trials; inconclusive
+/// for time, which depends on the machine
+SearchPlan plan_search(const study::Study& study, const TuneBudget& budget, const Effort& whole,
+                       double speed);
+
+/// Plans the search for another control, and its judgement on new machines.
+/// @throws Spent if the effort is not enough for both
+SearchPlan plan_other_search(const study::Study& study, std::span<const study::FreeParameter> free,
+                             const Effort& share, double speed);
+
+/// How what follows the proof shares the effort that is left.
+struct RestPlan {
+  std::int64_t units{0};           ///< on which a point is simulated
+  std::int64_t trials_of_maps{0};  ///< kept for them; 0 where they are not affordable
+};
+
+/// As many units for each of so many points as leave the effort for all of them, for the smallest search of
+/// each of the other controls, and for the maps if they are affordable beside these.
+RestPlan plan_rest(const study::Study& study, std::int64_t points, std::int64_t trials_of_maps,
+                   std::span<const OtherControl> controls, const Effort& effort, double speed);
+
+/// Units on which another control is judged: 1000, or as many as the effort is enough for.
+/// @throws Spent if these are fewer than 50
+std::int64_t units_of_judgement(const study::Study& study, const Effort& share, double speed);
+
+}  // namespace zerocount::tuning

@@ -32,19 +32,20 @@ std::vector<MachineInput> machine_inputs(const Study& study, std::int64_t point)
   const std::vector<const Value*> values = values_at(plan, static_cast<std::size_t>(point));
   std::vector<MachineInput> inputs;
   MachineInput joint;
+  bool joint_differs = false;
   for (const std::uint32_t slot : plan.input_slots) {
+    if (values[slot]->kind != Value::Kind::distribution) continue;
     const std::string name(plan.table.rows[slot].name);
-    if (values[slot]->kind != Value::Kind::distribution ||
-        !differs_between_machines(study, values[slot]->per, name))
-      continue;
-    if (std::ranges::find(plan.sampled_slots, slot) == plan.sampled_slots.end()) {
-      inputs.push_back({name, {slot}});
-    } else {
+    const bool differs = differs_between_machines(study, values[slot]->per, name);
+    if (std::ranges::find(plan.sampled_slots, slot) != plan.sampled_slots.end()) {
       joint.name += (joint.name.empty() ? "" : ", ") + name;
       joint.slots.push_back(slot);
+      joint_differs |= differs;
+    } else if (differs) {
+      inputs.push_back({name, {slot}});
     }
   }
-  if (!joint.slots.empty()) inputs.push_back(std::move(joint));
+  if (joint_differs) inputs.push_back(std::move(joint));
   return inputs;
 }
 

@@ -21,11 +21,16 @@ struct MachineInput {
 };
 
 /// The drawn quantities in which the machines of a point differ: those drawn per rig; without rigs those
-/// drawn per trial that are not of the command or the initial conditions. Profiles are not among them.
+/// drawn per trial that are not of the command or the initial conditions. Profiles are not among them. A row
+/// of joint samples is of the machine as a whole if one of its values is.
 std::vector<MachineInput> machine_inputs(const Study& study, std::int64_t point);
 
 /// The values of an input's slots at this quantile, in the units of the manifest: (dotted path, value).
 std::vector<std::pair<std::string, double>> values_at_quantile(const Study& study, std::int64_t point,
                                                                const MachineInput& input, double quantile);
+
+/// The quantile of each of these inputs that trial `index` has drawn.
+std::vector<double> drawn_quantiles(const Study& study, std::int64_t point, std::int64_t index,
+                                    const std::vector<MachineInput>& inputs);
 
 }  // namespace zerocount::study

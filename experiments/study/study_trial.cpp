@@ -9,6 +9,7 @@
 #include "core/loop/encoder.hpp"
 #include "experiments/designs/saltelli.hpp"
 #include "experiments/parameters/parameter_table.hpp"
+#include "experiments/study/machine_inputs.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/study.hpp"
 
@@ -326,6 +327,19 @@ StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t inde
   complete_trial(study.units, trial.parameters);
   round_targets(trial);
   return trial;
+}
+
+std::vector<double> drawn_quantiles(const Study& study, std::int64_t point, std::int64_t index,
+                                    const std::vector<MachineInput>& inputs) {
+  const GivenDraws none;
+  const TrialDraws draws = draws_of(study, point, index, none);
+  std::vector<double> quantiles;
+  for (const MachineInput& input : inputs) {
+    const std::uint32_t slot = input.slots.front();
+    const Value& value = *value_at_point(*study.plan, slot, static_cast<std::size_t>(point));
+    quantiles.push_back(uniform_of(draws, slot, value.per));
+  }
+  return quantiles;
 }
 
 std::vector<double> rig_inputs(const Study& study, std::int64_t rig) {

@@ -9,6 +9,7 @@
 #include "analysis/report/page.hpp"
 #include "core/failure/failure.hpp"
 #include "core/trial/trial.hpp"
+#include "experiments/yaml/text_file.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/results_file.hpp"
 #include "results/storage/output_lock.hpp"
@@ -28,6 +29,7 @@
 #include "runners/tuning/tuner.hpp"
 #include "runners/tuning/tuning_page.hpp"
 #include "runners/tuning/worst_in_box.hpp"
+#include "runners/tuning/worst_text.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -67,10 +69,10 @@ constexpr const char* limits_help =
 constexpr const char* worst_help =
     "Finds the machine that a gain suits worst: of the machines of the study, and in the box of the\n"
     "central 99.9 % of each quantity that differs between machines, where it is sought from the\n"
-    "corners inwards; then among the likely machines, whose normal scores have a sum of squares\n"
-    "within the 99.9 % quantile. Rates are of trials that the search has not used. -o writes a manifest in "
-    "which the values of the worst\n"
-    "machine of the box are fixed. Of several points --point chooses one.\n"
+    "worst of the study, from the corners, and from points between them; then among the likely\n"
+    "machines, whose normal scores have a sum of squares within the 99.9 % quantile. Each is judged\n"
+    "by 256 trials of its own. -o writes the manifest of the worst machine of the box: its values\n"
+    "are fixed, and `run` repeats these trials. Of several points --point chooses one.\n"
     "\n"
     "Example: zerocount worst my-axis.yaml -o worst.yaml\n";
 
@@ -180,14 +182,10 @@ ExitCode limits(const command_line::Arguments& arguments) {
   return ExitCode::success;
 }
 
-/// The command that shows the worst trial of the written manifest.
-std::string replay_text(const PointToExamine& examined, const tuning::WorstInBox& worst,
-                        const std::optional<std::filesystem::path>& output) {
-  if (!output) return "";
-  const bool several = study::point_count(examined.study) > 1;
-  return fmt::format("wrote {}; its worst trial: zerocount trace {}{} --trial {}\n", output->string(),
-                     output->string(), several ? fmt::format(" --point {}", examined.point) : std::string(),
-                     worst.trial);
+/// The folder from which the operand names its files; nothing for a results file.
+std::optional<std::filesystem::path> folder_of(const std::filesystem::path& operand) {
+  if (is_results_file(operand)) return std::nullopt;
+  return std::filesystem::absolute(yaml::is_stream(operand) ? "." : operand).parent_path();
 }
 
 ExitCode worst(const command_line::Arguments& arguments) {
@@ -196,23 +194,26 @@ ExitCode worst(const command_line::Arguments& arguments) {
   const PointToExamine examined = point_to_examine(arguments);
   const study::Study& study = examined.study;
   const study_run::InterruptionWatch interruption;
-  const tuning::Units units = tuning::units_of(study, examined.point);
-  const std::vector<tuning::UnitResult> results = unless_interrupted(
-      [&] { return tuning::results_of(study, units, units.count, nullptr, interruption.token()); });
-  const tuning::WorstMachine worst = tuning::worst_machine(study, examined.point, results);
-  const auto worst_of = [&](tuning::MachineRegion region) {
-    return unless_interrupted(
-        [&] { return tuning::worst_in_box(study, units, results, region, interruption.token()); });
-  };
-  const tuning::WorstInBox in_box = worst_of(tuning::MachineRegion::box);
-  const tuning::WorstInBox likely = worst_of(tuning::MachineRegion::likely);
-  if (output) command_line::write_text(*output, tuning::replay_of(in_box).manifest_text);
+  const tuning::WorstMachines worst = unless_interrupted([&] {
+    return tuning::worst_machines(study, tuning::units_of(study, examined.point),
+                                  folder_of(arguments.operands()[0]), interruption.token());
+  });
   if (arguments.choice("format") == "json") {
-    standard_output::write(tuning::worst_json(worst, in_box, likely));
+    standard_output::write(tuning::worst_json(worst));
   } else {
-    standard_output::write_fitted(tuning::worst_text(worst, study.rigs > 0) +
-                                  tuning::worst_text(in_box, likely) + replay_text(examined, in_box, output));
+    standard_output::write_fitted(tuning::worst_text(worst, study.rigs > 0));
   }
+  if (!output) return ExitCode::success;
+  if (worst.in_box.manifest.empty())
+    throw Failure(ExitCode::bad_input, fmt::format("{}: no manifest describes the worst machine: {}",
+                                                   output->string(), worst.in_box.no_manifest));
+  command_line::write_text(*output, worst.in_box.manifest);
+  if (arguments.choice("format") == "text" && !yaml::is_standard_stream(*output))
+    standard_output::write(fmt::format(
+        "wrote {0}{1}; the machine's worst trial: zerocount trace {0} --trial {2}\n", output->string(),
+        worst.with_profiles ? fmt::format(", of which rig {} is the machine", worst.in_box.rig)
+                            : std::string(),
+        worst.in_box.trial));
   return ExitCode::success;
 }
 

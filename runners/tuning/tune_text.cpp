@@ -13,18 +13,12 @@
 #include "core/loop/encoder.hpp"
 #include "core/theory/gains.hpp"
 #include "runners/tuning/limits_text.hpp"
+#include "runners/tuning/worst_text.hpp"
 
 namespace zerocount::tuning {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using NamedValues = std::vector<std::pair<std::string, double>>;
-
-Json values_json(const NamedValues& values) {
-  Json json = Json::object();
-  for (const auto& [name, value] : values) json[name] = value;
-  return json;
-}
 
 NamedValues named(const std::vector<study::FreeParameter>& free, const Values& values) {
   NamedValues named;
@@ -34,13 +28,6 @@ NamedValues named(const std::vector<study::FreeParameter>& free, const Values& v
 
 Json finite_or_null(double value) {
   return std::isfinite(value) ? Json(value) : Json();
-}
-
-std::string values_text(const NamedValues& values) {
-  std::string text;
-  for (const auto& [name, value] : values)
-    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, text::short_number(value));
-  return text;
 }
 
 std::string_view word_of(goal::Status status) {
@@ -189,11 +176,6 @@ Json nearest_json(const TuneAnswer& answer, const study::LoopMargins& wanted) {
           {"lacking", values_json(lacking(*answer.nearest, wanted))}};
 }
 
-Json object_of(const WorstMachine& worst) {
-  return {
-      {"rig", worst.rig}, {"trial", worst.trial}, {"met", worst.met}, {"inputs", values_json(worst.inputs)}};
-}
-
 }  // namespace
 
 std::string headline(const TuneAnswer& answer, const study::Study& study) {
@@ -265,48 +247,6 @@ std::vector<std::string> proof_lines(const TuneAnswer& answer, const study::Stud
   return lines;
 }
 
-std::string worst_text(const WorstMachine& worst, bool on_rigs) {
-  return fmt::format("worst machine: {} {}, {:.4g} % of its moves meet the goal; {}\n",
-                     on_rigs ? "rig" : "trial", worst.rig, 100.0 * worst.met, values_text(worst.inputs));
-}
-
-std::string worst_text(const WorstInBox& in_box, const WorstInBox& likely) {
-  std::string text = fmt::format(
-      "worst in the box of the central 99.9 % of each input: {:.4g} % of {} moves meet the goal\n"
-      "worst of the likely machines: {:.4g} % of {} moves meet the goal\n",
-      100.0 * in_box.met, in_box.moves, 100.0 * likely.met, likely.moves);
-  std::vector<text::TextColumn> columns{{"input", false, {}}, {"in the box", true, {}}, {"likely", true, {}}};
-  for (std::size_t i = 0; i < in_box.inputs.size(); ++i) {
-    columns[0].cells.push_back(in_box.inputs[i].first);
-    columns[1].cells.push_back(text::short_number(in_box.inputs[i].second));
-    columns[2].cells.push_back(text::short_number(likely.inputs[i].second));
-  }
-  return text + text::aligned_table(columns) +
-         (in_box.searched.rigs > 0 && !in_box.searched.profiles.empty()
-              ? fmt::format("with the profiles of rig {}, likely: of rig {}\n", in_box.rig, likely.rig)
-              : std::string());
-}
-
-namespace {
-
-Json machine_json(const WorstInBox& worst) {
-  return {{"rig", worst.rig},
-          {"trial", worst.trial},
-          {"moves", worst.moves},
-          {"met", worst.met},
-          {"inputs", values_json(worst.inputs)},
-          {"quantiles", worst.quantiles}};
-}
-
-}  // namespace
-
-std::string worst_json(const WorstMachine& worst, const WorstInBox& in_box, const WorstInBox& likely) {
-  Json json = object_of(worst);
-  json["box"] = machine_json(in_box);
-  json["likely"] = machine_json(likely);
-  return text::json_text(json);
-}
-
 std::string json_of(const TuneAnswer& answer, const study::Study& study) {
   Json json{{"status", word_of(answer.status)},
             {"gains", values_json(named(answer.free, answer.gains))},
@@ -356,7 +296,7 @@ std::string json_of(const TuneAnswer& answer, const study::Study& study) {
                                 {"criterion", finite_or_null(one.estimate.criterion)}});
   }
   json["limits"] = limits_array(answer.limits);
-  json["worst"] = answer.worst ? object_of(*answer.worst) : Json();
+  json["worst"] = answer.worst ? worst_object(*answer.worst) : Json();
   json["wider_band_rate"] = answer.wider_band_rate ? Json(*answer.wider_band_rate) : Json();
   json["searched"] = {{"points", answer.points},
                       {"trials", answer.trials},

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "runners/tuning/tuner.hpp"
-#include "runners/tuning/worst_in_box.hpp"
 
 namespace zerocount::tuning {
 
@@ -26,10 +25,5 @@ std::string proven_text(const TuneAnswer& answer, const study::Study& study, con
 
 /// What it rests on, by simulation; empty without a proof.
 std::string rest_text(const TuneAnswer& answer, const study::Study& study);
-
-std::string worst_json(const WorstMachine& worst, const WorstInBox& in_box, const WorstInBox& likely);
-/// A table: the worst machine of the box, and of the likely ones.
-std::string worst_text(const WorstInBox& in_box, const WorstInBox& likely);
-std::string worst_text(const WorstMachine& worst, bool on_rigs);
 
 }  // namespace zerocount::tuning

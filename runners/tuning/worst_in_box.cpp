@@ -15,9 +15,11 @@
 #include "core/numerics/normal_distribution.hpp"
 #include "core/random/number_source.hpp"
 #include "experiments/designs/random_key.hpp"
+#include "experiments/manifest/load_study.hpp"
+#include "experiments/manifest/point_manifest.hpp"
 #include "experiments/study/machine_inputs.hpp"
+#include "experiments/study/plan.hpp"
 #include "runners/study_run/parallel_trials.hpp"
-#include "runners/tuning/tuned_study.hpp"
 
 namespace zerocount::tuning {
 namespace {
@@ -32,10 +34,10 @@ constexpr int generations = 8;
 constexpr std::size_t survivors = 8;
 constexpr std::size_t children = 32;
 
-/// A machine of the box: a rig, and [machine input] the place in the box, 0 to 1.
+/// A machine: a rig, and [machine input] the quantile that it has.
 struct BoxPoint {
   std::int64_t rig{0};
-  std::vector<double> place;
+  std::vector<double> quantiles;
   UnitResult result{};
 };
 
@@ -46,13 +48,40 @@ double lateness(const UnitResult& unit, double late) {
   return sum;
 }
 
-class BoxSearch {
+double quantile_at(double place) {
+  return tail + (1.0 - 2.0 * tail) * place;
+}
+double place_at(double quantile) {
+  return std::clamp((quantile - tail) / (1.0 - 2.0 * tail), 0.0, 1.0);
+}
+
+/// The machines among which the worst is sought.
+enum class MachineRegion { box, likely };
+
+bool are_correlated(const std::vector<study::MachineInput>& inputs, const study::StudyPlan& plan) {
+  return std::ranges::any_of(inputs, [&](const study::MachineInput& input) {
+    return plan.copula &&
+           std::ranges::find(plan.copula->slots, input.slots.front()) != plan.copula->slots.end();
+  });
+}
+
+/// The study with independent draws, as many as are wanted.
+study::Study searched_study(const study::Study& study, const std::vector<study::MachineInput>& inputs) {
+  std::vector<std::string> overrides;
+  if (study.design != study::Design::monte_carlo) overrides.emplace_back("design=monte_carlo");
+  if (are_correlated(inputs, *study.plan)) overrides.emplace_back("correlation=[]");
+  return overrides.empty() ? study : variant_of(study, overrides);
+}
+
+class MachineSearch {
  public:
-  BoxSearch(const study::Study& study, const Units& units, MachineRegion region, const std::stop_token& stop)
-      : region_(region),
+  MachineSearch(const study::Study& study, const Units& units,
+                const std::optional<std::filesystem::path>& folder, const std::stop_token& stop)
+      : given_(study),
         units_(units),
-        study_(variant_of(study, sizes(study, units))),
-        inputs_(study::machine_inputs(study_, units.point)),
+        folder_(folder),
+        inputs_(study::machine_inputs(study, units.point)),
+        study_(searched_study(study, inputs_)),
         numbers_{designs::random_key(study.seed, "worst machine"), 0},
         event_(measures::missed_goal(study_).value()),
         stop_(stop) {
@@ -61,55 +90,87 @@ class BoxSearch {
                     fmt::format("{}: it draws nothing that differs between machines; expected distributions, "
                                 "such as friction.k1: {{lognormal: {{median: 110, cv: 0.1}}}}",
                                 study.name));
+    for (const study::Value* value : study::values_at(*study_.plan, static_cast<std::size_t>(units.point))) {
+      if (value->kind != study::Value::Kind::profile) continue;
+      has_profile_ = true;
+      has_profile_per_rig_ |= value->per == study::Per::rig;
+    }
   }
 
-  WorstInBox run(std::span<const UnitResult> results) {
-    std::vector<BoxPoint> population = first_points(results);
-    simulate(population, 0, trials_of_search);
+  WorstMachines run() {
+    const std::vector<UnitResult> results = results_of(given_, units_, units_.count, nullptr, stop_);
+    const std::vector<std::int64_t> order = worst_units(results);
+    std::vector<BoxPoint> named{worst_in(MachineRegion::box, order), machine_of(order.front())};
+    if (!is_likely(named[0])) named.push_back(worst_in(MachineRegion::likely, order));
+    std::vector<JudgedMachine> judgements;
+    for (const BoxPoint& point : named) judgements.push_back(judged(point));
+    const auto worst_that = [&](const auto& is_meant) {
+      std::size_t worst = named.size();
+      for (std::size_t i = 0; i < named.size(); ++i) {
+        if (is_meant(named[i]) && (worst == named.size() || judgements[i].met < judgements[worst].met))
+          worst = i;
+      }
+      return worst;
+    };
+    constexpr std::size_t of_study = 1;
+    const std::size_t in_box = worst_that([](const BoxPoint&) { return true; });
+    const std::size_t likely = worst_that([&](const BoxPoint& point) { return is_likely(point); });
+    return {worst_machine(given_, units_.point, results),
+            judgements[of_study],
+            judgements[in_box],
+            in_box == of_study || is_same(named[in_box], named[of_study]),
+            judgements[likely],
+            likely == in_box,
+            has_profile_per_rig_};
+  }
+
+ private:
+  /// The units of the study, the worst first.
+  std::vector<std::int64_t> worst_units(std::span<const UnitResult> results) const {
+    std::vector<std::int64_t> order(results.size());
+    std::iota(order.begin(), order.end(), std::int64_t{0});
+    const double late = given_.goal->within * 10.0;
+    std::ranges::stable_sort(order, [&](std::int64_t a, std::int64_t b) {
+      return is_worse(results[static_cast<std::size_t>(a)], results[static_cast<std::size_t>(b)], late);
+    });
+    return order;
+  }
+
+  static bool is_worse(const UnitResult& a, const UnitResult& b, double late) {
+    if (met_share(a) != met_share(b)) return met_share(a) < met_share(b);
+    return lateness(a, late) > lateness(b, late);
+  }
+
+  /// The machine of a rig of the study or, without rigs, of a trial.
+  BoxPoint machine_of(std::int64_t unit) const {
+    return {given_.rigs > 0 ? unit : 0, study::drawn_quantiles(given_, units_.point, unit, inputs_)};
+  }
+
+  BoxPoint worst_in(MachineRegion region, const std::vector<std::int64_t>& order) {
+    std::vector<BoxPoint> population = first_points(region, order);
+    simulate(population);
     keep_worst(population);
     double step = 0.25;
     for (int generation = 0; generation < generations; ++generation) {
       std::vector<BoxPoint> born;
       for (std::size_t i = 0; i < children; ++i)
-        born.push_back(child_of(population[i % population.size()], step));
-      simulate(born, 0, trials_of_search);
+        born.push_back(inside(child_of(population[i % population.size()], step), region));
+      simulate(born);
       std::ranges::move(born, std::back_inserter(population));
       keep_worst(population);
       step *= 0.7;
     }
-    BoxPoint worst = population.front();
-    std::vector<BoxPoint> judged{worst};
-    judged.front().result = {};
-    simulate(judged, trials_of_search, trials_of_search + trials_of_verdict);
-    return answer_of(judged.front());
+    return population.front();
   }
 
- private:
-  static std::vector<std::string> sizes(const study::Study& study, const Units& units) {
-    const std::int64_t trials = (trials_of_search + trials_of_verdict) * (study.rigs > 0 ? units.count : 1);
-    std::vector<std::string> overrides = overrides_for(study, {in_equal_worlds(study, trials), 1});
-    if (study.rigs > 0) overrides.push_back(fmt::format("rigs={}", units.count));
-    return overrides;
-  }
-
-  std::vector<std::int64_t> rigs_of(std::span<const UnitResult> results) const {
-    if (study_.rigs == 0) return {0};
-    std::vector<std::int64_t> order(results.size());
-    std::iota(order.begin(), order.end(), std::int64_t{0});
-    std::ranges::stable_sort(order, [&](std::int64_t a, std::int64_t b) {
-      return met_share(results[static_cast<std::size_t>(a)]) <
-             met_share(results[static_cast<std::size_t>(b)]);
-    });
-    order.resize(std::min(order.size(), worst_rigs));
-    return order;
-  }
-
-  std::vector<BoxPoint> first_points(std::span<const UnitResult> results) {
-    const std::vector<std::int64_t> rigs = rigs_of(results);
+  std::vector<BoxPoint> first_points(MachineRegion region, const std::vector<std::int64_t>& order) {
+    const std::size_t best = std::min(order.size(), worst_rigs);
     const std::size_t size = inputs_.size();
     std::vector<BoxPoint> points;
-    const auto add = [&](std::vector<double> place) {
-      points.push_back({rigs[points.size() % rigs.size()], inside(std::move(place)), {}});
+    const auto add = [&](const std::vector<double>& place) {
+      BoxPoint point{given_.rigs > 0 ? order[points.size() % best] : 0, {}};
+      for (const double one : place) point.quantiles.push_back(quantile_at(one));
+      points.push_back(inside(std::move(point), region));
     };
     const bool all_corners = size < 16 && (std::size_t{1} << size) <= most_corners;
     const std::size_t corners = all_corners ? std::size_t{1} << size : most_corners;
@@ -117,68 +178,81 @@ class BoxSearch {
       std::vector<double> place;
       for (std::size_t i = 0; i < size; ++i)
         place.push_back((all_corners ? ((corner >> i) & 1U) == 1U : numbers_.uniform() < 0.5) ? 1.0 : 0.0);
-      add(std::move(place));
+      add(place);
     }
     const std::vector<double> start(size, 0.5);
     for (std::size_t i = 0; i < filling_points; ++i) add(spread_place(start, static_cast<std::int64_t>(i)));
+    for (std::size_t i = 0; i < std::min(order.size(), survivors); ++i)
+      points.push_back(inside(machine_of(order[i]), region));
     return points;
   }
 
   BoxPoint child_of(const BoxPoint& parent, double step) {
-    BoxPoint child{parent.rig, parent.place, {}};
-    for (double& place : child.place) {
-      if (numbers_.uniform() < 0.5) place = std::clamp(place + step * numbers_.normal(), 0.0, 1.0);
+    BoxPoint child{parent.rig, parent.quantiles};
+    for (double& one : child.quantiles) {
+      if (numbers_.uniform() < 0.5)
+        one = quantile_at(std::clamp(place_at(one) + step * numbers_.normal(), 0.0, 1.0));
     }
-    child.place = inside(std::move(child.place));
     return child;
   }
 
-  /// The place itself, or of the likely machines the nearest on the way to the median.
-  std::vector<double> inside(std::vector<double> place) const {
-    if (region_ == MachineRegion::box) return place;
+  bool is_row(std::size_t input) const { return inputs_[input].slots.size() > 1; }  // of joint samples
+
+  /// Of the likely machines Σ z² as a part of its limit; of the others 0.
+  double excess_of(const BoxPoint& point, MachineRegion region) const {
     double square = 0.0;
     int scores = 0;
-    const auto is_row = [&](std::size_t i) { return inputs_[i].slots.size() > 1; };  // of joint samples
-    for (std::size_t i = 0; i < place.size(); ++i) {
-      if (is_row(i)) continue;
-      const double z = numerics::normal_quantile(quantile_at(place[i]));
+    for (std::size_t i = 0; i < inputs_.size(); ++i) {
+      if (region == MachineRegion::box || is_row(i)) continue;
+      const double z = numerics::normal_quantile(point.quantiles[i]);
       square += z * z;
       ++scores;
     }
-    if (scores == 0) return place;
-    const double radius = std::sqrt(statistics::chi_squared_quantile(scores, 1.0 - 2.0 * tail));
-    if (square <= radius * radius) return place;
-    for (std::size_t i = 0; i < place.size(); ++i) {
-      if (is_row(i)) continue;
-      double& one = place[i];
-      const double z = numerics::normal_quantile(quantile_at(one)) * radius / std::sqrt(square);
-      one = std::clamp((numerics::normal_probability(z) - tail) / (1.0 - 2.0 * tail), 0.0, 1.0);
-    }
-    return place;
+    return scores == 0 ? 0.0 : square / statistics::chi_squared_quantile(scores, 1.0 - 2.0 * tail);
   }
 
-  double quantile_at(double place) const { return tail + (1.0 - 2.0 * tail) * place; }
+  /// The nearest machine of the region on the way to the median.
+  BoxPoint inside(BoxPoint point, MachineRegion region) const {
+    for (double& one : point.quantiles) one = std::clamp(one, tail, 1.0 - tail);
+    const double excess = excess_of(point, region);
+    if (excess <= 1.0) return point;
+    for (std::size_t i = 0; i < point.quantiles.size(); ++i) {
+      if (is_row(i)) continue;
+      double& one = point.quantiles[i];
+      one = numerics::normal_probability(numerics::normal_quantile(one) / std::sqrt(excess));
+    }
+    return point;
+  }
 
-  study::GivenDraws given_of(const BoxPoint& point) const {
+  bool is_likely(const BoxPoint& point) const {
+    constexpr double rounding = 1e-9;
+    for (std::size_t i = 0; i < point.quantiles.size(); ++i) {
+      const double one = point.quantiles[i];
+      if (!is_row(i) && (one < tail - rounding || one > 1.0 - tail + rounding)) return false;
+    }
+    return excess_of(point, MachineRegion::likely) <= 1.0 + rounding;
+  }
+
+  static bool is_same(const BoxPoint& a, const BoxPoint& b) {
+    return a.rig == b.rig && a.quantiles == b.quantiles;
+  }
+
+  /// A trial of the machine with the random numbers `number`.
+  trial::TrialParameters trial_of(const BoxPoint& point, std::int64_t number) const {
     study::GivenDraws given;
     for (std::size_t i = 0; i < inputs_.size(); ++i) {
-      for (const std::uint32_t slot : inputs_[i].slots) given.uniforms[slot] = quantile_at(point.place[i]);
+      for (const std::uint32_t slot : inputs_[i].slots) given.uniforms[slot] = point.quantiles[i];
     }
-    return given;
+    given.number = number;
+    given.rotor = point.rig;
+    return study::study_trial(study_, units_.point, point.rig, given).parameters;
   }
 
-  /// Number of trial i of a machine with the profiles of this rig.
-  std::int64_t trial_of(std::int64_t rig, std::int64_t i) const {
-    return study_.rigs > 0 ? rig + i * study_.rigs : i;
-  }
-
-  void simulate(std::vector<BoxPoint>& points, std::int64_t from, std::int64_t to) const {
+  void simulate(std::vector<BoxPoint>& points) const {
     study_run::for_each_with_engine(points.size(), [&](std::size_t p, batch::BatchEngine& engine) {
-      const study::GivenDraws given = given_of(points[p]);
       std::vector<trial::TrialParameters> trials;
-      for (std::int64_t i = from; i < to; ++i)
-        trials.push_back(
-            study::study_trial(study_, units_.point, trial_of(points[p].rig, i), given).parameters);
+      for (std::int64_t i = 0; i < trials_of_search; ++i)
+        trials.push_back(trial_of(points[p], given_.trials + i));
       points[p].result = result_of(trials, engine);
     });
   }
@@ -199,51 +273,88 @@ class BoxSearch {
 
   void keep_worst(std::vector<BoxPoint>& points) const {
     const double late = study_.goal->within * 10.0;
-    std::ranges::stable_sort(points, [&](const BoxPoint& a, const BoxPoint& b) {
-      if (met_share(a.result) != met_share(b.result)) return met_share(a.result) < met_share(b.result);
-      return lateness(a.result, late) > lateness(b.result, late);
-    });
+    std::ranges::stable_sort(
+        points, [&](const BoxPoint& a, const BoxPoint& b) { return is_worse(a.result, b.result, late); });
     if (points.size() > survivors) points.resize(survivors);
   }
 
-  WorstInBox answer_of(const BoxPoint& worst) const {
-    WorstInBox answer;
-    answer.rig = worst.rig;
-    answer.moves = worst.result.moves;
-    answer.met = met_share(worst.result);
-    const auto latest = std::ranges::max_element(worst.result.values) - worst.result.values.begin();
-    answer.trial = trial_of(worst.rig, trials_of_search + latest / study_.moves);
-    for (std::size_t i = 0; i < inputs_.size(); ++i) {
-      answer.quantiles.push_back(quantile_at(worst.place[i]));
-      for (const auto& one :
-           study::values_at_quantile(study_, units_.point, inputs_[i], answer.quantiles.back()))
-        answer.inputs.push_back(one);
-    }
-    answer.searched = study_;
-    return answer;
+  /// The rigs of the machine's manifest: more than one only where a profile belongs to a rig.
+  std::int64_t rigs_of(const BoxPoint& point) const {
+    return has_profile_per_rig_ ? std::max<std::int64_t>(point.rig + 1, 2) : 1;
   }
 
-  MachineRegion region_;
+  std::string manifest_of(const BoxPoint& point,
+                          const std::vector<std::pair<std::string, double>>& values) const {
+    manifest::PointChanges changes{.values = values, .folder = folder_.value_or("")};
+    changes.removed = {"design", "worlds", "retain"};
+    if (are_correlated(inputs_, *given_.plan)) changes.removed.emplace_back("correlation");
+    for (const study::MachineInput& input : inputs_) {
+      const std::vector<std::uint32_t>& rows = given_.plan->sampled_slots;
+      if (std::ranges::find(rows, input.slots.front()) != rows.end()) changes.removed.emplace_back("samples");
+    }
+    changes.keys.emplace_back("trials", fmt::format("{}", trials_of_verdict * rigs_of(point)));
+    if (has_profile_per_rig_) {
+      changes.keys.emplace_back("rigs", fmt::format("{}", rigs_of(point)));
+    } else {
+      changes.removed.insert(changes.removed.end(), {"rigs", "goal.machines"});
+    }
+    // A profile is drawn with the seed.
+    if (!has_profile_) changes.keys.emplace_back("seed", fmt::format("{}", given_.seed + 1));
+    return manifest::manifest_of_point(given_, units_.point, changes);
+  }
+
+  JudgedMachine judged(const BoxPoint& point) const {
+    JudgedMachine machine;
+    machine.rig = point.rig;
+    machine.quantiles = point.quantiles;
+    for (std::size_t i = 0; i < inputs_.size(); ++i) {
+      for (const auto& one : study::values_at_quantile(given_, units_.point, inputs_[i], point.quantiles[i]))
+        machine.inputs.push_back(one);
+    }
+    std::vector<trial::TrialParameters> trials;
+    std::int64_t first = 0;
+    try {
+      machine.manifest = manifest_of(point, machine.inputs);
+      const study::Study alone =
+          manifest::parse_study(machine.manifest, given_.name, {}, manifest::companions_of(given_));
+      first = has_profile_per_rig_ ? point.rig : 0;
+      for (std::int64_t i = 0; i < trials_of_verdict; ++i)
+        trials.push_back(study::study_trial(alone, 0, first + i * rigs_of(point)).parameters);
+    } catch (const Failure& failure) {
+      if (failure.code() != ExitCode::bad_input && failure.code() != ExitCode::bad_data) throw;
+      machine.manifest.clear();
+      machine.no_manifest = failure.what();
+      trials.clear();
+      for (std::int64_t i = 0; i < trials_of_verdict; ++i)
+        trials.push_back(trial_of(point, given_.trials + trials_of_search + i));
+    }
+    batch::BatchEngine engine;
+    const UnitResult result = result_of(trials, engine);
+    machine.moves = result.moves;
+    machine.met = met_share(result);
+    const auto latest = std::ranges::max_element(result.values) - result.values.begin();
+    machine.trial = first + latest / given_.moves * rigs_of(point);
+    return machine;
+  }
+
+  study::Study given_;
   Units units_;
-  study::Study study_;
+  std::optional<std::filesystem::path> folder_;
   std::vector<study::MachineInput> inputs_;
+  study::Study study_;
   random::NumberSource numbers_;
   measures::MoveEvent event_;
   std::stop_token stop_;
+  bool has_profile_{false};
+  bool has_profile_per_rig_{false};
 };
 
 }  // namespace
 
-WorstInBox worst_in_box(const study::Study& study, const Units& units, std::span<const UnitResult> results,
-                        MachineRegion region, const std::stop_token& stop) {
-  return BoxSearch(study, units, region, stop).run(results);
-}
-
-study::Study replay_of(const WorstInBox& worst) {
-  std::vector<std::string> values;
-  for (const auto& [name, value] : worst.inputs) values.push_back(fmt::format("{}={}", name, value));
-  if (!worst.searched.correlations.empty()) values.emplace_back("correlation=[]");
-  return with_values_in_text(worst.searched, values);
+WorstMachines worst_machines(const study::Study& study, const Units& units,
+                             const std::optional<std::filesystem::path>& folder,
+                             const std::stop_token& stop) {
+  return MachineSearch(study, units, folder, stop).run();
 }
 
 }  // namespace zerocount::tuning

@@ -1,7 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
+#include <filesystem>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <utility>
@@ -9,37 +10,43 @@
 
 #include "experiments/study/study.hpp"
 #include "runners/tuning/unit_runner.hpp"
+#include "runners/tuning/worst_machine.hpp"
 
 namespace zerocount::tuning {
 
-/// The machines among which the worst is sought.
-enum class MachineRegion {
-  box,    ///< each drawn quantity within its central 99.9 %; its corners may be machines that nobody builds
-  likely  ///< of the box, those whose normal scores have Σ z² ≤ the 99.9 % quantile of χ², without
-          ///< correlations
-};
-
-/// The worst machine of a region.
-struct WorstInBox {
+/// A machine and its manifest: values in place of their distributions, nothing drawn that differs between
+/// machines. It is judged by the trials of that manifest, which neither the study nor a search has used.
+struct JudgedMachine {
   std::int64_t rig{0};    ///< of the study, from which it has its profiles; 0 without rigs
-  std::int64_t trial{0};  ///< its worst trial, of replay_of()
-  std::int64_t moves{0};  ///< by which it is judged; the search has not used them
+  std::int64_t trial{0};  ///< its worst trial, of the manifest
+  std::int64_t moves{0};  ///< by which it is judged
   double met{0.0};        ///< proportion of these moves that meet the goal
   std::vector<std::pair<std::string, double>> inputs;
   std::vector<double> quantiles;  ///< [machine input] (study::machine_inputs)
-  study::Study searched;          ///< the study with the trials of the search
+  std::string manifest;           ///< empty if no manifest describes it
+  std::string no_manifest;        ///< then: why
 };
 
-/// Searches the region for the machine with the fewest moves that meet the goal; of equal ones the one whose
-/// moves have the larger score (measures::MoveScore::event, that of `rare` too). The search begins at the
-/// corners, at points that fill the box, and at the worst rigs.
-/// @param results of all units of the study
-/// @throws trial::Interrupted; Failure (bad_input) if the study draws nothing that differs between machines
-WorstInBox worst_in_box(const study::Study& study, const Units& units, std::span<const UnitResult> results,
-                        MachineRegion region, const std::stop_token& stop);
+/// The worst machines of a point.
+struct WorstMachines {
+  WorstMachine of_study;  ///< by its trials in the study
+  JudgedMachine again;    ///< the same machine, judged as the others are
+  /// Of all whose drawn quantities are each within their central 99.9 %, or else of the study: its corners
+  /// may be machines that nobody builds.
+  JudgedMachine in_box;
+  bool in_box_is_of_study{false};
+  /// Of those of the box whose normal scores have Σ z² ≤ the 99.9 % quantile of χ², without correlations.
+  JudgedMachine likely;
+  bool likely_is_in_box{false};  ///< both are the same machine
+  bool with_profiles{false};     ///< the machines have profiles of their rigs
+};
 
-/// The study of which `worst.trial` is a trial, with the values of the machine in the text of its manifest.
-/// @throws Failure (bad_input) if a sweep or joint samples give one of them
-study::Study replay_of(const WorstInBox& worst);
+/// Finds the machines with the fewest moves that meet the goal; of equal ones the one whose moves have the
+/// larger score (measures::MoveScore::event, that of `rare` too). The search in the box begins at the worst
+/// machines of the study, at the corners, and at points that fill the box.
+/// @param folder from which the study's manifest names its files; none if it is not a file
+/// @throws trial::Interrupted; Failure (bad_input) if the study draws nothing that differs between machines
+WorstMachines worst_machines(const study::Study& study, const Units& units,
+                             const std::optional<std::filesystem::path>& folder, const std::stop_token& stop);
 
 }  // namespace zerocount::tuning

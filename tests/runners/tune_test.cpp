@@ -382,21 +382,6 @@ TEST_F(Tune, LimitsSwitchCausesOffOneByOne) {
   }
 }
 
-// The manifest of the worst machine replays its trials: with all rigs alike, the rate of its moves.
-TEST_F(Tune, WorstWritesAManifestThatReplaysTheMachine) {
-  write_axis("goal: {band: 0, within: 0.05, moves: 0.98}\n");
-  const Json worst = Json::parse(program({"worst", "axis.yaml", "-o", "worst.yaml", "--format", "json"}).out);
-  const Json box = worst["box"];
-  ASSERT_EQ(program({"run", "worst.yaml", "-o", "worst.h5"}).code, 0);
-  const reading::StudyFile file(folder_.path() / "worst.h5");
-  const study::Study study = layout::recorded_study(file.header(), "worst.h5");
-  EXPECT_EQ(study::study_trial(study, 0, box["trial"]).parameters.friction.uniform.k1,
-            box["inputs"]["friction.k1"]);
-  const double met = Json::parse(program({"judge", "worst.h5", "--format", "json"}).out)["rate"];
-  EXPECT_NEAR(met, box["met"].get<double>(), 0.15);
-  EXPECT_EQ(program({"trace", "worst.yaml", "--trial", std::to_string(box["trial"].get<int>())}).code, 0);
-}
-
 // Stiffness alone decides, and more of it is worse: the worst machine is at the end of the box.
 TEST_F(Tune, WorstIsFoundAtTheEndOfTheBoxWhereItLies) {
   folder_.write("soft.yaml", R"(zerocount: 1

@@ -1,0 +1,158 @@
+// `worst`: the manifest of the worst machine repeats its trials, and no machine of the study is worse.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "results/layout/header.hpp"
+#include "results/reading/study_file.hpp"
+#include "runners/tuning/unit_runner.hpp"
+#include "tests/runners/program.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::string_view common_part = R"(zerocount: 1
+name: worst
+seed: 3
+command: {targets: [12], hold: 0.09}
+initial: {encoder_phase: {uniform: [0, 1]}, preload: {uniform: [-0.1, 0.1]}}
+controller: {ki: 6.0e-5}
+)";
+
+class Worst : public ::testing::Test {
+ protected:
+  ProgramResult program(const std::vector<std::string>& words) {
+    return zerocount_program(words, folder_.path());
+  }
+
+  Json worst(const std::string& manifest, const std::vector<std::string>& more = {}) {
+    folder_.write("axis.yaml", manifest);
+    std::vector<std::string> words{"worst", "axis.yaml", "-o", "worst.yaml", "--force", "--format", "json"};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult result = program(words);
+    EXPECT_EQ(result.code, 0) << result.err << manifest;
+    return result.code == 0 ? Json::parse(result.out) : Json();
+  }
+
+  /// Proportion of the moves of a rig that meet the goal, where `worst.yaml` runs.
+  double replayed(std::int64_t rig) {
+    const ProgramResult run = program({"run", "worst.yaml", "-o", "worst.h5", "--force", "--quiet"});
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(run.err.find("worlds"), std::string::npos) << "nothing differs between worlds: " << run.err;
+    const reading::StudyFile file(folder_.path() / "worst.h5");
+    const study::Study study = layout::recorded_study(file.header(), "worst.h5");
+    tuning::Units units = tuning::units_of(study, 0);
+    if (study.rigs == 0) units = {1, study.trials, 0};
+    return met_share(
+        tuning::results_in(file, study, units)[static_cast<std::size_t>(study.rigs == 0 ? 0 : rig)]);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Worst, IsRepeatedByItsManifest) {
+  folder_.write(
+      "machines.csv",
+      "friction.k1,friction.k2,initial.preload\n100,700,0.05\n100,900,-0.05\n140,700,0.1\n90,500,0\n");
+  const std::string goal = "goal: {band: 0, within: 0.045, moves: 0.9}\n";
+  const std::string machines =
+      "goal: {band: 0, within: 0.045, moves: 0.9, machines: 0.8}\nrigs: 6\ntrials: 24\n";
+  const std::string k1_per_rig = "friction: {k1: {lognormal: {median: 130, cv: 0.2}, per: rig}";
+  struct Case {
+    const char* what;
+    std::string more;
+    std::vector<std::string> words{};
+  };
+  const std::vector<Case> cases{
+      {"rigs", machines + k1_per_rig + "}\n"},
+      {"trials", goal + "trials: 30\ndesign: sobol\nfriction: {k1: {uniform: [90, 150]}}\n"},
+      {"rows",
+       goal + "rigs: 6\ntrials: 24\nsamples: {file: machines.csv, per: rig}\nfriction: {alpha: {uniform: "
+              "[0.1, 1]}}\n",
+       {"--set", "initial={encoder_phase: {uniform: [0, 1]}}"}},
+      {"rows of trials",
+       goal + "trials: 30\nsamples: {file: machines.csv, per: trial}\n",
+       {"--set", "initial={encoder_phase: {uniform: [0, 1]}}"}},
+      {"worlds", machines + "worlds: 3\n" + k1_per_rig + ", n: {uniform: [1.5, 2.5], per: world}}\n"},
+      {"profiles", machines + k1_per_rig +
+                       ", k2: {profile: {mean: {uniform: [500, 900]}, cv: 0.3, "
+                       "correlation_length: 0.5}, per: rig}}\n"},
+      {"a profile", goal +
+                        "trials: 24\nfriction: {k1: {profile: {mean: 120, cv: 0.2, correlation_length: 1}}, "
+                        "k2: {uniform: [500, 900]}}\ndesign: latin_hypercube\n"},
+      {"contacts", machines + k1_per_rig + ", breakaway: {uniform: [0.25, 0.35], per: contact}}\n"},
+      {"correlation",
+       goal + "trials: 30\nfriction: {k1: {uniform: [90, 150]}, k2: {uniform: [500, 900]}}\n"
+              "correlation: [[friction.k1, friction.k2, 0.6], [friction.k2, initial.preload, 0.3]]\n"},
+      {"a sweep",
+       goal + "trials: 30\nsweep: {cases: {a: {friction.k1: 120}, b: {friction.k1: {uniform: [80, 110]}, "
+              "initial.preload: {uniform: [0, 0.2]}}}, grid: {controller.kp: {linspace: [0, 2.0e-4, 3]}}}\n",
+       {"--point", "5"}},
+      {"a filter",
+       goal + "trials: 30\n",
+       {"--set",
+        "controller.filters=[{notch: {frequency: {uniform: [300, 600]}, "
+        "damping: 0.5, depth: 0.2}}]",
+        "--set", "controller.deadband={uniform: [0, 2]}"}},
+  };
+  for (const Case& one : cases) {
+    const Json found = worst(std::string(common_part) + one.more, one.words);
+    ASSERT_FALSE(found.is_null()) << one.what;
+    const Json box = found["box"];
+    EXPECT_DOUBLE_EQ(replayed(box["rig"]), box["met"]) << one.what;
+    EXPECT_EQ(program({"trace", "worst.yaml", "--trial", box["trial"].dump()}).code, 0) << one.what;
+  }
+}
+
+// The search begins at the machines of the study: what it finds is at least as bad, by the same trials.
+TEST_F(Worst, IsAtLeastAsBadAsTheWorstMachineOfTheStudy) {
+  const std::string machines = std::string(common_part) +
+                               "goal: {band: 0, within: 0.05, moves: 0.9}\nrigs: 30\ntrials: 60\nfriction: "
+                               "{k1: {lognormal: {median: 130, cv: 0.4}, per: rig}, beta: {log_uniform: "
+                               "[3.0e+4, 3.0e+5], per: rig}}\n";
+  for (int seed = 1; seed < 4; ++seed) {
+    const Json found = worst(machines, {"--set", fmt::format("seed={}", seed)});
+    EXPECT_LE(found["box"]["met"], found["again"]["met"]) << found;
+    EXPECT_EQ(found["box"]["moves"], found["again"]["moves"]);
+  }
+}
+
+TEST_F(Worst, IsNamedOnceWhereItIsLikelyToo) {
+  folder_.write("axis.yaml",
+                std::string(common_part) +
+                    "goal: {band: 0, within: 0.05, moves: 0.9}\ntrials: 20\nsamples: rows.csv\n");
+  folder_.write("rows.csv", "friction.k1,friction.k2\n100,700\n140,900\n90,500\n");
+  const ProgramResult text = program({"worst", "axis.yaml"});
+  EXPECT_NE(text.out.find("worst of the likely machines: the same machine"), std::string::npos) << text.out;
+  EXPECT_EQ(text.out.find("  likely\n"), std::string::npos) << text.out;
+  const Json json = Json::parse(program({"worst", "axis.yaml", "--format", "json"}).out);
+  EXPECT_EQ(json["likely"]["in_box"], true);
+  EXPECT_EQ(json["likely"]["inputs"], json["box"]["inputs"]);
+}
+
+// Rows that are drawn for each trial do not belong to a machine with rigs, and a results file has no place of
+// their table.
+TEST_F(Worst, IsToldWhereNoManifestCanBeWritten) {
+  folder_.write("rows.csv", "initial.preload,initial.velocity\n0,0\n0.1,0\n0.05,0\n");
+  const std::string manifest =
+      "zerocount: 1\nname: rows\nseed: 3\nrigs: 4\ntrials: 8\nsamples: {file: rows.csv, per: trial}\n"
+      "friction: {k1: {uniform: [90, 150], per: rig}}\ncommand: {targets: [12], hold: 0.09}\n"
+      "goal: {band: 0, within: 0.05, moves: 0.9}\n";
+  const Json found = worst(manifest);
+  EXPECT_DOUBLE_EQ(replayed(0), found["box"]["met"]);
+  ASSERT_EQ(program({"run", "axis.yaml", "-o", "rows.h5", "--quiet"}).code, 0);
+  const ProgramResult result = program({"worst", "rows.h5", "-o", "w.yaml"});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_NE(result.out.find("worst in the box"), std::string::npos) << "the answer is printed";
+  EXPECT_NE(result.err.find("no manifest describes the worst machine"), std::string::npos) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "w.yaml"));
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -36,10 +36,14 @@ bool add_band(trial::ErrorBands& bands, std::int64_t band) {
 // A longer time could never be reached.
 void check_within(const yaml::Field& field, double within, const study::StudyPlan& plan,
                   yaml::Problems& problems) {
-  const auto is_shorter = [within](const study::ValueLimits& hold) { return hold.low < within; };
-  if (study::holds_somewhere(plan, "command.hold", is_shorter))
-    problems.add(field, fmt::format("{} s is longer than the hold of a move", within),
-                 "a time no longer than command.hold, s");
+  double shortest = within;
+  study::holds_somewhere(plan, "command.hold", [&shortest](const study::ValueLimits& hold) {
+    if (hold.low < shortest) shortest = hold.low;
+    return false;
+  });
+  if (shortest < within)
+    problems.add(field, fmt::format("{} s is longer than the hold of a move, {} s", within, shortest),
+                 "a time in s, at most command.hold");
 }
 
 }  // namespace

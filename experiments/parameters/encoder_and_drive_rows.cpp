@@ -18,6 +18,9 @@ constexpr std::string_view missed = "probability that the encoder misses a count
 
 }  // namespace
 
+// m. A longer count is a number in another unit.
+constexpr numerics::Interval length_of_count{.low = 0, .high = 0.1, .high_included = true};
+
 std::vector<Parameter> encoder_rows() {
   return {
       only_on(AxisKind::rotary, "encoder.resolution, m per count",
@@ -30,13 +33,13 @@ std::vector<Parameter> encoder_rows() {
                         [](auto& p) { return &p.encoder.coarse; })),
       only_on(AxisKind::linear, "encoder.fine, counts per revolution",
               without_default(real_row("encoder.resolution", beyond_moves(7), "m/count",
-                                       "length of a count of the fine encoder", "required",
-                                       numerics::above(0), [](auto& p) { return &p.encoder.fine_length; }))),
+                                       "length of a count of the fine encoder", "required", length_of_count,
+                                       [](auto& p) { return &p.encoder.fine_length; }))),
       only_on(AxisKind::linear, "encoder.coarse, counts per revolution",
-              without_default(real_row(
-                  "encoder.coarse_resolution", beyond_moves(8), "m/count",
-                  "length of a count of the coarse encoder; default: that of the fine one", "required",
-                  numerics::above(0), [](auto& p) { return &p.encoder.coarse_length; }))),
+              without_default(
+                  real_row("encoder.coarse_resolution", beyond_moves(8), "m/count",
+                           "length of a count of the coarse encoder; default: that of the fine one",
+                           "required", length_of_count, [](auto& p) { return &p.encoder.coarse_length; }))),
 
       only_on(AxisKind::rotary, no_disc,
               real_row("encoder.fine_errors.eccentricity", 29, "rad", eccentricity, assumed,

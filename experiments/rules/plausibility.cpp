@@ -34,7 +34,7 @@ double typical_count(const study::StudyPlan& plan, double encoder) {
 
 std::vector<ValueRule> plausibility_rules(const study::StudyPlan& plan) {
   std::vector<ValueRule> rules;
-  for (const auto& tests : {plausible_dynamics, plausible_contact, plausible_gains}) {
+  for (const auto& tests : {plausible_dynamics, plausible_contact, plausible_delay, plausible_gains}) {
     const std::vector<ValueRule> more = tests(plan);
     rules.insert(rules.end(), more.begin(), more.end());
   }

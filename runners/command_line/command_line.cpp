@@ -10,6 +10,7 @@
 
 #include "core/failure/failure.hpp"
 #include "core/text/number_text.hpp"
+#include "experiments/yaml/nearest_name.hpp"
 
 namespace zerocount::command_line {
 namespace {
@@ -20,6 +21,15 @@ constexpr const char* operand_key = "operand";
 
 std::string long_name(const OptionSpec& option) {
   return option.name.substr(0, option.name.find(','));
+}
+
+/// @param given as the user wrote it ("--outptu")
+std::string unknown_option(const CommandSpec& spec, const std::string& given) {
+  std::vector<std::string> known;
+  for (const OptionSpec& option : spec.options) known.push_back("--" + long_name(option));
+  const std::string_view nearest = yaml::nearest_name(given, known);
+  return fmt::format("unknown option '{}'{}", given,
+                     yaml::is_near(given, nearest) ? fmt::format("; did you mean {}?", nearest) : "");
 }
 
 /// Describes the wrong value of the option `given`, which is as the user wrote it ("--quiet").
@@ -115,7 +125,7 @@ Arguments::Arguments(const CommandSpec& spec, const std::vector<std::string>& wo
       take_values(*find_spec(spec, given.string_key), given.value);
     }
   } catch (const po::unknown_option& error) {
-    refuse(fmt::format("unknown option '{}'", error.get_option_name()));
+    refuse(unknown_option(spec, error.get_option_name()));
   } catch (const po::error_with_option_name& error) {
     refuse(
         fmt::format("option '{}' {}", error.get_option_name(), value_problem(spec, error.get_option_name())));

@@ -247,8 +247,43 @@ TEST(ManifestErrors, AllErrorsAreToldInTheOrderOfTheFile) {
                          "10:32: sweep.grid.controller.ki.0 | at least 0 and at most 1000000"));
 }
 
+// A key that is missing may be there under a wrong name, or where it cannot be read.
+TEST(ManifestErrors, TheCauseComesBeforeWhatItEntails) {
+  EXPECT_TRUE(has_faults(failure_of("zerocount: 1\nname: x\nseed: 1\ntrials: 1\ncomand: {targets: [1]}\n"),
+                         "5:1: comand | command\n1:1: command | missing"));
+  const std::string linear =
+      "zerocount: 1\nname: x\naxis: linear\nseed: 1\ntrials: 1\ncommand: {targets: [1]}\n"
+      "plant: {inertia: 5, presliding_damping: 9, sliding_damping: 9}\n"
+      "friction: {k1: 1.0e+5, k2: 2.0e+7, beta: 2.0e+6, lambda: 1.0e+8, breakaway: 12, "
+      "stribeck_velocity: 1.0e-3}\n"
+      "encoder: {resolution: 1.0e-9}\ndac: {bits: 20, resolution: 5.0e-5}\n";
+  EXPECT_TRUE(has_faults(failure_of(linear + "controller: {kii: 1}\n"),
+                         "11:14: controller.kii | ki\n1:1: controller.ki | missing"));
+  EXPECT_TRUE(has_faults(failure_of(linear + "sweep: {grid: {controller.ki: 5}}\n"),
+                         "11:31: sweep.grid.controller.ki | single value | list of values"));
+  EXPECT_TRUE(
+      has_faults(refusal_of(linear + "sweep: {grid: {controller.ki: [5]}}\n", {"sweep.grid.controller.ki=5"}),
+                 "--set sweep.grid.controller.ki=5: sweep.grid.controller.ki | list of values"));
+  EXPECT_TRUE(has_faults(failure_of(linear + "sweep: {controller.ki: [5, 6]}\n"),
+                         "11:9: sweep.controller.ki | the grid or in a case | grid: {controller.ki\n"
+                         "1:1: controller.ki | missing"));
+}
+
+TEST(ManifestErrors, ALengthOfACountInAnotherUnitIsNamedItself) {
+  EXPECT_TRUE(has_faults(
+      refusal_of("zerocount: 1\nname: x\naxis: linear\nseed: 1\ntrials: 1\n"
+                 "command: {targets: [400], hold: 1, profile: {shape: trapezoidal}}\n"
+                 "plant: {inertia: 5, presliding_damping: 9, sliding_damping: 9}\nfriction: {model: none}\n"
+                 "encoder: {resolution: 5}\ndac: {bits: 20, resolution: 5.0e-5}\ncontroller: {ki: 1}\n",
+                 {"command.profile={shape: trapezoidal, velocity_limit: 1, acceleration_limit: 1}"}),
+      "9:23: encoder.resolution | out of range | 0.1"));
+}
+
 TEST(ManifestErrors, AManifestIsAMap) {
   EXPECT_TRUE(has_faults(failure_of("- 1\n"), "1:1: manifest | a list"));
+  EXPECT_TRUE(has_faults(failure_of("hello world\n"), "1:1: manifest | single value 'hello world' | a map"));
+  EXPECT_TRUE(has_faults(failure_of(minimal_manifest("plant: inertia 5\n")),
+                         "6:8: plant | single value 'inertia 5' | plant: {inertia: ...}"));
   EXPECT_TRUE(has_faults(failure_of(""), "1:1: manifest | the manifest is empty"));
 }
 

@@ -81,6 +81,21 @@ TEST_F(Plausibility, TheSpringSoftensBeforeItSlides) {
   }
 }
 
+TEST_F(Plausibility, ADelayIsANumberOfSamples) {
+  for (int i = 0; i < rounds; ++i) {
+    const double delay = log_uniform(1e-6, 3);
+    const std::vector<std::string> warnings =
+        warnings_of(fmt::format("controller: {{delay: {:.17g}}}\n", delay));
+    if (delay >= 0.01) {
+      EXPECT_TRUE(warnings.empty()) << delay;
+    } else {
+      EXPECT_TRUE(has_faults(warnings, fmt::format("6:21: controller.delay | {:.6g} s are {:.6g} samples",
+                                                   delay, 2000.0 * delay)));
+    }
+  }
+  EXPECT_TRUE(warnings_of("controller: {delay: 0}\n").empty());
+}
+
 TEST_F(Plausibility, TheSpringYieldsByMoreThanAFewCounts) {
   for (int i = 0; i < rounds; ++i) {
     const double breakaway = log_uniform(1e-3, 10);

@@ -84,7 +84,8 @@ TEST_F(CommandLine, SaysWhatIsWrongWithAnOption) {
   EXPECT_NE(run({"run", "s.yaml", "-o", "a.h5", "--quiet=1"}).err.find("'--quiet' takes no value"),
             std::string::npos);
   EXPECT_NE(run({"run", "s.yaml", "-o"}).err.find("needs a value"), std::string::npos);
-  EXPECT_NE(run({"run", "s.yaml", "--outptu", "a.h5"}).err.find("unknown option '--outptu'"),
+  EXPECT_NE(run({"run", "s.yaml", "--outptu", "a.h5"})
+                .err.find("unknown option '--outptu'; did you mean --output?"),
             std::string::npos);
 }
 

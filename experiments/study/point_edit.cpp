@@ -54,7 +54,8 @@ void PointEdit::scale(std::size_t slot, double factor) {
       assign(slot, drawn_from(value, std::move(after)));
       return;
     }
-    case Value::Kind::profile:  // of friction, which has no unit that depends on the loop
+    case Value::Kind::profile:
+    case Value::Kind::following:  // of friction, which has no unit that depends on the loop
       return;
   }
 }

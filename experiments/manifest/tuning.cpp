@@ -86,7 +86,10 @@ void read_free(const yaml::Field& map, const study::StudyPlan& plan, study::Tuni
       continue;
     }
     if (!is_one_number(plan, slots->first)) {
-      problems.add(entry.place, field.path, fmt::format("{} is swept or drawn at random", entry.key),
+      const bool follows = plan.base[slots->first].kind == study::Value::Kind::following;
+      problems.add(entry.place, field.path,
+                   fmt::format("{} {}", entry.key,
+                               follows ? "follows from measured values" : "is swept or drawn at random"),
                    "a parameter with one value, from which tuning starts");
       continue;
     }

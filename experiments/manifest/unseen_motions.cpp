@@ -113,13 +113,26 @@ std::vector<UnseenMotion> unseen_motions(const Motions& motions, std::size_t poi
   return unseen;
 }
 
+/// The number of design points at which the slots have different values.
+std::int64_t different_points(const study::StudyPlan& plan, std::span<const std::size_t> slots) {
+  std::int64_t points = 0;
+  study::visit_points(plan, slots, [&points](std::size_t) { return ++points > 0; });
+  return points;
+}
+
 /// The trials of each point that are looked at, so that all points together take seconds at most.
-std::int64_t trials_to_try(const study::StudyPlan& plan, std::span<const std::size_t> slots) {
+std::int64_t trials_to_try(std::int64_t points) {
   constexpr std::int64_t max_in_all = 200'000;
   constexpr std::int64_t max_of_point = 10'000;
-  std::int64_t points = 0;
-  study::visit_points(plan, slots, [&points](std::size_t) { return ++points < max_in_all; });
-  return std::min(max_of_point, max_in_all / points);
+  return std::clamp<std::int64_t>(max_in_all / points, 1, max_of_point);
+}
+
+/// The point, and how many others have the same motions and encoders.
+std::string point_text(const study::Study& study, std::size_t point, std::int64_t different) {
+  if (different == 1) return "";
+  const std::int64_t others = study::point_count(study) / different - 1;
+  return fmt::format(" at point {} ({}){}", point, study.point_labels[point],
+                     others > 0 ? fmt::format(" and {} others", others) : "");
 }
 
 bool is_drawn(const study::StudyPlan& plan, std::span<const std::size_t> slots, std::size_t point) {
@@ -136,7 +149,8 @@ void check_unseen_motions(const study::Study& study, const PlanPlaces& places, R
   if (plan.open_loop) return;
   const Motions motions(study, plan);
   const std::vector<std::size_t> slots = motions.slots();
-  const std::int64_t max_trials = std::min(trials_to_try(plan, slots), study.trials);
+  const std::int64_t different = different_points(plan, slots);
+  const std::int64_t max_trials = std::min(trials_to_try(different), study.trials);
   const bool is_recorded = reading.version != parameters::newest_version;
   std::size_t reported = 0;
   study::visit_points(plan, slots, [&](std::size_t point) {
@@ -147,11 +161,8 @@ void check_unseen_motions(const study::Study& study, const PlanPlaces& places, R
           count == trials ? ""
                           : fmt::format(" in {:.3g} % of the trials",
                                         1e2 * static_cast<double>(count) / static_cast<double>(trials));
-      const std::string at = study.point_labels.size() == 1
-                                 ? ""
-                                 : fmt::format(" at point {} ({})", point, study.point_labels[point]);
-      const std::string what =
-          fmt::format("{}{}{}: the encoder does not see this motion", motion.unseen, proportion, at);
+      const std::string what = fmt::format("{}{}{}: the encoder does not see this motion", motion.unseen,
+                                           proportion, point_text(study, point, different));
       const yaml::Place place = place_of_fault(places, plan, motions.involved(motion), point).place;
       const std::string_view path = plan.table.rows[motion.slot].name;
       constexpr const char* expected = "motions of a count or more, or a finer encoder";

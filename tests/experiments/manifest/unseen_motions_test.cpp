@@ -61,6 +61,16 @@ TEST(UnseenMotions, NameTheDesignPointAndTheTarget) {
       std::string::npos)
       << message;
   EXPECT_NE(message.find("command.targets.1: the target -0.0001 rad"), std::string::npos) << message;
+  const std::string shared = refusal_of(
+      commanded("{units: si, targets: [1.0e-4]}",
+                "sweep: {grid: {controller.ki: [1.0e-5, 2.0e-5, 3.0e-5], encoder.fine: [1620000, 3600]}}\n"));
+  EXPECT_NE(shared.find("at point 1 (controller.ki=1e-05, encoder.fine=3600) and 2 others"),
+            std::string::npos)
+      << shared;
+  const std::string all =
+      refusal_of(commanded("{units: si, targets: [1.0e-4]}",
+                           "encoder: {fine: 3600}\nsweep: {grid: {controller.ki: [1.0e-5, 2.0e-5]}}\n"));
+  EXPECT_EQ(all.find("at point"), std::string::npos) << all;
 }
 
 TEST(UnseenMotions, AreErrorsWithProfilesSinesAndSequencesToo) {

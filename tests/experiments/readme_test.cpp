@@ -84,9 +84,8 @@ TEST(ManifestPages, TheirManifestsAreUnderstoodWithoutWarnings) {
     if (block.language != "yaml" || starts_with(block.text, "# bad.yaml")) continue;
     const bool is_whole = starts_with(block.text, "zerocount:");
     ++(is_whole ? whole : parts);
-    EXPECT_NO_THROW(
-        EXPECT_EQ(study_in_pages(is_whole ? block.text : completed(block.text)).warnings,
-                  std::vector<std::string>{}))
+    EXPECT_NO_THROW(EXPECT_EQ(study_in_pages(is_whole ? block.text : completed(block.text)).warnings,
+                              std::vector<std::string>{}))
         << block.text;
   }
   EXPECT_EQ(whole, 1);

@@ -88,9 +88,8 @@ TEST(ParameterTable, EachRowWritesItsOwnFieldAndNoOther) {
 
 TEST(ParameterTable, OnlyNumbersOfFrictionMayVaryAlongTheRotorAndGoToTheSameField) {
   for (const Parameter& parameter : parameter_table()) {
-    const bool friction =
-        parameter.name.rfind("friction.", 0) == 0 && !has_labels(parameter) && has_value(parameter) &&
-                          !is_measured(parameter.name);
+    const bool friction = parameter.name.rfind("friction.", 0) == 0 && !has_labels(parameter) &&
+                          has_value(parameter) && !is_measured(parameter.name);
     ASSERT_EQ(parameter.profiled != nullptr, friction) << parameter.name;
     if (!friction) continue;
     trial::TrialParameters changed;

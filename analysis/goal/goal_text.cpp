@@ -72,8 +72,9 @@ std::string needs_sentence(const study::Goal& goal, const Needs& needs, bool on_
         on_rigs ? " on 10⁵ rigs" : "");
   }
   if (needs.rigs == 0) return fmt::format("About {} trials are expected to decide it", needs.trials);
-  return fmt::format("About {} rigs with {} trials each are expected to decide it{}", needs.rigs,
-                     needs.trials / needs.rigs, goal.machines ? "" : ", if machines differ as these do");
+  const std::int64_t each = needs.trials / needs.rigs;
+  return fmt::format("About {} rigs with {} trial{} each are expected to decide it{}", needs.rigs, each,
+                     each == 1 ? "" : "s", goal.machines ? "" : ", if machines differ as these do");
 }
 
 }  // namespace zerocount::goal

@@ -327,7 +327,7 @@ std::string effort_text(const TuneAnswer& answer) {
                   spent_text(answer));
   if (answer.left_out.empty()) return text;
   return text + fmt::format("not found out, because the budget is not enough: {}\n",
-                            fmt::join(answer.left_out, ", "));
+                            fmt::join(answer.left_out, "; "));
 }
 
 /// The time after which the wanted proportion of moves are within the band for good.

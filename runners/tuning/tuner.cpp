@@ -115,10 +115,11 @@ class Tuner {
   }
 
  private:
-  /// A little of the time is kept back for the start and the end of the program.
+  /// A little of the time is kept back for the start and the end of the program, and for the page.
   Effort whole_effort(const TuneBudget& budget, const std::stop_token& stop) const {
     if (!budget.seconds) return Effort(stop).share(budget.trials, {});
-    return Effort(stop).share({}, 0.97 * *budget.seconds - 0.05 - journal_.seconds());
+    const double page = settings_.maps ? std::min(0.8, 0.2 * *budget.seconds) : 0.0;
+    return Effort(stop).share({}, 0.97 * *budget.seconds - 0.05 - page - journal_.seconds());
   }
 
   /// Seconds, those of interrupted runs included.
@@ -179,15 +180,16 @@ class Tuner {
 
   Failure out_of_time(const std::string& what) {
     journal_.remove();
+    const double seconds = settings_.budget.seconds.value_or(0.0);
     return {ExitCode::inconclusive, fmt::format("option '--budget': {:.3g} s are not enough: the time {}; "
-                                                "expected more",
-                                                settings_.budget.seconds.value_or(0.0), what)};
+                                                "expected about {:.3g} s",
+                                                seconds, what, 2.0 * seconds)};
   }
 
   /// Limit of the trials of a proof; with a time as budget those of a part of what is left at the speed of
   /// the search, because the proof writes a file too.
   std::int64_t most_proof_trials() const {
-    constexpr double part = 0.7;
+    constexpr double part = 0.5;
     const std::int64_t most = std::max<std::int64_t>(max_proof_moves / study_.moves, 1);
     return std::min(most, affordable_trials(effort_, part * speed_));
   }
@@ -325,7 +327,7 @@ class Tuner {
     const auto all = std::ssize(controls);
     for (std::int64_t i = 0; i < all; ++i) {
       const OtherControl& control = controls[static_cast<std::size_t>(i)];
-      find_part(fmt::format("the control {}", control.name),
+      find_part(fmt::format("other control ({})", control.name),
                 [&] { add_alternative(control, one_of_shares(all - i), tuned); });
     }
   }

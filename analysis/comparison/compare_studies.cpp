@@ -79,7 +79,7 @@ void require_independent_trials(const reading::StudyFile& file, const ManifestVa
 }
 
 std::int64_t whole_value(const ManifestValues& values, const std::string& key) {
-  return std::stoll(value_or(values, key, "0"));
+  return std::stoll(manifest::value_or(values, key, "0"));
 }
 
 /// The number of rigs that the trials of a study run on, 0 without. Where two studies have different worlds,
@@ -92,8 +92,8 @@ std::int64_t rigs_of(const ManifestValues& values, bool other_worlds) {
 /// Whether studies have worlds, and not the same ones.
 bool have_other_worlds(const reading::StudyFile& baseline, const ManifestValues& old_values,
                        const reading::StudyFile& current, const ManifestValues& new_values) {
-  const std::string before = value_or(old_values, "worlds", "0");
-  const std::string after = value_or(new_values, "worlds", "0");
+  const std::string before = manifest::value_or(old_values, "worlds", "0");
+  const std::string after = manifest::value_or(new_values, "worlds", "0");
   return before != after || (after != "0" && baseline.header().seed != current.header().seed);
 }
 
@@ -275,7 +275,8 @@ ComparedData compared_data(const reading::StudyFile& baseline, const ManifestVal
   ComparedData data{baseline, current, std::move(points), rigs_of(old_values, other),
                     rigs_of(new_values, other)};
   data.other_worlds = other;
-  data.in_worlds = value_or(new_values, "worlds", "0") != "0" || value_or(old_values, "worlds", "0") != "0";
+  data.in_worlds = manifest::value_or(new_values, "worlds", "0") != "0" ||
+                   manifest::value_or(old_values, "worlds", "0") != "0";
   data.baseline_trials = compared_trials(rules, baseline, data.baseline_rigs);
   data.current_trials = compared_trials(rules, current, data.current_rigs);
   const std::optional<study::Goal> old_goal = goal_of(baseline, old_values);
@@ -516,18 +517,19 @@ void pair_trials(StudyComparison& result, const DrawComparison& draws) {
 
 /// The draws of two points of one file.
 DrawComparison compare_draws_within(const ComparedData& data, const ManifestValues& values) {
-  if (value_or(values, "independent_points", "false") == "true")
+  if (manifest::value_or(values, "independent_points", "false") == "true")
     return {false, "the points have random numbers of their own", {}};
   return compare_draws_of(data, values, values);
 }
 
 /// The swept keys in which the two points differ.
-std::vector<ManifestDifference> axis_differences(const reading::StudyFile& file, const MatchedPoint& point) {
-  std::vector<ManifestDifference> differences;
+std::vector<manifest::ManifestDifference> axis_differences(const reading::StudyFile& file,
+                                                           const MatchedPoint& point) {
+  std::vector<manifest::ManifestDifference> differences;
   const std::vector<study::SweepAxis> axes = file.axes();
   for (const study::SweepAxis& axis : axes) {
-    ManifestDifference difference{axis.name, axis_value(axes, axis.name, point.baseline),
-                                  axis_value(axes, axis.name, point.current)};
+    manifest::ManifestDifference difference{axis.name, axis_value(axes, axis.name, point.baseline),
+                                            axis_value(axes, axis.name, point.current)};
     if (difference.baseline != difference.current) differences.push_back(std::move(difference));
   }
   return differences;
@@ -546,7 +548,7 @@ StudyComparison compare_studies(const reading::StudyFile& baseline, const readin
       compared_data(baseline, old_values, current, new_values, std::move(points), rules);
 
   StudyComparison result = begin(baseline, current, rules);
-  result.manifest_differences = manifest_differences(old_values, new_values);
+  result.manifest_differences = manifest::manifest_differences(old_values, new_values);
   find_layer(result, baseline, current);
   if (result.layer != ComparisonLayer::bits) {
     require_independent_trials(baseline, old_values);

@@ -12,6 +12,7 @@
 #include "analysis/measures/undecided_moves.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/unknown.hpp"
+#include "experiments/manifest/manifest_values.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/study_file.hpp"
 
@@ -126,13 +127,6 @@ struct PointComparison {
   std::optional<GoalStatuses> goal;  ///< where the points are judged by one
 };
 
-/// A key that is in one manifest only, or has different values.
-struct ManifestDifference {
-  std::string key;       ///< dotted path
-  std::string baseline;  ///< YAML on one line; empty where the key is missing
-  std::string current;
-};
-
 struct ComparedFile {
   std::string path;
   layout::FileHeader header{};
@@ -147,7 +141,7 @@ struct StudyComparison {
   std::string layer_reason;  ///< why this layer, one line
   bool equal_to_the_bit{false};
   std::string first_difference;  ///< first dataset that differs, with the place; empty if not searched for
-  std::vector<ManifestDifference> manifest_differences;
+  std::vector<manifest::ManifestDifference> manifest_differences;
   std::vector<std::string> changed_inputs;  ///< drawn parameters whose values differ on the same draws
   double confidence{0.95};                  ///< of each bound
   double false_discovery_rate{0.05};

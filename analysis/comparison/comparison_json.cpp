@@ -131,7 +131,7 @@ std::string comparison_json(const StudyComparison& comparison) {
       {"max_trials_to_decide", comparison.max_trials_to_decide},
       {"notes", comparison.notes},
       {"points", Json::array()}};
-  for (const ManifestDifference& one : comparison.manifest_differences) {
+  for (const manifest::ManifestDifference& one : comparison.manifest_differences) {
     json["manifest_differences"].push_back(
         {{"key", one.key}, {"baseline", one.baseline}, {"current", one.current}});
   }

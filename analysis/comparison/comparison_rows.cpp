@@ -141,7 +141,7 @@ std::vector<std::pair<std::string, std::string>> comparison_facts(const StudyCom
   facts.emplace_back("compared", fmt::format("{}: {}", to_string(comparison.layer), comparison.layer_reason));
   if (!comparison.first_difference.empty())
     facts.emplace_back("first difference", comparison.first_difference);
-  for (const ManifestDifference& difference : comparison.manifest_differences) {
+  for (const manifest::ManifestDifference& difference : comparison.manifest_differences) {
     const auto shown = [](const std::string& value) {
       return value.empty() ? std::string("(absent)") : text::printable(value);
     };

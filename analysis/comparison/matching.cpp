@@ -152,7 +152,7 @@ DrawComparison compare_draws(const reading::StudyFile& baseline, const reading::
                                     {"independent_points", "false"},
                                     {"worlds", "0"},
                                     {"rigs", "0"}}) {
-    if (value_or(old_values, key, absent) != value_or(new_values, key, absent)) {
+    if (manifest::value_or(old_values, key, absent) != manifest::value_or(new_values, key, absent)) {
       return {false, fmt::format("the manifests differ in {}", key), {}};
     }
   }

@@ -94,6 +94,7 @@ std::string series_sha256(const reading::StudyFile& file) {
   const layout::FileHeader& header = file.header();
   comparison::ManifestValues values = comparison::manifest_values(header, file.path().string());
   for (const char* const key : {"description", "trials"}) values.erase(key);
+  std::erase_if(values, [](const auto& entry) { return entry.first.ends_with(manifest::order_of_keys); });
   if (!drawn_per_study(values, layout::recorded_study(header, file.path()))) values.erase("seed");
   for (const parameters::EarlierDefault& earlier : parameters::earlier_defaults()) {
     const parameters::Parameter& parameter =

@@ -78,7 +78,7 @@ std::string requirements_table(const comparison::StudyComparison& comparison) {
 std::string differences_table(const comparison::StudyComparison& comparison) {
   if (comparison.manifest_differences.empty()) return "<p>The manifests are the same.</p>\n";
   std::vector<HtmlColumn> columns{{"key", "", true, {}}, {"baseline", "", true, {}}, {"now", "", true, {}}};
-  for (const comparison::ManifestDifference& difference : comparison.manifest_differences) {
+  for (const manifest::ManifestDifference& difference : comparison.manifest_differences) {
     add_row(columns, {difference.key, difference.baseline.empty() ? "–" : difference.baseline,
                       difference.current.empty() ? "–" : difference.current});
   }

@@ -9,6 +9,7 @@
 #include "core/failure/failure.hpp"
 #include "core/hash/sha256.hpp"
 #include "experiments/manifest/manifest.hpp"
+#include "experiments/manifest/manifest_values.hpp"
 #include "experiments/manifest/overrides.hpp"
 #include "experiments/manifest/samples.hpp"
 #include "experiments/manifest/spectrum_file.hpp"
@@ -24,14 +25,9 @@ namespace {
                             yaml::max_manifest_size));
 }
 
-// All that determines the trials as one text, without a separator in its parts.
-std::string joined(const std::string& text, const std::vector<std::string>& overrides,
-                   const study::Study& study) {
-  std::string all = text;
-  for (const std::string& override_text : overrides) {
-    all += '\0';
-    all += override_text;
-  }
+// All that determines the trials as one text. Comments and the notation of values are not part of it.
+std::string joined(const yaml::YamlNode& root, const study::Study& study) {
+  std::string all = identity_text(values_of(root));
   if (study.plugin) all += '\0' + study.plugin->description.sha256;
   if (study.samples) all += '\0' + hash::sha256_hex(study.samples->text);
   return all;
@@ -93,13 +89,14 @@ study::Study parse_study(std::string text, std::string_view source,
     root = apply_overrides(root, spectra, override_sources, problems);
     overrides.insert(overrides.end(), spectra.begin(), spectra.end());
   }
+  const yaml::YamlPointer written = root;
   std::optional<SamplesTable> samples;
   insert_samples(root, companions.samples, samples, problems);
   study::Study study = read_manifest(*root, version, companions, samples ? &*samples : nullptr, problems);
   problems.raise_if_any();
 
   study.manifest_sha256 = hash::sha256_hex(text);
-  study.study_sha256 = hash::sha256_hex(joined(text, overrides, study));
+  study.study_sha256 = hash::sha256_hex(joined(*written, study));
   study.manifest_text = std::move(text);
   study.overrides = std::move(overrides);
   return study;

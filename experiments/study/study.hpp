@@ -186,7 +186,7 @@ struct Study {
   std::vector<std::string> overrides;  ///< "key=value", as given with --set, in order
   /// The user's controller, which runs the trials if it is loaded; null: there is none.
   std::shared_ptr<const plugin::ControllerPlugin> plugin;
-  /// Hash of manifest_text, overrides, plugin and samples: equal hashes mean the same trials.
+  /// Hash of the values of manifest and overrides, of plugin and samples: equal hashes mean the same trials.
   std::string study_sha256;
 
   std::vector<std::string> point_labels;  ///< [point]

@@ -14,6 +14,7 @@
 #include "core/text/utf8.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/manifest/manifest_keys.hpp"
+#include "experiments/manifest/manifest_values.hpp"
 #include "results/hdf5/foreign_file.hpp"
 #include "results/layout/plugin_record.hpp"
 #include "results/layout/point_sums.hpp"
@@ -329,13 +330,20 @@ void require_same_plugin(const std::filesystem::path& path, const FileHeader& he
       path, fmt::format("its trials were run with {}, and this is {}: they are not mixed", there, here));
 }
 
+std::string differences_from(const std::filesystem::path& path, const FileHeader& header,
+                             const study::Study& study) {
+  return manifest::differences_text(manifest::manifest_differences(
+      manifest::values_of(header.manifest, path.string() + ":/manifest", header.overrides),
+      manifest::values_of(study.manifest_text, study.name, study.overrides)));
+}
+
 void require_same_study(const std::filesystem::path& path, const FileHeader& header,
                         const study::Study& study) {
-  if (header.manifest_sha256 == study.manifest_sha256 && header.overrides == study.overrides)
-    require_same_plugin(path, header, study.plugin.get());
   if (header.study_sha256 != study.study_sha256) {
-    throw ForeignFile(path, fmt::format("of another study: '{}' with other contents or overrides, not '{}'",
-                                        header.name, study.name));
+    const std::string differences = differences_from(path, header, study);
+    if (differences.empty()) require_same_plugin(path, header, study.plugin.get());
+    throw ForeignFile(
+        path, "of another study: " + (differences.empty() ? "its table of samples is another" : differences));
   }
   if (header.trials != study.trials || header.points != study::point_count(study)) {
     throw ForeignFile(

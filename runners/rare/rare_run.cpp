@@ -27,9 +27,10 @@ using Clock = std::chrono::steady_clock;
 constexpr double seconds_between_writes = 60.0;
 
 /// In what the file's question differs from this one; empty if it does not.
-std::string_view difference(const RareRecord& record, const Question& question) {
+std::string difference(const fs::path& file, const RareRecord& record, const Question& question) {
   if (record.header.study_sha256 != question.study.study_sha256)
-    return "its manifest, or the values of --set, are others";
+    return fmt::format("its study is another: {}",
+                       layout::differences_from(file, record.header, question.study));
   if (record.point != question.point) return "it is of another design point";
   if (record.world != question.world) return "it is of another world";
   if (record.event != question.event.text) return "it is of another event";
@@ -42,10 +43,10 @@ std::string_view difference(const RareRecord& record, const Question& question) 
 std::optional<RareRecord> earlier_record(const Question& question, const RareSettings& settings) {
   std::error_code error;
   if (!fs::exists(settings.output, error) || settings.force) return std::nullopt;
-  std::string_view problem = "it is no estimate of 'zerocount rare'";
+  std::string problem = "it is no estimate of 'zerocount rare'";
   if (is_rare_file(settings.output)) {
     RareRecord record = read_rare_file(settings.output);
-    problem = difference(record, question);
+    problem = difference(settings.output, record, question);
     if (problem.empty()) return record;
   }
   throw Failure(ExitCode::bad_input,

@@ -1,47 +1,19 @@
 #include "runners/study_run/earlier_shards.hpp"
 
 #include <cstdint>
-#include <optional>
-#include <string>
 #include <system_error>
 
 #include <fmt/format.h>
 
 #include "analysis/summary/summed_point.hpp"
 #include "core/failure/failure.hpp"
-#include "results/layout/header.hpp"
 #include "results/reading/results_file.hpp"
 #include "runners/status/status.hpp"
-#include "runners/study_run/study_differences.hpp"
 
 namespace zerocount::study_run {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The differences to the shard's study if its header is readable; otherwise the problem itself.
-std::string why_foreign(const shards::ShardProblem& bad, const study::Study& study) {
-  try {
-    const layout::FileHeader header = shards::inspect_header(bad.path);
-    const std::vector<comparison::ManifestDifference> differences =
-        study_differences(bad.path, header, study);
-    return differences.empty() ? bad.problem : differences_text(differences);
-  } catch (const Failure&) {
-    return bad.problem;
-  }
-}
-
-/// @throws ForeignFile for a shard of this study that was run with another controller.
-void require_same_plugin(const fs::path& shard, const study::Study& study) {
-  std::optional<layout::FileHeader> header;
-  try {
-    header = shards::inspect_header(shard);
-  } catch (const Failure&) {
-    return;  // another format
-  }
-  if (study_differences(shard, *header, study).empty())
-    layout::require_same_plugin(shard, *header, study.plugin.get());
-}
 
 /// Checks the values of the trials and the sums.
 void check_contents(const reading::ResultsFile& shard, const study::Study& study) {
@@ -75,12 +47,11 @@ EarlierShards earlier_shards(const fs::path& directory, const study::Study& stud
       continue;
     }
     if (bad.kind == shards::ShardProblem::Kind::foreign) {
-      require_same_plugin(bad.path, study);
       throw Failure(
           ExitCode::bad_input,
           fmt::format("{}: holds trials of another run, which this one must not touch ({}); finish that run "
                       "first, give another name with -o, or remove it with --force",
-                      directory.string(), why_foreign(bad, study)));
+                      directory.string(), bad.problem));
     }
     fs::path aside = bad.path;
     aside += damaged_extension;

@@ -59,7 +59,7 @@ ExistingUse use_of_existing(const fs::path& output, const study::Study& study, l
   std::error_code error;
   if (!fs::exists(fs::symlink_status(output, error))) return ExistingUse::none;
   const layout::FileHeader header = header_of(output);
-  const std::vector<comparison::ManifestDifference> differences = study_differences(output, header, study);
+  const std::vector<manifest::ManifestDifference> differences = study_differences(output, header, study);
   if (differences.empty()) layout::require_same_plugin(output, header, study.plugin.get());
   if (header.engine != study.engine) {
     refuse(output, fmt::format("holds the results of the {} engine, and this run is for the {} engine",
@@ -72,7 +72,7 @@ ExistingUse use_of_existing(const fs::path& output, const study::Study& study, l
     return ExistingUse::extend;
   }
   if (!differences.empty())
-    refuse(output, "holds the results of another study: " + differences_text(differences));
+    refuse(output, "holds the results of another study: " + manifest::differences_text(differences));
   if (!study.stop && !(header.rows == wanted)) {
     refuse(output, fmt::format("holds trials {} to {} of this study, and this run is for {} to {}",
                                header.rows.first, header.rows.end() - 1, wanted.first, wanted.end() - 1));

@@ -10,16 +10,22 @@
 namespace zerocount::study_run {
 namespace {
 
-/// SIGINT and SIGTERM, without signals that the process inherited as ignored.
+/// The signals that end a run, without those that the process inherited as ignored, as SIGHUP with nohup.
 sigset_t watched_signals() {
   sigset_t signals;
   sigemptyset(&signals);
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1}) {
     struct sigaction present {};
     sigaction(signal, nullptr, &present);
     if (present.sa_handler != SIG_IGN) sigaddset(&signals, signal);
   }
   return signals;
+}
+
+/// Whether somebody who sends the signal again wants the end at once. The system repeats SIGXCPU every
+/// second, and sends SIGHUP beside SIGTERM.
+bool is_of_user(int signal) {
+  return signal == SIGINT || signal == SIGTERM;
 }
 
 }  // namespace
@@ -29,10 +35,14 @@ InterruptionWatch::InterruptionWatch() {
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   watcher_ = std::jthread([this, signals](const std::stop_token& done) {
     const timespec patience{0, 50'000'000};  // ns
+    bool asked = false;
     while (!done.stop_requested()) {
-      if (sigtimedwait(&signals, nullptr, &patience) < 0) continue;
-      if (interrupted_.stop_requested()) _exit(static_cast<int>(ExitCode::interrupted));
+      const int signal = sigtimedwait(&signals, nullptr, &patience);
+      if (signal < 0) continue;
       interrupted_.request_stop();
+      if (!is_of_user(signal)) continue;
+      if (asked) _exit(static_cast<int>(ExitCode::interrupted));
+      asked = true;
     }
   });
 }

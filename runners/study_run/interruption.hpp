@@ -5,11 +5,11 @@
 
 namespace zerocount::study_run {
 
-/// Turns SIGINT and SIGTERM into a request to stop during its lifetime. A second signal ends the process at
-/// once, with the exit code of an interruption.
+/// Turns SIGINT, SIGTERM, SIGHUP (the terminal has closed), SIGXCPU (the limit of processor time) and SIGUSR1
+/// (the warning of a batch system) into a request to stop during its lifetime. A second SIGINT or SIGTERM
+/// ends the process at once, with the exit code of an interruption.
 ///
-/// Construct it before other threads are started, because
-/// threads inherit the set of blocked signals.
+/// Construct it before other threads are started, because threads inherit the set of blocked signals.
 class InterruptionWatch {
  public:
   InterruptionWatch();

@@ -1,6 +1,7 @@
 #include "results/storage/durable_file.hpp"
 
 #include <cerrno>
+#include <optional>
 #include <system_error>
 
 #include <fcntl.h>
@@ -19,12 +20,43 @@ fs::path directory_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
+/// The file system has no fsync for directories: nothing more can be done there.
+bool has_no_fsync(int error) {
+  return error == EINVAL || error == EOPNOTSUPP || error == ENOSYS;
+}
+
 /// Flushes the directory entry `path` to the disk.
 void synchronise_name(const fs::path& path) {
   const FileDescriptor directory(::open(directory_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  // EINVAL: the file system has no fsync for directories. Nothing more can be done there.
-  if (!directory.valid() || (::fsync(directory.get()) != 0 && errno != EINVAL))
+  if (!directory.valid() || (::fsync(directory.get()) != 0 && !has_no_fsync(errno)))
     fail_with(path, "bring its name to the disk", errno);
+}
+
+/// The status of the regular file `path` that is to be replaced; nothing if there is none.
+std::optional<struct stat> file_to_replace(const fs::path& path) {
+  struct stat there {};
+  if (::lstat(path.c_str(), &there) != 0) return std::nullopt;
+  if (!S_ISREG(there.st_mode)) fail_irregular(path);
+  // The administrator may write to any file, but who protected it meant that too.
+  constexpr mode_t writable_by_anyone = S_IWUSR | S_IWGRP | S_IWOTH;
+  if ((there.st_mode & writable_by_anyone) == 0 ||
+      ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0) {
+    throw Failure(
+        ExitCode::machine_failed,
+        fmt::format("{}: cannot be replaced: it is write-protected; make it writable (chmod u+w), or "
+                    "name another output",
+                    path.string()));
+  }
+  return there;
+}
+
+/// Gives the file the owner and group of the one that it replaces, as far as the system allows, and its
+/// permissions.
+void take_permissions(const fs::path& path, const struct stat& replaced) {
+  [[maybe_unused]] const int refused = ::lchown(path.c_str(), replaced.st_uid, replaced.st_gid);
+  constexpr mode_t permissions = S_IRWXU | S_IRWXG | S_IRWXO;
+  if (::chmod(path.c_str(), replaced.st_mode & permissions) != 0)
+    fail_with(path, "give it the permissions of the file that it replaces", errno);
 }
 
 void remove_leftover(const fs::path& path) {
@@ -67,7 +99,12 @@ FileDescriptor create_file(const fs::path& path) {
   return file;
 }
 
+void require_replaceable(const fs::path& path) {
+  file_to_replace(path);
+}
+
 UnfinishedFile::UnfinishedFile(const fs::path& path) : part_(part_of(path)) {
+  require_replaceable(path);
   remove_leftover(part_);
 }
 
@@ -83,9 +120,9 @@ bool is_named(const FileDescriptor& file, const fs::path& path) {
 }
 
 void publish(const fs::path& path) {
-  struct stat there {};
-  if (::lstat(path.c_str(), &there) == 0 && !S_ISREG(there.st_mode)) fail_irregular(path);
+  const std::optional<struct stat> replaced = file_to_replace(path);
   const fs::path part = part_of(path);
+  if (replaced) take_permissions(part, *replaced);
   if (::rename(part.c_str(), path.c_str()) != 0)
     fail_with(part, fmt::format("rename to {}", path.filename().string()), errno);
   synchronise_name(path);

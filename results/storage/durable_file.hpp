@@ -16,11 +16,17 @@ std::filesystem::path part_of(const std::filesystem::path& path);
 /// @throws Failure (machine_failed) with the path and the reason.
 FileDescriptor create_file(const std::filesystem::path& path);
 
+/// For those who write `path` only after long work.
+/// @throws Failure (machine_failed) if publish() would not replace what is there: something other than a
+/// regular file, or a file that is write-protected.
+void require_replaceable(const std::filesystem::path& path);
+
 /// The place of part_of(path), made free as by create_file(). The destructor removes the file there if it
 /// still exists, so that a failed write leaves nothing on the disk.
 class UnfinishedFile {
  public:
-  /// @throws Failure (machine_failed) if something other than a regular file has that name.
+  /// @throws Failure (machine_failed) if something other than a regular file has that name; see also
+  /// require_replaceable().
   explicit UnfinishedFile(const std::filesystem::path& path);
   UnfinishedFile(const UnfinishedFile&) = delete;
   UnfinishedFile& operator=(const UnfinishedFile&) = delete;
@@ -35,8 +41,8 @@ class UnfinishedFile {
 /// True if `path` names the open file itself, not a link to it.
 bool is_named(const FileDescriptor& file, const std::filesystem::path& path);
 
-/// Renames the finished and flushed file part_of(path) to `path` and flushes the directory. Replaces an
-/// existing `path`.
+/// Renames the finished and flushed file part_of(path) to `path` and flushes the directory. An existing file
+/// `path` is replaced, and its permissions are kept; see require_replaceable().
 /// @throws Failure (machine_failed) with the path and the system's reason. If only the flush of the directory
 /// fails, the file has been renamed already.
 void publish(const std::filesystem::path& path);

@@ -16,8 +16,10 @@ constexpr std::size_t buffer_size = std::size_t{1} << 16;
 
 }  // namespace
 
-OutputFile::OutputFile(const std::filesystem::path& path)
-    : path_(path), part_(part_of(path)), file_(create_file(part_)) {}
+OutputFile::OutputFile(const std::filesystem::path& path) : path_(path), part_(part_of(path)) {
+  require_replaceable(path);
+  file_ = create_file(part_);
+}
 
 OutputFile::~OutputFile() {
   if (is_named(file_, part_)) ::unlink(part_.c_str());

@@ -50,10 +50,12 @@ void require_apart(const Arguments& arguments, const fs::path& output, std::span
   }
 }
 
-/// @throws Failure (bad_input) if `output` exists and --force is not given.
+/// @throws Failure: bad_input if `output` exists and --force is not given; machine_failed if it is
+/// write-protected.
 void require_replaceable(const Arguments& arguments, const fs::path& output) {
   std::error_code error;
-  if (arguments.has("force") || !fs::exists(output, error)) return;
+  if (arguments.has("force")) return storage::require_replaceable(output);
+  if (!fs::exists(output, error)) return;
   throw Failure(
       ExitCode::bad_input,
       fmt::format("{}: exists already; give --force to replace it, or name another file", output.string()));

@@ -6,6 +6,7 @@
 
 #include "analysis/parallel/parallel.hpp"
 #include "core/failure/failure.hpp"
+#include "results/storage/durable_file.hpp"
 #include "results/storage/output_lock.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
@@ -111,6 +112,7 @@ ExitCode rare(const command_line::Arguments& arguments) {
   const study_run::InterruptionWatch interruption;
   const storage::OutputLock lock(settings.output);
   print_fallback_lock(lock, settings.output);
+  storage::require_replaceable(settings.output);
   const rare::RareAnswer answer = rare::run_rare(question, settings, interruption.token());
   if (arguments.choice("format") == "json") {
     standard_output::write(rare::json_of(answer, question));

@@ -143,6 +143,7 @@ ExitCode run(const command_line::Arguments& arguments) {
     if (!request.quiet) status::tell("{}: already complete, nothing to run\n", request.output.string());
     return ExitCode::success;
   }
+  storage::require_replaceable(request.output);
   if (!request.study.stop) {
     study_run::run_to_file({request.study, request.output, request.wanted, request.threads, request.quiet,
                             foreign_shards(request), !request.force},

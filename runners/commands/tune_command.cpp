@@ -12,6 +12,7 @@
 #include "experiments/yaml/text_file.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/results_file.hpp"
+#include "results/storage/durable_file.hpp"
 #include "results/storage/output_lock.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
@@ -101,6 +102,7 @@ ExitCode tune(const command_line::Arguments& arguments) {
   plugins::require_no_hidden_state(study);
   const study_run::InterruptionWatch interruption;
   const storage::OutputLock lock(settings.output);
+  storage::require_replaceable(settings.output);
   print_fallback_lock(lock, settings.output);
   bool printed = false;
   settings.proven = [&](const tuning::TuneAnswer& proven) {

@@ -45,6 +45,33 @@ TEST(CreateFile, LeavesEverythingElseAsItIs) {
   EXPECT_FALSE(fs::exists(folder / "nowhere"));
 }
 
+TEST(OutputFile, KeepsThePermissionsOfTheFileThatItReplaces) {
+  const TemporaryFolder folder;
+  const fs::path path = folder / "all.csv";
+  for (const auto mode : {0600, 0640, 0666, 0755}) {
+    folder.write("all.csv", "earlier");
+    fs::permissions(path, fs::perms(mode));
+    storage::replace_file(path, "text");
+    EXPECT_EQ(fs::status(path).permissions(), fs::perms(mode));
+    EXPECT_EQ(folder.read("all.csv"), "text");
+  }
+}
+
+TEST(OutputFile, ReplacesNoFileThatIsWriteProtected) {
+  const TemporaryFolder folder;
+  folder.write("all.csv", "earlier");
+  fs::permissions(folder / "all.csv", fs::perms(0444));
+  const auto refuses = [&](const auto& action) {
+    expect_failure(ExitCode::machine_failed, "all.csv: cannot be replaced: it is write-protected", action);
+  };
+  refuses([&] { storage::require_replaceable(folder / "all.csv"); });
+  refuses([&] { storage::replace_file(folder / "all.csv", "text"); });
+  refuses([&] { storage::UnfinishedFile{folder / "all.csv"}; });
+  refuses([&] { storage::publish(folder / "all.csv"); });
+  EXPECT_EQ(folder.read("all.csv"), "earlier");
+  EXPECT_FALSE(fs::exists(folder / "all.csv.part"));
+}
+
 TEST(OutputFile, ReplacesNoLinkAndNoPipe) {
   const TemporaryFolder folder;
   folder.write("notes", "my notes");

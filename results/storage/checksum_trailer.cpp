@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -20,6 +21,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view trailer_start = "zerocount-seal sha256 ";
+constexpr std::string_view cure =
+    "; if another program opened it to write, 'zerocount verify --reseal' checks its data, and then makes "
+    "the "
+    "checksum again";
 
 /// The checksum trailer of the next `length` bytes of the file. The file position is behind them afterwards.
 std::string trailer_of(const fs::path& path, const FileDescriptor& file, std::size_t length) {
@@ -29,8 +34,8 @@ std::string trailer_of(const fs::path& path, const FileDescriptor& file, std::si
 [[noreturn]] void fail_missing(const fs::path& path) {
   throw Failure(ExitCode::bad_data,
                 fmt::format("{}: the checksum at its end is missing: it was changed since it was written, or "
-                            "damaged, or is not a results file of zerocount",
-                            path.string()));
+                            "damaged, or is not a results file of zerocount{}",
+                            path.string(), cure));
 }
 
 }  // namespace
@@ -67,9 +72,23 @@ void require_valid_checksum(const fs::path& path) {
       throw Failure(
           ExitCode::bad_data,
           fmt::format("{}: changed since it was written, or damaged: the checksum at its end is not that "
-                      "of its contents",
-                      path.string()));
+                      "of its contents{}",
+                      path.string(), cure));
   }
+}
+
+void renew_checksum(const fs::path& path) {
+  const ChecksumState state = check_checksum(path);
+  const UnfinishedFile part(path);
+  std::error_code error;
+  fs::copy_file(path, part.path(), error);
+  if (!error && state != ChecksumState::missing)
+    fs::resize_file(part.path(), fs::file_size(path) - checksum_trailer_length, error);
+  if (error) fail_with(part.path(), "write", error.value());
+  append_checksum(part.path());
+  if (check_checksum(part.path()) != ChecksumState::valid)
+    fail_read_back(part.path(), "the checksum at its end differs");
+  publish(path);
 }
 
 std::string recorded_checksum(const fs::path& path) {

@@ -30,6 +30,10 @@ ChecksumState check_checksum(const std::filesystem::path& path);
 /// be read.
 void require_valid_checksum(const std::filesystem::path& path);
 
+/// Gives the file the checksum trailer of its present contents, in a copy that replaces it.
+/// @throws Failure (machine_failed) with the path and the reason
+void renew_checksum(const std::filesystem::path& path);
+
 /// The SHA-256 that the trailer of a valid file records, 64 hexadecimal digits: it identifies the contents.
 /// @throws Failure as require_valid_checksum, without reading more than the trailer.
 std::string recorded_checksum(const std::filesystem::path& path);

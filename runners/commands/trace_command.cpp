@@ -24,15 +24,17 @@
 #include "runners/rare/rare_file.hpp"
 #include "runners/standard_output/standard_output.hpp"
 #include "runners/status/status.hpp"
-#include "runners/verification/replay.hpp"
+#include "runners/verification/traced_trial.hpp"
 
 namespace zerocount::commands {
 namespace {
 
 constexpr const char* trace_help =
     "Runs one trial again and writes it sample by sample. A trial of a results file is rebuilt\n"
-    "from the manifest in the file. If its inputs, outcome or jerks differ from the recorded\n"
-    "ones, the differences are listed and the exit code is 4.\n"
+    "from the manifest in the file, and run by the engine that ran it too. If its inputs, outcome\n"
+    "or jerks then differ from the recorded ones, the differences are listed and the exit code is 4.\n"
+    "The samples are those of the reference engine. Where a loop amplifies the rounding that\n"
+    "parts the two engines, it is said from when on they differ from the recorded trial.\n"
     "\n"
     "Columns: k, t (s), target, count, coarse_count, error (counts), code, torque (N m),\n"
     "theta (rad), omega (rad/s), xp, xh (rad), depth (reversal points), mode (stick or\n"
@@ -90,6 +92,16 @@ shards::TrialResult write_trace_to(const std::filesystem::path& place, const Tra
   return result;
 }
 
+/// Tells from where on the samples of the reference engine are not those of the recorded trial.
+void tell_parting(const std::string& input, const std::optional<verification::Parting>& parting) {
+  if (!parting) return;
+  status::tell(
+      "warning: {}: the engine of the run reproduces the recorded trial; {}, these samples, of the reference "
+      "engine, "
+      "differ from it: the loop amplifies the rounding that parts the two\n",
+      input, verification::text_of(*parting));
+}
+
 /// Replays a trial of an estimate by 'zerocount rare'.
 ExitCode trace_rare(const command_line::Arguments& arguments, const std::filesystem::path& place, bool json) {
   const std::string& input = arguments.operands()[0];
@@ -110,8 +122,13 @@ ExitCode trace_rare(const command_line::Arguments& arguments, const std::filesys
   const study::StudyTrial drawn_trial = rare::trial_at(question, trial.point);
   const shards::TrialResult replayed =
       write_trace_to(place, {question.study, question.point, index, drawn_trial}, json);
-  const double failed = rare::result_of(question, replayed.outcome.moves).failed;
-  if (failed == trial.failed) return ExitCode::success;
+  const std::vector<study::GivenDraws> draws{rare::draws_at(question, trial.point)};
+  const double failed = rare::run_trials(question, draws, {}).front().failed;
+  if (failed == trial.failed) {
+    if (rare::result_of(question, replayed.outcome.moves).failed != failed)
+      tell_parting(input, verification::parting_of_engines(drawn_trial.parameters));
+    return ExitCode::success;
+  }
   throw Failure(
       ExitCode::bad_data,
       fmt::format("{}: trial {}: the event happens to {} of its moves in the replay, and to {} in the "
@@ -157,7 +174,8 @@ ExitCode trace(const command_line::Arguments& arguments) {
     status::tell("the controller returned a non-finite torque at the last sample, which ends the trial\n");
   if (!file) return ExitCode::success;
 
-  const std::vector<std::string> different = verification::differences_from_record(*file, replayed);
+  const auto [different, parting] = verification::compare_with_record(*file, study, replayed);
+  tell_parting(input, parting);
   if (different.empty()) return ExitCode::success;
   std::string message =
       fmt::format("{}: point {}, trial {}: the replay differs from the recorded trial", input, point, index);

@@ -32,6 +32,9 @@ constexpr const char* verify_help =
     "that keeps failures, also as many of these;\n"
     "shards: the shards of a folder belong to one study, and none of them share a trial;\n"
     "all trials: how many trials no shard of the folder has (not a failure).\n"
+    "A file that another program opened to write, such as h5py with mode 'a', has lost its checksum.\n"
+    "With --reseal everything else is checked, and all trials are run again unless --trials says\n"
+    "how many; if all of it holds, the file gets a new checksum.\n"
     "The exit code is 4 if a check fails, and 5 if a file cannot be read.\n"
     "\n"
     "Examples:\n"
@@ -39,6 +42,7 @@ constexpr const char* verify_help =
     "  zerocount verify gains.h5.shards --format json\n";
 
 constexpr std::int64_t default_trials = 20;
+constexpr std::int64_t max_trials = std::int64_t{1} << 53;
 constexpr std::int64_t default_seed = 1;
 
 std::string line_of(const verification::CheckReport& report, const verification::Check& check) {
@@ -77,7 +81,9 @@ ExitCode code_of(const std::vector<verification::CheckReport>& reports) {
 ExitCode verify(const command_line::Arguments& arguments) {
   const std::string format = arguments.choice("format");
   verification::VerifySettings settings;
-  settings.trials = arguments.whole_number("trials", 0, std::int64_t{1} << 53).value_or(default_trials);
+  settings.reseal = arguments.has("reseal");
+  settings.trials =
+      arguments.whole_number("trials", 0, max_trials).value_or(settings.reseal ? max_trials : default_trials);
   settings.seed = static_cast<std::uint64_t>(
       arguments.whole_number("seed", 0, std::int64_t{1} << 53).value_or(default_seed));
   if (settings.trials == 0 && arguments.has("seed"))
@@ -107,9 +113,11 @@ ExitCode verify(const command_line::Arguments& arguments) {
 Command verify_command() {
   return {{"verify",
            "FILE|FOLDER...",
-           {{"trials", "N", "trials to run again, per file or per folder of shards (default 20)"},
+           {{"trials", "N",
+             "trials to run again, per file or per folder of shards (default 20; all with --reseal)"},
             {"seed", "S", "seed of the choice of these trials (default 1)"},
             {"plugin", "LIBRARY", "the controller plugin of the study"},
+            {"reseal", "", "make a checksum again that does not hold, if everything else does"},
             command_line::format_option({"table", "json"})},
            1,
            100000},

@@ -13,6 +13,9 @@ namespace zerocount::verification {
 /// Checks that the bytes are those that were written: the checksum trailer.
 /// @return the check holds, and the file may be opened
 bool check_bytes(CheckReport& report);
+/// Opens a file whose checksum need not hold.
+/// @param[out] holds whether it does
+bool check_bytes_to_reseal(CheckReport& report, bool& holds);
 
 /// A header, and the study that it describes.
 struct Described {

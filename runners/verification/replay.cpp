@@ -78,6 +78,14 @@ std::vector<layout::TraceRecord> trace_records(const shards::TrialResult& result
 
 }  // namespace
 
+Equality equality_of(const layout::FileHeader& header) {
+  const layout::Provenance here = layout::current_provenance();
+  const layout::Provenance& there = header.provenance;
+  const bool same =
+      layout::same_build(there, here) && there.compiler == here.compiler && there.cpu == here.cpu;
+  return same ? Equality::bits : Equality::rounded;
+}
+
 std::vector<std::string> differences(const std::vector<study::InputColumn>& inputs,
                                      const shards::TrialResult& recorded, const shards::TrialResult& replayed,
                                      const std::vector<layout::RecordField<trial::MoveOutcome>>& measures,
@@ -114,11 +122,11 @@ std::vector<std::string> differences_from_record(const reading::ResultsFile& fil
 }
 
 std::vector<std::string> differences_from_record(const reading::ResultsFile& file,
-                                                 const shards::TrialResult& replayed) {
+                                                 const shards::TrialResult& replayed, Equality equality) {
   if (!file.trials()) return {};
   const std::vector<shards::TrialResult> recorded =
       study_run::read_trials(*file.trials(), {replayed.row, 1}, replayed.row, {});
-  return differences_from_record(file, recorded.empty() ? nullptr : &recorded.front(), replayed);
+  return differences_from_record(file, recorded.empty() ? nullptr : &recorded.front(), replayed, equality);
 }
 
 }  // namespace zerocount::verification

@@ -16,6 +16,9 @@ enum class Equality {
   bits      ///< the same bits; any two NaN are equal
 };
 
+/// To the bit if this program on this machine made the file.
+Equality equality_of(const layout::FileHeader& header);
+
 /// Differences between a replayed trial and its record, one line each: inputs, measures of all moves, jerks.
 /// Whole numbers must be equal.
 /// @param inputs the study's input columns
@@ -33,12 +36,11 @@ std::vector<std::string> differences(
 /// succeed
 std::vector<std::string> differences_from_record(const reading::ResultsFile& file,
                                                  const shards::TrialResult* recorded,
-                                                 const shards::TrialResult& replayed,
-                                                 Equality equality = Equality::rounded);
+                                                 const shards::TrialResult& replayed, Equality equality);
 
 /// Reads the record from the file; sample records are not compared. No differences if the file keeps no
 /// trials.
 std::vector<std::string> differences_from_record(const reading::ResultsFile& file,
-                                                 const shards::TrialResult& replayed);
+                                                 const shards::TrialResult& replayed, Equality equality);
 
 }  // namespace zerocount::verification

@@ -11,6 +11,8 @@
 #include "results/layout/header.hpp"
 #include "results/reading/results_file.hpp"
 #include "results/shards/shard.hpp"
+#include "results/storage/checksum_trailer.hpp"
+#include "results/storage/output_lock.hpp"
 #include "runners/verification/file_checks.hpp"
 #include "runners/verification/rebuilt_file.hpp"
 #include "runners/verification/rerun.hpp"
@@ -26,6 +28,7 @@ namespace fs = std::filesystem;
 struct OpenedFile {
   CheckReport report;
   std::optional<Described> described;  ///< nothing if the file cannot be read
+  bool sealed{true};                   ///< its checksum holds
 };
 
 void require_plugin(const fs::path& path, const study::Study& study, const VerifySettings& settings) {
@@ -39,20 +42,11 @@ void require_plugin(const fs::path& path, const study::Study& study, const Verif
                   path.string(), study.plugin->description.name));
 }
 
-/// Real numbers are compared to the bit if this program on this machine made the file.
-Equality equality_of(const layout::FileHeader& header) {
-  const layout::Provenance here = layout::current_provenance();
-  const layout::Provenance& there = header.provenance;
-  const bool same =
-      layout::same_build(there, here) && there.compiler == here.compiler && there.cpu == here.cpu;
-  return same ? Equality::bits : Equality::rounded;
-}
-
 /// All checks of one file except running its trials again.
 OpenedFile check_stored(const fs::path& path, const VerifySettings& settings) {
   OpenedFile opened{{.path = path, .stop = settings.stop}, {}};
   CheckReport& report = opened.report;
-  if (!check_bytes(report)) return opened;
+  if (!(settings.reseal ? check_bytes_to_reseal(report, opened.sealed) : check_bytes(report))) return opened;
   std::optional<Described> described = check_header(report, settings.plugin);
   if (!described) return opened;
   require_plugin(path, described->study, settings);
@@ -131,11 +125,26 @@ void verify_folder(const fs::path& folder, const VerifySettings& settings,
   check_shard_set(reports.back(), shards, stops);
 }
 
+/// Makes the checksum of the file again, if that was wrong and everything else holds.
+void reseal(OpenedFile& file) {
+  if (file.sealed) return;
+  if (!holds(file.report)) {
+    file.report.checks.push_back({"checksum made again", "not before everything else holds", {}, true});
+    return;
+  }
+  add_check(file.report, "checksum made again", [&](Check& check, ProblemList&) {
+    const storage::OutputLock lock(file.report.path);
+    storage::renew_checksum(file.report.path);
+    check.detail = "SHA-256 " + storage::recorded_checksum(file.report.path);
+  });
+}
+
 void verify_file(const fs::path& path, const VerifySettings& settings, std::vector<CheckReport>& reports) {
   OpenedFile file = check_stored(path, settings);
   if (file.described)
     run_again(file, sample_below(file.described->header.rows.count, settings.trials, settings.seed),
               settings.seed);
+  reseal(file);
   reports.push_back(std::move(file.report));
 }
 
@@ -147,7 +156,11 @@ std::vector<CheckReport> verify(std::span<const fs::path> operands, const Verify
     std::error_code ignored;
     if (!fs::exists(operand, ignored))
       throw Failure(ExitCode::bad_input, fmt::format("{}: no such file", operand.string()));
-    if (fs::is_directory(operand, ignored)) {
+    const bool folder = fs::is_directory(operand, ignored);
+    if (folder && settings.reseal)
+      throw Failure(ExitCode::bad_input,
+                    fmt::format("{}: a directory; --reseal expects results files", operand.string()));
+    if (folder) {
       verify_folder(operand, settings, reports);
     } else if (fs::is_regular_file(operand, ignored)) {
       verify_file(operand, settings, reports);

@@ -16,7 +16,6 @@ namespace {
 using SQLite::Database;
 using SQLite::Statement;
 
-constexpr double wait_seconds = 60.0;
 constexpr std::int64_t application_id = 0x7a636869;  ///< "zchi": tells a history from other SQLite files
 
 constexpr const char* schema_sql = R"(
@@ -247,21 +246,21 @@ std::vector<RunRecord> runs_of(Database& database) {
 
 }  // namespace
 
-Addition add_run(const std::filesystem::path& path, const RunRecord& run) {
+Addition add_run(const std::filesystem::path& path, const RunRecord& run, const Wait& wait) {
   Addition addition{};
-  with_database(path, SQLite::OPEN_CREATE, wait_seconds,
+  with_database(path, SQLite::OPEN_CREATE, wait,
                 [&](Database& database) { addition = add_to(database, run); });
   return addition;
 }
 
-std::vector<RunRecord> read_runs(const std::filesystem::path& path) {
+std::vector<RunRecord> read_runs(const std::filesystem::path& path, const Wait& wait) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) {
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: no such history; 'zerocount history add' makes it", path.string()));
   }
   std::vector<RunRecord> runs;
-  with_database(path, 0, wait_seconds, [&](Database& database) { runs = runs_of(database); });
+  with_database(path, 0, wait, [&](Database& database) { runs = runs_of(database); });
   return runs;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "analysis/history/run_record.hpp"
+#include "analysis/history/wait.hpp"
 
 /// The SQLite file of a history. README.md documents its schema.
 namespace zerocount::history {
@@ -22,10 +23,10 @@ enum class Addition {
 /// while another process writes.
 /// @throws Failure: bad_data where the file is damaged, something else, or of a newer version of the schema;
 /// machine_failed where it cannot be written.
-Addition add_run(const std::filesystem::path& database, const RunRecord& run);
+Addition add_run(const std::filesystem::path& database, const RunRecord& run, const Wait& wait = {});
 
 /// All runs of a history, by the time at which they were made.
 /// @throws Failure: bad_input where there is no such file, otherwise as add_run().
-std::vector<RunRecord> read_runs(const std::filesystem::path& database);
+std::vector<RunRecord> read_runs(const std::filesystem::path& database, const Wait& wait = {});
 
 }  // namespace zerocount::history

@@ -1,7 +1,10 @@
 #include "analysis/history/sqlite_failure.hpp"
 
 #include <cerrno>
+#include <chrono>
 #include <optional>
+#include <thread>
+#include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -53,13 +56,42 @@ int opening_error(const std::filesystem::path& path) {
   }
 }
 
+/// A wait in progress.
+class Patience {
+ public:
+  explicit Patience(const Wait& wait) : wait_(wait) {}
+
+  /// Sleeps for a moment; false where the time is over.
+  bool sleep() {
+    using Clock = std::chrono::steady_clock;
+    if (!start_) start_ = Clock::now();
+    const double waited = std::chrono::duration<double>(Clock::now() - *start_).count();
+    if (waited >= wait_.seconds) return false;
+    if (waited >= wait_.notice && !std::exchange(noticed_, true) && wait_.notify) wait_.notify();
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    return true;
+  }
+
+ private:
+  const Wait& wait_;
+  std::optional<std::chrono::steady_clock::time_point> start_;
+  bool noticed_{false};
+};
+
+/// @return as sqlite3_busy_handler expects: 0 to give up
+int wait_for_other(void* patience, int /*calls*/) {
+  return static_cast<Patience*>(patience)->sleep() ? 1 : 0;
+}
+
 }  // namespace
 
-void with_database(const std::filesystem::path& path, int flags, double wait,
+void with_database(const std::filesystem::path& path, int flags, const Wait& wait,
                    const std::function<void(SQLite::Database&)>& action) {
+  Patience patience(wait);
   std::optional<SQLite::Database> database;
   try {
-    database.emplace(path.string(), SQLite::OPEN_READWRITE | flags, static_cast<int>(1000.0 * wait));
+    database.emplace(path.string(), SQLite::OPEN_READWRITE | flags);
+    sqlite3_busy_handler(database->getHandle(), wait_for_other, &patience);
     action(*database);
   } catch (const SQLite::Exception& error) {
     fail(path, error.getErrorCode(),

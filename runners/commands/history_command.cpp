@@ -45,8 +45,23 @@ std::filesystem::path database_of(const command_line::Arguments& arguments) {
   return arguments.value("database").value_or("history.sqlite");
 }
 
+/// Says that another process holds the database, so that the command does not seem to hang.
+history::Wait patience_with(const std::filesystem::path& database) {
+  history::Wait wait;
+  wait.notify = [database, seconds = wait.seconds] {
+    status::tell("{}: another process is writing it; waiting for at most {:.0f} s\n", database.string(),
+                 seconds);
+  };
+  return wait;
+}
+
 history::SeriesFilter filter_of(const command_line::Arguments& arguments) {
   return {arguments.value("study"), arguments.value("point"), arguments.value("measure")};
+}
+
+history::History history_shown(const command_line::Arguments& arguments) {
+  const std::filesystem::path database = database_of(arguments);
+  return history::history_of(history::read_runs(database, patience_with(database)), filter_of(arguments));
 }
 
 ExitCode add(const command_line::Arguments& arguments) {
@@ -55,7 +70,7 @@ ExitCode add(const command_line::Arguments& arguments) {
   const std::string file = arguments.operands()[1];
   history::RunRecord run = history::record_of(reading::StudyFile(file));
   if (const auto json = arguments.value("compare")) history::add_comparison(run, *json);
-  switch (history::add_run(database, run)) {
+  switch (history::add_run(database, run, patience_with(database))) {
     case history::Addition::added:
       status::tell("{}: added to {}\n", file, database.string());
       break;
@@ -71,8 +86,7 @@ ExitCode add(const command_line::Arguments& arguments) {
 
 ExitCode show(const command_line::Arguments& arguments) {
   const std::string format = arguments.choice("format");
-  const history::History shown =
-      history::history_of(history::read_runs(database_of(arguments)), filter_of(arguments));
+  const history::History shown = history_shown(arguments);
   if (format == "text") standard_output::write_fitted(history::history_text(shown));
   if (format == "json") standard_output::write(history::history_json(shown));
   if (format == "csv") standard_output::write(history::history_csv(shown));
@@ -85,7 +99,7 @@ ExitCode plot_history(const command_line::Arguments& arguments) {
   const std::filesystem::path database = database_of(arguments);
   const DrawingKind kind = drawing_kind(arguments, "output", output);
   command_line::require_places(arguments, {database}, {output});
-  const history::History shown = history::history_of(history::read_runs(database), filter_of(arguments));
+  const history::History shown = history_shown(arguments);
   if (kind != DrawingKind::page && shown.series.size() > 1)
     arguments.refuse(
         fmt::format("a picture shows one series, but {} are selected; choose with --study, --point and "

@@ -155,10 +155,23 @@ TEST_F(HistoryDatabase, DoesNotWaitForEverForAnotherWriter) {
   fails(ExitCode::machine_failed, [&] {
     SQLite::Database other(path(), SQLite::OPEN_READWRITE);
     const SQLite::Transaction holding(other, SQLite::TransactionBehavior::IMMEDIATE);
-    history::with_database(path(), 0, 0.05, [](SQLite::Database& database) {
+    history::with_database(path(), 0, {.seconds = 0.05}, [](SQLite::Database& database) {
       const SQLite::Transaction waiting(database, SQLite::TransactionBehavior::IMMEDIATE);
     });
   });
+}
+
+TEST_F(HistoryDatabase, SaysOnceThatItWaits) {
+  history::add_run(path(), run_of_day(1, 0.5));
+  int said = 0;
+  fails(ExitCode::machine_failed, [&] {
+    SQLite::Database other(path(), SQLite::OPEN_READWRITE);
+    const SQLite::Transaction holding(other, SQLite::TransactionBehavior::EXCLUSIVE);
+    history::read_runs(path(), {.seconds = 0.3, .notice = 0.05, .notify = [&] { ++said; }});
+  });
+  EXPECT_EQ(said, 1);
+  history::read_runs(path(), {.seconds = 0.3, .notice = 0.0, .notify = [&] { ++said; }});
+  EXPECT_EQ(said, 1);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -11,17 +12,15 @@
 #include <unistd.h>
 
 #include "core/failure/failure.hpp"
-#include "core/text/utf8.hpp"
 #include "runners/commands/commands.hpp"
+#include "runners/status/status.hpp"
 
 namespace {
 
 using zerocount::ExitCode;
 
 ExitCode say(ExitCode code, const std::string& message) {
-  // A name in the message may hold what a terminal would obey.
-  const std::string shown = zerocount::text::printable_lines(message);
-  std::fprintf(stderr, "%s%s", shown.c_str(), shown.ends_with('\n') ? "" : "\n");
+  zerocount::status::write_fitted(message.ends_with('\n') ? message : message + "\n");
   return code;
 }
 
@@ -36,6 +35,13 @@ ExitCode end_without_output(int error) {
              "zerocount: standard output cannot be written: " + std::generic_category().message(error));
 }
 
+ExitCode say_no_thread() {
+  return say(
+      ExitCode::machine_failed,
+      "zerocount: no further thread can be started: this user has as many threads and processes as the "
+      "system allows (ulimit -u); end others, or raise the limit");
+}
+
 ExitCode run(const std::vector<std::string>& words) {
   try {
     const ExitCode code = zerocount::commands::run_command_line(words);
@@ -48,10 +54,13 @@ ExitCode run(const std::vector<std::string>& words) {
     return say(failure.code(), failure.what());
   } catch (const std::system_error& error) {
     if (std::ferror(stdout) != 0) return end_without_output(error.code().value());
+    if (error.code() == std::errc::resource_unavailable_try_again) return say_no_thread();
     return say(ExitCode::machine_failed, "zerocount: the system failed: " + error.code().message());
   } catch (const std::bad_alloc&) {
     return say(ExitCode::machine_failed, "zerocount: out of memory");
-  } catch (const std::exception&) {
+  } catch (const std::exception& error) {
+    // So oneTBB reports that a thread cannot start: a std::runtime_error without a code.
+    if (std::string_view(error.what()).starts_with("pthread_create")) return say_no_thread();
     return say(ExitCode::machine_failed,
                "zerocount: an unexpected internal error; this is a fault of the program");
   }

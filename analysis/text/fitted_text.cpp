@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <vector>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "analysis/text/text.hpp"
 #include "core/text/utf8.hpp"
 
@@ -129,9 +132,21 @@ void append_line(std::string& text, std::string line) {
   text += line + "\n";
 }
 
+/// Where a line that is too long continues: below its text if that follows a name and a gap, as in a list of
+/// options, otherwise a little further in.
+std::size_t hanging_indent(std::string_view line, std::size_t indent, std::size_t width) {
+  std::size_t hanging = std::min(indent + gap, width / 2);
+  for (std::size_t at = line.find("  ", indent); at != std::string_view::npos; at = line.find("  ", at)) {
+    at = line.find_first_not_of(' ', at);
+    if (at == std::string_view::npos || display_width(line.substr(0, at)) > width / 2) break;
+    hanging = display_width(line.substr(0, at));
+  }
+  return hanging;
+}
+
 void append_prose(std::string& text, std::string_view line, std::size_t width) {
   const std::size_t indent = std::min(line.find_first_not_of(' '), line.size());
-  const std::size_t later = std::min(indent + gap, width / 2);
+  const std::size_t later = hanging_indent(line, indent, width);
   if (display_width(line) <= width || indent >= width / 2) return append_line(text, std::string(line));
   const std::vector<std::string> lines = wrapped(line.substr(indent), width - indent, width - later, false);
   for (std::size_t i = 0; i < lines.size(); ++i)
@@ -210,6 +225,44 @@ void append_divided(std::string& text, const std::vector<std::string_view>& line
 }
 
 }  // namespace
+
+std::string shortened(std::string_view line, std::size_t width) {
+  constexpr std::string_view comma = ", ";
+  constexpr std::string_view cut = "…";
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t end = std::min(line.find(comma, begin), line.size());
+    parts.push_back(line.substr(begin, end - begin));
+    begin = end + comma.size();
+  }
+  const auto joined = [&] { return fmt::format("{}", fmt::join(parts, comma)); };
+  while (parts.size() > 2 && display_width(joined()) > width) parts.erase(parts.end() - 2);
+  if (parts.size() == 2 && display_width(joined()) > width) parts.pop_back();
+  std::string text = joined();
+  if (display_width(text) <= width) return text;
+  return std::string(fitting_part(text, width - 1)).append(cut);
+}
+
+std::string unwrapped(std::string_view text, std::size_t width) {
+  const auto indent_of = [](std::string_view line) {
+    return std::min(line.find_first_not_of(' '), line.size());
+  };
+  std::string result;
+  std::string_view before;
+  for (const std::string_view line : lines_of(text)) {
+    const std::size_t indent = indent_of(line);
+    const std::size_t word = end_of_word(line, indent) - indent;
+    const bool item = line.substr(indent).starts_with("- ");
+    const bool continues = !before.empty() && !before.ends_with(';') && !line.empty() && !item &&
+                           indent == indent_of(before) && display_width(before) + 1 + word > width;
+    if (continues) result.back() = ' ';
+    result += line.substr(continues ? indent : 0);
+    result += '\n';
+    before = line;
+  }
+  if (!text.empty() && text.back() != '\n') result.pop_back();
+  return result;
+}
 
 std::string fitted(std::string_view text, std::optional<std::size_t> width) {
   if (!width) return std::string(text);

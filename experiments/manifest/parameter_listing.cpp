@@ -137,12 +137,22 @@ Listing guide_parameter_listing() {
   return listing;
 }
 
+/// Characters of UTF-8 text.
+std::size_t width_of(const std::string& text) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      text, [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }));
+}
+
+/// A table with a line below its heads, by which it is known as one where it is fitted to a terminal.
 std::string as_text(const Listing& listing) {
   std::vector<std::size_t> widths(listing.heads.size(), 0);
-  std::vector<Row> lines{listing.heads};
+  std::vector<Row> lines{listing.heads, Row(listing.heads.size())};
   lines.insert(lines.end(), listing.rows.begin(), listing.rows.end());
   for (const Row& line : lines) {
-    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
+    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], width_of(line[i]));
+  }
+  for (std::size_t i = 0; i < widths.size(); ++i) {
+    for (std::size_t k = 0; k < widths[i]; ++k) lines[1][i] += "─";
   }
   std::string text = listing.title + "\n\n";
   for (const Row& line : lines) {

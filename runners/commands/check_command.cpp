@@ -52,17 +52,17 @@ void print_columns(const study::Study& study, std::string_view title,
   for (const study::InputColumn& column : study.input_columns) {
     if (std::find(drawn.begin(), drawn.end(), column.per) != drawn.end()) names += " " + column.name;
   }
-  if (!names.empty()) standard_output::show("  {}:{}\n", title, names);
+  if (!names.empty()) standard_output::print("  {}:{}\n", title, names);
 }
 
 /// Trials that the rule takes against a number fixed beforehand, at three success rates.
 void print_cost_of_stopping(const study::StoppingRule& rule) {
-  standard_output::show(
+  standard_output::print(
       "  its bounds hold at whatever number of trials it ends, which takes more than a fixed number:\n");
   for (const double rate : {0.5, 0.9, 0.99}) {
     const statistics::SequentialCost cost =
         statistics::sequential_cost(rule.success_rate_halfwidth, rule.confidence, rate, rule.block);
-    standard_output::show(
+    standard_output::print(
         "    success rate {}: about {} trials at each point, {:.1f} times the {} of a fixed number{}\n",
         text::percent(rate), cost.sequential, cost.ratio(), cost.fixed,
         cost.sequential > rule.max_trials ? fmt::format("; max_trials ends it before, at {}", rule.max_trials)
@@ -71,64 +71,64 @@ void print_cost_of_stopping(const study::StoppingRule& rule) {
 }
 
 void print_what_differs(const study::Study& study) {
-  if (study.input_columns.empty()) standard_output::show("  differing between trials: nothing\n");
+  if (study.input_columns.empty()) standard_output::print("  differing between trials: nothing\n");
   print_columns(study, "differing between trials", {study::Per::trial, study::Per::contact});
   print_columns(study, "of these, drawn anew at each contact", {study::Per::contact});
   print_columns(study, "differing between rigs", {study::Per::rig});
   print_columns(study, "differing between worlds", {study::Per::world});
   print_columns(study, "the same in all trials of a point", {study::Per::study});
-  if (study.samples) standard_output::show("  sampled together: {}\n", study::samples_text(*study.samples));
+  if (study.samples) standard_output::print("  sampled together: {}\n", study::samples_text(*study.samples));
   if (!study.correlations.empty())
-    standard_output::show("  correlated: {}\n", study::correlations_text(study.correlations));
+    standard_output::print("  correlated: {}\n", study::correlations_text(study.correlations));
 }
 
 void print_plan(const study::Study& study) {
   const study_run::StudyCost cost = study_run::measure_cost(study);
-  standard_output::show("{}: {}\n", study.name,
-                        study.description.empty() ? "(no description)" : study.description);
-  standard_output::show("  {} × {} trials = {} trials, {} each\n",
-                        counted(study::point_count(study), "design point"), study.trials,
-                        study::trial_count(study), counted(study.moves, "move"));
+  standard_output::print("{}: {}\n", study.name,
+                         study.description.empty() ? "(no description)" : study.description);
+  standard_output::print("  {} × {} trials = {} trials, {} each\n",
+                         counted(study::point_count(study), "design point"), study.trials,
+                         study::trial_count(study), counted(study.moves, "move"));
   if (study.rigs > 0) {
-    standard_output::show("  at each point {} rigs × {} trials of each\n", study.rigs,
-                          study.trials / study.rigs);
+    standard_output::print("  at each point {} rigs × {} trials of each\n", study.rigs,
+                           study.trials / study.rigs);
   }
   if (study.worlds > 0) {
-    standard_output::show("  in {} worlds, {} in each\n", study.worlds,
-                          study.rigs > 0 ? counted(study.rigs / study.worlds, "rig")
-                                         : fmt::format("about {} trials", study.trials / study.worlds));
+    standard_output::print("  in {} worlds, {} in each\n", study.worlds,
+                           study.rigs > 0 ? counted(study.rigs / study.worlds, "rig")
+                                          : fmt::format("about {} trials", study.trials / study.worlds));
   }
   if (study.stop) {
-    standard_output::show(
+    standard_output::print(
         "  or fewer: after every {} at each point it ends if all success rates are known to ± {:.4g}\n",
         study.stop->block, study.stop->success_rate_halfwidth);
     print_cost_of_stopping(*study.stop);
     if (study.rigs > 0) {
-      standard_output::show(
+      standard_output::print(
           "  (of these {} rigs; more trials do not show how other rigs differ; see 'zerocount plan "
           "--rig-sd')\n",
           study.rigs);
     }
   }
-  standard_output::show("  {:.4g} samples at {:.0f} ns: about {} on {}\n", cost.samples,
-                        1e9 * cost.seconds_per_sample, study_run::duration_text(cost.seconds()),
-                        counted(cost.cores, "core"));
+  standard_output::print("  {:.4g} samples at {:.0f} ns: about {} on {}\n", cost.samples,
+                         1e9 * cost.seconds_per_sample, study_run::duration_text(cost.seconds()),
+                         counted(cost.cores, "core"));
   const std::string engine = study_run::engine_text(study_run::points_on_reference(study));
-  if (!engine.empty()) standard_output::show("  {}\n", engine);
+  if (!engine.empty()) standard_output::print("  {}\n", engine);
   const study_run::StudySize size = study_run::measure_size(study);
-  standard_output::show("  results file about {}; while it runs up to {} on the disk and {} of memory\n",
-                        study_run::bytes_text(size.file_bytes),
-                        study_run::bytes_text(size.file_bytes + size.shard_bytes),
-                        study_run::bytes_text(size.memory_bytes));
+  standard_output::print("  results file about {}; while it runs up to {} on the disk and {} of memory\n",
+                         study_run::bytes_text(size.file_bytes),
+                         study_run::bytes_text(size.file_bytes + size.shard_bytes),
+                         study_run::bytes_text(size.memory_bytes));
   print_what_differs(study);
 }
 
 void print_theory_heading(const study::Study& study) {
-  standard_output::show(
+  standard_output::print(
       "\nTheory, over the first {} trials of each point, each with the friction it starts on:\n",
       std::min(study.trials, theory::max_trials_examined));
   if (study.trials > theory::max_trials_examined_closely) {
-    standard_output::show(
+    standard_output::print(
         "(sampled loop, time constants and margins over the first {}, and the trials with the lowest and the "
         "highest k1)\n",
         theory::max_trials_examined_closely);
@@ -177,8 +177,8 @@ ExitCode check(const command_line::Arguments& arguments) {
   labels.resize(static_cast<std::size_t>(shown));
   standard_output::write_fitted(theory_text(labels, items));
   if (shown < study::point_count(study)) {
-    standard_output::show("  … and {} more points (--all-points shows them)\n",
-                          study::point_count(study) - shown);
+    standard_output::print("  … and {} more points (--all-points shows them)\n",
+                           study::point_count(study) - shown);
   }
   return ExitCode::success;
 }

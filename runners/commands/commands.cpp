@@ -1,16 +1,20 @@
 #include "runners/commands/commands.hpp"
 
 #include <algorithm>
-#include <cstdio>
+#include <cstddef>
+#include <optional>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include "analysis/text/fitted_text.hpp"
 #include "analysis/theory/loop_plausibility.hpp"
 #include "experiments/yaml/nearest_name.hpp"
 #include "results/layout/header.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/standard_output/standard_output.hpp"
 #include "runners/status/status.hpp"
+#include "runners/terminal/terminal.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -48,8 +52,12 @@ std::string help_of(const Command& command) {
                      command_line::options_help(command.spec), exit_codes_help());
 }
 
+/// Prints a text that was wrapped by hand; on a narrow terminal its paragraphs are wrapped again.
 ExitCode print(const std::string& text) {
-  standard_output::write(text);
+  constexpr std::size_t hand_width = 86;
+  constexpr std::size_t widest_line = 96;
+  const std::optional<std::size_t> width = terminal::width_of(STDOUT_FILENO);
+  standard_output::write_fitted(width && *width < widest_line ? text::unwrapped(text, hand_width) : text);
   return ExitCode::success;
 }
 

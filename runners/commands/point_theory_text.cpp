@@ -173,11 +173,11 @@ std::string holds_text(std::int64_t holding, std::int64_t trials) {
 
 void add_rules(Items& items, const theory::DesignRules& rules) {
   items.push_back(
-      {"DAC resolution", fmt::format("{} {}, below k1·Δx = {} {}{} (paper, issue 4): {}",
-                                     text(rules.dac_resolution), rules.torque_unit, text(rules.dac_bound),
-                                     rules.torque_unit,
-                                     rules.coarse_feedback ? " with the Δx of the coarse encoder" : "",
-                                     holds_text(rules.fine_enough, rules.trials))});
+      {"DAC resolution",
+       fmt::format("{} {}, below k1·Δx = {} {}{} (paper, issue 4): {}", text(rules.dac_resolution),
+                   rules.torque_unit, text(rules.dac_bound), rules.torque_unit,
+                   rules.coarse_feedback ? " with the Δx of the coarse encoder" : "",
+                   holds_text(rules.fine_enough, rules.trials))});
   items.push_back({"natural frequency", text(rules.frequency) + " Hz"});
   items.push_back(
       {"sample rate", fmt::format("{} Hz, at least {:.3g} times the natural frequency (paper: 10): {}",

@@ -26,10 +26,12 @@ ExitCode print_completion(const command_line::Arguments& arguments) {
     arguments.refuse(points ? "points need a manifest or a results file" : "unexpected second operand");
   if (points) {
     for (const std::string& label : point_labels(arguments, arguments.operands()[1]))
-      standard_output::print("{}\n", label);
+      standard_output::write(label + "\n");
     return ExitCode::success;
   }
-  standard_output::write(shell == "bash" ? bash_completion(commands()) : zsh_completion(commands()));
+  standard_output::write(shell == "bash"  ? bash_completion(commands())
+                         : shell == "zsh" ? zsh_completion(commands())
+                                          : fish_completion(commands()));
   return ExitCode::success;
 }
 
@@ -42,12 +44,12 @@ ExitCode print_manual(const command_line::Arguments&) {
 
 Command completion_command() {
   return {{"completion",
-           "bash|zsh|points [FILE]",
+           "bash|zsh|fish|points [FILE]",
            {command_line::of_operands(
                {"points"}, {"set", "KEY=VALUE", "override a key of that manifest; may be repeated", true})},
            1,
            2,
-           {"bash", "zsh", "points"}},
+           {"bash", "zsh", "fish", "points"}},
           "print the completion of commands and options for a shell",
           "Prints a script that completes commands, options, keys of --set, design points, figures\n"
           "and files. 'points FILE' prints the labels of the design points of a manifest or results\n"
@@ -55,7 +57,8 @@ Command completion_command() {
           "\n"
           "Examples:\n"
           "  source <(zerocount completion bash)\n"
-          "  zerocount completion zsh > ~/.zfunc/_zerocount     where ~/.zfunc is in $fpath\n",
+          "  zerocount completion zsh > ~/.zfunc/_zerocount     where ~/.zfunc is in $fpath\n"
+          "  zerocount completion fish > ~/.config/fish/completions/zerocount.fish\n",
           print_completion};
 }
 

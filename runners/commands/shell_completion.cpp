@@ -86,6 +86,21 @@ std::string zsh_action(const OptionSpec& option) {
   return option.words.empty() ? "_files" : fmt::format("({})", fmt::join(option.words, " "));
 }
 
+/// The candidates of fish for the value of this option; empty: files.
+std::string fish_candidates(const OptionSpec& option) {
+  switch (offered_for(option)) {
+    case Offered::key:
+      return "(__zerocount_keys)";
+    case Offered::point:
+      return "(__zerocount_lines completion points)";
+    case Offered::figure:
+      return "(__zerocount_lines plot)";
+    case Offered::other:
+      break;
+  }
+  return fmt::format("{}", fmt::join(option.words, " "));
+}
+
 /// The lines of bash that find what a command takes: its options, the words that the value of an option is
 /// one of, and those of its operand.
 std::string bash_case(const Command& command) {
@@ -127,6 +142,27 @@ std::string zsh_option(const OptionSpec& option) {
   if (const std::string form = short_form(option); !form.empty())
     lines += fmt::format(" \\\n        '{}{}{}[{}]{}'", many, form, value.empty() ? "" : "+", help, value);
   return lines;
+}
+
+/// `text` within single quotes of fish.
+std::string fish_text(std::string_view text) {
+  std::string escaped = "'";
+  for (const char c : text) {
+    if (c == '\'' || c == '\\') escaped += '\\';
+    escaped += c;
+  }
+  return escaped + "'";
+}
+
+/// A line of fish: an option of a command. `-r`: it has a value, `-f`: which is not a file.
+std::string fish_option(const Command& command, const OptionSpec& option) {
+  std::string line = fmt::format("complete -c zerocount -n '__fish_seen_subcommand_from {}' -l {}",
+                                 command.spec.name, long_form(option).substr(2));
+  if (const std::string form = short_form(option); !form.empty()) line += " -s " + form.substr(1);
+  if (!option.value.empty()) line += " -r";
+  if (const std::string candidates = fish_candidates(option); !candidates.empty())
+    line += " -f -a " + fish_text(candidates);
+  return line + " -d " + fish_text(option.help) + "\n";
 }
 
 }  // namespace
@@ -224,6 +260,38 @@ std::string zsh_completion(std::span<const Command> commands) {
       "}}\n"
       "_zerocount \"$@\"\n",
       keys_to_set(), names, cases, words);
+}
+
+std::string fish_completion(std::span<const Command> commands) {
+  std::string lines;
+  std::string names = "help";
+  for (const Command& command : commands) {
+    names += " " + command.spec.name;
+    lines += fmt::format("complete -c zerocount -n __fish_use_subcommand -f -a {} -d {}\n", command.spec.name,
+                         fish_text(command.summary));
+    for (const OptionSpec& option : command.spec.options) lines += fish_option(command, option);
+    if (!command.spec.operand_words.empty())
+      lines += fmt::format("complete -c zerocount -n '__fish_seen_subcommand_from {}' -f -a '{}'\n",
+                           command.spec.name, fmt::join(command.spec.operand_words, " "));
+  }
+  return fmt::format(
+      "# Completion of zerocount for fish: put it into ~/.config/fish/completions as zerocount.fish.\n"
+      "function __zerocount_keys\n"
+      "  string split ' ' -- '{}'\n"
+      "end\n"
+      "# The lines that a command prints for the first file of the command line.\n"
+      "function __zerocount_lines\n"
+      "  for word in (commandline -opc)[3..-1]\n"
+      "    if test -f $word\n"
+      "      zerocount $argv $word 2>/dev/null\n"
+      "      return\n"
+      "    end\n"
+      "  end\n"
+      "end\n"
+      "complete -c zerocount -n __fish_use_subcommand -f -a help -d 'the help of a command'\n"
+      "complete -c zerocount -n '__fish_seen_subcommand_from help' -f -a '{}'\n"
+      "{}",
+      keys_to_set(), names, lines);
 }
 
 }  // namespace zerocount::commands

@@ -13,4 +13,7 @@ std::string bash_completion(std::span<const Command> commands);
 /// The completion for zsh, which also shows the help of each.
 std::string zsh_completion(std::span<const Command> commands);
 
+/// The completion for fish, which shows the help too.
+std::string fish_completion(std::span<const Command> commands);
+
 }  // namespace zerocount::commands

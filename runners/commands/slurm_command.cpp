@@ -293,7 +293,7 @@ ExitCode slurm(const command_line::Arguments& arguments) {
   }
   request.elements = cluster::elements_of(request.job, cluster::missing_parts(output, study, parts));
   for (const Script& script : scripts_of(request))
-    standard_output::print("==> {} <==\n{}\n", script.path.string(), script.text);
+    standard_output::write(fmt::format("==> {} <==\n{}\n", script.path.string(), script.text));
   return ExitCode::success;
 }
 

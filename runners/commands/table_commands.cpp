@@ -11,16 +11,24 @@
 namespace zerocount::commands {
 namespace {
 
+/// @param text a text for people; otherwise Markdown, whose lines are not wrapped
+void print_table(bool text, const std::string& table) {
+  if (text) {
+    standard_output::write_fitted(table);
+  } else {
+    standard_output::write(table);
+  }
+}
+
 ExitCode print_parameters_of_study(const command_line::Arguments& arguments, const std::string& manifest,
                                    bool text) {
   const study::Study study = load_study(manifest, arguments);
-  standard_output::print(
-      "{}", text ? manifest::parameters_as_text(study) : manifest::parameters_as_markdown(study));
+  print_table(text, text ? manifest::parameters_as_text(study) : manifest::parameters_as_markdown(study));
   return ExitCode::success;
 }
 
 ExitCode print_guides(bool text) {
-  standard_output::print("{}", text ? manifest::guides_as_text() : manifest::guides_as_markdown());
+  print_table(text, text ? manifest::guides_as_text() : manifest::guides_as_markdown());
   return ExitCode::success;
 }
 
@@ -32,8 +40,8 @@ ExitCode print_parameters(const command_line::Arguments& arguments) {
   parameters::StudyUnits units;
   if (arguments.choice("axis") == "linear") units.axis = parameters::AxisKind::linear;
   if (arguments.choice("units") == "si") units.gains = parameters::GainUnits::si;
-  standard_output::print(
-      "{}", format == "text" ? manifest::parameters_as_text(units) : manifest::parameters_as_markdown(units));
+  const bool text = format == "text";
+  print_table(text, text ? manifest::parameters_as_text(units) : manifest::parameters_as_markdown(units));
   return ExitCode::success;
 }
 

@@ -1,14 +1,21 @@
 #include "runners/status/status.hpp"
 
+#include <algorithm>
 #include <cstdio>
+#include <optional>
+#include <vector>
 
 #include <unistd.h>
+
+#include "analysis/text/fitted_text.hpp"
+#include "runners/terminal/terminal.hpp"
 
 namespace zerocount::status {
 namespace {
 
 constexpr std::chrono::milliseconds terminal_interval{200};
-constexpr std::chrono::milliseconds log_interval{5000};
+constexpr std::chrono::milliseconds first_log_interval{5000};
+constexpr std::chrono::hours last_log_interval{1};
 constexpr std::string_view clear_line = "\r\x1b[K";
 
 }  // namespace
@@ -19,8 +26,15 @@ void write(std::string_view text) {
   std::fflush(stderr);
 }
 
+void write_fitted(std::string_view text) {
+  write(terminal::fitted_to(STDERR_FILENO, text));
+}
+
 StatusLine::StatusLine(bool quiet)
-    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), last_(Clock::now()) {}
+    : quiet_(quiet),
+      terminal_(terminal::obeys_escapes(STDERR_FILENO)),
+      interval_(terminal_ ? terminal_interval : first_log_interval),
+      last_(Clock::now()) {}
 
 StatusLine::~StatusLine() {
   if (shown_) write(clear_line);
@@ -29,19 +43,23 @@ StatusLine::~StatusLine() {
 void StatusLine::show(const std::function<std::string()>& text) {
   if (quiet_) return;
   const Clock::time_point now = Clock::now();
-  if (now - last_ < (terminal_ ? terminal_interval : log_interval)) return;
+  if (now - last_ < interval_) return;
   last_ = now;
   if (terminal_) {
-    write(std::string(clear_line) + text());
+    // The last column stays free: some terminals go to the next line there.
+    const std::optional<std::size_t> width = terminal::width_of(STDERR_FILENO);
+    write(std::string(clear_line) + (width ? text::shortened(text(), *width - 1) : text()));
     shown_ = true;
   } else {
-    write(text() + "\n");
+    write_fitted(text() + "\n");
+    interval_ = std::min<Clock::duration>(2 * interval_, last_log_interval);
   }
 }
 
 void StatusLine::finish(std::string_view text) {
   if (quiet_) return;
-  write(fmt::format("{}{}\n", terminal_ ? clear_line : "", text));
+  if (shown_) write(clear_line);
+  write_fitted(fmt::format("{}\n", text));
   shown_ = false;
 }
 

@@ -8,22 +8,24 @@
 
 #include <fmt/format.h>
 
-#include "core/text/utf8.hpp"
-
 /// Messages on standard error while the program works. A message that cannot be written stops nothing.
 namespace zerocount::status {
 
 /// Writes `text` as it is.
 void write(std::string_view text);
 
-/// Writes a formatted text, whose control characters are replaced.
+/// Writes sentences for people, as terminal::fitted_to.
+void write_fitted(std::string_view text);
+
+/// Writes a formatted text likewise.
 template <class... Arguments>
 void tell(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-  write(text::printable_lines(fmt::format(format, std::forward<Arguments>(arguments)...)));
+  write_fitted(fmt::format(format, std::forward<Arguments>(arguments)...));
 }
 
-/// How far a long command is: on a terminal one line that is updated in place, otherwise a new line every few
-/// seconds. Commands that end sooner show nothing.
+/// How far a long command is: on a terminal one line that is updated in place and fits it; otherwise a new
+/// line after 5 s, and then after twice as long each time, up to an hour, so that logs stay short. Commands
+/// that end sooner show nothing.
 class StatusLine {
  public:
   explicit StatusLine(bool quiet = false);
@@ -41,8 +43,9 @@ class StatusLine {
   using Clock = std::chrono::steady_clock;
 
   bool quiet_;
-  bool terminal_;
-  bool shown_{false};  ///< the cursor is behind a text on the terminal
+  bool terminal_;             ///< the line is updated in place
+  Clock::duration interval_;  ///< between two texts
+  bool shown_{false};         ///< the cursor is behind a text on the terminal
   Clock::time_point last_;
 };
 

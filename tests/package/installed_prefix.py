@@ -69,6 +69,19 @@ def check_shell_files(prefix):
                     f"bash completes a name with a blank after {' '.join(words)}")
     if shutil.which("zsh"):
         run("zsh", "-n", prefix / "share/zsh/vendor-completions/_zerocount")
+    if shutil.which("fish"):
+        check_fish(prefix / "share/fish/vendor_completions.d/zerocount.fish", prefix / "bin", manifest)
+
+
+def check_fish(script, folder, manifest):
+    def completed(line):
+        offered = run("fish", "--no-config", "-c", f"set -x PATH {folder} $PATH; source {script}; complete -C '{line}'")
+        return [word.split("\t")[0] for word in offered.splitlines()]
+    require(completed("zerocount summ") == ["summary"], "fish completes a command")
+    require(completed("zerocount run --th") == ["--threads"], "fish completes an option")
+    require(completed("zerocount summary a.h5 --format js") == ["json"], "fish completes a value")
+    require(completed("zerocount run --set plant.inert") == ["plant.inertia="], "fish completes a key to set")
+    require(completed(f"zerocount trace {manifest} --point b") == ["b", "b-with-kp"], "fish completes the label of a design point")
 
 
 def check_consumer(source, prefix, folder):

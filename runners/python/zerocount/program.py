@@ -117,6 +117,7 @@ def run(
             stdin=subprocess.PIPE if text is not None else subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=its,
+            env={**os.environ, "COLUMNS": "0", "TERM": "ansi"},  # lines are not wrapped, and progress is told often
             text=True,
             encoding="utf-8",
             errors="replace",

@@ -105,6 +105,47 @@ TEST(FittedText, WrapsSentencesBetweenWords) {
   EXPECT_EQ(words_of(fitted(sentence, 40)), words_of(sentence));
 }
 
+TEST(FittedText, AnEntryContinuesBelowItsText) {
+  EXPECT_EQ(fitted("  --threads N   threads to use, all by default\n", 36),
+            "  --threads N   threads to use, all\n"
+            "                by default\n");
+  // Where too little room would be left, the line continues as others do.
+  EXPECT_EQ(fitted("  a rather long name  of a few words\n", 24),
+            "  a rather long name  of\n"
+            "    a few words\n");
+}
+
+TEST(ShortenedText, LeavesOutTheMiddleFirst) {
+  const std::string line = "7 of 9 trials, 3 from before, 80 trials/s, 2 s to go";
+  EXPECT_EQ(shortened(line, 80), line);
+  EXPECT_EQ(shortened(line, 45), "7 of 9 trials, 3 from before, 2 s to go");
+  EXPECT_EQ(shortened(line, 30), "7 of 9 trials, 2 s to go");
+  EXPECT_EQ(shortened(line, 20), "7 of 9 trials");
+  EXPECT_EQ(shortened(line, 8), "7 of 9 …");
+  for (std::size_t width = 2; width < 60; ++width) EXPECT_LE(width_of(shortened(line, width)), width);
+}
+
+TEST(UnwrappedText, JoinsTheLinesOfAParagraph) {
+  const std::string by_hand =
+      "A paragraph that was\n"
+      "wrapped by hand.\n"
+      "one: an entry\n"
+      "two: another\n"
+      "\n"
+      "  - an item that is as\n"
+      "  - long as the width\n"
+      "    or longer\n";
+  EXPECT_EQ(unwrapped(by_hand, 22),
+            "A paragraph that was wrapped by hand.\n"
+            "one: an entry\n"
+            "two: another\n"
+            "\n"
+            "  - an item that is as\n"
+            "  - long as the width\n"
+            "    or longer\n");
+  EXPECT_EQ(words_of(unwrapped(by_hand, 10)), words_of(by_hand));
+}
+
 TEST(FittedText, KeepsALineWithoutABreakAtItsEnd) {
   EXPECT_EQ(fitted("short", 80), "short");
   EXPECT_EQ(fitted("", 80), "");

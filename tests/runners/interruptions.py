@@ -1,0 +1,196 @@
+"""Runs that something ends go on, and files that something changed are treated as their owner means it.
+
+usage: interruptions.py ZEROCOUNT
+"""
+
+import os
+import pathlib
+import resource
+import signal
+import sqlite3
+import stat
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import h5py
+
+PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve()
+LONG = """zerocount: 1
+name: long
+seed: 11
+trials: 100000
+friction: {k1: {uniform: [90, 130]}}
+command: {targets: [7], hold: 0.3}
+sweep: {grid: {controller.kp: [0, 3.0e-4], controller.ki: [1.0e-5, 4.0e-5]}}
+"""
+
+
+class Runs(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="zerocount-interruptions-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        (self.folder / "long.yaml").write_text(LONG)
+        (self.folder / "short.yaml").write_text(LONG.replace("100000", "8"))
+
+    def run_program(self, *words, **more):
+        return subprocess.run([PROGRAM, *words], cwd=self.folder, capture_output=True, text=True, **more)
+
+    def complete(self, *words):
+        result = self.run_program(*words)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result
+
+    def interrupted(self, output, kind, manifest="long.yaml"):
+        """The exit code of a run that gets a signal once it has written a shard."""
+        shards = self.folder / f"{output}.shards"
+        before = set(shards.glob("*.h5"))
+        process = subprocess.Popen([PROGRAM, "run", manifest, "-o", output, "--threads", "1", "-q"], cwd=self.folder, stderr=subprocess.DEVNULL)
+        while set(shards.glob("*.h5")) <= before:
+            self.assertIsNone(process.poll())
+            time.sleep(0.01)
+        process.send_signal(kind)
+        return process.wait()
+
+
+class Interruptions(Runs):
+    def test_every_signal_that_ends_a_run_keeps_what_is_finished(self):
+        for kind in (signal.SIGTERM, signal.SIGHUP, signal.SIGXCPU, signal.SIGUSR1):
+            with self.subTest(kind.name):
+                self.assertEqual(self.interrupted("out.h5", kind), 130)
+                self.assertFalse(list((self.folder / "out.h5.shards").glob("*.part")))
+
+    def test_a_limit_of_processor_time_interrupts(self):
+        def limit():
+            resource.setrlimit(resource.RLIMIT_CPU, (1, 60))
+        result = self.run_program("run", "long.yaml", "-o", "out.h5", "--threads", "1", preexec_fn=limit)
+        self.assertEqual(result.returncode, 130, result.stderr)
+        self.assertIn("are kept", result.stderr)
+
+    def test_a_manifest_with_the_same_values_continues(self):
+        self.assertEqual(self.interrupted("out.h5", signal.SIGTERM), 130)
+        for number, text in enumerate([f"# since yesterday\n{LONG}", LONG.replace("\n", "\r\n"),
+                                       LONG.replace("0.3}", "0.30}").replace("4.0e-5", "0.00004"),
+                                       "".join(sorted(LONG.splitlines(keepends=True), reverse=True))]):
+            (self.folder / "same.yaml").write_text(text, newline="")
+            before = sorted((self.folder / "out.h5.shards").glob("*.h5"))
+            with self.subTest(number):
+                self.assertEqual(self.interrupted("out.h5", signal.SIGTERM, "same.yaml"), 130)
+                self.assertLessEqual(set(before), set((self.folder / "out.h5.shards").glob("*.h5")))
+
+    def test_a_manifest_with_other_values_is_refused_by_their_names(self):
+        self.assertEqual(self.interrupted("out.h5", signal.SIGTERM), 130)
+        turned = "{controller.ki: [1.0e-5, 4.0e-5], controller.kp: [0, 3.0e-4]}"
+        for old, new, said in [("hold: 0.3", "hold: 0.31", "command.hold is 0.3 there and 0.31 here"),
+                               ("seed: 11", "seed: 9007199254740993", "seed is 11 there and 9007199254740993 here"),
+                               ("{controller.kp: [0, 3.0e-4], controller.ki: [1.0e-5, 4.0e-5]}", turned,
+                                "sweep.grid, order of keys is controller.kp, controller.ki there and controller.ki, controller.kp here")]:
+            (self.folder / "other.yaml").write_text(LONG.replace(old, new))
+            with self.subTest(new):
+                result = self.run_program("run", "other.yaml", "-o", "out.h5")
+                self.assertEqual(result.returncode, 2)
+                self.assertIn(said, result.stderr)
+
+    def test_a_finished_file_with_points_in_another_order_is_another_study(self):
+        self.complete("run", "short.yaml", "-o", "out.h5")
+        text = (self.folder / "short.yaml").read_text()
+        (self.folder / "turned.yaml").write_text(text.replace(
+            "{controller.kp: [0, 3.0e-4], controller.ki: [1.0e-5, 4.0e-5]}", "{controller.ki: [1.0e-5, 4.0e-5], controller.kp: [0, 3.0e-4]}"))
+        self.assertEqual(self.run_program("run", "turned.yaml", "-o", "out.h5").returncode, 2)
+        self.assertIn("nothing to run", self.complete("run", "short.yaml", "-o", "out.h5").stderr)
+
+    @unittest.skipUnless(os.geteuid() == 0, "needs another user, so that the limit counts its processes alone")
+    def test_where_no_thread_can_be_started_one_sentence_says_so(self):
+        self.folder.chmod(0o777)
+        for processes in (1, 2):
+            def limit(processes=processes):
+                resource.setrlimit(resource.RLIMIT_NPROC, (processes, processes))
+                os.setuid(54321)
+            result = self.run_program("run", "short.yaml", "-o", f"{processes}.h5", "--threads", "64", "-q", preexec_fn=limit)
+            self.assertEqual(result.returncode, 5)
+            said = [line for line in result.stderr.splitlines() if not line.startswith("warning: ")]
+            self.assertEqual(len(said), 1, result.stderr)
+            self.assertIn("ulimit -u", said[0])
+
+
+class Files(Runs):
+    def outputs(self):
+        """Every kind of file that a verb replaces, and the command that makes it."""
+        self.complete("run", "short.yaml", "-o", "in.h5")
+        return {"out.h5": ["run", "short.yaml", "-o", "out.h5"], "out.csv": ["trace", "in.h5", "-o", "out.csv"],
+                "page.html": ["report", "in.h5", "-o", "page.html"], "copy.yaml": ["new", "paper-gains", "-o", "copy.yaml"],
+                "merged.h5": ["merge", "in.h5", "-o", "merged.h5"]}
+
+    def test_a_replaced_file_keeps_its_permissions(self):
+        for name, words in self.outputs().items():
+            for mode in (0o600, 0o664, 0o755):
+                with self.subTest(name=name, mode=oct(mode)):
+                    path = self.folder / name
+                    path.write_text("earlier")
+                    path.chmod(mode)
+                    self.complete(*words, "--force")
+                    self.assertEqual(stat.S_IMODE(path.stat().st_mode), mode)
+                    self.assertNotEqual(path.read_bytes(), b"earlier")
+
+    def test_a_write_protected_file_is_not_replaced(self):
+        for name, words in self.outputs().items():
+            with self.subTest(name=name):
+                path = self.folder / name
+                path.write_text("earlier")
+                path.chmod(0o444)
+                result = self.run_program(*words, "--force")
+                self.assertEqual(result.returncode, 5, result.stderr)
+                self.assertIn(f"{name}: cannot be replaced: it is write-protected", result.stderr)
+                self.assertEqual(path.read_text(), "earlier")
+                self.assertFalse(list(self.folder.glob(f"{name}.*")))
+
+    def test_a_finished_write_protected_file_is_still_complete(self):
+        self.complete("run", "short.yaml", "-o", "out.h5")
+        (self.folder / "out.h5").chmod(0o444)
+        self.assertIn("nothing to run", self.complete("run", "short.yaml", "-o", "out.h5").stderr)
+
+    def test_a_file_that_h5py_opened_to_write_is_sealed_again_once_verified(self):
+        self.complete("run", "short.yaml", "-o", "out.h5")
+        path = self.folder / "out.h5"
+        with h5py.File(path, "a") as file:
+            file.attrs["note"] = "seen"
+        refused = self.run_program("summary", "out.h5")
+        self.assertEqual(refused.returncode, 4)
+        self.assertIn("verify --reseal", refused.stderr)
+        self.assertEqual(self.run_program("verify", "out.h5").returncode, 4)
+        sealed = self.complete("verify", "out.h5", "--reseal")
+        self.assertIn("trials run again: 32 of 32", sealed.stdout)
+        self.complete("verify", "out.h5")
+        self.complete("summary", "out.h5")
+        self.assertEqual(h5py.File(path).attrs["note"], "seen")
+
+    def test_a_file_with_other_values_is_not_sealed(self):
+        self.complete("run", "short.yaml", "-o", "out.h5")
+        path = self.folder / "out.h5"
+        with h5py.File(path, "a") as file:
+            file["outcome/holding_torque"][3] *= 1.001
+        before = path.read_bytes()
+        refused = self.run_program("verify", "out.h5", "--reseal")
+        self.assertEqual(refused.returncode, 4)
+        self.assertIn("checksum made again: not before everything else holds", refused.stdout)
+        self.assertEqual(path.read_bytes(), before)
+
+    def test_a_history_that_another_process_holds_is_waited_for_and_said(self):
+        self.complete("run", "short.yaml", "-o", "out.h5")
+        self.complete("history", "add", "out.h5", "--database", "h.sqlite")
+        other = sqlite3.connect(self.folder / "h.sqlite", isolation_level=None)
+        other.execute("BEGIN EXCLUSIVE")
+        waiting = subprocess.Popen([PROGRAM, "history", "show", "--database", "h.sqlite"], cwd=self.folder,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.assertIn("h.sqlite: another process is writing it; waiting for at most 60 s", waiting.stderr.readline())
+        other.execute("COMMIT")
+        shown, _ = waiting.communicate()
+        self.assertEqual(waiting.returncode, 0)
+        self.assertIn("long", shown)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -30,7 +29,7 @@ std::string_view left_out_of_hunting(const motion::PlantParameters& plant,
 ///
 /// at which the net damping, its imaginary part, rises with A. K is the stiffness of the control, N m/rad:
 /// its response with all its blocks, hold, delay and amplifier, the error times the describing function of
-/// its dead zone. Sought between 0.3 and 1e6 counts and from 1e-4 to 0.9 of half the sample rate. A motion
+/// its dead zone. Sought between 1 and 1e6 counts and from 1e-4 to 0.9 of half the sample rate. A motion
 /// with standstill, far from a sinusoid, is not predicted. Empty for a model without a describing function.
 /// Source: as describing_function, section 3.
 std::vector<LimitCycle> harmonic_balance(friction::FrictionModel model,
@@ -40,21 +39,23 @@ std::vector<LimitCycle> harmonic_balance(friction::FrictionModel model,
                                          const loop::ControllerParameters& controller,
                                          const LinearDrive& drive = {});
 
-/// The symmetric stick-slip cycle of a continuous PID control on Coulomb friction with a static level: the
-/// rotor stands at −a until the integral has brought the torque to Fs, slides under Fc and cs to +a, and so
-/// on. With the gains kP, kI, kD of analogue_gains, e = −x and w = I − Fc, a slide obeys
+/// The cycle of slides and standstills to which a first step of `first_step` counts leads, on a relay of
+/// friction or a bristle: none, if the axis comes to rest or the slides grow without bound, or one.
 ///
-///   dx/dt = v,   J·dv/dt = w − kP·x − (kD + cs)·v,   dw/dt = −kI·x,   x(0) = −a, v(0) = 0, w(0) = Fs − Fc −
-///   kP·a,
-///
-/// to v = 0 at x = a, and the standstill takes (u + Fs)/(kI·a), u the torque at its start. The amplitude a is
-/// proportional to Fs − Fc. Empty if the loop has no such cycle: without a static level or an integral, with
-/// blocks beside PID, or if every oscillation of the slides grows. Source: Armstrong and Amin, "PID
-/// control in the presence of static friction: a comparison of algebraic and describing function analysis",
-/// Automatica 32 (1996), 679–692.
-std::optional<LimitCycle> stick_slip_cycle(const friction::FrictionParameters& contact,
-                                           const motion::PlantParameters& plant,
-                                           const loop::EncoderParameters& encoder,
-                                           const loop::ControllerParameters& controller);
+/// The motion of the sampled loop is followed with all linear blocks of the control, hold, delay and
+/// amplifier, and the count a continuous quantity. A slide obeys J·dω/dt = u − F − d·ω, with the level g at
+/// the mean velocity of each sample, and F = sgn(ω)·g of a relay, F = σ0·z + σ1·dz/dt of a bristle, whose z
+/// follows g over a travel of g/σ0. It ends at ω = 0, located within the sample. There the rotor stands,
+/// without the elastic travel of the bristle, until |u| exceeds breakaway; for ever if it stands less than
+/// half a count from the target, which the encoder does not tell from it. A cycle below one count is none.
+/// Where the loop is continuous and g falls at once from Fs to Fc, this is the cycle of Armstrong and Amin,
+/// "PID control in the presence of static friction: a comparison of algebraic and describing function
+/// analysis", Automatica 32 (1996), 679–692, whose amplitude is proportional to Fs − Fc.
+std::vector<LimitCycle> stick_slip_cycle(friction::FrictionModel model,
+                                         const friction::FrictionParameters& contact,
+                                         const motion::PlantParameters& plant,
+                                         const loop::EncoderParameters& encoder,
+                                         const loop::ControllerParameters& controller,
+                                         const LinearDrive& drive, double first_step);
 
 }  // namespace zerocount::theory

@@ -175,7 +175,7 @@ ExitCode check(const command_line::Arguments& arguments) {
   }
   std::vector<std::string> labels = summary::short_labels(study.point_labels, study.axes);
   labels.resize(static_cast<std::size_t>(shown));
-  standard_output::write_fitted(theory_text(labels, items));
+  standard_output::write_fitted(theory_text(labels, items, study::point_count(study)));
   if (shown < study::point_count(study)) {
     standard_output::print("  … and {} more points (--all-points shows them)\n",
                            study::point_count(study) - shown);

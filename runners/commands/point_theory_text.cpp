@@ -107,12 +107,29 @@ std::string sampled_verdict(const theory::GainTheory& gain) {
   return gain.sampled_stable == std::set{false} ? "unstable" : "unstable in some trials";
 }
 
+/// Why a predicted cycle is rough; empty if it is not.
+std::string roughness_text(const theory::LimitCycle& cycle, const theory::HuntingPrediction& hunting) {
+  switch (theory::roughness_of(cycle, hunting)) {
+    case theory::Roughness::none:
+      return "";
+    case theory::Roughness::few_counts:
+      return ", roughly (few counts)";
+    case theory::Roughness::few_samples:
+      return fmt::format(", roughly ({:.2g} samples a period)", cycle.period / hunting.sample_time);
+    case theory::Roughness::bristle:
+      break;
+  }
+  return fmt::format(", within a third (before it slides, the bristle yields by {:.3g} counts and more)",
+                     hunting.range / hunting.count_angle);
+}
+
 void add_cycles(Items& items, std::string_view method, const std::vector<theory::LimitCycle>& cycles,
                 const theory::HuntingPrediction& hunting) {
   const std::string name = fmt::format("hunting of trial 0, {}", method);
   for (const theory::LimitCycle& cycle : cycles) {
-    items.push_back({name, fmt::format("amplitude {:.4g} counts, period {:.4g} s",
-                                       cycle.amplitude / hunting.count_angle, cycle.period)});
+    items.push_back({name, fmt::format("amplitude {:.4g} counts, period {:.4g} s{}",
+                                       cycle.amplitude / hunting.count_angle, cycle.period,
+                                       roughness_text(cycle, hunting))});
   }
   if (!cycles.empty()) return;
   items.push_back({name, hunting.grows_while_sliding
@@ -249,7 +266,8 @@ std::vector<TheoryItem> theory_items(const PointTheory& theory) {
   return items;
 }
 
-std::string theory_text(std::span<const std::string> labels, std::span<const std::vector<TheoryItem>> items) {
+std::string theory_text(std::span<const std::string> labels, std::span<const std::vector<TheoryItem>> items,
+                        std::int64_t points) {
   if (items.size() == 1) return list_of(items.front());
   std::vector<TheoryItem> common;
   std::vector<text::TextColumn> columns{{"point", false, {labels.begin(), labels.end()}}};
@@ -266,7 +284,10 @@ std::string theory_text(std::span<const std::string> labels, std::span<const std
     for (const TheoryItem& item : of_points)
       column.cells.push_back(item.brief.empty() ? item.value : item.brief);
   }
-  std::string text = common.empty() ? "" : "at all points:\n" + list_of(common);
+  const std::string where = std::ssize(items) == points
+                                ? "at all points"
+                                : fmt::format("at each of the first {} of {} points", items.size(), points);
+  std::string text = common.empty() ? "" : fmt::format("{}:\n{}", where, list_of(common));
   if (columns.size() > 1) text += "\n" + text::aligned_table(columns);
   return text;
 }

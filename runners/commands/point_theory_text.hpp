@@ -21,8 +21,9 @@ std::vector<TheoryItem> theory_items(const theory::PointTheory& theory);
 
 /// The items of design points: of a single one a line each; of several first those that are the same at all
 /// of them, then a table with a row per point.
-/// @param labels, items [point]
-std::string theory_text(std::span<const std::string> labels, std::span<const std::vector<TheoryItem>> items);
+/// @param labels, items [point] of the first points. @param points of the study
+std::string theory_text(std::span<const std::string> labels, std::span<const std::vector<TheoryItem>> items,
+                        std::int64_t points);
 
 /// Why approach.exceeds_hold(), for a warning: continues "the loop's slowest time constant".
 std::string slowness_text(const theory::Approach& approach);

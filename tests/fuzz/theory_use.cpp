@@ -17,7 +17,7 @@ void use_theory(const study::Study& study) {
   first.rigs = std::min<std::int64_t>(study.rigs, 1);
   for (const std::int64_t point : std::set<std::int64_t>{0, study::point_count(study) - 1}) {
     const std::vector<commands::TheoryItem> items = commands::theory_items(theory::examine(first, point));
-    const std::string text = commands::theory_text({}, {{items}});
+    const std::string text = commands::theory_text({}, {{items}}, 1);
     if (!text.empty()) require_text(text);
   }
 }

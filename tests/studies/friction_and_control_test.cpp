@@ -43,9 +43,11 @@ TEST(Hunting, HasTheAmplitudeAndThePeriodOfTheStickSlipCycle) {
   for (const char* point :
        {"controller.ki=10, friction.coulomb_ratio=0.6", "controller.ki=40, friction.coulomb_ratio=0.9"}) {
     const trial::TrialParameters p = trial_of(study, point, 0);
-    const std::optional<theory::LimitCycle> cycle =
-        theory::stick_slip_cycle(p.friction.uniform, p.plant, p.encoder, p.controller);
-    ASSERT_TRUE(cycle) << point;
+    const std::vector<theory::LimitCycle> cycles =
+        theory::stick_slip_cycle(p.friction.model, p.friction.uniform, p.plant, p.encoder, p.controller, {},
+                                 static_cast<double>(p.command.targets.front()));
+    ASSERT_EQ(cycles.size(), 1U) << point;
+    const theory::LimitCycle* const cycle = cycles.data();
     const trial::MoveOutcome move = trial::run_trial(p).moves.front();
     EXPECT_NEAR(move.oscillation_amplitude * loop::fine_resolution(p.encoder), cycle->amplitude,
                 0.01 * cycle->amplitude);

@@ -11,6 +11,8 @@
 #include "core/theory/describing_function.hpp"
 #include "core/theory/gains.hpp"
 #include "core/trial/trial.hpp"
+#include "tests/core/loop/random_blocks.hpp"
+#include "tests/core/theory/frozen_loops.hpp"
 
 namespace zerocount::theory {
 namespace {
@@ -66,9 +68,10 @@ TEST(StickSlipCycle, IsThatOfTrials) {
       trial::TrialParameters p = loop_with(FrictionModel::coulomb, {2.0, integral, 0.05});
       p.friction.uniform.coulomb_ratio = ratio;
       p.friction.uniform.stribeck_velocity = 1e-3;
-      const std::optional<LimitCycle> cycle =
-          stick_slip_cycle(p.friction.uniform, p.plant, p.encoder, p.controller);
-      ASSERT_TRUE(cycle);
+      const std::vector<LimitCycle> cycles = stick_slip_cycle(p.friction.model, p.friction.uniform, p.plant,
+                                                              p.encoder, p.controller, {}, 20000.0);
+      ASSERT_EQ(cycles.size(), 1U);
+      const LimitCycle* const cycle = cycles.data();
       p.command.hold = 40.0 * cycle->period;
       const trial::MoveOutcome move = trial::run_trial(p).moves.front();
       ASSERT_EQ(move.outcome, trial::Outcome::oscillating);
@@ -82,11 +85,98 @@ TEST(StickSlipCycle, IsThatOfTrials) {
 
 TEST(StickSlipCycle, IsNoneWithoutAStaticLevelOrAnIntegral) {
   trial::TrialParameters p = loop_with(FrictionModel::coulomb, {2.0, 5.0, 0.05});
+  const auto cycles = [&] {
+    return stick_slip_cycle(p.friction.model, p.friction.uniform, p.plant, p.encoder, p.controller, {},
+                            20000.0)
+        .size();
+  };
+  EXPECT_EQ(cycles(), 1U);
   p.friction.uniform.coulomb_ratio = 1.0;
-  EXPECT_FALSE(stick_slip_cycle(p.friction.uniform, p.plant, p.encoder, p.controller));
+  EXPECT_EQ(cycles(), 0U);
   p.friction.uniform.coulomb_ratio = 0.8;
   p.controller.ki = 0.0;
-  EXPECT_FALSE(stick_slip_cycle(p.friction.uniform, p.plant, p.encoder, p.controller));
+  EXPECT_EQ(cycles(), 0U);
+}
+
+/// A random stable PID loop that sticks and slides, with few or many samples a period, delay, amplifier and
+/// filters.
+trial::TrialParameters random_sliding_loop(testing::RandomBlocks& draw, FrictionModel model) {
+  trial::TrialParameters p;
+  p.friction.model = model;
+  p.plant.inertia = draw.log_uniform(1e-4, 1e-2);
+  p.plant.sliding_damping = draw.log_uniform(1e-4, 1e-2);
+  p.friction.uniform.breakaway = draw.log_uniform(0.05, 0.5);
+  p.friction.uniform.coulomb_ratio = draw.chance(0.2) ? 1.0 : draw.uniform(0.5, 0.95);
+  p.friction.uniform.stribeck_velocity = draw.log_uniform(1e-4, 1e-2);
+  const double crossover = 2.0 * std::numbers::pi * draw.log_uniform(0.5, 5.0);  // rad/s
+  const double kp = p.plant.inertia * crossover * crossover;
+  p.friction.uniform.sigma0 = draw.log_uniform(2e3, 1e5) * kp;
+  p.friction.uniform.sigma1 = 2.0 * std::sqrt(p.friction.uniform.sigma0 * p.plant.inertia);
+  p.dac = {.bits = 30, .resolution = 1e-8};
+  p.controller.sample_rate = draw.log_uniform(20.0, 400.0) * crossover / std::numbers::pi;
+  p.controller.delay = draw.some(draw.uniform(0.0, 1.5));
+  p.amplifier.bandwidth = draw.chance(0.3) ? 20.0 * crossover : 0.0;
+  const AnalogueGains gains{kp, kp * crossover * draw.uniform(0.05, 0.4),
+                            2.0 * p.plant.inertia * crossover * draw.uniform(0.4, 1.0)};
+  p.controller = with_analogue_gains(p.controller, gains, p.encoder);
+  p.command.targets = {200'000};
+  return p;
+}
+
+/// Compares the prediction with a trial; returns whether they hunt.
+bool hunts_as_predicted(trial::TrialParameters p, double tolerance, int number) {
+  const std::vector<LimitCycle> cycles =
+      stick_slip_cycle(p.friction.model, p.friction.uniform, p.plant, p.encoder, p.controller,
+                       {1.0, p.amplifier.bandwidth}, static_cast<double>(p.command.targets[0]));
+  p.command.hold = cycles.empty() ? 60.0 : 20.0 * cycles[0].period;
+  const trial::MoveOutcome move = trial::run_trial(p).moves.front();
+  const bool hunts = move.outcome == trial::Outcome::oscillating && !std::isnan(move.oscillation_period);
+  EXPECT_EQ(hunts, !cycles.empty()) << number;
+  if (!hunts || cycles.empty()) return false;
+  const double amplitude = move.oscillation_amplitude * loop::fine_resolution(p.encoder);
+  EXPECT_NEAR(amplitude, cycles[0].amplitude, tolerance * cycles[0].amplitude) << number;
+  EXPECT_NEAR(move.oscillation_period, cycles[0].period, tolerance * cycles[0].period) << number;
+  return true;
+}
+
+TEST(StickSlipCycle, IsThatOfTrialsOfRandomLoops) {
+  testing::RandomBlocks draw(77);
+  int hunting = 0;
+  for (int i = 0; i < 18; ++i) {
+    const bool is_relay = i % 2 == 0;
+    const trial::TrialParameters p =
+        random_sliding_loop(draw, is_relay ? FrictionModel::coulomb : FrictionModel::lugre);
+    hunting += hunts_as_predicted(p, is_relay ? 0.02 : 1.0 / 3.0, i) ? 1 : 0;
+  }
+  EXPECT_GT(hunting, 9);
+}
+
+// The delay of sampling and hold is a large part of such a period.
+TEST(StickSlipCycle, IsThatOfTrialsWithFewSamplesAPeriod) {
+  testing::RandomBlocks draw(78);
+  int hunting = 0;
+  for (int i = 0; i < 40; ++i) {
+    trial::TrialParameters p = random_sliding_loop(draw, FrictionModel::coulomb);
+    const AnalogueGains gains = analogue_gains(p.controller, p.encoder);
+    const double crossover = std::sqrt(gains.kp / p.plant.inertia);
+    p.controller.sample_rate = crossover * draw.uniform(3.0, 8.0);
+    p.controller.delay = 0.0;
+    p.controller = with_analogue_gains(p.controller, {gains.kp, 2.0 * gains.ki, gains.kd}, p.encoder);
+    p.friction.uniform.coulomb_ratio = draw.uniform(0.4, 0.6);
+    if (!stable_while_sliding(p.plant, p.encoder, p.controller, {1.0, p.amplifier.bandwidth})) continue;
+    hunting += hunts_as_predicted(p, 0.05, i) ? 1 : 0;
+  }
+  EXPECT_GT(hunting, 5);
+}
+
+// The encoder does not see a cycle of less than a count.
+TEST(StickSlipCycle, IsNoneBelowACount) {
+  trial::TrialParameters p = loop_with(FrictionModel::coulomb, {2.0, 20.0, 0.05});
+  p.friction.uniform.coulomb_ratio = 0.6;
+  p.friction.uniform.breakaway = 1e-5;
+  EXPECT_TRUE(
+      stick_slip_cycle(p.friction.model, p.friction.uniform, p.plant, p.encoder, p.controller, {}, 50.0)
+          .empty());
 }
 
 // Above the gain at which the loop about the bristle's stiffness becomes unstable, hysteresis limits the

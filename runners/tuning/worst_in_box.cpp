@@ -103,6 +103,7 @@ class MachineSearch {
     std::vector<BoxPoint> named{worst_in(MachineRegion::box, order), machine_of(order.front())};
     if (!is_likely(named[0])) named.push_back(worst_in(MachineRegion::likely, order));
     std::vector<JudgedMachine> judgements;
+    judgements.reserve(named.size());
     for (const BoxPoint& point : named) judgements.push_back(judged(point));
     const auto worst_that = [&](const auto& is_meant) {
       std::size_t worst = named.size();

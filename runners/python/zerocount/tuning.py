@@ -68,7 +68,7 @@ class Tuning:
         The results file of the proof.
     alternatives, frontier, limits : list of dict
         With free keys held at the values of ``fixed`` (an empty one: with an observer beside); the best found at
-        each rate; what stands in the way.
+        each rate; what stands in the way: each with ``cause``, ``rate`` (None where it is not simulated) and ``note``.
     worst : dict or None
         The machine that the gains suit worst.
     searched : dict

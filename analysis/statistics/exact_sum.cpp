@@ -38,14 +38,13 @@ Scaled scaled(double value) {
   return field == 0 ? Scaled{stored, 1 - bias} : Scaled{stored | first_bit, field - bias};
 }
 
-/// Σ digits[i]·2^(32·(i + first)).
-cpp_int whole_number(const std::vector<std::int64_t>& digits, std::int64_t first) {
+/// Σ digits[i]·2^(32·i).
+cpp_int whole_number(const std::vector<std::int64_t>& digits) {
   cpp_int number = 0;
   for (auto digit = digits.rbegin(); digit != digits.rend(); ++digit) {
-    number *= digit_base;
+    number <<= digit_bits;
     number += *digit;
   }
-  for (std::int64_t i = 0; i < first; ++i) number *= digit_base;
   return number;
 }
 
@@ -144,7 +143,8 @@ ExactSum& ExactSum::operator+=(const ExactSum& other) {
 }
 
 double ExactSum::value() const {
-  return rounded(whole_number(digits_, first_), least_exponent, 1);
+  if (digits_.empty()) return 0.0;
+  return rounded(whole_number(digits_), least_exponent + digit_bits * first_, 1);
 }
 
 bool operator==(ExactSum one, ExactSum other) {
@@ -154,9 +154,15 @@ bool operator==(ExactSum one, ExactSum other) {
 }
 
 double squared_deviations(const ExactSum& sum, const ExactSum& squares, std::int64_t n) {
-  const cpp_int total = whole_number(sum.digits_, sum.first_);
-  const cpp_int of_squares = whole_number(squares.digits_, squares.first_ - least_exponent / digit_bits);
-  return rounded(of_squares * n - total * total, 2 * least_exponent, n);
+  const cpp_int total = whole_number(sum.digits_);
+  // The places of the last digits of n·Σx² and of (Σx)².
+  const std::int64_t of_squares = squares.first_ - least_exponent / digit_bits;
+  const std::int64_t of_total = 2 * sum.first_;
+  const std::int64_t last = std::min(of_squares, of_total);
+  const auto shift = [&](std::int64_t place) { return static_cast<unsigned>(digit_bits * (place - last)); };
+  const cpp_int number =
+      ((whole_number(squares.digits_) * n) << shift(of_squares)) - ((total * total) << shift(of_total));
+  return rounded(number, 2 * least_exponent + digit_bits * last, n);
 }
 
 }  // namespace zerocount::statistics

@@ -36,7 +36,8 @@ void add_columns(std::vector<layout::PointColumn>& columns, const std::string& n
 
 std::vector<std::optional<goal::Verdict>> goal_verdicts(const StudySummary& summary) {
   std::vector<std::optional<goal::Verdict>> verdicts;
-  for (const measures::PointSummary& point : summary.points) {
+  for (const std::int64_t index : complete_points(summary)) {
+    const measures::PointSummary& point = summary.points[static_cast<std::size_t>(index)];
     verdicts.emplace_back();
     if (point.trials > 0) verdicts.back() = goal::judge_goal(*summary.goal, *point.goal, 1);
   }

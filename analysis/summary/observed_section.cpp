@@ -180,9 +180,10 @@ measures::SummarySection observed_section(std::span<const measures::PointSummary
 }
 
 std::vector<layout::PointColumn> observed_columns(std::span<const measures::PointSummary> points,
-                                                  const study::Study& study) {
+                                                  const study::Study& study, std::int64_t first) {
   if (study.observed_counts.empty() || study.features.dependent_trials) return {};
-  return columns_of(comparisons(points, study.point_labels, study.observed_counts));
+  const auto begin = study.point_labels.begin() + first;
+  return columns_of(comparisons(points, {begin, begin + std::ssize(points)}, study.observed_counts));
 }
 
 }  // namespace zerocount::summary

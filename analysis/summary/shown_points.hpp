@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -27,11 +28,20 @@ struct PointSelection {
   std::optional<std::int64_t> top{};  ///< so many of them, by points_by_merit() unless sorted otherwise
 };
 
+/// The values that a selection needs: the names of swept parameters left out.
+std::vector<std::string> columns_needed(const StudySummary& summary, const PointSelection& selection);
+
+/// @throws Failure (bad_input) where the summary has no value of a name that is needed
+void require_columns(const StudySummary& summary, const PointSelection& selection);
+
 /// The selected points in their order. Values have the names of the columns of summary_csv, where a '.' may
 /// stand for '_' ("settling_time.p95"), and those of swept parameters, which may be shortened to an end that
-/// no other has ("ki"). A value that is NaN comes last, and meets no condition.
+/// no other has ("ki"). A value that is NaN comes last, and meets no condition. Names, such as those of cases
+/// and labels, are equal (= or ==) or not (!=), and are sorted by the alphabet.
 /// @throws Failure (bad_input) for an unknown name or a condition that is none, (inconclusive) if no point
 /// is left
-std::vector<std::int64_t> selected_points(const StudySummary& summary, const PointSelection& selection);
+/// @param known [name of a column][point] values that the file stores, in place of those of the statistics
+std::vector<std::int64_t> selected_points(const StudySummary& summary, const PointSelection& selection,
+                                          const std::map<std::string, std::vector<double>>& known = {});
 
 }  // namespace zerocount::summary

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iterator>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -21,6 +23,7 @@
 #include "core/failure/failure.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
+#include "results/layout/table_io.hpp"
 
 namespace zerocount::summary {
 namespace {
@@ -112,8 +115,7 @@ void require_all_trials(const reading::StudyFile& file) {
 }
 
 /// The trials of the worlds at each point; of an open loop none is judged.
-layout::WorldCounts world_counts(const std::vector<measures::PointSummary>& points,
-                                 const study::Study& study) {
+layout::WorldCounts world_counts(std::span<const measures::PointSummary> points, const study::Study& study) {
   layout::WorldCounts counts;
   const auto of_worlds = [&](const std::optional<measures::WorldTrials>& point,
                              measures::MoveCounts measures::WorldTrials::*which,
@@ -137,11 +139,104 @@ layout::WorldCounts world_counts(const std::vector<measures::PointSummary>& poin
   return counts;
 }
 
+/// Appends the statistics of the points that follow.
+void append(layout::StoredStatistics& stored, layout::StoredStatistics&& next) {
+  const auto append_to = [](auto& values, auto& more) {
+    values.insert(values.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+  };
+  for (std::size_t i = 0; i < stored.points.size(); ++i)
+    append_to(stored.points[i].values, next.points[i].values);
+  for (std::size_t i = 0; i < stored.tables.size(); ++i) {
+    for (std::size_t column = 0; column < stored.tables[i].columns.size(); ++column)
+      append_to(stored.tables[i].columns[column].values, next.tables[i].columns[column].values);
+  }
+  append_to(stored.rig_successes, next.rig_successes);
+  if (!stored.worlds) return;
+  append_to(stored.worlds->trials, next.worlds->trials);
+  append_to(stored.worlds->success, next.worlds->success);
+  append_to(stored.worlds->goal_met, next.worlds->goal_met);
+}
+
+/// The statistics of all points of a file, in blocks of a chunk of the file.
+class StatisticsBlocks {
+ public:
+  StatisticsBlocks(const reading::StudyFile& file, const study::Study& study,
+                   std::span<const theory::PointPrediction> predictions)
+      : file_(file),
+        study_(study),
+        predictions_(theory::study_predictions(study, predictions)),
+        accumulator_(study, statistics::summary_confidence, false,
+                     [this](measures::PointSummary&& point) { take(std::move(point)); }) {
+    require_all_trials(file);
+  }
+  StatisticsBlocks(const StatisticsBlocks&) = delete;
+  StatisticsBlocks& operator=(const StatisticsBlocks&) = delete;
+
+  std::optional<layout::StoredStatistics> next() {
+    const std::int64_t points =
+        std::min(layout::chunk_elements, file_.header().points - next_row_ / study_.trials);
+    if (points == 0) return std::nullopt;
+    const layout::RowRange rows{next_row_, points * study_.trials};
+    accumulator_.add(file_, rows);
+    accumulator_.finish();
+    next_row_ = rows.end();
+    store();
+    return std::exchange(block_, std::nullopt);
+  }
+
+ private:
+  static constexpr std::size_t points_at_once = 256;  ///< that are kept with all their statistics
+
+  void take(measures::PointSummary&& point) {
+    points_.push_back(std::move(point));
+    if (points_.size() == points_at_once) store();
+  }
+
+  /// Adds the kept points to the block.
+  void store() {
+    if (points_.empty()) return;
+    const auto first = static_cast<std::size_t>(stored_);
+    layout::StoredStatistics stored = stored_statistics(
+        points_, study_, std::span(predictions_).subspan(first, points_.size()), file_.table(), stored_);
+    if (block_) {
+      append(*block_, std::move(stored));
+    } else {
+      block_ = std::move(stored);
+    }
+    stored_ += std::ssize(points_);
+    points_.clear();
+  }
+
+  const reading::StudyFile& file_;
+  const study::Study& study_;
+  std::vector<theory::PointPrediction> predictions_;  ///< [point]
+  StudyAccumulator accumulator_;
+  std::int64_t next_row_{0};
+  std::int64_t stored_{0};  ///< points
+  std::vector<measures::PointSummary> points_;
+  std::optional<layout::StoredStatistics> block_;
+};
+
 }  // namespace
 
-StudyAccumulator::StudyAccumulator(const study::Study& study, double confidence, bool bootstrap)
-    : study_(study), confidence_(confidence), bootstrap_(bootstrap) {
+StudyAccumulator::StudyAccumulator(const study::Study& study, double confidence, bool bootstrap,
+                                   std::function<void(measures::PointSummary&&)> take)
+    : study_(study), confidence_(confidence), bootstrap_(bootstrap), take_(std::move(take)) {
+  if (!take_) take_ = [this](measures::PointSummary&& point) { points_.push_back(std::move(point)); };
   statistics::require_confidence(confidence);
+}
+
+measures::PointSummary point_statistics(const reading::StudyFile& file, const study::Study& study,
+                                        std::int64_t point, double confidence, bool bootstrap) {
+  const layout::RowRange rows = file.rows_of(point);
+  measures::PointAccumulator trials(measures::move_kind(study, file.header().version), file.table());
+  JerkStream jerks(file, rows);
+  measures::visit_blocks(file, rows, [&](layout::RowRange block, std::span<const trial::MoveOutcome> moves) {
+    add_trials(trials, file, block, moves, jerks);
+  });
+  measures::StatisticsOptions options{confidence, {}, study.stop.has_value()};
+  if (bootstrap) options.bootstrap = {study.seed, static_cast<std::uint32_t>(point)};
+  return trials.statistics(options);
 }
 
 void StudyAccumulator::add(const reading::StudyFile& file, layout::RowRange rows) {
@@ -152,7 +247,7 @@ void StudyAccumulator::add(const reading::StudyFile& file, layout::RowRange rows
     for (layout::RowRange of_point{block.first, 0}; of_point.first < block.end();
          of_point.first = of_point.end()) {
       of_point.count = std::min(study_.trials - of_point.first % study_.trials, block.end() - of_point.first);
-      while (!point_ || std::ssize(points_) < of_point.first / study_.trials) begin_point(kind, file.table());
+      while (!point_ || complete_ < of_point.first / study_.trials) begin_point(kind, file.table());
       const auto count = static_cast<std::size_t>(of_point.count * file.moves());
       add_trials(*point_, file, of_point, rest.first(count), jerks);
       rest = rest.subspan(count);
@@ -162,19 +257,24 @@ void StudyAccumulator::add(const reading::StudyFile& file, layout::RowRange rows
 }
 
 void StudyAccumulator::begin_point(const measures::MoveKind& kind, const layout::MeasureTable& table) {
-  if (point_) end_point();
+  finish();
   point_.emplace(kind, table);
 }
 
 void StudyAccumulator::end_point() {
   measures::StatisticsOptions options{confidence_, {}, study_.stop.has_value()};
-  if (bootstrap_) options.bootstrap = {study_.seed, static_cast<std::uint32_t>(points_.size())};
-  points_.push_back(point_->statistics(options));
+  if (bootstrap_) options.bootstrap = {study_.seed, static_cast<std::uint32_t>(complete_)};
+  take_(point_->statistics(options));
+  ++complete_;
   point_.reset();
 }
 
-std::vector<measures::PointSummary> StudyAccumulator::statistics() {
+void StudyAccumulator::finish() {
   if (point_) end_point();
+}
+
+std::vector<measures::PointSummary> StudyAccumulator::statistics() {
+  finish();
   return std::move(points_);
 }
 
@@ -187,15 +287,15 @@ std::vector<measures::PointSummary> study_statistics(const reading::StudyFile& f
   return accumulator.statistics();
 }
 
-layout::StoredStatistics stored_statistics(const std::vector<measures::PointSummary>& points,
+layout::StoredStatistics stored_statistics(std::span<const measures::PointSummary> points,
                                            const study::Study& study,
-                                           const std::vector<theory::PointPrediction>& predictions,
-                                           const layout::MeasureTable& table) {
+                                           std::span<const theory::PointPrediction> predictions,
+                                           const layout::MeasureTable& table, std::int64_t first) {
   layout::StoredStatistics stored;
   stored.points = measures::point_columns(points, study.features, table);
   const std::vector<layout::PointColumn> predicted = measures::prediction_columns(predictions);
   stored.points.insert(stored.points.end(), predicted.begin(), predicted.end());
-  const std::vector<layout::PointColumn> observed = observed_columns(points, study);
+  const std::vector<layout::PointColumn> observed = observed_columns(points, study, first);
   stored.points.insert(stored.points.end(), observed.begin(), observed.end());
   if (study.open_loop) stored.tables.push_back(measures::level_table(points, table));
   for (std::size_t point = 0; study.rigs > 0 && point < points.size(); ++point) {
@@ -203,7 +303,7 @@ layout::StoredStatistics stored_statistics(const std::vector<measures::PointSumm
     stored.rig_successes.back().resize(static_cast<std::size_t>(study.rigs));  // empty in an open loop
   }
   if (study.worlds > 0) stored.worlds = world_counts(points, study);
-  if (!study.sequence.empty()) {
+  if (!study.sequence.empty() && first == 0) {
     stored.groups = [&study](hdf5::File& part) { iso230::write_repeatability(part, study); };
   }
   return stored;
@@ -211,8 +311,10 @@ layout::StoredStatistics stored_statistics(const std::vector<measures::PointSumm
 
 layout::StoredStatistics stored_statistics(const reading::StudyFile& file, const study::Study& study,
                                            std::span<const theory::PointPrediction> predictions) {
-  return stored_statistics(study_statistics(file, study), study,
-                           theory::study_predictions(study, predictions), file.table());
+  const auto blocks = std::make_shared<StatisticsBlocks>(file, study, predictions);
+  layout::StoredStatistics stored = blocks->next().value();
+  stored.more = [blocks] { return blocks->next(); };
+  return stored;
 }
 
 }  // namespace zerocount::summary

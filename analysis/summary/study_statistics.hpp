@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -22,12 +24,16 @@ class StudyAccumulator {
   /// @param bootstrap whether to find bounds of means by resampling, which takes its time; its random numbers
   /// are those of the study's seed.
   /// @throws Failure (bad_input) for a confidence outside (0, 1).
-  StudyAccumulator(const study::Study& study, double confidence, bool bootstrap);
+  /// @param take is given the statistics of each point when it is complete; without it they are collected.
+  StudyAccumulator(const study::Study& study, double confidence, bool bootstrap,
+                   std::function<void(measures::PointSummary&&)> take = {});
 
   /// @param rows of the file, which follow those added before
   /// @throws Failure (bad_data) where the file contradicts itself; the message names the trial.
   void add(const reading::StudyFile& file, layout::RowRange rows);
 
+  /// Completes the last point that has trials.
+  void finish();
   /// [point], up to the last that has trials. Ends the adding.
   std::vector<measures::PointSummary> statistics();
 
@@ -38,7 +44,9 @@ class StudyAccumulator {
   const study::Study& study_;
   double confidence_;
   bool bootstrap_;
-  std::vector<measures::PointSummary> points_;       ///< those that are complete
+  std::function<void(measures::PointSummary&&)> take_;
+  std::int64_t complete_{0};                         ///< points
+  std::vector<measures::PointSummary> points_;       ///< those that are complete, unless they are taken
   std::optional<measures::PointAccumulator> point_;  ///< the one after them, once it has begun
 };
 
@@ -53,14 +61,21 @@ std::vector<measures::PointSummary> study_statistics(const reading::StudyFile& f
                                                      double confidence = statistics::summary_confidence,
                                                      bool bootstrap = false);
 
+/// The statistics of one of its design points; as above.
+measures::PointSummary point_statistics(const reading::StudyFile& file, const study::Study& study,
+                                        std::int64_t point, double confidence, bool bootstrap);
+
 /// Everything that a results file stores of its statistics: point_columns, prediction_columns, and the
 /// levels of an open-loop study. All bounds have 95 %.
-/// @param points, predictions [point] of all trials of `study`, which stays as long as the result
-layout::StoredStatistics stored_statistics(const std::vector<measures::PointSummary>& points,
+/// @param points, predictions [point] of all trials of consecutive points of `study`, which stays as long as
+/// the result. @param first the first of them
+layout::StoredStatistics stored_statistics(std::span<const measures::PointSummary> points,
                                            const study::Study& study,
-                                           const std::vector<theory::PointPrediction>& predictions,
-                                           const layout::MeasureTable& table);
-/// @param file holds all trials of `study`. @param predictions see theory::study_predictions
+                                           std::span<const theory::PointPrediction> predictions,
+                                           const layout::MeasureTable& table, std::int64_t first = 0);
+/// Those of all points, in blocks: the memory does not grow with the number of points.
+/// @param file holds all trials of `study`, and stays as long as the result, like this
+/// @param predictions see theory::study_predictions
 layout::StoredStatistics stored_statistics(const reading::StudyFile& file, const study::Study& study,
                                            std::span<const theory::PointPrediction> predictions = {});
 

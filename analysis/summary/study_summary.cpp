@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -58,50 +59,6 @@ std::vector<worlds::WorldInput> inputs_of_worlds(const study::Study& study, std:
   return inputs;
 }
 
-/// The properties of the study as a whole.
-StudySummary summary_of(const study::Study& study, double confidence) {
-  StudySummary summary;
-  summary.name = study.name;
-  summary.labels = study.point_labels;
-  summary.axes = study.axes;
-  summary.observed = study.observed;
-  summary.confidence = confidence;
-  summary.features = study.features;
-  summary.goal = study.goal;
-  summary.worlds = study.worlds;
-  summary.seed = study.seed;
-  summary.design = manifest::design_labels[static_cast<std::size_t>(study.design)];
-  return summary;
-}
-
-/// Adds to the statistics what the study says of their points, and the sections that need no more.
-void complete_points(StudySummary& summary, const study::Study& study,
-                     const std::vector<measures::UndecidedMoves>& undecided) {
-  for (std::size_t point = 0; point < summary.points.size(); ++point) {
-    summary.points[point].hold = hold_of(study, static_cast<std::int64_t>(point));
-    summary.points[point].undecided = undecided[point];
-    if (study.worlds > 0)
-      summary.world_inputs.push_back(
-          inputs_of_worlds(study, static_cast<std::int64_t>(point), summary.points[point]));
-  }
-  if (!study.open_loop)
-    summary.sections.push_back(undecided_section(summary.points, short_labels(summary.labels, summary.axes)));
-  // Trials of a saltelli design are not independent: no test applies to them.
-  if (!study.observed_counts.empty() && !study.features.dependent_trials) {
-    summary.sections.push_back(
-        observed_section(summary.points, summary.labels, study.observed_counts, summary.confidence));
-  }
-}
-
-/// The claims about all axes. They count independent trials.
-void add_claims(StudySummary& summary) {
-  if (summary.goal) summary.sections.push_back(goal_section(summary));
-  if (summary.worlds > 0 && !summary.features.open_loop) summary.sections.push_back(worlds_section(summary));
-  if (summary.features.open_loop || summary.features.dependent_trials) return;
-  summary.sections.push_back(
-      tolerance_section(summary.points, short_labels(summary.labels, summary.axes), summary.features));
-}
-
 /// Leaves the first `points` points.
 void shorten(StudySummary& summary, std::size_t points) {
   summary.labels.resize(points);
@@ -145,10 +102,10 @@ class TrialsSoFar {
   std::int64_t count() const { return count_; }
 
   StudySummary summary(double confidence) {
-    StudySummary summary = summary_of(study_, confidence);
+    StudySummary summary = summary_without_points(study_, confidence);
     summary.points = statistics_.statistics();
     shorten(summary, summary.points.size());
-    complete_points(summary, study_, undecided_.moves());
+    describe_points(summary, study_, undecided_.moves(), complete_points(summary));
     predictions_.resize(summary.points.size());
     summary.predictions = predictions_;
     add_claims(summary);
@@ -202,11 +159,11 @@ class SumsSoFar {
   std::int64_t count() const { return count_; }
 
   StudySummary summary(double confidence) {
-    StudySummary summary = summary_of(study_, confidence);
+    StudySummary summary = summary_without_points(study_, confidence);
     SummedStudy summed = sums_.sum();
     summary.points = std::move(summed.points);
     shorten(summary, summary.points.size());
-    complete_points(summary, study_, summed.undecided);
+    describe_points(summary, study_, summed.undecided, complete_points(summary));
     summary.predictions = std::move(summed.predictions);
     add_claims(summary);
     summary.unfinished = UnfinishedStudy{count_, study::trial_count(study_), study::point_count(study_)};
@@ -253,7 +210,7 @@ StudySummary summary_of_pieces(const std::filesystem::path& output, double confi
 
 /// The summary without its points and their sections.
 StudySummary summary_of(const reading::ResultsFile& file, const study::Study& study, double confidence) {
-  StudySummary summary = summary_of(study, confidence);
+  StudySummary summary = summary_without_points(study, confidence);
   summary.name = file.header().name;
   summary.labels = file.point_labels();
   summary.axes = file.axes();
@@ -262,6 +219,47 @@ StudySummary summary_of(const reading::ResultsFile& file, const study::Study& st
 }
 
 }  // namespace
+
+StudySummary summary_without_points(const study::Study& study, double confidence) {
+  StudySummary summary;
+  summary.name = study.name;
+  summary.labels = study.point_labels;
+  summary.axes = study.axes;
+  summary.observed = study.observed;
+  summary.confidence = confidence;
+  summary.features = study.features;
+  summary.goal = study.goal;
+  summary.worlds = study.worlds;
+  summary.seed = study.seed;
+  summary.design = manifest::design_labels[static_cast<std::size_t>(study.design)];
+  return summary;
+}
+
+void describe_points(StudySummary& summary, const study::Study& study,
+                     const std::vector<measures::UndecidedMoves>& undecided,
+                     std::span<const std::int64_t> numbers) {
+  for (std::size_t point = 0; point < summary.points.size(); ++point) {
+    summary.points[point].hold = hold_of(study, numbers[point]);
+    summary.points[point].undecided = undecided[point];
+    if (study.worlds > 0)
+      summary.world_inputs.push_back(inputs_of_worlds(study, numbers[point], summary.points[point]));
+  }
+  if (!study.open_loop)
+    summary.sections.push_back(undecided_section(summary.points, short_labels(summary.labels, summary.axes)));
+  // Trials of a saltelli design are not independent: no test applies to them.
+  if (!study.observed_counts.empty() && !study.features.dependent_trials) {
+    summary.sections.push_back(
+        observed_section(summary.points, summary.labels, study.observed_counts, summary.confidence));
+  }
+}
+
+void add_claims(StudySummary& summary) {
+  if (summary.goal) summary.sections.push_back(goal_section(summary));
+  if (summary.worlds > 0 && !summary.features.open_loop) summary.sections.push_back(worlds_section(summary));
+  if (summary.features.open_loop || summary.features.dependent_trials) return;
+  summary.sections.push_back(
+      tolerance_section(summary.points, short_labels(summary.labels, summary.axes), summary.features));
+}
 
 StudySummary summarise(const reading::StudyFile& file, double confidence, bool bootstrap) {
   const study::Study study = layout::recorded_study(file.header(), file.path());
@@ -274,7 +272,7 @@ StudySummary summarise(const reading::StudyFile& file, double confidence, bool b
   summary.points = study_statistics(file, study, confidence, bootstrap);
   UndecidedAccumulator undecided(study);
   undecided.add(file, file.rows());
-  complete_points(summary, study, undecided.moves());
+  describe_points(summary, study, undecided.moves(), complete_points(summary));
   if (!study.sequence.empty()) {
     summary.sections.push_back(iso230::repeatability_section(
         iso230::study_repeatability(file, study, confidence), short_labels(summary.labels, summary.axes)));
@@ -294,7 +292,7 @@ StudySummary summarise(const reading::ResultsFile& file, double confidence, bool
   sums.add(file);
   SummedStudy summed = sums.sum();
   summary.points = std::move(summed.points);
-  complete_points(summary, study, summed.undecided);
+  describe_points(summary, study, summed.undecided, complete_points(summary));
   add_claims(summary);
   return summary;
 }

@@ -78,18 +78,22 @@ std::string bounds_head(const StudySummary& summary) {
 std::vector<std::string> observations(const StudySummary& summary) {
   std::vector<std::string> texts;
   bool any = false;
-  for (std::size_t i = 0; i < summary.points.size(); ++i) {
-    texts.push_back(observed_at(summary, static_cast<std::int64_t>(i)));
+  for (const std::int64_t point : complete_points(summary)) {
+    texts.push_back(observed_at(summary, point));
     any = any || !texts.back().empty();
   }
   return any ? texts : std::vector<std::string>{};
 }
 
-std::vector<std::int64_t> points_shown(const StudySummary& summary, const SummaryForm& form) {
-  if (!form.points.empty()) return form.points;
+std::vector<std::int64_t> complete_points(const StudySummary& summary) {
+  if (!summary.complete.empty()) return summary.complete;
   std::vector<std::int64_t> all(summary.points.size());
   std::iota(all.begin(), all.end(), std::int64_t{0});
   return all;
+}
+
+std::vector<std::int64_t> points_shown(const StudySummary& summary, const SummaryForm& form) {
+  return form.points.empty() ? complete_points(summary) : form.points;
 }
 
 std::string summary_table(const StudySummary& summary, const SummaryForm& form) {
@@ -100,7 +104,7 @@ std::string summary_table(const StudySummary& summary, const SummaryForm& form) 
   const std::string unfinished = unfinished_sentence(summary);
   const text::PointTable table =
       levels ? level_table(summary)
-             : text::PointTable{loop_columns(summary, chosen.point), points_shown(summary, {})};
+             : text::PointTable{loop_columns(summary, chosen.point), complete_points(summary)};
   std::string text = fmt::format("{}: {}\n{}{}\n\n{}{}", text::printable(summary.name), size_line(summary),
                                  unfinished.empty() ? "" : unfinished + "\n", design_line(summary),
                                  text::aligned_table(table, points), nonfinite_notes(summary, points));

@@ -43,12 +43,19 @@ struct StudySummary {
   std::uint64_t seed{0};                                        ///< of the study
   std::optional<UnfinishedStudy> unfinished{};                  ///< where the run has not ended
   std::vector<measures::SummarySection> sections{};
+  /// Points with all statistics, in their order; empty: every point. Of the others only those are known that
+  /// points are chosen by (selected_summary.hpp), and they are in no table.
+  std::vector<std::int64_t> complete{};
 
   /// The measures that the points have statistics of.
   const layout::MeasureTable& table() const {
-    return points.empty() ? layout::measure_table() : *points.front().table;
+    if (points.empty()) return layout::measure_table();
+    return *points[complete.empty() ? 0 : static_cast<std::size_t>(complete.front())].table;
   }
 };
+
+/// The numbers of the points with all statistics.
+std::vector<std::int64_t> complete_points(const StudySummary& summary);
 
 /// Key of the section of a study that decided itself how many trials it took (`stop`).
 inline constexpr const char* stopping_key = "stopped";

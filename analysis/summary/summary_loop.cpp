@@ -22,9 +22,17 @@ std::int64_t rigs_without_failure(const measures::PointSummary& point) {
   return std::llround(point.rigs.without_failure * static_cast<double>(point.rigs.n));
 }
 
+/// Whether some point of the table `is` so.
+template <typename Is>
+bool any_point(const StudySummary& summary, Is is) {
+  return std::ranges::any_of(complete_points(summary), [&](std::int64_t point) {
+    return is(summary.points[static_cast<std::size_t>(point)]);
+  });
+}
+
 bool any_undecided(const StudySummary& summary) {
-  return std::any_of(summary.points.begin(), summary.points.end(),
-                     [](const measures::PointSummary& point) { return point.outcomes.off_target > 0; });
+  return any_point(summary,
+                   [](const measures::PointSummary& point) { return point.outcomes.off_target > 0; });
 }
 
 /// Trials that ended within one count and are not stable.
@@ -35,14 +43,14 @@ std::int64_t unsettled(const measures::PointSummary& point) {
 /// Whether these are many enough at some point to have a column.
 bool any_unsettled(const StudySummary& summary) {
   constexpr double min_proportion = 0.02;
-  return std::any_of(summary.points.begin(), summary.points.end(), [](const measures::PointSummary& point) {
+  return any_point(summary, [](const measures::PointSummary& point) {
     return static_cast<double>(unsettled(point)) > min_proportion * static_cast<double>(point.judged);
   });
 }
 
 /// With one trial per rig, rigs without a failure are the trials without one.
 bool has_several_trials_of_rigs(const StudySummary& summary) {
-  return std::ranges::any_of(summary.points, [](const measures::PointSummary& point) {
+  return any_point(summary, [](const measures::PointSummary& point) {
     return point.rigs.n > 0 && point.trials > point.rigs.n;
   });
 }
@@ -51,7 +59,8 @@ bool has_several_trials_of_rigs(const StudySummary& summary) {
 template <typename Cell>
 text::TextColumn by_point(const StudySummary& summary, std::string head, Cell cell) {
   text::TextColumn column{std::move(head), true, {}};
-  for (const measures::PointSummary& point : summary.points) column.cells.push_back(cell(point));
+  for (const std::int64_t point : complete_points(summary))
+    column.cells.push_back(cell(summary.points[static_cast<std::size_t>(point)]));
   return column;
 }
 
@@ -188,7 +197,8 @@ bool has_predictions(const StudySummary& summary) {
 
 void add_predictions(std::vector<text::TextColumn>& columns, const StudySummary& summary) {
   text::TextColumn holds{"(6) holds", true, {}}, exceeded{"(7) exceeded", true, {}};
-  for (const theory::PointPrediction& prediction : summary.predictions) {
+  for (const std::int64_t point : complete_points(summary)) {
+    const theory::PointPrediction& prediction = summary.predictions[static_cast<std::size_t>(point)];
     holds.cells.push_back(text::percentage(prediction.stable, theory::predicted_trials(prediction)));
     exceeded.cells.push_back(text::percentage(prediction.unstable, theory::predicted_trials(prediction)));
   }

@@ -16,6 +16,18 @@
 /// Parts of the summary of a study, which summary_table, summary_json and summary_csv put together.
 namespace zerocount::summary {
 
+/// The properties of a study as a whole.
+StudySummary summary_without_points(const study::Study& study, double confidence);
+
+/// Adds to the statistics what the study says of their points, and the sections that need no more.
+/// @param undecided [point] @param numbers [point] its number in the study
+void describe_points(StudySummary& summary, const study::Study& study,
+                     const std::vector<measures::UndecidedMoves>& undecided,
+                     std::span<const std::int64_t> numbers);
+
+/// Adds the claims about all axes. They count independent trials.
+void add_claims(StudySummary& summary);
+
 /// "95 % bounds", with the confidence of the summary: the head of a column of them.
 std::string bounds_head(const StudySummary& summary);
 
@@ -93,10 +105,12 @@ measures::SummarySection observed_section(std::span<const measures::PointSummary
                                           double confidence);
 
 /// The columns of that section with 95 %, for the results file; empty without counts.
+/// @param first the first of the points, which are consecutive
 std::vector<layout::PointColumn> observed_columns(std::span<const measures::PointSummary> points,
-                                                  const study::Study& study);
+                                                  const study::Study& study, std::int64_t first = 0);
 
-/// The verdicts of the points by the goal of the study, each on its own; nothing for a point without trials.
+/// The verdicts of the complete_points() by the goal of the study, each on its own; nothing for a point
+/// without trials.
 std::vector<std::optional<goal::Verdict>> goal_verdicts(const StudySummary& summary);
 
 /// {"status", "rate", "rate_low", "rate_high"}, the proportion of moves that meet the goal; if the goal asks

@@ -52,12 +52,9 @@ text::TextColumn swept_column(const StudySummary& summary, const study::SweepAxi
   const bool numeric = axis.kind == study::SweepAxis::Kind::number;
   const std::string unit = numeric && axis.unit != "1" ? fmt::format(" ({})", axis.unit) : "";
   text::TextColumn column{short_name(summary.axes, axis) + unit, numeric, {}};
-  if (!numeric) {
-    column.cells = axis.texts;
-    return column;
-  }
-  for (const double value : axis.numbers) {
-    column.cells.push_back(number_cell(axis, value));
+  for (const std::int64_t point : complete_points(summary)) {
+    const auto i = static_cast<std::size_t>(point);
+    column.cells.push_back(numeric ? number_cell(axis, axis.numbers[i]) : axis.texts[i]);
   }
   return column;
 }
@@ -75,10 +72,13 @@ bool labels_name_values(const StudySummary& summary, const std::vector<const stu
 /// chosen point among several.
 text::TextColumn point_column(const StudySummary& summary, bool by_number, std::int64_t chosen) {
   text::TextColumn column{"point", false, {}};
-  const std::vector<std::string> labels = short_labels(summary.labels, summary.axes);
+  const std::vector<std::int64_t> points = complete_points(summary);
+  std::vector<std::string> labels;
+  for (const std::int64_t point : points) labels.push_back(summary.labels[static_cast<std::size_t>(point)]);
+  labels = short_labels(std::move(labels), summary.axes);
   for (std::size_t i = 0; i < labels.size(); ++i) {
-    const bool marked = labels.size() > 1 && static_cast<std::int64_t>(i) == chosen;
-    column.cells.push_back((by_number ? fmt::format("{}", i) : text::printable(labels[i])) +
+    const bool marked = summary.points.size() > 1 && points[i] == chosen;
+    column.cells.push_back((by_number ? fmt::format("{}", points[i]) : text::printable(labels[i])) +
                            (marked ? " *" : ""));
   }
   return column;
@@ -108,7 +108,8 @@ std::vector<text::TextColumn> sweep_columns(const StudySummary& summary, std::in
   const auto cases = std::find_if(summary.axes.begin(), summary.axes.end(), is_case);
   if (by_number && cases != summary.axes.end()) {
     text::TextColumn names{"case", false, {}};
-    for (const std::string& name : cases->texts) names.cells.push_back(text::printable(name));
+    for (const std::int64_t point : complete_points(summary))
+      names.cells.push_back(text::printable(cases->texts[static_cast<std::size_t>(point)]));
     columns.push_back(std::move(names));
   }
   for (const study::SweepAxis* axis : swept) columns.push_back(swept_column(summary, *axis));

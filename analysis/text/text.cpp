@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -105,11 +106,12 @@ std::string aligned_table(const std::vector<TextColumn>& columns) {
 }
 
 std::string aligned_table(const PointTable& table, std::span<const std::int64_t> points) {
+  std::multimap<std::int64_t, std::size_t> rows_of;
+  for (std::size_t row = 0; row < table.points.size(); ++row) rows_of.emplace(table.points[row], row);
   std::vector<std::size_t> rows;
   for (const std::int64_t point : points) {
-    for (std::size_t row = 0; row < table.points.size(); ++row) {
-      if (table.points[row] == point) rows.push_back(row);
-    }
+    const auto [first, last] = rows_of.equal_range(point);
+    for (auto row = first; row != last; ++row) rows.push_back(row->second);
   }
   if (rows.empty()) return {};
   std::vector<TextColumn> columns;

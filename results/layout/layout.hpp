@@ -155,7 +155,8 @@ struct WorldCounts {
   std::vector<std::vector<std::int64_t>> goal_met;  ///< all of whose moves meet the goal; empty without one
 };
 
-/// Everything that is stored of the statistics of a study.
+/// Everything that is stored of the statistics of consecutive design points of a study: of all of them, or of
+/// the first ones.
 struct StoredStatistics {
   std::vector<PointColumn> points;
   std::vector<StatisticTable> tables;       ///< none twice
@@ -163,6 +164,8 @@ struct StoredStatistics {
   /// [point][rig] trials of which all moves ended with a zero count; empty without rigs
   std::vector<std::vector<std::int64_t>> rig_successes{};
   std::optional<WorldCounts> worlds{};
+  /// The same of the points that follow these, block after block, then nothing; empty where these are all.
+  std::function<std::optional<StoredStatistics>()> more{};
 };
 
 /// Number of angles at which a profile is tabulated, over one revolution, where all trials are on one rotor.

@@ -42,40 +42,48 @@ PointColumn joined_bands(std::span<const PointColumn> columns) {
 }  // namespace
 
 void write_point_columns(hdf5::File& file, const Table& points, std::span<const PointColumn> columns,
-                         const trial::ErrorBands& bands) {
+                         const trial::ErrorBands& bands, RowRange rows) {
   TableIo io = TableIo::open(file, points);
+  hdf5::Group group = file.open_group(points.group);
+  const auto write = [&](TableIo& table, const PointColumn& column) {
+    if (rows.first == 0) {
+      table.add(statistic_column(column)).write(0, rows.count, column.values.data());
+    } else {
+      group.open_dataset(column.name).write(rows.first, rows.count, column.values.data());
+    }
+  };
   std::map<std::string_view, std::vector<PointColumn>> of_bands;
   for (const PointColumn& column : columns) {
-    if (std::ssize(column.values) != io.rows()) {
+    if (std::ssize(column.values) != rows.count) {
       throw std::invalid_argument(
           fmt::format("the statistic '{}' needs one value per design point", column.name));
     }
     const std::string_view of_band = name_before_band(column.name);
     if (of_band.empty()) {
-      io.add(statistic_column(column)).write(0, io.rows(), column.values.data());
+      write(io, column);
     } else {
       of_bands[of_band].push_back(column);
     }
   }
   if (of_bands.empty()) return;
   TableIo with_bands = TableIo::create(file, band_statistic_table(bands), io.rows(), 1);
-  for (const auto& [name, all] : of_bands) {
-    const PointColumn joined = joined_bands(all);
-    with_bands.add(statistic_column(joined)).write(0, io.rows(), joined.values.data());
-  }
+  for (const auto& [name, all] : of_bands) write(with_bands, joined_bands(all));
 }
 
-void write_statistic_table(hdf5::File& file, const StatisticTable& table, std::int64_t points) {
+void write_statistic_table(hdf5::File& file, const StatisticTable& table, std::int64_t points,
+                           RowRange rows) {
   for (const PointColumn& column : table.columns) {
-    if (std::ssize(column.values) == points * table.width) continue;
+    if (std::ssize(column.values) == rows.count * table.width) continue;
     throw std::invalid_argument(
         fmt::format("the statistic '{}' of '{}' needs one value per design point and {}", column.name,
                     table.group->name, table.group->dimension));
   }
-  TableIo io = TableIo::create(file, statistic_table(*table.group, table.columns), points, table.width);
-  io.number_rows(0);
+  const Table described = statistic_table(*table.group, table.columns);
+  TableIo io = rows.first == 0 ? TableIo::create(file, described, points, table.width)
+                               : TableIo::open(file, described);
+  if (rows.first == 0) io.number_rows(0);
   for (std::size_t index = 0; index < table.columns.size(); ++index) {
-    io.column(index).write(0, points, table.columns[index].values.data());
+    io.column(index).write(rows.first, rows.count, table.columns[index].values.data());
   }
 }
 

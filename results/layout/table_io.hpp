@@ -11,6 +11,7 @@
 #include "results/hdf5/hdf5.hpp"
 #include "results/layout/fields.hpp"
 #include "results/layout/layout.hpp"
+#include "results/layout/row_range.hpp"
 
 namespace zerocount::layout {
 
@@ -112,15 +113,16 @@ std::vector<Record> read_records(const TableIo& io, const std::vector<RecordFiel
   return records;
 }
 
-/// Writes statistics of the design points to the table that the file has. Those of error bands become one
-/// dataset [point, band] (see PointColumn).
+/// Writes statistics of the design points `rows` to the table that the file has. Those of error bands become
+/// one dataset [point, band] (see PointColumn). The first points create the datasets, for all points.
 /// @throws std::invalid_argument where a column has not one value per design point.
 void write_point_columns(hdf5::File& file, const Table& points, std::span<const PointColumn> columns,
-                         const trial::ErrorBands& bands);
+                         const trial::ErrorBands& bands, RowRange rows);
 
-/// Writes a table of statistics to its group, for `points` design points.
+/// Writes a table of statistics of the design points `rows` to its group, which the first of them create for
+/// `points` design points.
 /// @throws std::invalid_argument where a column has not one value per design point and index.
-void write_statistic_table(hdf5::File& file, const StatisticTable& table, std::int64_t points);
+void write_statistic_table(hdf5::File& file, const StatisticTable& table, std::int64_t points, RowRange rows);
 
 /// The tables of statistics that a file has, in the order of statistic_groups().
 /// @throws Failure (bad_data) where one is damaged.

@@ -1,6 +1,8 @@
 #include "results/reading/csv.hpp"
 
+#include <charconv>
 #include <cmath>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -10,11 +12,22 @@ std::string number_text(double value) {
   return std::isnan(value) ? "nan" : fmt::format("{}", value);  // a NaN's sign means nothing
 }
 
+namespace {
+
+/// Whether a spreadsheet reads it as a number, maybe with a percent sign.
+bool is_number(std::string_view text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} &&
+         std::string_view(end, text.data() + text.size()).find_first_not_of(" %") == std::string_view::npos;
+}
+
+}  // namespace
+
 bool is_formula(std::string_view text) {
   if (text.empty()) return false;
   const bool is_signed = text.front() == '+' || text.front() == '-';
-  return text.front() == '=' || text.front() == '@' ||
-         (is_signed && text.find_first_of("(|!=@") != std::string_view::npos);
+  return text.front() == '=' || text.front() == '@' || (is_signed && !is_number(text.substr(1)));
 }
 
 std::string csv_field(std::string_view text) {

@@ -154,37 +154,53 @@ hdf5::WrittenValues write_trials_of(std::span<const ShardInfo> shards, const stu
   return file.close();
 }
 
-layout::StoredStatistics statistics_of(const fs::path& part, const hdf5::WrittenValues& written,
-                                       const StatisticsOfPoints& statistics,
-                                       const layout::MeasureTable* measures) {
+void write_point_statistics(hdf5::File& file, const study::Study& study,
+                            const layout::StoredStatistics& statistics, layout::RowRange points) {
+  std::vector<layout::PointColumn> columns;
+  for (const layout::PointColumn& column : statistics.points)
+    columns.push_back(layout::on_axis(column, study.units.axis));
+  layout::write_point_columns(file, layout::point_table(study.axes, {}), columns, study.features.bands,
+                              points);
+}
+
+/// Writes the statistics of some design points.
+void write_block(hdf5::File& file, const study::Study& study, const layout::StoredStatistics& statistics,
+                 layout::RowRange points) {
+  write_point_statistics(file, study, statistics, points);
+  for (layout::StatisticTable table : statistics.tables) {
+    for (layout::PointColumn& column : table.columns)
+      column = layout::on_axis(std::move(column), study.units.axis);
+    layout::write_statistic_table(file, table, study::point_count(study), points);
+  }
+  if (statistics.groups) statistics.groups(file);
+  if (!statistics.rig_successes.empty())
+    write_rig_counts(file, study, statistics.rig_successes, points.first);
+  if (statistics.worlds) write_world_counts(file, study, *statistics.worlds, points.first);
+}
+
+/// Writes what is known when all trials have been run, block after block.
+void write_statistics(hdf5::File& file, const study::Study& study, layout::StoredStatistics statistics) {
+  const auto more = std::move(statistics.more);
+  layout::RowRange points{0, study::point_count(study)};
+  for (std::optional<layout::StoredStatistics> block = std::move(statistics); block; block = more()) {
+    if (more) points.count = std::ssize(block->points.at(0).values);
+    write_block(file, study, *block, points);
+    points.first = points.end();
+    if (!more) return;
+  }
+}
+
+/// The statistics from the trials in the file that is being made, which are read while they are written.
+void write_statistics_of(const fs::path& part, hdf5::File& file, const hdf5::WrittenValues& written,
+                         const study::Study& study, const StatisticsOfPoints& statistics,
+                         const layout::MeasureTable* measures) {
   try {
-    return statistics(reading::StudyFile(part, reading::Require::unfinished, measures));
+    const reading::StudyFile trials(part, reading::Require::unfinished, measures);
+    write_statistics(file, study, statistics(trials));
   } catch (const Failure&) {
     hdf5::require_written(part, written);  // if the write failed, report that instead
     throw;
   }
-}
-
-void write_point_statistics(hdf5::File& file, const study::Study& study,
-                            const layout::StoredStatistics& statistics) {
-  std::vector<layout::PointColumn> columns;
-  for (const layout::PointColumn& column : statistics.points)
-    columns.push_back(layout::on_axis(column, study.units.axis));
-  layout::write_point_columns(file, layout::point_table(study.axes, {}), columns, study.features.bands);
-}
-
-/// Writes what is known when all trials have been run, and the completion mark.
-void write_statistics(hdf5::File& file, const study::Study& study,
-                      const layout::StoredStatistics& statistics) {
-  write_point_statistics(file, study, statistics);
-  for (layout::StatisticTable table : statistics.tables) {
-    for (layout::PointColumn& column : table.columns)
-      column = layout::on_axis(std::move(column), study.units.axis);
-    layout::write_statistic_table(file, table, study::point_count(study));
-  }
-  if (statistics.groups) statistics.groups(file);
-  if (!statistics.rig_successes.empty()) write_rig_counts(file, study, statistics.rig_successes);
-  if (statistics.worlds) write_world_counts(file, study, *statistics.worlds);
 }
 
 /// The shards in order of rows. @throws Failure unless they cover `rows`.
@@ -214,16 +230,15 @@ void merge_shards(std::span<const ShardInfo> shards, const study::Study& study, 
   const std::vector<ShardInfo> ordered = in_order(shards, rows, output);
   const bool whole = rows == layout::all_rows(study);
   const storage::UnfinishedFile part(output);
-  hdf5::WrittenValues written = write_trials_of(ordered, study, part.path(), rows, options);
-  SummedTrials summed;
+  const hdf5::WrittenValues written = write_trials_of(ordered, study, part.path(), rows, options);
+  hdf5::File file = hdf5::File::open_to_change(part.path(), written);
   if (layout::has_sums(study.kept)) {
-    summed = options.sums_of(ordered);
+    SummedTrials summed = options.sums_of(ordered);
+    layout::write_sums(file, rows.first / study.trials, summed.sums);
+    if (whole) write_statistics(file, study, std::move(summed.statistics));
   } else if (whole && statistics) {
-    summed.statistics = statistics_of(part.path(), written, statistics, options.measures);
+    write_statistics_of(part.path(), file, written, study, statistics, options.measures);
   }
-  hdf5::File file = hdf5::File::open_to_change(part.path(), std::move(written));
-  if (layout::has_sums(study.kept)) layout::write_sums(file, rows.first / study.trials, summed.sums);
-  if (whole) write_statistics(file, study, summed.statistics);
   layout::mark_finished(file);
   finish_results(output, file.close());
 }

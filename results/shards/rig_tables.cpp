@@ -70,6 +70,15 @@ void write_inputs(hdf5::File& file, const layout::Table& table, std::int64_t row
     io.column(column).write(0, rows, values[column].data());
 }
 
+/// The table of counts [point, width], which the first points create.
+layout::TableIo table_of_counts(hdf5::File& file, const layout::Table& table, const study::Study& study,
+                                std::int64_t width, std::int64_t first) {
+  if (first > 0) return layout::TableIo::open(file, table);
+  layout::TableIo io = layout::TableIo::create(file, table, study::point_count(study), width);
+  io.number_rows(0);
+  return io;
+}
+
 }  // namespace
 
 void write_profiles(hdf5::File& file, const study::Study& study) {
@@ -92,13 +101,12 @@ void write_worlds(hdf5::File& file, const study::Study& study) {
                [&](std::int64_t world) { return study::world_inputs(study, world); });
 }
 
-void write_world_counts(hdf5::File& file, const study::Study& study, const layout::WorldCounts& counts) {
+void write_world_counts(hdf5::File& file, const study::Study& study, const layout::WorldCounts& counts,
+                        std::int64_t first) {
   const bool has_goal = !counts.goal_met.empty();
-  layout::TableIo io = layout::TableIo::create(file, layout::world_count_table(has_goal),
-                                               std::ssize(counts.trials), study.worlds);
-  io.number_rows(0);
+  layout::TableIo io = table_of_counts(file, layout::world_count_table(has_goal), study, study.worlds, first);
   for (std::size_t point = 0; point < counts.trials.size(); ++point) {
-    const auto row = static_cast<std::int64_t>(point);
+    const auto row = first + static_cast<std::int64_t>(point);
     io.column(0).write(row, 1, counts.success[point].data());
     io.column(1).write(row, 1, counts.trials[point].data());
     if (has_goal) io.column(2).write(row, 1, counts.goal_met[point].data());
@@ -106,15 +114,14 @@ void write_world_counts(hdf5::File& file, const study::Study& study, const layou
 }
 
 void write_rig_counts(hdf5::File& file, const study::Study& study,
-                      const std::vector<std::vector<std::int64_t>>& successes) {
-  layout::TableIo io =
-      layout::TableIo::create(file, layout::rig_count_table(), std::ssize(successes), study.rigs);
-  io.number_rows(0);
+                      const std::vector<std::vector<std::int64_t>>& successes, std::int64_t first) {
+  layout::TableIo io = table_of_counts(file, layout::rig_count_table(), study, study.rigs, first);
   const std::vector<std::int64_t> trials(static_cast<std::size_t>(study.rigs),
                                          study.open_loop ? 0 : study.trials / study.rigs);
   for (std::size_t point = 0; point < successes.size(); ++point) {
-    io.column(0).write(static_cast<std::int64_t>(point), 1, successes[point].data());
-    io.column(1).write(static_cast<std::int64_t>(point), 1, trials.data());
+    const auto row = first + static_cast<std::int64_t>(point);
+    io.column(0).write(row, 1, successes[point].data());
+    io.column(1).write(row, 1, trials.data());
   }
 }
 

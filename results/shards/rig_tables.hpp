@@ -15,14 +15,16 @@ void write_profiles(hdf5::File& file, const study::Study& study);
 /// Writes the inputs that differ between the rigs of a study to /rig.
 void write_rigs(hdf5::File& file, const study::Study& study);
 
-/// Writes the trials that were judged and those that succeeded to /rig. @param successes [point][rig]
+/// Writes the trials that were judged and those that succeeded at the points from `first` on to /rig.
+/// @param successes [point][rig]
 void write_rig_counts(hdf5::File& file, const study::Study& study,
-                      const std::vector<std::vector<std::int64_t>>& successes);
+                      const std::vector<std::vector<std::int64_t>>& successes, std::int64_t first);
 
 /// Writes the inputs that differ between the worlds of a study to /world.
 void write_worlds(hdf5::File& file, const study::Study& study);
 
-/// Writes the trials of the worlds to /world.
-void write_world_counts(hdf5::File& file, const study::Study& study, const layout::WorldCounts& counts);
+/// Writes the trials of the worlds at the points from `first` on to /world.
+void write_world_counts(hdf5::File& file, const study::Study& study, const layout::WorldCounts& counts,
+                        std::int64_t first);
 
 }  // namespace zerocount::shards

@@ -10,6 +10,7 @@
 #include "results/shards/pieces.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/commands.hpp"
+#include "runners/commands/study_argument.hpp"
 #include "runners/standard_output/standard_output.hpp"
 
 namespace zerocount::commands {
@@ -51,8 +52,9 @@ nlohmann::ordered_json judgement_json(const summary::StudySummary& summary,
   return json;
 }
 
-/// The summary of a finished study.
-summary::StudySummary summary_of(const std::filesystem::path& path) {
+/// Refuses what the description of the file tells, before its trials are read.
+void require_judgeable(const command_line::Arguments& arguments) {
+  const std::filesystem::path path = arguments.operands()[0];
   std::error_code error;
   if (!std::filesystem::exists(path, error) && shards::has_begun(path)) {
     throw Failure(ExitCode::bad_data,
@@ -60,17 +62,18 @@ summary::StudySummary summary_of(const std::filesystem::path& path) {
                               "'zerocount summary' is of the finished trials",
                               path.string()));
   }
-  return summary::summarise_file(path);
+  const study::Study study = described_study(path);
+  command_line::point_option(arguments, study.point_labels);
+  if (study.goal) return;
+  throw Failure(ExitCode::bad_input,
+                fmt::format("{}: its manifest has no goal; expected one such as goal: {{band: 1, within: "
+                            "0.05, moves: 0.99}}",
+                            path.string()));
 }
 
 ExitCode judge(const command_line::Arguments& arguments) {
-  const summary::StudySummary summary = summary_of(arguments.operands()[0]);
-  if (!summary.goal) {
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: its manifest has no goal; expected one such as goal: {{band: 1, within: "
-                              "0.05, moves: 0.99}}",
-                              arguments.operands()[0]));
-  }
+  require_judgeable(arguments);
+  const summary::StudySummary summary = summary::summarise_file(arguments.operands()[0]);
   const auto point = command_line::point_option(arguments, summary.labels);
   const summary::JudgedPoint judged = summary::judge_point(summary, summary::choose_point(summary, point));
   if (arguments.choice("format") == "json") {

@@ -14,6 +14,7 @@
 #include "analysis/worlds/learning.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/commands.hpp"
+#include "runners/commands/study_argument.hpp"
 #include "runners/standard_output/standard_output.hpp"
 
 namespace zerocount::commands {
@@ -224,30 +225,38 @@ Json json_of(const Answer& answer) {
           {"unknowns", std::move(unknowns)}};
 }
 
-Answer answer_to(const command_line::Arguments& arguments, const summary::StudySummary& summary) {
+[[noreturn]] void refuse_equal_worlds(const std::string& path) {
+  throw Failure(
+      ExitCode::bad_input,
+      fmt::format("{}: nothing differs between worlds in this study; expected worlds: 30, and a value "
+                  "such as friction.alpha: {{interval: [0.1, 2.0]}}",
+                  path));
+}
+
+/// Refuses what the description of the file tells, before its trials are read.
+void require_worlds(const command_line::Arguments& arguments) {
   const std::string& path = arguments.operands()[0];
-  const auto asked = command_line::point_option(arguments, summary.labels);
-  const summary::ChosenPoint chosen = summary::choose_point(summary, asked);
-  if (summary.worlds == 0 || summary::world_inputs_of(summary, chosen.point).empty()) {
-    throw Failure(
-        ExitCode::bad_input,
-        fmt::format("{}: nothing differs between worlds in this study; expected worlds: 30, and a value "
-                    "such as friction.alpha: {{interval: [0.1, 2.0]}}",
-                    path));
-  }
-  std::optional<worlds::PointWorlds> worlds =
-      summary::worlds_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from));
-  if (!worlds) {
+  const study::Study study = described_study(path);
+  command_line::point_option(arguments, study.point_labels);
+  if (study.worlds == 0) refuse_equal_worlds(path);
+  if (study.open_loop) {
     throw Failure(
         ExitCode::bad_input,
         fmt::format("{}: no move of an open-loop study is judged; expected a study with targets", path));
   }
+}
+
+Answer answer_to(const command_line::Arguments& arguments, const summary::StudySummary& summary) {
+  const auto asked = command_line::point_option(arguments, summary.labels);
+  const summary::ChosenPoint chosen = summary::choose_point(summary, asked);
+  if (summary::world_inputs_of(summary, chosen.point).empty()) refuse_equal_worlds(arguments.operands()[0]);
   Answer answer{
       .summary = summary,
       .chosen = chosen,
       .judged = {},
       .precision = command_line::probability_option(arguments, "precision").value_or(usual_precision),
-      .worlds = std::move(*worlds)};
+      .worlds =
+          *summary::worlds_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from))};
   if (summary.goal) answer.judged = summary::judge_point(summary, chosen);
   if (answer.worlds_differ())
     answer.learned =
@@ -273,6 +282,7 @@ ExitCode exit_code_of(const Answer& answer) {
 }
 
 ExitCode learn(const command_line::Arguments& arguments) {
+  require_worlds(arguments);
   const summary::StudySummary summary = summary::summarise_file(arguments.operands()[0]);
   const Answer answer = answer_to(arguments, summary);
   if (arguments.choice("format") == "json") {

@@ -6,6 +6,8 @@
 #include "experiments/manifest/samples.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/hdf5/array_file.hpp"
+#include "results/layout/header.hpp"
+#include "results/shards/shard.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/plugins/plugin_library.hpp"
 
@@ -16,6 +18,10 @@ namespace fs = std::filesystem;
 bool is_results_file(const fs::path& path) {
   if (path.extension() == ".h5") return true;
   return !yaml::is_stream(path) && hdf5::is_hdf5_with_user_block(path);
+}
+
+study::Study described_study(const fs::path& path) {
+  return layout::recorded_study(shards::inspect_header(path, layout::Checksum::not_yet), path);
 }
 
 study::Study load_study(const fs::path& manifest, const command_line::Arguments& arguments,

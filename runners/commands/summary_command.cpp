@@ -2,6 +2,7 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include "analysis/goal/goal_verdict.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/summary/chosen_point.hpp"
+#include "analysis/summary/selected_summary.hpp"
 #include "analysis/summary/shown_points.hpp"
 #include "analysis/summary/summary.hpp"
 #include "analysis/summary/summary_parts.hpp"
@@ -23,6 +25,7 @@
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/commands.hpp"
 #include "runners/commands/plugin_option.hpp"
+#include "runners/commands/study_argument.hpp"
 #include "runners/standard_output/standard_output.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_run/confirmation.hpp"
@@ -42,7 +45,8 @@ constexpr const char* summary_help =
     "--point: what is shown of all axes that the manifest describes, which points are as good,\n"
     "and whether it lies at an end of the sweep.\n"
     "--sort, --where and --top choose rows. They take the names of the columns of --format csv\n"
-    "and of swept parameters, which may be shortened (ki).\n"
+    "and of swept parameters, which may be shortened (ki). Conditions are <, <=, >, >=, = and !=;\n"
+    "cases and labels can be equal or not: 'case != best'.\n"
     "The formats json and csv have more statistics than the table. The file stores 95 % bounds;\n"
     "others are computed.\n"
     "--confirm N runs the best point again, with N new trials from a fresh seed, and prints what\n"
@@ -144,31 +148,62 @@ nlohmann::ordered_json confirmation_json(const summary::StudySummary& summary,
   return json;
 }
 
-/// The points that --sort, --where and --top choose.
-std::vector<std::int64_t> points_asked_for(const command_line::Arguments& arguments,
-                                           const summary::StudySummary& summary) {
-  const summary::PointSelection selection{arguments.value("sort"), arguments.values("where"),
-                                          arguments.whole_number("top", 1, std::int64_t{1} << 40)};
+/// The points that --sort, --where and --top ask for.
+summary::PointSelection selection_of(const command_line::Arguments& arguments) {
+  return {arguments.value("sort"), arguments.values("where"),
+          arguments.whole_number("top", 1, std::int64_t{1} << 40)};
+}
+
+/// What `select` returns. What is wrong with the selection is said of the options.
+template <class Select>
+auto selected_by(const command_line::Arguments& arguments, const Select& select) {
   try {
-    return summary::selected_points(summary, selection);
+    return select();
   } catch (const Failure& failure) {
     if (failure.code() != ExitCode::bad_input) throw;
     arguments.refuse(fmt::format("options '--sort' and '--where': {}", failure.what()));
   }
 }
 
+/// The summary of the points that the options ask for, where that takes less than one of all.
+std::optional<summary::SelectedSummary> summary_of_selected(const command_line::Arguments& arguments,
+                                                            double confidence) {
+  const fs::path path = arguments.operands()[0];
+  if (confidence != statistics::summary_confidence || !is_there(path) ||
+      is_there(layout::shards_directory(path)))
+    return std::nullopt;
+  const std::optional<std::int64_t> point =
+      command_line::point_option(arguments, described_study(path).point_labels);
+  const bool bootstrap = arguments.choice("format") != "table";
+  return selected_by(arguments, [&] {
+    return summary::summarise_selected(path, bootstrap, selection_of(arguments), point);
+  });
+}
+
+/// The summary of all points.
+summary::SelectedSummary summary_of_all(const command_line::Arguments& arguments, double confidence) {
+  const fs::path path = arguments.operands()[0];
+  const bool table = arguments.choice("format") == "table";
+  summary::StudySummary summary = summary_of(path, confidence, !table);
+  // Bounds of means take their time: in tables only those of the true motion are shown.
+  if (table && (summary.features.motion || summary.features.following))
+    summary = summary.unfinished ? summary::summarise_unfinished(path, confidence, true)
+                                 : summary::summarise_file(path, confidence, true);
+  std::vector<std::int64_t> points =
+      selected_by(arguments, [&] { return summary::selected_points(summary, selection_of(arguments)); });
+  return {std::move(summary), std::move(points), {}};
+}
+
 ExitCode summarise_file(const command_line::Arguments& arguments) {
   const std::string format = arguments.choice("format");
   const double confidence =
       command_line::probability_option(arguments, "confidence").value_or(statistics::summary_confidence);
-  summary::StudySummary summary = summary_of(arguments.operands()[0], confidence, format != "table");
-  // Bounds of means take their time: in tables only those of the true motion are shown.
-  if (format == "table" && (summary.features.motion || summary.features.following))
-    summary = summary.unfinished ? summary::summarise_unfinished(arguments.operands()[0], confidence, true)
-                                 : summary::summarise_file(arguments.operands()[0], confidence, true);
   if (format == "csv" && arguments.has("confirm"))
     arguments.refuse("option '--confirm' goes with the formats table and json");
-  const summary::SummaryForm form{points_asked_for(arguments, summary),
+  std::optional<summary::SelectedSummary> selected = summary_of_selected(arguments, confidence);
+  if (!selected) selected = summary_of_all(arguments, confidence);
+  const summary::StudySummary& summary = selected->summary;
+  const summary::SummaryForm form{std::move(selected->points),
                                   command_line::point_option(arguments, summary.labels),
                                   arguments.has("legend")};
   const std::optional<study_run::Confirmation> confirmed =

@@ -13,6 +13,7 @@
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "analysis/measures/point_columns.hpp"
 #include "analysis/summary/study_statistics.hpp"
 #include "analysis/summary/summed_point.hpp"
 #include "core/trial/trial.hpp"
@@ -165,6 +166,19 @@ shards::SummedTrials sum_shards(std::span<const shards::ShardInfo> shards, const
   return trials;
 }
 
+/// Bytes of the statistics of the points that are written together, when all trials have been run.
+double memory_of_statistics(const study::Study& study) {
+  constexpr double all_statistics = 4e6;  // of the few points that have them all; measured
+  constexpr double copies = 2.0;          // as they grow and as they are written
+  const auto columns =
+      measures::statistic_fields(study.features, layout::measure_table(study.features.bands)).size();
+  const double of_point =
+      8.0 * copies *
+      static_cast<double>(std::ssize(study.axes) + std::int64_t(columns) + study.rigs + 3 * study.worlds);
+  return all_statistics +
+         of_point * static_cast<double>(std::min(study::point_count(study), layout::chunk_elements));
+}
+
 }  // namespace
 
 int threads_to_use(int asked) {
@@ -183,7 +197,8 @@ double samples_per_trial(const study::Study& study) {
 }
 
 double peak_memory(const study::Study& study, double bytes_of_trial, double record_bytes, int threads) {
-  constexpr double program = 40e6;  // program, libraries, lanes and statistics; measured
+  constexpr double program = 40e6;        // program, libraries, lanes and statistics; measured
+  constexpr double bytes_of_point = 480;  // label, swept values and predictions, here and in HDF5; measured
   const int workers = threads_to_use(threads);
   const std::int64_t rows = study::trial_count(study);
   const double in_work = 4.0 * workers * static_cast<double>(block_size_of(study, rows, workers));
@@ -192,8 +207,10 @@ double peak_memory(const study::Study& study, double bytes_of_trial, double reco
   // Writing a shard copies its columns.
   const double records = std::min(record_bytes, static_cast<double>(max_bytes_per_shard));
   const double block_traces = static_cast<double>(max_trace_bytes_per_block) + bytes_of_trace(study);
-  return program + 3.0 * records + std::min(record_bytes, 4.0 * workers * block_traces) +
-         bytes_of_trial * std::min(in_work + 2.0 * waiting, 3.0 * static_cast<double>(rows));
+  const double running = bytes_of_trial * std::min(in_work + 2.0 * waiting, 3.0 * static_cast<double>(rows));
+  return program + bytes_of_point * static_cast<double>(study::point_count(study)) + 3.0 * records +
+         std::min(record_bytes, 4.0 * workers * block_traces) +
+         std::max(running, memory_of_statistics(study));
 }
 
 FinishedTrials run_trials(const study::Study& study, std::span<const layout::RowRange> ranges,

@@ -155,6 +155,9 @@ def test_a_comparison_is_that_of_the_program(small: zc.Results, axis: zc.Study, 
     assert verdicts[0] == "regression" and verdicts[-1] == "passed" and verdicts[3] == "regression"
     with pytest.raises(zc.DataError, match="cannot be compared"):
         zc.compare(small, small.study.without("sweep").set(**{"controller.ki": 1e4}).run(tmp_path / "one.h5"))
+    for files in (("nowhere.h5", small), (small, "nowhere.h5")):
+        with pytest.raises(zc.DataError, match="nowhere.h5: no such file; expected a results file"):
+            zc.compare(*files)
 
 
 PLANS: list[tuple[dict[str, Any], list[str]]] = [

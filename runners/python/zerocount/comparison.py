@@ -8,6 +8,7 @@ import os
 from typing import TYPE_CHECKING, Any
 
 from . import program
+from .datasets import path_of
 from .optional import required
 from .options import dataclass_of, options
 
@@ -67,13 +68,19 @@ def compare(
     Returns
     -------
     Comparison
+        By the goal of the manifest, where it has one.
+
+    Raises
+    ------
+    DataError
+        If there is no such results file, or the two cannot be compared.
 
     Examples
     --------
     >>> zc.compare("my-axis.h5", points=(2, 3)).verdict
     'passed'
     """
-    files = [str(getattr(file, "path", file)) for file in (baseline, current) if file is not None]
+    files = [path_of(file) for file in (baseline, current) if file is not None]
     words = ["--points", *map(str, points)] if points is not None else []
     words += options(margins=margins, changed_fails=changed_fails, format="json")
     answer = json.loads(program.run(["compare", *files, *words], accepted=program.VERDICTS)[1])

@@ -160,9 +160,16 @@ def state_of(path: str | os.PathLike[str]) -> tuple[int, int, int]:
     """What tells whether a results file was written again."""
     try:
         state = os.stat(path)
-    except FileNotFoundError:
+    except (FileNotFoundError, NotADirectoryError):
         raise DataError(f"{path}: no such file; expected a results file", 4) from None
     return state.st_mtime_ns, state.st_size, state.st_ino
+
+
+def path_of(results: Any) -> str:
+    """The path of a results file, which is there."""
+    path = os.fspath(getattr(results, "path", results))
+    state_of(path)
+    return str(path)
 
 
 def _attribute(value: Any) -> Any:

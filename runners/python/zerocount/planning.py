@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from . import program
+from .datasets import path_of
 from .optional import required
 from .options import options
 
@@ -100,7 +101,7 @@ def plan(
     if isinstance(pilot, Study):
         text = pilot.command("plan", *words)
     else:
-        files = [] if pilot is None else [str(getattr(pilot, "path", pilot))]
+        files = [] if pilot is None else [path_of(pilot)]
         text = program.run(["plan", *files, *words])[1]
     answer = json.loads(text)
     return Plan(answer["plans"] if "plans" in answer else [answer], answer)

@@ -115,10 +115,39 @@ TEST(ShownPoints, AreSortedSelectedAndCountedByTheirValues) {
   EXPECT_EQ(selected_points(study, {.sort = "point", .top = 1}), Points{0});
   EXPECT_EQ(selected_points(study, {.sort = "best", .where = {"zero_count<90"}, .top = 1}), Points{2});
   EXPECT_EQ(selected_points(study, {.sort = "settling_time.p95"}), (Points{0, 1, 2, 3}));  // all are NaN
+  EXPECT_EQ(selected_points(study, {.where = {"ki != 1"}}), (Points{1, 2, 3}));
+  EXPECT_EQ(selected_points(study, {.where = {"zero_count == 90"}}), Points{1});
   EXPECT_THROW(selected_points(study, {.sort = "kp"}), Failure);
   EXPECT_THROW(selected_points(study, {.where = {"ki"}}), Failure);
   EXPECT_THROW(selected_points(study, {.where = {"ki > many"}}), Failure);
   EXPECT_THROW(selected_points(study, {.where = {"ki > 9"}}), Failure);
+}
+
+TEST(ShownPoints, OfNamedCasesAreSelectedAndSortedByTheirNames) {
+  StudySummary study =
+      swept_study({independent(10, 100), independent(90, 100), independent(85, 100), independent(20, 100)});
+  study.axes.push_back({"case", "", "", study::SweepAxis::Kind::text, {}, {"slow", "a<b", "fast", "slow"}});
+  using Points = std::vector<std::int64_t>;
+  EXPECT_EQ(selected_points(study, {.where = {"case == slow"}}), (Points{0, 3}));
+  EXPECT_EQ(selected_points(study, {.where = {"case = 'slow'", "ki > 1"}}), Points{3});
+  EXPECT_EQ(selected_points(study, {.where = {"case != slow"}}), (Points{1, 2}));
+  EXPECT_EQ(selected_points(study, {.where = {"case = a<b"}}), Points{1});
+  EXPECT_EQ(selected_points(study, {.sort = "case"}), (Points{1, 2, 0, 3}));
+  EXPECT_EQ(selected_points(study, {.sort = "-case"}), (Points{0, 3, 2, 1}));
+  const auto fault = [&](const std::string& condition) -> std::string {
+    try {
+      selected_points(study, {.where = {condition}});
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.code(), ExitCode::bad_input);
+      return failure.what();
+    }
+    return "no fault";
+  };
+  EXPECT_EQ(
+      fault("case == fats"),
+      "'case == fats': there is no such case; expected 'case = NAME' or 'case != NAME' with one of slow, "
+      "a<b, fast");
+  EXPECT_NE(fault("case > slow").find("a case is a name"), std::string::npos) << fault("case > slow");
 }
 
 }  // namespace

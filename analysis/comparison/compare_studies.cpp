@@ -464,7 +464,7 @@ void note_trials(StudyComparison& result, const ComparedData& data) {
 /// Says by which goal the points are judged where the manifests do not have the same.
 void note_goal(StudyComparison& result, const ComparedData& data) {
   if (!data.goal) return;
-  const auto differs = [](const ManifestDifference& difference) {
+  const auto differs = [](const manifest::ManifestDifference& difference) {
     return manifest::is_within(difference.key, "goal");
   };
   if (std::ranges::none_of(result.manifest_differences, differs)) return;

@@ -166,6 +166,7 @@ std::vector<motion::TorqueCourse> courses_of(const RawSeries& series, const Test
 }
 
 TestRecord checked_record(const RawSeries& whole, bool any_magnitude) {
+  check_jumps(whole);
   const std::optional<SlidingCut> cut = sliding_in(whole);
   if (cut) check_cut(whole, *cut);
   const RawSeries series = cut ? first_samples(whole, cut->sample) : whole;

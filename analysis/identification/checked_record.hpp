@@ -62,6 +62,10 @@ void check_change(const RawSeries& series, const TestRecord& record);
 /// not rise with the torque all the same, the axis slides.
 void check_motion(const RawSeries& series, const TestRecord& record);
 
+/// Refuses a step of the angle by a quarter of the travel or more that stays, 50 times as long as all others
+/// within 10 samples, without a step of the torque: no motion is like that.
+void check_jumps(const RawSeries& series);
+
 /// Refuses a single reading whose distance from its neighbours is more than ten times that of all others.
 void check_glitches(const RawSeries& series, const TestRecord& record);
 

@@ -137,6 +137,36 @@ void check_codes(const RawSeries& series) {
   }
 }
 
+constexpr double large_jump = 0.25;        // of the travel
+constexpr double times_the_motion = 50.0;  // about it
+constexpr double small_torque = 0.1;       // of its range, changes that move no axis so far
+
+bool is_masked(const RawSeries& series, std::size_t k) {
+  return !series.excluded.empty() && (series.excluded[k] || series.excluded[k - 1]);
+}
+
+/// The 10 samples to both sides of a step of the angle.
+struct Surroundings {
+  double longest_step{0.0};  ///< but for those longer than a limit
+  double torque_range{0.0};
+};
+
+Surroundings surroundings_of(const RawSeries& series, std::size_t k, double limit) {
+  constexpr std::size_t reach = 10;
+  const std::size_t first = k > reach ? k - reach : 1;
+  const std::size_t end = std::min(k + reach + 1, series.angle.size());
+  Surroundings about;
+  for (std::size_t i = first; i < end; ++i) {
+    const double step = std::abs(series.angle[i] - series.angle[i - 1]);
+    if (step < limit) about.longest_step = std::max(about.longest_step, step);
+  }
+  const auto [least, most] =
+      std::minmax_element(series.torque.begin() + static_cast<std::ptrdiff_t>(first - 1),
+                          series.torque.begin() + static_cast<std::ptrdiff_t>(end));
+  about.torque_range = *most - *least;
+  return about;
+}
+
 /// Refuses an angle that continues and returns while the torque stays at its extreme.
 void check_flat_top(const RawSeries& series, const TestRecord& record, const TorqueHold& hold) {
   const double sign = hold.torque > 0.0 ? 1.0 : -1.0;
@@ -246,6 +276,32 @@ void check_motion(const RawSeries& series, const TestRecord& record) {
       "the $angle does not follow the $torque as it does on a spring, although the $torque drives the "
       "motion: the "
       "axis slides. Material tests stay within the pre-sliding range; --sliding identifies a sliding axis");
+}
+
+void check_jumps(const RawSeries& series) {
+  const std::vector<double>& angle = series.angle;
+  const auto [low, high] = std::ranges::minmax(angle);
+  const auto [least, most] = std::ranges::minmax(series.torque);
+  double least_step = high - low;
+  for (std::size_t k = 1; k < angle.size(); ++k) {
+    if (angle[k] != angle[k - 1]) least_step = std::min(least_step, std::abs(angle[k] - angle[k - 1]));
+  }
+  for (std::size_t k = 2; k + 1 < angle.size(); ++k) {
+    const double jump = angle[k] - angle[k - 1];
+    if (std::abs(jump) < large_jump * (high - low) || jump == 0.0 || is_masked(series, k)) continue;
+    const bool stays = std::abs(angle[k + 1] - angle[k - 1]) > 0.5 * std::abs(jump) &&
+                       std::abs(angle[k] - angle[k - 2]) > 0.5 * std::abs(jump);
+    const Surroundings about = surroundings_of(series, k, large_jump * (high - low));
+    const double moving = std::max(about.longest_step, least_step);
+    if (!stays || std::abs(jump) < times_the_motion * moving ||
+        about.torque_range > small_torque * (most - least))
+      continue;
+    refuse(series, place_of(series, k),
+           fmt::format(
+               "the $angle jumps by {:.6g} {}, and moves by at most {:.6g} a sample before and after: was "
+               "the counter set, or does it wrap? Continue it, or cut the record there",
+               jump, series.count_size > 0.0 ? "counts" : "$rad", about.longest_step));
+  }
 }
 
 void check_glitches(const RawSeries& series, const TestRecord& record) {

@@ -268,6 +268,18 @@ std::vector<RawSeries> split(const RawSeries& series, std::vector<std::size_t> s
   return parts;
 }
 
+/// Puts rows of which the newest comes first into the order of time.
+void put_oldest_first(RawSeries& series, std::vector<double>& repetition) {
+  const auto not_before = [](double time, double next) { return !(next < time); };
+  if (series.time.size() < 2 || std::ranges::adjacent_find(series.time, not_before) != series.time.end())
+    return;
+  std::ranges::reverse(series.lines);
+  for (std::vector<double>* values : {&series.time, &series.torque, &series.angle, &series.code, &repetition})
+    std::ranges::reverse(*values);
+  std::reverse(series.sliding.begin(), series.sliding.end());
+  series.notes.emplace_back("the rows have the newest first; they are read from the last one on");
+}
+
 /// The flags of the column `mode` of a trace. Other files may have another column of that name.
 std::vector<bool> sliding_flags(const ColumnSource& source) {
   if (!source.has("mode")) return {};
@@ -364,7 +376,10 @@ std::vector<RawSeries> read_columns(const ColumnSource& source, const SeriesChoi
                                         series.time.size()));
     }
   }
-  return split(series, repetition_starts(series, repetition));
+  put_oldest_first(series, repetition);
+  std::vector<RawSeries> parts = split(series, repetition_starts(series, repetition));
+  for (RawSeries& part : parts) unwrap(part);
+  return parts;
 }
 
 }  // namespace zerocount::records

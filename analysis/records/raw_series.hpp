@@ -27,17 +27,18 @@ struct RawSeries {
   std::vector<double> time;        ///< s
   std::vector<double> torque;      ///< N m; of a linear axis the force, N
   TorqueKind torque_kind{TorqueKind::commanded};
-  double bandwidth{0.0};       ///< of the amplifier, Hz; 0: ideal amplifier
-  double delay{0.0};           ///< delay of a commanded torque, samples; the torque is 0 before
-  std::vector<double> angle;   ///< whole counts, or rad; of a linear axis the position, m
-  double count_size{0.0};      ///< rad or m of a count; 0 if the angle is in rad or m
-  bool linear{false};          ///< of a linear axis: N for N m and m for rad in all that follows
-  std::vector<double> code;    ///< DAC codes; empty if unknown
-  int dac_bits{0};             ///< 0 if unknown
-  std::vector<bool> sliding;   ///< whether the hook slid; empty if unknown
-  std::vector<bool> excluded;  ///< [sample] masked readings; empty: none
-  motion::PlantStart start;    ///< initial state of the contact
-  bool units_known{false};     ///< certainly SI units, because this program wrote the file
+  double bandwidth{0.0};             ///< of the amplifier, Hz; 0: ideal amplifier
+  double delay{0.0};                 ///< delay of a commanded torque, samples; the torque is 0 before
+  std::vector<double> angle;         ///< whole counts, or rad; of a linear axis the position, m
+  double count_size{0.0};            ///< rad or m of a count; 0 if the angle is in rad or m
+  bool linear{false};                ///< of a linear axis: N for N m and m for rad in all that follows
+  std::vector<double> code;          ///< DAC codes; empty if unknown
+  int dac_bits{0};                   ///< 0 if unknown
+  std::vector<bool> sliding;         ///< whether the hook slid; empty if unknown
+  std::vector<bool> excluded;        ///< [sample] masked readings; empty: none
+  motion::PlantStart start;          ///< initial state of the contact
+  bool units_known{false};           ///< certainly SI units, because this program wrote the file
+  std::vector<std::string> notes{};  ///< what was changed in reading, for the user: sentences without a name
 };
 
 /// "NAME:LINE", or "NAME, sample K".
@@ -84,9 +85,16 @@ double delay_of(const RawSeries& series, const SeriesChoice& choice, double othe
 ///
 /// The file has several repetitions if the mapped column of the repetition changes, or if the time returns to
 /// the first one. Each becomes a series, and begins with the initial state of the contact.
+///
+/// Rows with the newest first are reversed, and a counter that wraps is continued: see unwrap().
 /// @throws Failure: bad_input if columns are missing or their units do not fit, or if a delay is chosen for
 /// the motor torque; and the failures of the source.
 std::vector<RawSeries> read_columns(const ColumnSource& source, const SeriesChoice& choice);
+
+/// Continues the angle across the steps with which a counter or a single-turn encoder wraps: by a revolution
+/// of a rotary axis, or by 2¹⁶ or 2³² counts. They are longer than a quarter of that, and less it they are
+/// like their neighbours. A note of the series says so.
+void unwrap(RawSeries& series);
 
 /// Reads the trace of a trial from a results file. The initial state of the contact, the encoder's
 /// resolution, the delay and the amplifier's bandwidth are those of the trial, unless chosen otherwise. The

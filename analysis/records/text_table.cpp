@@ -107,6 +107,13 @@ double number_of(std::string_view text, Separator separator) {
   return number_of(with_point);
 }
 
+/// True for "12:00:00.125" and "2026-11-26T12:00:00".
+bool is_time_stamp(std::string_view text) {
+  return std::ranges::count(text, ':') == 2 && std::ranges::all_of(text, [](char c) {
+           return (c >= '0' && c <= '9') || std::string_view(":.,-/ TZ+").find(c) != std::string_view::npos;
+         });
+}
+
 bool all_numbers(const std::vector<std::string_view>& cells, Separator separator) {
   return std::all_of(cells.begin(), cells.end(),
                      [&](std::string_view cell) { return std::isfinite(number_of(cell, separator)); });
@@ -120,17 +127,56 @@ bool has_blank_inside(const std::vector<std::string_view>& cells) {
 
 constexpr std::array separators{Separator::tab, Separator::semicolon, Separator::comma, Separator::blanks};
 
-Separator separator_of(std::string_view first, std::string_view second) {
+/// The separator of a header, or first row, and the row below it.
+std::optional<Separator> common_separator(std::string_view first, std::string_view second) {
   for (const Separator separator : separators) {
     const std::size_t count = header_cells(first, separator).size();
     const std::vector<std::string_view> below = cells_of(second, separator);
     const bool decimal_commas = separator == Separator::comma && has_blank_inside(below);
     if (count >= 2 && below.size() == count && !decimal_commas) return separator;
   }
+  return std::nullopt;
+}
+
+Separator separator_of(std::string_view first, std::string_view second) {
+  if (const std::optional<Separator> common = common_separator(first, second)) return *common;
   for (const Separator separator : separators) {
     if (cells_of(first, separator).size() >= 2) return separator;
   }
   return Separator::comma;
+}
+
+/// The cells of a row. Loggers may end rows with a separator and the header without.
+std::size_t cells_of_row(std::string_view line, Separator separator, std::size_t columns) {
+  const std::vector<std::string_view> cells = cells_of(line, separator);
+  return cells.size() == columns + 1 && cells.back().empty() ? columns : cells.size();
+}
+
+bool has_number(const std::vector<std::string_view>& cells, Separator separator) {
+  return std::ranges::any_of(
+      cells, [&](std::string_view cell) { return std::isfinite(number_of(cell, separator)); });
+}
+
+constexpr std::size_t max_titles = 100;
+
+/// The number of titles above the header, which is the first line that has no numbers and as many cells as
+/// the line below it and as the last one. None if there is no such line.
+/// @param first lines of the table, without the last
+std::size_t titles_above_header(const std::vector<std::string_view>& first, std::string_view last,
+                                std::optional<Separator> given) {
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const std::string_view below = i + 1 < first.size() ? first[i + 1] : last;
+    const std::optional<Separator> separator = given ? given : common_separator(first[i], below);
+    if (!separator) continue;
+    const std::size_t columns = header_cells(first[i], *separator).size();
+    if (columns < 2 || cells_of_row(below, *separator, columns) != columns ||
+        cells_of_row(last, *separator, columns) != columns)
+      continue;
+    const std::vector<std::string_view> cells = cells_of(first[i], *separator);
+    if (all_numbers(cells, *separator)) return 0;  // the first row
+    if (!has_number(cells, *separator)) return i;
+  }
+  return 0;
 }
 
 /// "[mm]", "(mm)" or "mm".
@@ -153,6 +199,7 @@ TextTable::TextTable(const std::filesystem::path& path, std::optional<Separator>
                   fmt::format("{}: the file is too large; expected at most {} bytes", name_, max_table_size));
   }
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (text_.find('\n') == std::string::npos) std::ranges::replace(text_, '\r', '\n');
   std::size_t at = text_.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
   std::vector<Line> content;
   std::string_view comment_above;
@@ -173,6 +220,11 @@ TextTable::TextTable(const std::filesystem::path& path, std::optional<Separator>
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: is not text; expected a table of numbers, or a results file", name_));
   }
+  std::vector<std::string_view> lines;
+  for (std::size_t i = 0; i + 1 < content.size() && i <= max_titles; ++i) lines.push_back(content[i].text);
+  const std::size_t titles = titles_above_header(lines, content.back().text, separator);
+  content.erase(content.begin(), content.begin() + static_cast<std::ptrdiff_t>(titles));
+  if (titles > 0) comment_above = {};
   separator_ = separator.value_or(
       separator_of(content.front().text, content.size() > 1 ? content[1].text : content.front().text));
   read(content, comment_above);
@@ -227,9 +279,10 @@ bool TextTable::read_units(std::string_view line) {
   bool any = false;
   for (const std::string_view cell : cells) {
     const std::string_view unit = without_brackets(cell);
-    if (std::isfinite(number_of(unit, separator_)) && unit == cell) return false;
+    const bool is_value = std::isfinite(number_of(unit, separator_)) && unit == cell;
+    if (is_value && unit != "1") return false;  // 1 is the unit of counts
     if (!unit.empty() && unit != "-" && !unit_named(unit)) return false;
-    any = any || unit_named(unit);
+    any = any || (!is_value && unit_named(unit));
   }
   if (!any || cells.size() != columns_.size()) return false;
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -240,7 +293,8 @@ bool TextTable::read_units(std::string_view line) {
 }
 
 void TextTable::add_row(const Line& line) {
-  if (const std::size_t cells = cells_of(line.text, separator_).size(); cells != columns_.size()) {
+  if (const std::size_t cells = cells_of_row(line.text, separator_, columns_.size());
+      cells != columns_.size()) {
     throw Failure(ExitCode::bad_data,
                   fmt::format("{}:{}: a row of {} cells; expected {}, as the {} has", name_, line.number,
                               cells, columns_.size(), named_ ? "header" : "first row"));
@@ -296,8 +350,11 @@ std::vector<double> TextTable::numbers(std::string_view column) const {
     if (std::isfinite(values.back())) continue;
     if (++fault_count > max_faults_listed) continue;
     const std::string shown = text::printable(text.substr(0, 40));
-    faults.push_back(fmt::format("{}:{}: {}: {} is not a finite number", name_, line(row), column,
-                                 shown.empty() ? "an empty cell" : "'" + shown + "'"));
+    faults.push_back(fmt::format("{}:{}: {}: {} is not a finite number{}", name_, line(row), column,
+                                 shown.empty() ? "an empty cell" : "'" + shown + "'",
+                                 is_time_stamp(text) && faults.empty()
+                                     ? ", but a time stamp; expected seconds, or --sample-time instead"
+                                     : ""));
   }
   if (faults.empty() && point && comma) {
     faults.push_back(fmt::format("{}:{}: {}: a decimal {}; line {} has a decimal {}: expected one kind",

@@ -26,7 +26,10 @@ std::vector<std::string> separator_names();
 ///
 /// - The separator is the first of tab, semicolon, comma and blanks that gives the first two lines the same
 ///   number of cells, at least two. It separates nothing inside quotation marks.
-/// - Empty lines are skipped, and lines that begin with '#' or '%'.
+/// - Empty lines are skipped, and lines that begin with '#' or '%', and titles above the header: lines of
+/// words
+///   with another number of cells than the header, the row below it and the last row have.
+/// - Rows may end with a separator where the header does not.
 /// - A name may be followed by its unit: `torque [N m]`, or `torque (N m)` if the unit is known. A line of
 ///   units only, below the header, gives the units of the names without one.
 /// - If the first row has numbers only, the comment above it is the header if it has as many cells; otherwise

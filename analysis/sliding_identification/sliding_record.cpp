@@ -120,6 +120,7 @@ SlidingRecord sliding_record(const records::RawSeries& series) {
   record_fit::TestRecord sampled;
   sampled.sample_time = identification::checked_sample_time(series);
   sampled.intervals = identification::uneven_intervals(series);
+  identification::check_jumps(series);
   SlidingRecord record;
   record.name = series.name;
   record.axis = series.linear ? parameters::AxisKind::linear : parameters::AxisKind::rotary;

@@ -257,6 +257,10 @@ std::vector<records::RawSeries> read_all_series(const command_line::Arguments& a
       found.push_back(records::read_study_series(path, point, index, choice));
     }
   }
+  for (const records::RawSeries& series : found) {
+    for (const std::string& note : series.notes)
+      status::tell("zerocount identify: {}: {}\n", series.name, note);
+  }
   refuse_options_without_effect(arguments, found);
   exclude_times(arguments, found);
   return found;

@@ -161,6 +161,22 @@ TEST(CheckedRecord, AReadingThatStandsOutAloneIsNamed) {
   }
 }
 
+// A counter that was set, or that wraps by a number nobody gave, is not a motion.
+TEST(CheckedRecord, AJumpOfTheReadingsIsNamed) {
+  for (const double jump : {-4e3, 1e4}) {
+    const auto set = [jump](identification::RawSeries& s) {
+      for (std::size_t k = 1234; k < s.angle.size(); ++k) s.angle[k] += jump;
+    };
+    EXPECT_TRUE(refused(record_refusal(set), "good.csv:1236", "the angle jumps by"));
+    const std::string masked = record_refusal([&](identification::RawSeries& s) {
+      set(s);
+      s.excluded.assign(s.angle.size(), false);
+      s.excluded[1234] = true;
+    });
+    EXPECT_EQ(masked.find("jumps by"), std::string::npos) << masked;
+  }
+}
+
 TEST(CheckedRecord, CountsMustBeWhole) {
   EXPECT_TRUE(refused(record_refusal([](identification::RawSeries& s) { s.angle[5] = 0.5; }), "good.csv:7",
                       "not a whole number"));

@@ -1,6 +1,9 @@
 // Columns of tables and of HDF5 files as series in SI units.
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <random>
 #include <string>
 
 #include <fmt/format.h>
@@ -275,6 +278,62 @@ TEST_F(ColumnSeries, OnlyTheModesOfATraceAreFlagsOfSliding) {
   EXPECT_EQ(trace.sliding, (std::vector<bool>{false, true, true}));
   EXPECT_TRUE(one("t,torque,theta,mode\n0,1,0,auto\n1,1,1,auto\n", {}).sliding.empty());
   EXPECT_TRUE(one("t,torque,theta,mode\n0,1,0,stick\n1,1,1,1\n", {}).sliding.empty());
+}
+
+/// A table of whole counts, with a header.
+std::string table_of(const std::vector<double>& counts, bool newest_first) {
+  std::vector<std::string> rows;
+  for (std::size_t k = 0; k < counts.size(); ++k)
+    rows.push_back(
+        fmt::format("{},{},{}\n", 1e-3 * static_cast<double>(k), 0.1 * static_cast<double>(k), counts[k]));
+  if (newest_first) std::reverse(rows.begin(), rows.end());
+  std::string text = "t,torque,count\n";
+  for (const std::string& row : rows) text += row;
+  return text;
+}
+
+// Random walks of an encoder, read modulo a revolution or a word of the counter.
+TEST_F(ColumnSeries, AWrappingCounterIsContinuedAndSaid) {
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 30; ++i) {
+    SeriesChoice choice;
+    const double revolution = std::floor(std::exp(std::uniform_real_distribution<double>(6.0, 12.0)(random)));
+    choice.count_size = 2.0 * std::numbers::pi / revolution;
+    const double wrap = i % 3 == 0 ? 65536.0 : revolution;
+    const double low = i % 2 == 0 ? 0.0 : -std::floor(0.5 * wrap);
+    std::vector<double> truth{std::floor(std::uniform_real_distribution<double>(low, low + wrap)(random))};
+    double speed = 0.0;
+    for (int k = 0; k < 2000; ++k) {
+      speed = 0.99 * speed + std::normal_distribution<double>(0.0, 2e-3 * wrap)(random);
+      truth.push_back(truth.back() + std::round(std::clamp(speed, -0.1 * wrap, 0.1 * wrap)));
+    }
+    std::vector<double> read;
+    for (const double count : truth) read.push_back(count - wrap * std::floor((count - low) / wrap));
+    const RawSeries series = one(table_of(read, false), choice);
+    const bool wraps = read != truth;
+    ASSERT_EQ(series.notes.size(), wraps ? 1u : 0u) << i;
+    for (std::size_t k = 0; k < truth.size(); ++k)
+      ASSERT_EQ(series.angle[k] - series.angle[0], truth[k] - truth[0]) << i << ", " << k;
+    if (wraps) {
+      EXPECT_NE(series.notes[0].find(fmt::format("jumps by {:.6g} counts", wrap)), std::string::npos)
+          << series.notes[0];
+    }
+  }
+}
+
+TEST_F(ColumnSeries, RowsWithTheNewestFirstAreReversedAndSaid) {
+  const std::vector<double> counts{3, 5, 6, 6, 4, 1};
+  SeriesChoice choice;
+  choice.count_size = 1e-3;
+  const RawSeries usual = one(table_of(counts, false), choice);
+  const RawSeries newest_first = one(table_of(counts, true), choice);
+  EXPECT_EQ(newest_first.time, usual.time);
+  EXPECT_EQ(newest_first.torque, usual.torque);
+  EXPECT_EQ(newest_first.angle, usual.angle);
+  EXPECT_EQ(newest_first.lines, (std::vector<std::size_t>{7, 6, 5, 4, 3, 2}));
+  EXPECT_TRUE(usual.notes.empty());
+  ASSERT_EQ(newest_first.notes.size(), 1u);
+  EXPECT_NE(newest_first.notes[0].find("newest first"), std::string::npos);
 }
 
 }  // namespace

@@ -139,6 +139,51 @@ TEST_F(TextTables, WithoutAHeaderTheCommentAboveOrNumbersNameTheColumns) {
   EXPECT_FALSE(read.has(""));
 }
 
+// Titles of loggers and oscilloscopes, which have another number of cells.
+TEST_F(TextTables, TitlesAboveTheHeaderAreSkipped) {
+  for (const char* text : {"Scope export\nx,y\n1,2\n3,4\n", "Scope export, axis X, left\n\nx,y\n1,2\n3,4\n",
+                           "Device;X\nDate;2026-11-26\nSamples;2\nx;y;z\n1;2;0\n3;4;0\n",
+                           "of November\nrate 2000 Hz\nx [mm],y [s]\n1,2\n3,4\n",
+                           "Logger 3\nx\ty\nmm\ts\n1\t2\n3\t4\n", "a b c d\nx y\n1 2\n3 4\n"}) {
+    const records::TextTable read = table(text);
+    EXPECT_EQ(read.numbers("x"), (std::vector<double>{1, 3})) << text;
+    EXPECT_EQ(read.numbers("y"), (std::vector<double>{2, 4})) << text;
+  }
+  EXPECT_EQ(table("Scope export\nx,y\n1,2\n").line(0), 3u);
+}
+
+// A row is never taken for a title or a header.
+TEST_F(TextTables, RowsOfAnotherLengthAreErrorsBesideTitlesToo) {
+  for (const char* text : {"x,y\n1,2\n3\n", "x,y\n1\n3,4\n5,6\n", "x,y\n1,2,3\n3,4,5\n",
+                           "Scope\nx,y\n1,2\n3\n", "Scope\nx,y\n1\n3,4\n5,6\n"})
+    EXPECT_THROW(table(text), Failure) << text;
+}
+
+TEST_F(TextTables, RowsMayEndWithASeparatorThatTheHeaderHasNot) {
+  EXPECT_EQ(table("x;y\n1,5;2;\n3;4;\n").numbers("y"), (std::vector<double>{2, 4}));
+  EXPECT_EQ(table("x,y,\n1,2,\n3,4,\n").numbers("y"), (std::vector<double>{2, 4}));
+}
+
+TEST_F(TextTables, TheUnitOfCountsInALineOfUnitsIsOne) {
+  const records::TextTable read = table("x,count\nmm,1\n1,2\n");
+  EXPECT_EQ(read.rows(), 1u);
+  EXPECT_EQ(read.unit("count"), "1");
+}
+
+TEST_F(TextTables, LinesMayEndWithACarriageReturnAlone) {
+  EXPECT_EQ(table("x,y\r1,2\r3,4\r").numbers("y"), (std::vector<double>{2, 4}));
+}
+
+TEST_F(TextTables, TimeStampsAreNamed) {
+  try {
+    table("t,x\n2026-11-26T12:00:00.5,1\n2026-11-26T12:00:00.6,1\n").numbers("t");
+    ADD_FAILURE();
+  } catch (const Failure& failure) {
+    EXPECT_NE(std::string(failure.what()).find("but a time stamp; expected seconds"), std::string::npos)
+        << failure.what();
+  }
+}
+
 TEST_F(TextTables, WhatIsNoTableIsRefused) {
   EXPECT_EQ(refusal("x,y\n1,2\n3\n", ExitCode::bad_data),
             ":3: a row of 1 cells; expected 2, as the header has");

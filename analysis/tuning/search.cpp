@@ -93,16 +93,34 @@ class Search {
     std::vector<Candidate> candidates;
     std::vector<Place> places;
     for (const Values& values : problem_.starts) places.push_back(place_of(problem_.free, values));
-    std::int64_t drawn = 0;
-    const auto most = static_cast<std::int64_t>(wanted) * tries_of_candidate;
     find(candidates, [&] {
       add_admissible(places, wanted, candidates);
-      if (candidates.size() >= wanted || drawn >= most) return false;
-      places.clear();
-      for (std::size_t i = 0; i < places_at_once; ++i) places.push_back(spread_place(start, drawn++));
-      return true;
+      return false;
     });
+    for (const std::vector<std::size_t>& face : problem_.faces)
+      spread(candidates, start, face,
+             candidates.size() + static_cast<std::size_t>(problem_.size.face_candidates));
+    const std::size_t on_faces =
+        problem_.faces.size() * static_cast<std::size_t>(problem_.size.face_candidates);
+    spread(candidates, start, {}, wanted + std::min(candidates.size(), on_faces));
     race(std::move(candidates));
+  }
+
+  /// Adds candidates that are evenly spread over a face, up to `wanted` of all.
+  void spread(std::vector<Candidate>& candidates, const std::vector<double>& start,
+              const std::vector<std::size_t>& face, std::size_t wanted) {
+    if (wanted <= candidates.size()) return;
+    std::int64_t drawn = 0;
+    const auto most = static_cast<std::int64_t>(wanted - candidates.size()) * tries_of_candidate;
+    find(candidates, [&] {
+      std::vector<Place> places;
+      for (std::size_t i = 0; i < places_at_once; ++i) {
+        places.push_back(spread_place(start, drawn++));
+        for (const std::size_t parameter : face) places.back()[parameter] = 0.0;
+      }
+      add_admissible(places, wanted, candidates);
+      return candidates.size() < wanted && drawn < most;
+    });
   }
 
   /// A place near an elite, moved along the difference of two others: their spread knows the direction of a

@@ -22,6 +22,9 @@ struct SearchProblem {
   std::vector<study::FreeParameter> free;
   Aim aim;
   std::vector<Values> starts{};  ///< candidates of the first generation, such as the manifest's values
+  /// Faces of the ranges on which the first generation seeks too, each the free parameters that are at their
+  /// low ends: a control with fewer blocks, which may be the better one, and the only admissible one.
+  std::vector<std::vector<std::size_t>> faces{};
   SearchSize size{};
   std::int64_t trials_of_unit{1};
 

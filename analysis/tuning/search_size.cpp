@@ -19,6 +19,8 @@ SearchSize size_at(const SearchScope& scope, int step) {
   };
   SearchSize size;
   size.first_candidates = part(candidates_each * (1 + static_cast<std::int64_t>(scope.free)), 8);
+  size.face_candidates =
+      scope.faces == 0 ? 0 : part(candidates_each / 6 * (1 + static_cast<std::int64_t>(scope.free)), 2);
   size.candidates = part(largest.candidates, 6);
   size.elites = part(largest.elites, 3);
   const int halvings = step / 2;
@@ -35,8 +37,8 @@ std::int64_t most_after(const SearchSize& size, std::int64_t units) {
   return std::max(size.elites, 4 * size.candidates * size.first_units / units);
 }
 
-std::int64_t first_race_units(const SearchSize& size) {
-  std::int64_t candidates = size.first_candidates;
+std::int64_t first_race_units(const SearchSize& size, std::size_t faces) {
+  std::int64_t candidates = size.first_candidates + static_cast<std::int64_t>(faces) * size.face_candidates;
   std::int64_t total = candidates * size.first_units;
   for (std::int64_t units = size.first_units; units < size.max_units;) {
     candidates = std::min(candidates, most_after(size, units));
@@ -50,7 +52,7 @@ std::int64_t first_race_units(const SearchSize& size) {
 SearchSize search_size(const SearchScope& scope, std::int64_t units) {
   for (int step = 0; step < smallest; ++step) {
     const SearchSize size = size_at(scope, step);
-    if (first_race_units(size) <= units / 2) return size;
+    if (first_race_units(size, scope.faces) <= units / 2) return size;
   }
   return size_at(scope, smallest);
 }

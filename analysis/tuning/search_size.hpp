@@ -9,6 +9,7 @@ namespace zerocount::tuning {
 /// doubling of the units fewer stay, so that every round costs about the same.
 struct SearchSize {
   std::int64_t first_candidates{96};  ///< of the first generation, which fills the ranges
+  std::int64_t face_candidates{0};    ///< of it, for each face (SearchProblem::faces)
   std::int64_t candidates{32};        ///< of each later generation
   std::int64_t elites{8};             ///< that a generation leaves to the next
   std::int64_t first_units{64};
@@ -19,11 +20,12 @@ struct SearchSize {
 std::int64_t most_after(const SearchSize& size, std::int64_t units);
 
 /// Units that a race of the first generation runs at most, over all candidates.
-std::int64_t first_race_units(const SearchSize& size);
+std::int64_t first_race_units(const SearchSize& size, std::size_t faces);
 
 /// What the size of a search depends on, beside the effort.
 struct SearchScope {
   std::size_t free{1};           ///< parameters
+  std::size_t faces{0};          ///< SearchProblem::faces
   std::int64_t max_units{2048};  ///< of the largest search
   std::int64_t worlds{0};        ///< each is to have some units; 0: none
 };

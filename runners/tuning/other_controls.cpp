@@ -12,15 +12,18 @@ namespace {
 
 constexpr const char* observer_bandwidth = "controller.observer.bandwidth";
 
-OtherControl with_zeros(const study::Study& study, const std::vector<std::string>& names) {
-  OtherControl control{"", names, {}, {}};
-  for (const std::string& name : names) {
-    control.name += fmt::format("{}{} = 0", control.name.empty() ? "" : ", ", name);
-    control.overrides.push_back(name + "=0");
+OtherControl with_zeros(const study::Study& study, const std::vector<std::size_t>& zeros) {
+  OtherControl control;
+  for (std::size_t i = 0; i < study.tuning->free.size(); ++i) {
+    const study::FreeParameter& one = study.tuning->free[i];
+    if (std::ranges::find(zeros, i) == zeros.end()) {
+      control.free.push_back(one);
+      continue;
+    }
+    control.name += fmt::format("{}{} = 0", control.name.empty() ? "" : ", ", one.name);
+    control.zero.push_back(one.name);
+    control.overrides.push_back(one.name + "=0");
   }
-  std::ranges::copy_if(
-      study.tuning->free, std::back_inserter(control.free),
-      [&](const study::FreeParameter& one) { return std::ranges::find(names, one.name) == names.end(); });
   return control;
 }
 
@@ -49,17 +52,23 @@ std::optional<OtherControl> with_observer(const study::Study& study) {
 
 }  // namespace
 
+std::vector<std::vector<std::size_t>> zero_sets(std::span<const study::FreeParameter> free) {
+  std::vector<std::size_t> all;
+  std::vector<std::vector<std::size_t>> sets;
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    if (free[i].low != 0.0 || !(free[i].name.ends_with(".kp") || free[i].name.ends_with(".kd"))) continue;
+    all.push_back(i);
+    sets.push_back({i});
+  }
+  if (all.size() > 1) sets.push_back(all);
+  std::erase_if(sets, [&](const std::vector<std::size_t>& one) { return one.size() == free.size(); });
+  return sets;
+}
+
 std::vector<OtherControl> other_controls(const study::Study& study) {
   std::vector<OtherControl> controls;
-  std::vector<std::string> zeros;
-  for (const study::FreeParameter& one : study.tuning->free) {
-    if (one.low == 0.0 && (one.name.ends_with(".kp") || one.name.ends_with(".kd"))) zeros.push_back(one.name);
-  }
-  const auto add = [&](const std::vector<std::string>& names) {
-    if (names.size() < study.tuning->free.size()) controls.push_back(with_zeros(study, names));
-  };
-  for (const std::string& one : zeros) add({one});
-  if (zeros.size() > 1) add(zeros);
+  for (const std::vector<std::size_t>& zeros : zero_sets(study.tuning->free))
+    controls.push_back(with_zeros(study, zeros));
   if (std::optional<OtherControl> observer = with_observer(study)) controls.push_back(std::move(*observer));
   std::ranges::stable_sort(controls, {}, [](const OtherControl& one) { return one.free.size(); });
   return controls;

@@ -18,6 +18,10 @@ struct OtherControl {
   std::vector<study::FreeParameter> free{};  ///< to be tuned
 };
 
+/// The sets of free parameters that can be 0 together, each a control with fewer blocks: kp or kd where their
+/// ranges begin there, and both. Some parameter stays free in each.
+std::vector<std::vector<std::size_t>> zero_sets(std::span<const study::FreeParameter> free);
+
 /// The controls that a tuning is compared with: kp or kd at 0 where their ranges begin there, both, and a
 /// disturbance observer beside the PID law where the study has none. Those with fewer free parameters come
 /// first.

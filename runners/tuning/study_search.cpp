@@ -9,6 +9,7 @@
 #include "core/trial/trial.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/study_table.hpp"
+#include "runners/tuning/other_controls.hpp"
 
 namespace zerocount::tuning {
 namespace {
@@ -67,6 +68,7 @@ SearchResult StudySearch::run(const SearchSettings& settings, std::vector<Values
   starts.insert(starts.begin(), manifest_values(study_, free_));
   std::erase_if(starts, [this](const Values& values) { return !lie_in_ranges(values, free_); });
   problem.starts = std::move(starts);
+  problem.faces = zero_sets(free_);
   problem.size = size_;
   problem.trials_of_unit = units_.trials_each;
   problem.evaluate = [this](std::span<Candidate* const> candidates, std::int64_t to) {

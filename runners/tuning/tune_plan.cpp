@@ -24,13 +24,14 @@ constexpr double judgement_part = 0.2;   // of the effort of another control
 constexpr std::int64_t most_units_of_judgement = 1000;
 constexpr std::int64_t least_units_of_judgement = 50;
 
-SearchScope scope_of(const study::Study& study, std::size_t free, std::int64_t units) {
-  return {free, units, study.worlds};
+SearchScope scope_of(const study::Study& study, std::span<const study::FreeParameter> free,
+                     std::int64_t units) {
+  return {free.size(), zero_sets(free).size(), units, study.worlds};
 }
 
-std::int64_t least_search_trials(const study::Study& study, std::size_t free) {
-  return first_race_units(smallest_search(scope_of(study, free, max_units))) *
-         search_trials_of_machine(study);
+std::int64_t least_search_trials(const study::Study& study, std::span<const study::FreeParameter> free) {
+  const SearchScope scope = scope_of(study, free, max_units);
+  return first_race_units(smallest_search(scope), scope.faces) * search_trials_of_machine(study);
 }
 
 /// Trials as a whole number; the largest where there is no limit.
@@ -68,7 +69,7 @@ double measured_speed(const study::Study& study, const Effort& effort) {
 
 SearchPlan plan_search(const study::Study& study, const TuneBudget& budget, const Effort& whole,
                        double speed) {
-  const std::size_t free = study.tuning->free.size();
+  const std::vector<study::FreeParameter>& free = study.tuning->free;
   const std::int64_t each = search_trials_of_machine(study);
   const SearchScope scope = scope_of(study, free, max_units);
   if (!budget.trials && !budget.seconds)
@@ -102,12 +103,11 @@ SearchPlan plan_other_search(const study::Study& study, std::span<const study::F
       static_cast<std::int64_t>(judgement_part * static_cast<double>(affordable_trials(share, speed))),
       most_units_of_judgement * trials_of_machine(study));
   const std::int64_t trials = affordable_trials(share, speed) - judgement;
-  if (trials < least_search_trials(study, free.size())) throw Spent{};
+  if (trials < least_search_trials(study, free)) throw Spent{};
   const std::optional<double> seconds = std::isinf(share.seconds_left())
                                             ? std::nullopt
                                             : std::optional((1.0 - judgement_part) * share.seconds_left());
-  return {search_size(scope_of(study, free.size(), max_units / 2), trials / each),
-          share.share(trials, seconds)};
+  return {search_size(scope_of(study, free, max_units / 2), trials / each), share.share(trials, seconds)};
 }
 
 RestPlan plan_rest(const study::Study& study, std::int64_t points, std::int64_t trials_of_maps,
@@ -116,7 +116,7 @@ RestPlan plan_rest(const study::Study& study, std::int64_t points, std::int64_t 
   constexpr std::int64_t least = 64;
   double others = 0.0;
   for (const OtherControl& one : controls)
-    others += static_cast<double>(least_search_trials(study, one.free.size())) / (1.0 - judgement_part);
+    others += static_cast<double>(least_search_trials(study, one.free)) / (1.0 - judgement_part);
   const std::int64_t each = points * search_trials_of_machine(study);
   const std::int64_t left = affordable_trials(effort, speed) - whole_trials(others);
   if ((left - trials_of_maps) / each < least) trials_of_maps = 0;

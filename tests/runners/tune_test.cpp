@@ -267,6 +267,16 @@ TEST_F(Tune, AnObserverBesideTheTunedGainsIsWorseOnlyByChance) {
   }
 }
 
+// The ranges of kp and kd are so wide that only their low ends keep the margins: the integral alone does.
+TEST_F(Tune, IsNotUnreachableWhereASimplerControlMeetsTheGoal) {
+  write_axis(
+      "goal: {band: 1, within: 0.2, moves: 0.9}\ntune: {free: {controller.ki: {log: [2.0e-6, 1.0e-4]}, "
+      "controller.kp: [0, 2.0e-2], controller.kd: [0, 1.5e-1]}}\n");
+  const Json answer = Json::parse(tune({"--set", "controller.delay=3"}, "6000").out);
+  EXPECT_EQ(answer["status"], "met") << answer.dump(1);
+  EXPECT_GE(answer["margins"]["gain"], 6.0);
+}
+
 TEST_F(Tune, KeepsUnfinishedRunsAndTuningsOfOthers) {
   write_axis("goal: {band: 1, within: 0.1, moves: 0.98}\n" + std::string(two_gains));
   std::filesystem::create_directory(folder_.path() / "tuned.h5.shards");

@@ -9,11 +9,11 @@ namespace {
 TEST(SearchSize, FirstGenerationTakesHalfOfTheEffortAtMost) {
   for (std::size_t free = 1; free <= 6; ++free) {
     for (const std::int64_t worlds : {0, 7, 30}) {
-      const SearchScope scope{free, 2048, worlds};
-      const std::int64_t least = first_race_units(smallest_search(scope));
+      const SearchScope scope{free, free / 2, 2048, worlds};
+      const std::int64_t least = first_race_units(smallest_search(scope), scope.faces);
       for (std::int64_t units = 2 * least; units < 1'000'000; units = units * 5 / 4) {
         const SearchSize size = search_size(scope, units);
-        EXPECT_LE(first_race_units(size), units / 2);
+        EXPECT_LE(first_race_units(size, scope.faces), units / 2);
         EXPECT_GE(size.max_units, size.first_units);
         EXPECT_EQ(size.max_units % std::max<std::int64_t>(worlds, 1), 0);
         EXPECT_GE(size.max_units, 4 * worlds) << "each world has some units";
@@ -23,7 +23,7 @@ TEST(SearchSize, FirstGenerationTakesHalfOfTheEffortAtMost) {
 }
 
 TEST(SearchSize, GrowsWithTheEffort) {
-  const SearchScope scope{3, 2048, 0};
+  const SearchScope scope{3, 3, 2048, 0};
   SearchSize last = smallest_search(scope);
   int sizes = 1;
   for (std::int64_t units = 500; units < 500'000; units = units * 6 / 5) {

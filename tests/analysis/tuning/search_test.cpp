@@ -89,6 +89,24 @@ TEST(Search, IsNotWorseThanItsStarts) {
   }
 }
 
+// A control with fewer blocks may be the only one that is admissible: a face of the ranges.
+TEST(Search, FindsWhatIsAdmissibleOnAFaceOnly) {
+  const MadeUpProblem truth{.reliable = {0.0, 0.6}, .fast = {0.0, 0.4}};
+  SearchProblem problem = truth.problem(512);
+  problem.size = search_size({.free = 2, .faces = 1, .max_units = 512}, 20'000);
+  problem.admissible = [](std::span<const Values> values) {
+    std::vector<bool> kept;
+    for (const Values& at : values) kept.push_back(at[0] <= 1e-4);
+    return kept;
+  };
+  EXPECT_TRUE(search(problem, {.seed = 2, .effort = effort_of(20'000)}).finalists.empty());
+  problem.faces = {{0}};
+  const SearchResult result = search(problem, {.seed = 2, .effort = effort_of(20'000)});
+  ASSERT_FALSE(result.finalists.empty());
+  EXPECT_EQ(result.finalists.front().values[0], 0.0);
+  EXPECT_NEAR(result.finalists.front().values[1], 0.4, 0.15);
+}
+
 TEST(Search, DependsOnTheSeedAlone) {
   const MadeUpProblem truth;
   const SearchResult a = search(truth.problem(512), {.seed = 5, .effort = effort_of(50'000)});

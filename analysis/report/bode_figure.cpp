@@ -74,7 +74,7 @@ std::string label_of_loop(const theory::TrialLoop& loop, const theory::Stability
 std::vector<LoopCurve> loop_curves(const trial::TrialParameters& parameters) {
   double corner = 0.5 * parameters.controller.sample_rate;
   const std::vector<theory::TrialLoop> loops = theory::trial_loops(parameters);
-  const double hold = theory::longest_hold(parameters);
+  const double hold = parameters.command.hold;
   std::vector<LoopCurve> curves;
   for (const theory::TrialLoop& loop : loops) {
     const theory::StabilityMargins margins = theory::stability_margins(loop.loop);

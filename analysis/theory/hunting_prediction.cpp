@@ -19,7 +19,7 @@ namespace {
 bool is_stable_while_sliding(const trial::TrialParameters& trial) {
   const std::vector<TrialLoop> loops = trial_loops(trial);
   const auto sliding = std::ranges::find_if(loops, &TrialLoop::slides);
-  return sliding != loops.end() && stability_of(sliding->loop, longest_hold(trial)) == LoopStability::stable;
+  return sliding != loops.end() && stability_of(sliding->loop, trial.command.hold) == LoopStability::stable;
 }
 
 bool is_disturbed(const trial::TrialParameters& trial) {

@@ -156,7 +156,7 @@ std::vector<std::string> doubtful_loops(const study::Study& study) {
       const trial::TrialParameters p = study::study_trial(study, point, index).parameters;
       const Travel travel = travel_of(p);
       for (const TrialLoop& loop : trial_loops(p)) {
-        ExaminedLoop examined{p, loop, travel, stability_of(loop.loop, longest_hold(p))};
+        ExaminedLoop examined{p, loop, travel, stability_of(loop.loop, p.command.hold)};
         if (is_used(examined)) examined.phase = stability_margins(loop.loop).phase;
         examine_loop(examined, point, worst);
       }

@@ -85,9 +85,9 @@ void add_loops(std::vector<LoopRanges>& loops, const trial::TrialParameters& p) 
     ranges.phase.add(margins.phase.value);
     ranges.phase_at.add(margins.phase.frequency);
     const Eigen::VectorXcd poles = poles_of(of_trial.loop);
-    ranges.stability.insert(stability_of(poles, of_trial.loop.sample_time, longest_hold(p)));
+    ranges.stability.insert(stability_of(poles, of_trial.loop.sample_time, p.command.hold));
     const double slowest = slowest_time_constant(poles, of_trial.loop.sample_time);
-    if (slowest > longest_hold(p) && std::isfinite(slowest)) ranges.slow.add(slowest);
+    if (slowest > p.command.hold && std::isfinite(slowest)) ranges.slow.add(slowest);
     if (of_trial.slides) ranges.bandwidth.add(gain_crossover(of_trial.loop).frequency);
   }
 }

@@ -1,6 +1,5 @@
 #include "analysis/theory/trial_loops.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -31,13 +30,6 @@ std::string why_outside_theory(const trial::TrialParameters& parameters) {
 
 LinearDrive drive_of(const trial::TrialParameters& parameters) {
   return {1.0 + parameters.dac.gain_error, parameters.amplifier.bandwidth};
-}
-
-double longest_hold(const trial::TrialParameters& parameters) {
-  std::int64_t samples = 0;
-  for (std::size_t move = 0; move < trial::move_count(parameters); ++move)
-    samples = std::max(samples, trial::samples_of_move(parameters, move));
-  return static_cast<double>(samples) / parameters.controller.sample_rate;
 }
 
 namespace {

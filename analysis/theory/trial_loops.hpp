@@ -22,9 +22,6 @@ std::string why_outside_theory(const trial::TrialParameters& parameters);
 /// The linear model of the trial's converter and amplifier.
 LinearDrive drive_of(const trial::TrialParameters& parameters);
 
-/// Duration of the longest move, s: what the stability of its loops is judged by.
-double longest_hold(const trial::TrialParameters& parameters);
-
 /// A loop of a trial with its friction frozen.
 struct TrialLoop {
   std::string name;       ///< "at k1", "at k1 + k2", "while sliding", "while sliding, the fine phase", …

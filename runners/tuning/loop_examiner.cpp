@@ -64,7 +64,7 @@ Loops loops_of(trial::TrialParameters p, const MachineLoops& machine, double mor
   const bool has_spring = friction::has_spring(p.friction.model);
   const std::vector<theory::TrialLoop> of_trial = theory::trial_loops(p);
   Loops found;
-  found.hold = theory::longest_hold(p);
+  found.hold = p.command.hold;
   found.before_sliding = !std::ranges::all_of(of_trial, &theory::TrialLoop::slides);
   found.sliding = machine.slides || !found.before_sliding;
   if (has_spring) add_stiffnesses(p, machine, found.loops);

@@ -34,7 +34,7 @@ double smallest_phase_margin(const study::Study& study) {
   const trial::TrialParameters p = study::study_trial(study, 0, 0).parameters;
   for (const TrialLoop& loop : trial_loops(p)) {
     if (loop.slides) continue;
-    if (stability_of(loop.loop, longest_hold(p)) != LoopStability::stable)
+    if (stability_of(loop.loop, p.command.hold) != LoopStability::stable)
       return std::numeric_limits<double>::quiet_NaN();
     const double margin = stability_margins(loop.loop).phase.value;
     if (!std::isnan(margin)) smallest = std::min(smallest, std::abs(margin));

@@ -71,7 +71,7 @@ TEST(TrialLoops, HaveTheMarginsOfTheirParameters) {
     EXPECT_EQ(margins.phase.frequency, expected[i].phase.frequency) << loops[i].name;
     EXPECT_EQ(loops[i].slides, i >= 2);
   }
-  EXPECT_EQ(stability_of(loops[0].loop, longest_hold(p)) == LoopStability::stable,
+  EXPECT_EQ(stability_of(loops[0].loop, p.command.hold) == LoopStability::stable,
             sampled_spectral_radius(97.0, p.plant, p.encoder, fine, drive) < 1.0);
 }
 

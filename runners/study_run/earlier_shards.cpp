@@ -1,12 +1,14 @@
 #include "runners/study_run/earlier_shards.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <system_error>
 
 #include <fmt/format.h>
 
 #include "analysis/summary/summed_point.hpp"
 #include "core/failure/failure.hpp"
+#include "results/layout/header.hpp"
 #include "results/reading/results_file.hpp"
 #include "runners/status/status.hpp"
 
@@ -14,6 +16,18 @@ namespace zerocount::study_run {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// @throws ForeignFile for a shard of this study that was run with another controller.
+void require_same_plugin(const fs::path& shard, const study::Study& study) {
+  std::optional<layout::FileHeader> header;
+  try {
+    header = shards::inspect_header(shard);
+    if (!layout::differences_from(shard, *header, study).empty()) return;
+  } catch (const Failure&) {
+    return;  // another format
+  }
+  layout::require_same_plugin(shard, *header, study.plugin.get());
+}
 
 /// Checks the values of the trials and the sums.
 void check_contents(const reading::ResultsFile& shard, const study::Study& study) {
@@ -47,6 +61,7 @@ EarlierShards earlier_shards(const fs::path& directory, const study::Study& stud
       continue;
     }
     if (bad.kind == shards::ShardProblem::Kind::foreign) {
+      require_same_plugin(bad.path, study);
       throw Failure(
           ExitCode::bad_input,
           fmt::format("{}: holds trials of another run, which this one must not touch ({}); finish that run "

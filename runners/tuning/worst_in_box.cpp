@@ -65,12 +65,11 @@ bool are_correlated(const std::vector<study::MachineInput>& inputs, const study:
   });
 }
 
-/// The study with independent draws, as many as are wanted.
+/// The study with independent draws, as many as are wanted. Its profiles stay.
 study::Study searched_study(const study::Study& study, const std::vector<study::MachineInput>& inputs) {
-  std::vector<std::string> overrides;
-  if (study.design != study::Design::monte_carlo) overrides.emplace_back("design=monte_carlo");
-  if (are_correlated(inputs, *study.plan)) overrides.emplace_back("correlation=[]");
-  return overrides.empty() ? study : variant_of(study, overrides);
+  study::Study searched = are_correlated(inputs, *study.plan) ? variant_of(study, {"correlation=[]"}) : study;
+  searched.design = study::Design::monte_carlo;
+  return searched;
 }
 
 class MachineSearch {
@@ -90,8 +89,7 @@ class MachineSearch {
                     fmt::format("{}: it draws nothing that differs between machines; expected distributions, "
                                 "such as friction.k1: {{lognormal: {{median: 110, cv: 0.1}}}}",
                                 study.name));
-    for (const study::Value* value : study::values_at(*study_.plan, static_cast<std::size_t>(units.point))) {
-      if (value->kind != study::Value::Kind::profile) continue;
+    for (const auto& [slot, value] : profiles()) {
       has_profile_ = true;
       has_profile_per_rig_ |= value->per == study::Per::rig;
     }
@@ -279,6 +277,16 @@ class MachineSearch {
     if (points.size() > survivors) points.resize(survivors);
   }
 
+  /// The values that are profiles, by their slots.
+  std::vector<std::pair<std::size_t, const study::Value*>> profiles() const {
+    std::vector<std::pair<std::size_t, const study::Value*>> found;
+    const auto values = study::values_at(*given_.plan, static_cast<std::size_t>(units_.point));
+    for (std::size_t slot = 0; slot < values.size(); ++slot) {
+      if (values[slot]->kind == study::Value::Kind::profile) found.emplace_back(slot, values[slot]);
+    }
+    return found;
+  }
+
   /// The rigs of the machine's manifest: more than one only where a profile belongs to a rig.
   std::int64_t rigs_of(const BoxPoint& point) const {
     return has_profile_per_rig_ ? std::max<std::int64_t>(point.rig + 1, 2) : 1;
@@ -289,6 +297,12 @@ class MachineSearch {
     manifest::PointChanges changes{.values = values, .folder = folder_.value_or("")};
     changes.removed = {"design", "worlds", "retain"};
     if (are_correlated(inputs_, *given_.plan)) changes.removed.emplace_back("correlation");
+    for (const auto& [slot, value] : profiles()) {
+      const study::Rotors& rotors = *given_.plan->profiles[value->index];
+      if (rotors.drawn_mean())
+        changes.values.emplace_back(fmt::format("{}.profile.mean", given_.plan->table.rows[slot].name),
+                                    rotors.mean(value->per == study::Per::rig ? point.rig : 0));
+    }
     for (const study::MachineInput& input : inputs_) {
       const std::vector<std::uint32_t>& rows = given_.plan->sampled_slots;
       if (std::ranges::find(rows, input.slots.front()) != rows.end()) changes.removed.emplace_back("samples");

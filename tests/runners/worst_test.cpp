@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "experiments/manifest/load_study.hpp"
+#include "experiments/study/plan.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/study_file.hpp"
 #include "runners/tuning/unit_runner.hpp"
@@ -83,9 +85,9 @@ TEST_F(Worst, IsRepeatedByItsManifest) {
       {"profiles", machines + k1_per_rig +
                        ", k2: {profile: {mean: {uniform: [500, 900]}, cv: 0.3, "
                        "correlation_length: 0.5}, per: rig}}\n"},
-      {"a profile", goal +
-                        "trials: 24\nfriction: {k1: {profile: {mean: 120, cv: 0.2, correlation_length: 1}}, "
-                        "k2: {uniform: [500, 900]}}\ndesign: latin_hypercube\n"},
+      {"a profile", goal + "trials: 24\nfriction: {k1: {profile: {mean: {uniform: [100, 140]}, cv: 0.2, "
+                           "correlation_length: 1}}, "
+                           "k2: {uniform: [500, 900]}}\ndesign: latin_hypercube\n"},
       {"contacts", machines + k1_per_rig + ", breakaway: {uniform: [0.25, 0.35], per: contact}}\n"},
       {"correlation",
        goal + "trials: 30\nfriction: {k1: {uniform: [90, 150]}, k2: {uniform: [500, 900]}}\n"
@@ -107,6 +109,20 @@ TEST_F(Worst, IsRepeatedByItsManifest) {
     const Json box = found["box"];
     EXPECT_DOUBLE_EQ(replayed(box["rig"]), box["met"]) << one.what;
     EXPECT_EQ(program({"trace", "worst.yaml", "--trial", box["trial"].dump()}).code, 0) << one.what;
+  }
+}
+
+// Another design draws another mean; the profile is that of the study.
+TEST_F(Worst, HasTheProfileOfTheStudyInEveryDesign) {
+  for (const char* design : {"monte_carlo", "sobol", "latin_hypercube"}) {
+    const Json found = worst(fmt::format(
+        "{}goal: {{band: 0, within: 0.045, moves: 0.9}}\ntrials: 8\ndesign: {}\nfriction: {{k1: {{profile: "
+        "{{mean: "
+        "{{uniform: [100, 140]}}, cv: 0.2, correlation_length: 1}}}}, k2: {{uniform: [500, 900]}}}}\n",
+        common_part, design));
+    const study::Study study = manifest::load_study(folder_.path() / "worst.yaml");
+    EXPECT_DOUBLE_EQ(study.plan->profiles.front()->mean(0), found["inputs"]["friction.k1.profile.mean"])
+        << design;
   }
 }
 

@@ -45,7 +45,7 @@ constexpr double max_planned_trials = 100'000.0;
 
 std::string measure_names() {
   std::vector<std::string> names;
-  for (const comparison::GateMeasure& one : comparison::gate_measures()) names.emplace_back(one.name);
+  for (const comparison::GateMeasure& one : comparison::all_gate_measures()) names.emplace_back(one.name);
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
@@ -110,9 +110,11 @@ comparison::PointTrials run_point(const study::Study& study, std::int64_t point,
   });
   std::vector<trial::MoveOutcome> outcomes;
   for (const auto& block : blocks) outcomes.insert(outcomes.end(), block.begin(), block.end());
-  comparison::PointTrials result = comparison::gather_trials(outcomes, std::ssize(outcomes) / trials);
-  result.rigs = study.rigs;
-  return result;
+  comparison::AlsoRead also;
+  also.rigs = also.goal_rigs = study.rigs;
+  also.worlds = study.worlds;
+  if (study.goal) also.judged = {*study.goal, *measures::counted_goal(study)};
+  return comparison::gather_trials(outcomes, std::ssize(outcomes) / trials, also);
 }
 
 /// A measure at a point of the pilot.
@@ -151,6 +153,13 @@ EquivalencePlan plan_of(const command_line::Arguments& arguments) {
   plan.rules = rules_of(arguments);
   plan.power = command_line::probability_option(arguments, "power").value_or(plan.power);
   const study::Study study = planned_study(arguments);
+  if (!study.goal && comparison::names_goal_measure(plan.rules)) {
+    throw Failure(
+        ExitCode::bad_input,
+        fmt::format("{}: its manifest has no goal, by whose measures it is to be planned; expected one "
+                    "such as goal: {{band: 1, within: 0.05, moves: 0.99}}",
+                    arguments.operands()[0]));
+  }
   plan.pilot = study.rigs > 0 ? study.trials : std::min(study.trials, pilot_trials);
   const std::int64_t units = study.rigs > 0 ? study.rigs : plan.pilot;
   comparison::ForecastSamples samples({units, units}, true);

@@ -1,8 +1,12 @@
 #include "analysis/rare/estimator.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <numeric>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -10,6 +14,7 @@
 
 #include "analysis/rare/splitting.hpp"
 #include "analysis/statistics/betting_bounds.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "core/numerics/normal_distribution.hpp"
 #include "experiments/designs/random_key.hpp"
 
@@ -17,7 +22,19 @@ namespace zerocount::rare {
 namespace {
 
 constexpr std::size_t plain_at_first = 1000;
-constexpr std::int64_t most_rows = 100'000;  // each of which is tried
+constexpr double common_value = 0.01;              // more probable ones are drawn often enough
+constexpr std::int64_t trials_of_values = 40'000;  // of a discrete draw, shared by its values
+constexpr std::int64_t max_trials_of_value = 10;
+constexpr std::int64_t trials_of_values_at_once = 2000;
+/// Values that are tried again, and how often.
+struct Retrial {
+  std::size_t values;
+  std::int64_t trials;
+};
+constexpr std::array<Retrial, 2> retrials{{{200, 50}, {20, 500}}};
+constexpr std::int64_t min_failures_of_pinned = 2;
+constexpr double enrichment_of_pinned = 5.0;  // of failures at a value, over those of plain trials
+constexpr double share_of_pinned = 0.5;       // of the proposal, beside a mixture
 constexpr std::int64_t enough_plain_failures = 30;
 constexpr int searches_of_first_score = 2;
 constexpr double least_probability = 1e-11;
@@ -27,7 +44,6 @@ constexpr std::size_t pilot_trials = 2000;
 constexpr double enough_pilot_failures = 100.0;  // independent ones
 constexpr double least_share_of_searched = 0.5;  // of splitting's failures, beside those of pilots
 constexpr double cap_of_no_use = 0.5;            // plain trials have 1
-constexpr double enough_for_plain = 1e-4;        // of the probability
 constexpr double narrow_cap = 30.0;              // of the weights, over the probability
 constexpr std::size_t drawn_at_once = 500;
 constexpr std::size_t most_drawn = 2'000'000;  // some hundred bytes each
@@ -48,11 +64,13 @@ std::vector<double> positive_values(const EstimatorState& state) {
   return values;
 }
 
-/// Confidence of the bounds of one learned proposal: the error probabilities of all have the sum that is
-/// allowed. The first has most of it.
+/// Confidence of the bounds of one proposal: the error probabilities of all have the sum that is allowed. The
+/// first has most of it, then the plain trials that follow a proposal of no use.
 double confidence_of(const EstimatorState& state, double confidence) {
-  const double part =
-      state.learnings <= 1 ? 0.8 : 0.2 * std::ldexp(1.0, static_cast<int>(1 - state.learnings));
+  const double part = state.learnings <= 1 ? 0.7
+                      : state.proposal.is_natural()
+                          ? 0.2
+                          : 0.1 * std::ldexp(1.0, static_cast<int>(1 - state.learnings));
   return 1.0 - (1.0 - confidence) * part;
 }
 
@@ -78,12 +96,54 @@ void scale_weights(std::vector<NormalComponent>& components, double sum) {
   for (NormalComponent& one : components) one.weight *= sum / all;
 }
 
-/// The mixture of two fits, of which the second has this share.
-Proposal proposal_of(std::vector<NormalComponent> first, std::vector<NormalComponent> second, double share) {
+/// The mixture of two fits, of which the second has this share if there is a first.
+std::vector<NormalComponent> mixed(std::vector<NormalComponent> first, std::vector<NormalComponent> second,
+                                   double share) {
   scale_weights(first, second.empty() ? 1.0 : 1.0 - share);
-  scale_weights(second, share);
+  scale_weights(second, first.empty() ? 1.0 : share);
   std::ranges::move(second, std::back_inserter(first));
-  return {natural_share, std::move(first)};
+  return first;
+}
+
+/// A value of a discrete draw, and what its last trials showed.
+struct TriedValue {
+  PinnedValue value;
+  std::vector<double> scores;  ///< [score] the largest; −∞: not known
+
+  void take(std::span<const PointResult> results) {
+    value.trials = std::ssize(results);
+    value.failures = std::ranges::count_if(results, [](const PointResult& one) { return one.failed > 0.0; });
+    scores.assign(results.front().scores.size(), -std::numeric_limits<double>::infinity());
+    for (const PointResult& one : results) {
+      for (std::size_t i = 0; i < scores.size(); ++i) scores[i] = std::fmax(scores[i], one.scores[i]);
+    }
+  }
+};
+
+/// Those with most failures, and by turns those with the largest value of each score.
+std::vector<TriedValue> most_suspicious(const std::vector<TriedValue>& tried, std::size_t count,
+                                        std::size_t scores) {
+  if (tried.size() <= count) return tried;
+  std::vector<std::size_t> order(tried.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::vector<bool> chosen(tried.size(), false);
+  std::vector<TriedValue> found;
+  const auto take_first = [&](std::size_t most, const auto& is_wanted) {
+    for (std::size_t i = 0; i < order.size() && most > 0 && found.size() < count; ++i) {
+      if (chosen[order[i]] || !is_wanted(tried[order[i]])) continue;
+      chosen[order[i]] = true;
+      found.push_back(tried[order[i]]);
+      --most;
+    }
+  };
+  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return tried[i].value.failures; });
+  take_first(count, [](const TriedValue& one) { return one.value.failures > 0; });
+  const std::size_t of_each = (count - found.size() + scores - 1) / scores;
+  for (std::size_t score = 0; score < scores; ++score) {
+    std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return tried[i].scores[score]; });
+    take_first(of_each, [](const TriedValue&) { return true; });
+  }
+  return found;
 }
 
 class Estimator {
@@ -94,37 +154,36 @@ class Estimator {
 
   Estimate run() {
     if (!state_.learned && !learn()) return answer_of(state_, settings_);
-    while (!answer_of(state_, settings_).narrow) {
-      if (state_.drawn.size() >= most_drawn || !go_on_(state_)) break;
-      draw_more();
-      if (!is_covered() && !learn_again()) break;
+    estimate_by_drawing();
+    if (!state_.proposal.is_natural() && has_failed(answer_of(state_, settings_).status) && go_on_(state_)) {
+      draw_plainly();
+      state_.drawn.clear();
+      ++state_.learnings;
+      estimate_by_drawing();
     }
     return answer_of(state_, settings_);
   }
 
  private:
+  /// Whether the learned proposal is of no use.
+  static bool has_failed(EstimateStatus status) {
+    return status == EstimateStatus::not_covered || status == EstimateStatus::too_many;
+  }
+
+  void estimate_by_drawing() {
+    while (!answer_of(state_, settings_).narrow) {
+      if (state_.drawn.size() >= most_drawn || !go_on_(state_)) return;
+      draw_more();
+      if (!is_covered() && !learn_again()) return;
+    }
+  }
+
   NumberSource numbers_for(std::string_view use, std::uint32_t stream = 0) const {
     return NumberSource(designs::random_key(settings_.seed, fmt::format("rare/{}", use)), stream);
   }
 
-  /// The coordinates that the proposal changes.
-  std::vector<double> changed_part(const std::vector<double>& z) const {
-    std::vector<double> part;
-    for (std::size_t i = 0; i < z.size(); ++i) {
-      if (!std::ranges::binary_search(settings_.unordered, i)) part.push_back(z[i]);
-    }
-    return part;
-  }
-
-  /// A point of the proposal.
-  std::vector<double> drawn_point(NumberSource& numbers) const {
-    const std::vector<double> changed =
-        draw(state_.proposal, settings_.coordinates - settings_.unordered.size(), numbers);
-    std::vector<double> z;
-    std::size_t next = 0;
-    for (std::size_t i = 0; i < settings_.coordinates; ++i)
-      z.push_back(std::ranges::binary_search(settings_.unordered, i) ? numbers.normal() : changed[next++]);
-    return z;
+  double ratio_at(std::span<const double> z) const {
+    return likelihood_ratio(settings_.space, state_.proposal, z);
   }
 
   std::vector<PointResult> run_trials(std::span<const TrialPoint> points) {
@@ -135,13 +194,14 @@ class Estimator {
 
   bool learn() {
     if (state_.plain_trials > 0) ++state_.searched;  // a search anew has other random numbers
-    state_.searched_all = false;
     state_.searches.clear();
+    state_.proposal = {};
+    state_.learnings = 0;
     run_plain();
+    if (!try_values()) return false;
     if (std::ssize(searched_.z) < enough_plain_failures && !search_all()) return false;
-    state_.searched_all = true;
-    if (searched_.z.empty()) return false;
-    if (settings_.unordered.size() == settings_.coordinates) {
+    const bool nothing_to_change = settings_.space.unordered.size() == settings_.space.coordinates;
+    if (state_.proposal.values.empty() && (searched_.z.empty() || nothing_to_change)) {
       draw_plainly();
       return true;
     }
@@ -152,14 +212,15 @@ class Estimator {
       if (!go_on_(state_)) return false;
       probability = run_pilot(numbers);
       fit(numbers);
-      state_.cap = cap_beyond_usual * usual_largest(pilots_.z.empty() ? searched_ : pilots_);
+      state_.cap = cap_beyond_usual * std::max(usual_largest(pilots_.z.empty() ? searched_ : pilots_),
+                                               max_ratio_of_pinned(state_.proposal));
       if (state_.cap < narrow_cap * probability) break;
     }
     for (const std::vector<double>& z : plain_failing_)
-      state_.cap = std::max(state_.cap, cap_beyond_usual * likelihood_ratio(state_.proposal, z));
+      state_.cap = std::max(state_.cap, cap_beyond_usual * ratio_at(z));
     state_.learned = true;
     state_.learnings = 1;
-    if (state_.cap >= cap_of_no_use && probability >= enough_for_plain) draw_plainly();
+    if (state_.cap >= cap_of_no_use) draw_plainly();
     return true;
   }
 
@@ -168,40 +229,92 @@ class Estimator {
     state_.proposal = {};
     state_.cap = 1.0;
     state_.learned = true;
-    state_.learnings = 1;
+    state_.learnings = std::max<std::int64_t>(state_.learnings, 1);
   }
 
-  /// A trial of its own distribution. Trials that follow each other have the rows of a table in turn, so that
-  /// no row stays untried.
-  std::vector<double> plain_point(std::size_t index, NumberSource& numbers) const {
-    std::vector<double> z = numbers.normals(settings_.coordinates);
-    for (std::size_t k = 0; k < settings_.unordered.size(); ++k) {
-      const auto rows = static_cast<std::size_t>(settings_.rows[k]);
-      const double place = static_cast<double>(index % rows) + numbers.uniform();
-      z[settings_.unordered[k]] = numerics::normal_quantile(place / static_cast<double>(rows));
-    }
-    return z;
+  std::vector<TrialPoint> numbered(std::vector<std::vector<double>> points) const {
+    std::vector<TrialPoint> trials;
+    for (std::vector<double>& z : points)
+      trials.push_back({std::move(z), state_.trials + std::ssize(trials)});
+    return trials;
   }
 
-  /// Trials of their own distribution, of every row of a table as many: where failures are common, they are
-  /// enough to learn from.
+  /// Trials of their own distribution: where failures are common, they are enough to learn from.
   void run_plain() {
     NumberSource numbers = numbers_for("plain", static_cast<std::uint32_t>(state_.searched));
-    std::size_t count = plain_at_first;
-    for (const std::int64_t rows : settings_.rows) {
-      const auto whole = static_cast<std::size_t>(rows);
-      if (rows <= most_rows) count = std::max(whole, (plain_at_first + whole - 1) / whole * whole);
+    std::vector<std::vector<double>> points;
+    for (std::size_t i = 0; i < plain_at_first; ++i)
+      points.push_back(numbers.normals(settings_.space.coordinates));
+    const std::vector<TrialPoint> trials = numbered(std::move(points));
+    const std::vector<PointResult> results = run_trials(trials);
+    for (std::size_t i = 0; i < trials.size(); ++i) {
+      if (results[i].failed > 0.0) searched_.add(trials[i].z, results[i].failed);
     }
-    std::vector<TrialPoint> points;
-    for (std::size_t i = 0; i < count; ++i)
-      points.push_back({plain_point(i, numbers), state_.trials + static_cast<std::int64_t>(i)});
-    const std::vector<PointResult> results = run_trials(points);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (results[i].failed > 0.0) searched_.add(changed_part(points[i].z), results[i].failed);
-    }
-    state_.plain_trials += std::ssize(points);
+    state_.plain_trials += std::ssize(trials);
     state_.plain_failures += std::ssize(searched_.z);
     plain_failing_ = searched_.z;
+  }
+
+  /// Trials at every value of each discrete draw, whatever its probability: a value that fails need not be
+  /// near others that do. Values with frequent failures become pinned values of the proposal.
+  /// @return whether it came to an end in the budget
+  bool try_values() {
+    if (std::ssize(searched_.z) >= enough_plain_failures) return true;
+    for (std::size_t draw = 0; draw < settings_.space.discrete.size(); ++draw) {
+      if (settings_.space.discrete[draw].values() <= max_tried_values && !try_values_of(draw)) return false;
+    }
+    double sum = 0.0;
+    for (const PinnedValue& one : state_.proposal.values) sum += one.weight;
+    for (PinnedValue& one : state_.proposal.values) one.weight /= sum;
+    return true;
+  }
+
+  /// The values that look worst are tried again, ever more often.
+  bool try_values_of(std::size_t draw) {
+    NumberSource numbers =
+        numbers_for(fmt::format("values/{}", draw), static_cast<std::uint32_t>(state_.searched));
+    std::vector<TriedValue> tried;
+    for (PinnedValue& value : pinned_values(settings_.space, draw)) {
+      if (value.probability < common_value) tried.push_back({std::move(value), {}});
+    }
+    if (tried.empty()) return true;
+    const std::int64_t each =
+        std::clamp<std::int64_t>(trials_of_values / std::ssize(tried), 1, max_trials_of_value);
+    if (!run_tried(tried, each, numbers)) return false;
+    for (const Retrial& retrial : retrials) {
+      tried = most_suspicious(tried, retrial.values, settings_.scores);
+      if (!run_tried(tried, retrial.trials, numbers)) return false;
+    }
+    const double usual =
+        static_cast<double>(state_.plain_failures) / static_cast<double>(state_.plain_trials);
+    for (TriedValue& one : tried) {
+      PinnedValue& value = one.value;
+      const double rate = static_cast<double>(value.failures) / static_cast<double>(value.trials);
+      if (value.failures < min_failures_of_pinned || rate < enrichment_of_pinned * usual) continue;
+      value.weight = rate * value.probability;
+      state_.proposal.values.push_back(std::move(value));
+    }
+    return true;
+  }
+
+  /// Runs so many trials at each value. @return whether it came to an end in the budget
+  bool run_tried(std::vector<TriedValue>& values, std::int64_t trials_of_each, NumberSource& numbers) {
+    const auto at_once =
+        static_cast<std::size_t>(std::max<std::int64_t>(trials_of_values_at_once / trials_of_each, 1));
+    for (std::size_t first = 0; first < values.size(); first += at_once) {
+      if (!go_on_(state_)) return false;
+      const std::span part = std::span(values).subspan(first, std::min(at_once, values.size() - first));
+      std::vector<std::vector<double>> points;
+      for (const TriedValue& one : part) {
+        for (std::int64_t i = 0; i < trials_of_each; ++i)
+          points.push_back(draw_pinned(settings_.space, one.value, numbers));
+      }
+      const std::vector<PointResult> results = run_trials(numbered(std::move(points)));
+      const auto count = static_cast<std::size_t>(trials_of_each);
+      for (std::size_t i = 0; i < part.size(); ++i)
+        part[i].take(std::span(results).subspan(i * count, count));
+    }
+    return true;
   }
 
   /// Splitting along all scores. @return whether it came to an end in the budget
@@ -213,19 +326,21 @@ class Estimator {
       for (int i = 0; i < repeated; ++i) {
         NumberSource numbers = numbers_for("splitting", stream++);
         const SplittingResult found = split(
-            {.coordinates = settings_.coordinates,
-             .unordered = settings_.unordered,
+            {.coordinates = settings_.space.coordinates,
+             .unordered = settings_.space.unordered,
              .score = score,
              .least = std::max(least_probability, least_beside_the_best * best),
              .first_number = state_.trials},
-            [&](std::span<const TrialPoint> points) { return run_trials(points); }, numbers,
-            [&] { return go_on_(state_); });
+            [&, plain = true](std::span<const TrialPoint> points) mutable {
+              return run_beside_pinned(points, std::exchange(plain, false));
+            },
+            numbers, [&] { return go_on_(state_); });
         state_.plain_trials += found.plain_trials;
         state_.plain_failures += std::ssize(found.plain_failing);
         state_.searches.push_back({score, found.reached, found.probability, found.levels, found.trials});
         for (const TrialPoint& point : found.plain_failing) {
-          searched_.add(changed_part(point.z), 1.0);
-          plain_failing_.push_back(changed_part(point.z));
+          searched_.add(point.z, 1.0);
+          plain_failing_.push_back(point.z);
         }
         if (!go_on_(state_)) return false;
         if (!found.reached) continue;
@@ -236,12 +351,27 @@ class Estimator {
     return true;
   }
 
+  /// Runs trials of a search for failures other than those at pinned values, which lead nowhere there.
+  /// @param plain they are drawn from their own distribution
+  std::vector<PointResult> run_beside_pinned(std::span<const TrialPoint> points, bool plain) {
+    std::vector<PointResult> results = run_trials(points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!is_pinned(settings_.space, state_.proposal, points[i].z)) continue;
+      if (plain && results[i].failed > 0.0) {
+        ++state_.plain_failures;
+        plain_failing_.push_back(points[i].z);
+      }
+      results[i] = {0.0, std::vector<double>(settings_.scores, statistics::unknown)};
+    }
+    return results;
+  }
+
   void add_points(const SplittingResult& found, NumberSource& numbers) {
     const double each = 1.0 / steps_per_independent_point;
-    for (const TrialPoint& point : found.failing) searched_.add(changed_part(point.z), each);
+    for (const TrialPoint& point : found.failing) searched_.add(point.z, each);
     for (const std::vector<TrialPoint>& level : found.above) {
       WeightedPoints points;
-      for (const TrialPoint& point : level) points.add(changed_part(point.z), 1.0);
+      for (const TrialPoint& point : level) points.add(changed_part(settings_.space, point.z), 1.0);
       levels_.push_back(fitted_normal(points, numbers));
     }
   }
@@ -252,27 +382,55 @@ class Estimator {
     for (double& weight : points.weights) weight *= size / sum;
   }
 
-  /// The mixture of the failures of the pilots, and those of splitting as far as the pilots have few; and of
-  /// the levels.
+  /// Those points that no pinned value explains, as normal components see them.
+  WeightedPoints unexplained(const WeightedPoints& points) const {
+    WeightedPoints found;
+    for (std::size_t i = 0; i < points.z.size(); ++i) {
+      if (!is_pinned(settings_.space, state_.proposal, points.z[i]))
+        found.add(changed_part(settings_.space, points.z[i]), points.weights[i]);
+    }
+    return found;
+  }
+
+  /// Beside the pinned values, the mixture of the failures of the pilots, and those of splitting as far as
+  /// the pilots have few; and of the levels.
   void fit(NumberSource& numbers) {
-    WeightedPoints points = pilots_;
-    const double effective = effective_size(pilots_.weights);
-    WeightedPoints searched = searched_;
-    balance(searched,
-            std::max(least_share_of_searched * effective, std::max(1.0, enough_pilot_failures - effective)));
+    WeightedPoints points = unexplained(pilots_);
+    WeightedPoints searched = unexplained(searched_);
+    const double effective = effective_size(points.weights);
+    if (!searched.z.empty())
+      balance(searched, std::max(least_share_of_searched * effective,
+                                 std::max(1.0, enough_pilot_failures - effective)));
     for (std::size_t i = 0; i < searched.z.size(); ++i) points.add(searched.z[i], searched.weights[i]);
-    state_.proposal = proposal_of(fitted_mixture(points, numbers), levels_, share_of_levels);
+    set_components(points.z.empty() ? levels_
+                                    : mixed(fitted_mixture(points, numbers), levels_, share_of_levels));
+  }
+
+  /// Sets the normal components beside the pinned values. Where every failure is at a pinned value there are
+  /// none.
+  void set_components(std::vector<NormalComponent> components) {
+    Proposal& proposal = state_.proposal;
+    proposal.natural = natural_share;
+    proposal.components = std::move(components);
+    proposal.pinned = proposal.values.empty() ? 0.0 : proposal.components.empty() ? 1.0 : share_of_pinned;
   }
 
   std::vector<WeightedTrial> draw_trials(std::size_t count, NumberSource& numbers) {
-    std::vector<TrialPoint> points;
-    for (std::size_t i = 0; i < count; ++i)
-      points.push_back({drawn_point(numbers), state_.trials + static_cast<std::int64_t>(i)});
-    const std::vector<PointResult> results = run_trials(points);
+    std::vector<std::vector<double>> points;
+    std::vector<bool> natural;
+    for (std::size_t i = 0; i < count; ++i) {
+      DrawnPoint point = draw(settings_.space, state_.proposal, numbers);
+      points.push_back(std::move(point.z));
+      natural.push_back(point.natural);
+    }
+    std::vector<TrialPoint> trials = numbered(std::move(points));
+    const std::vector<PointResult> results = run_trials(trials);
     std::vector<WeightedTrial> drawn;
     for (std::size_t i = 0; i < count; ++i) {
-      const double weight = likelihood_ratio(state_.proposal, changed_part(points[i].z));
-      drawn.push_back({std::move(points[i]), weight, results[i].failed});
+      state_.plain_trials += natural[i] ? 1 : 0;
+      state_.plain_failures += natural[i] && results[i].failed > 0.0 ? 1 : 0;
+      const double weight = ratio_at(trials[i].z);
+      drawn.push_back({std::move(trials[i]), weight, results[i].failed});
     }
     return drawn;
   }
@@ -282,12 +440,12 @@ class Estimator {
     WeightedPoints found;
     double sum = 0.0;
     for (const WeightedTrial& trial : draw_trials(pilot_trials, numbers)) {
-      if (!(trial.failed > 0.0)) continue;
-      found.add(changed_part(trial.point.z), trial.weight * trial.failed);
-      sum += trial.weight * trial.failed;
+      const double part = trial.weight * trial.failed;
+      sum += part;
+      if (part > 0.0 && !is_pinned(settings_.space, state_.proposal, trial.point.z))
+        found.add(trial.point.z, part);
     }
-    if (found.z.empty()) return 0.0;
-    balance(found, effective_size(found.weights));
+    if (!found.z.empty()) balance(found, effective_size(found.weights));
     for (std::size_t i = 0; i < found.z.size(); ++i) pilots_.add(found.z[i], found.weights[i]);
     return sum / static_cast<double>(pilot_trials);
   }
@@ -296,14 +454,14 @@ class Estimator {
   double usual_largest(const WeightedPoints& points) const {
     std::vector<std::pair<double, double>> ratios;
     for (std::size_t i = 0; i < points.z.size(); ++i)
-      ratios.emplace_back(likelihood_ratio(state_.proposal, points.z[i]), points.weights[i]);
+      ratios.emplace_back(ratio_at(points.z[i]), points.weights[i]);
     std::ranges::sort(ratios);
     double left = quantile_of_cap * std::accumulate(points.weights.begin(), points.weights.end(), 0.0);
     for (const auto& [ratio, weight] : ratios) {
       left -= weight;
       if (left <= 0.0) return ratio;
     }
-    return ratios.back().first;
+    return ratios.empty() ? 0.0 : ratios.back().first;
   }
 
   void draw_more() {
@@ -323,13 +481,15 @@ class Estimator {
     if (state_.learnings >= most_learnings) return false;
     WeightedPoints found;
     for (const WeightedTrial& trial : state_.drawn) {
-      if (trial.failed > 0.0) found.add(changed_part(trial.point.z), trial.weight * trial.failed);
+      if (trial.failed > 0.0) found.add(trial.point.z, trial.weight * trial.failed);
     }
+    const WeightedPoints unforeseen = unexplained(found);
+    if (unforeseen.z.empty()) return false;
     NumberSource numbers = numbers_for("again", static_cast<std::uint32_t>(state_.learnings));
-    state_.proposal =
-        proposal_of(std::move(state_.proposal.components), fitted_mixture(found, numbers), share_of_new);
+    set_components(
+        mixed(std::move(state_.proposal.components), fitted_mixture(unforeseen, numbers), share_of_new));
     for (const std::vector<double>& z : found.z)
-      state_.cap = std::max(state_.cap, cap_beyond_usual * likelihood_ratio(state_.proposal, z));
+      state_.cap = std::max(state_.cap, cap_beyond_usual * ratio_at(z));
     state_.drawn.clear();
     ++state_.learnings;
     return true;
@@ -341,7 +501,8 @@ class Estimator {
   const std::function<bool(const EstimatorState&)>& go_on_;
   WeightedPoints searched_;                         ///< failures found by plain trials and splitting
   std::vector<std::vector<double>> plain_failing_;  ///< those of plain trials
-  WeightedPoints pilots_;                ///< those of pilots; the sum of weights is their effective size
+  WeightedPoints pilots_;  ///< those of pilots that no pinned value explains; the sum of weights is their
+                           ///< effective size
   std::vector<NormalComponent> levels_;  ///< a normal distribution of each level of splitting
 };
 
@@ -352,13 +513,7 @@ Estimate answer_of(const EstimatorState& state, const EstimatorSettings& setting
   answer.plain_high =
       statistics::clopper_pearson(state.plain_failures, state.plain_trials, settings.confidence).high;
   answer.bounds = {0.0, answer.plain_high};
-  if (!state.learned) {
-    const bool none_found =
-        state.searched_all && state.plain_failures == 0 &&
-        std::ranges::none_of(state.searches, [](const ScoreSearch& search) { return search.reached; });
-    answer.status = none_found ? EstimateStatus::no_failure : EstimateStatus::budget;
-    return answer;
-  }
+  if (!state.learned) return answer;
   const std::vector<double> values = positive_values(state);
   if (state.drawn.empty()) return answer;
   answer.bounds = statistics::betting_bounds(values, std::ssize(state.drawn), state.cap,
@@ -368,10 +523,13 @@ Estimate answer_of(const EstimatorState& state, const EstimatorSettings& setting
   answer.bounds.high = std::min(answer.bounds.high, 1.0);
   const bool exceeds = std::ranges::any_of(values, [&](double value) { return value > state.cap; });
   answer.narrow = !exceeds && is_narrow(answer.bounds, settings.ratio);
-  if (exceeds || (answer.narrow && splitting_disagrees(state, answer.bounds.high))) {
+  const bool natural = state.proposal.is_natural();
+  if (exceeds || (!natural && answer.narrow && splitting_disagrees(state, answer.bounds.high))) {
     answer.status = EstimateStatus::not_covered;
   } else if (answer.narrow) {
     answer.status = EstimateStatus::estimated;
+  } else if (natural && state.plain_failures == 0) {
+    answer.status = EstimateStatus::no_failure;
   } else if (state.drawn.size() >= most_drawn) {
     answer.status = EstimateStatus::too_many;
   }

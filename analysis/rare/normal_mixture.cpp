@@ -220,27 +220,18 @@ NormalComponent normal_component(double weight, std::vector<double> mean, std::v
   return component;
 }
 
-double likelihood_ratio(const Proposal& proposal, std::span<const double> z) {
+double density_ratio(std::span<const NormalComponent> components, std::span<const double> z) {
   double standard = 0.0;
   for (const double x : z) standard += 0.5 * x * x;
-  double density = proposal.natural;
-  for (const NormalComponent& component : proposal.components)
-    density +=
-        (1.0 - proposal.natural) * component.weight * numerics::exp(log_density(component, z) + standard);
-  return 1.0 / density;
+  double density = 0.0;
+  for (const NormalComponent& component : components)
+    density += component.weight * numerics::exp(log_density(component, z) + standard);
+  return density;
 }
 
-std::vector<double> draw(const Proposal& proposal, std::size_t size, NumberSource& numbers) {
-  const double choice = numbers.uniform();
-  std::vector<double> z = numbers.normals(size);
-  if (choice < proposal.natural || proposal.components.empty()) return z;
-  double place = (choice - proposal.natural) / (1.0 - proposal.natural);
-  std::size_t chosen = 0;
-  for (; chosen + 1 < proposal.components.size(); ++chosen) {
-    place -= proposal.components[chosen].weight;
-    if (place < 0.0) break;
-  }
-  const NormalComponent& component = proposal.components[chosen];
+std::vector<double> draw(const NormalComponent& component, NumberSource& numbers) {
+  const std::size_t size = component.mean.size();
+  const std::vector<double> z = numbers.normals(size);
   std::vector<double> point = component.mean;
   for (std::size_t i = 0; i < size; ++i) {
     for (std::size_t j = 0; j <= i; ++j) point[i] += component.factor[i * size + j] * z[j];

@@ -19,18 +19,11 @@ struct NormalComponent {
 /// @param factor L of its covariance, by rows
 NormalComponent normal_component(double weight, std::vector<double> mean, std::vector<double> factor);
 
-/// The distribution from which trials are drawn in place of their own: with the probability `natural` their
-/// own, otherwise a mixture of normal distributions, whose weights have the sum 1.
-struct Proposal {
-  double natural{1.0};
-  std::vector<NormalComponent> components;
-};
+/// Density of a mixture, whose weights sum to 1, over that of independent standard normal numbers.
+double density_ratio(std::span<const NormalComponent> components, std::span<const double> z);
 
-/// Density of the trials' own distribution over that of the proposal, at most 1/natural.
-double likelihood_ratio(const Proposal& proposal, std::span<const double> z);
-
-/// A point of the proposal. @param size number of coordinates
-std::vector<double> draw(const Proposal& proposal, std::size_t size, NumberSource& numbers);
+/// A point of the component.
+std::vector<double> draw(const NormalComponent& component, NumberSource& numbers);
 
 /// Points to which a mixture is fitted.
 struct WeightedPoints {

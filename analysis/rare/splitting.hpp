@@ -12,7 +12,7 @@ namespace zerocount::rare {
 /// Settings of multilevel splitting.
 struct SplittingSettings {
   std::size_t coordinates{0};
-  std::vector<std::size_t> unordered{};  ///< EstimatorSettings::unordered
+  std::vector<std::size_t> unordered{};  ///< TrialSpace::unordered
   std::size_t score{0};                  ///< of PointResult::scores, that is driven up
   std::size_t particles{600};            ///< trials of a level
   int steps{3};                          ///< of the Markov chain between two levels

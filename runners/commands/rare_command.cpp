@@ -24,25 +24,26 @@ namespace zerocount::commands {
 namespace {
 
 constexpr double usual_confidence = 0.95;
-constexpr double usual_seconds = 300.0;
+constexpr std::int64_t usual_trials = 1'000'000;
 
 constexpr const char* rare_help =
     "Estimates the probability that a move misses the goal, down to about 1e-8, where plain trials\n"
     "see no failure. It drives trials towards failure along scores of a move (settling time,\n"
     "largest torque, error at the end, unrest), learns a distribution of the failures it found,\n"
-    "draws trials from it, and weights them, so that each has the right expectation. The lower\n"
-    "bound holds in any case. The upper bound assumes that no failures hide where neither a plain trial nor "
-    "a\n"
-    "score leads. If no score leads to a failure, the answer is undecided.\n"
+    "draws trials from it, and weights them, so that each has the right expectation. Every value of a\n"
+    "choice, of integers and of samples is tried, be it ever so improbable. The lower bound holds in\n"
+    "any case. The upper bound assumes that no failures hide where neither a plain trial nor a score\n"
+    "leads. If nothing leads to a failure, plain trials go on to the end of the budget.\n"
     "\n"
     "--event asks for another event: MEASURE > x, such as 'settling_time > 0.5' or\n"
     "'band_settling_time[1] > 0.05', with a column of moves.csv of 'zerocount export'. Each trial is\n"
     "on a machine of its own. Of several points --point chooses one, of several worlds --world.\n"
     "\n"
-    "It ends when high is at most --ratio (2) times low, or after --budget (5min). FILE holds the\n"
-    "weighted trials; 'zerocount trace FILE --trial I' replays one. The same command goes on from\n"
-    "an unfinished FILE; a search for failures that did not end begins anew. The exit code is 0 if\n"
-    "the bounds are narrow enough, 3 if not.\n"
+    "It ends when high is at most --ratio (2) times low, or after --budget (1000000 trials). A budget\n"
+    "in time, such as 5min, makes an undecided answer depend on the machine. FILE holds the weighted\n"
+    "trials; 'zerocount trace FILE --trial I' replays one. The same command goes on from an unfinished\n"
+    "FILE; a search for failures that did not end begins anew. The exit code is 0 if the bounds are\n"
+    "narrow enough, 3 if not.\n"
     "\n"
     "Example: zerocount rare my-axis.yaml -o rare.h5\n"
     "         zerocount rare my-axis.yaml -o late.h5 --event 'settling_time > 0.5'\n";
@@ -89,7 +90,7 @@ rare::RareSettings settings_of(const command_line::Arguments& arguments) {
   const command_line::Budget budget = command_line::budget_option(arguments);
   settings.max_trials = budget.trials;
   settings.seconds = budget.seconds;
-  if (!budget.trials && !budget.seconds) settings.seconds = usual_seconds;
+  if (!budget.trials && !budget.seconds) settings.max_trials = usual_trials;
   settings.quiet = arguments.has("quiet");
   settings.force = arguments.has("force");
   return settings;
@@ -135,7 +136,7 @@ Command rare_command() {
             {"world", "W", "the world, of a study with worlds"},
             {"confidence", "C", "of both bounds together (default 0.95)"},
             {"ratio", "R", "how narrow: high at most R times low (default 2)"},
-            {"budget", "B", "a time such as 60s, 5min (the default) or 2h, or a number of trials"},
+            {"budget", "B", "a number of trials (default 1000000), or a time such as 60s, 5min or 2h"},
             {"threads", "N", "threads to use; default: all cores"},
             {"set", "KEY=VALUE", "override a manifest key; may be repeated", true},
             {"quiet,q", "", "print no progress"},

@@ -54,15 +54,23 @@ Json state_json(const EstimatorState& state) {
   for (const NormalComponent& component : state.proposal.components)
     components.push_back(
         {{"weight", component.weight}, {"mean", component.mean}, {"factor", component.factor}});
+  Json values = Json::array();
+  for (const PinnedValue& one : state.proposal.values)
+    values.push_back({{"draw", one.draw},
+                      {"value", one.value},
+                      {"weight", one.weight},
+                      {"failures", one.failures},
+                      {"trials", one.trials}});
   return {{"trials", state.trials},
           {"plain_trials", state.plain_trials},
           {"plain_failures", state.plain_failures},
           {"searches", std::move(searches)},
           {"learned", state.learned},
-          {"searched_all", state.searched_all},
           {"searched", state.searched},
           {"learnings", state.learnings},
           {"natural", state.proposal.natural},
+          {"pinned", state.proposal.pinned},
+          {"values", std::move(values)},
           {"components", std::move(components)},
           {"cap", state.cap}};
 }
@@ -78,7 +86,6 @@ std::optional<EstimatorState> state_of(const Json& json) {
                               search.at("probability").get<double>(), search.at("levels").get<int>(),
                               search.at("trials").get<std::int64_t>()});
   state.learned = json.at("learned").get<bool>();
-  state.searched_all = json.at("searched_all").get<bool>();
   state.searched = json.at("searched").get<std::int64_t>();
   state.learnings = json.at("learnings").get<std::int64_t>();
   state.proposal.natural = json.at("natural").get<double>();
@@ -89,12 +96,19 @@ std::optional<EstimatorState> state_of(const Json& json) {
     state.proposal.components.push_back(
         normal_component(one.at("weight").get<double>(), std::move(mean), std::move(factor)));
   }
+  state.proposal.pinned = json.at("pinned").get<double>();
+  for (const Json& one : json.at("values"))
+    state.proposal.values.push_back({.draw = one.at("draw").get<std::size_t>(),
+                                     .value = one.at("value").get<std::int64_t>(),
+                                     .weight = one.at("weight").get<double>(),
+                                     .failures = one.at("failures").get<std::int64_t>(),
+                                     .trials = one.at("trials").get<std::int64_t>()});
   state.cap = json.at("cap").get<double>();
   return state;
 }
 
 bool fits(const RareRecord& record, const Question& question) {
-  const auto changed = std::ranges::count(question.coordinates, 0, &study::RandomCoordinate::rows);
+  const std::int64_t changed = std::ssize(question.coordinates) - std::ssize(question.space.unordered);
   const bool components = std::ranges::all_of(
       record.state.proposal.components,
       [&](const NormalComponent& component) { return std::ssize(component.mean) == changed; });
@@ -103,7 +117,20 @@ bool fits(const RareRecord& record, const Question& question) {
   });
   const bool world =
       record.world ? *record.world >= 0 && *record.world < question.study.worlds : question.study.worlds == 0;
-  return components && searches && world;
+  const bool values = std::ranges::all_of(record.state.proposal.values, [&](const PinnedValue& one) {
+    return one.draw < question.space.discrete.size() && one.value >= 0 &&
+           one.value < question.space.discrete[one.draw].values();
+  });
+  return components && searches && world && values;
+}
+
+/// Completes the pinned values by what follows from the manifest.
+void complete_values(std::vector<PinnedValue>& values, const Question& question) {
+  for (PinnedValue& one : values) {
+    const PinnedValue& full = pinned_values(question.space, one.draw)[static_cast<std::size_t>(one.value)];
+    one.rows = full.rows;
+    one.probability = full.probability;
+  }
 }
 
 /// The columns of the drawn trials, [column][row].
@@ -190,6 +217,7 @@ RareRecord read_rare_file(const std::filesystem::path& path) {
   }
   const Question question = recorded_question(record, path);
   if (!fits(record, question)) file.fail("/estimate does not fit its manifest");
+  complete_values(record.state.proposal.values, question);
   record.state.drawn = read_drawn(file, question);
   return record;
 }

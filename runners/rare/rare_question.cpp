@@ -27,8 +27,10 @@ void run_part(const Question& question, std::span<const study::GivenDraws> draws
 
 Question question_of(study::Study study, std::int64_t point, std::optional<std::int64_t> world,
                      measures::MoveEvent event) {
-  Question question{std::move(study), point, world, std::move(event), {}};
+  Question question{std::move(study), point, world, std::move(event), {}, {}};
   question.coordinates = study::random_coordinates(question.study, point);
+  question.space = trial_space(question.coordinates.size(),
+                               study::discrete_draws(question.study, point, question.coordinates));
   return question;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/measures/move_event.hpp"
+#include "analysis/rare/proposal.hpp"
 #include "analysis/rare/trial_point.hpp"
 #include "experiments/study/random_coordinates.hpp"
 #include "experiments/study/study.hpp"
@@ -22,6 +23,7 @@ struct Question {
   std::optional<std::int64_t> world{};  ///< of a study with worlds
   measures::MoveEvent event;
   std::vector<study::RandomCoordinate> coordinates;
+  TrialSpace space;  ///< of the coordinates
 };
 
 Question question_of(study::Study study, std::int64_t point, std::optional<std::int64_t> world,

@@ -61,6 +61,8 @@ class RareRun {
           end_.request_stop();
         }) {
     answer_.confidence = settings.confidence;
+    answer_.max_trials = settings.max_trials;
+    answer_.max_seconds = settings.seconds;
     if (std::optional<RareRecord> earlier = earlier_record(question, settings)) {
       answer_.state = std::move(earlier->state);
       earlier_seconds_ = earlier->seconds;
@@ -105,16 +107,11 @@ class RareRun {
  private:
   EstimatorSettings estimator_settings() const {
     EstimatorSettings settings;
-    settings.coordinates = question_.coordinates.size();
+    settings.space = question_.space;
     settings.scores = measures::move_scores.size();
     settings.confidence = settings_.confidence;
     settings.ratio = settings_.ratio;
     settings.seed = question_.study.seed;
-    for (std::size_t i = 0; i < question_.coordinates.size(); ++i) {
-      if (question_.coordinates[i].rows == 0) continue;
-      settings.unordered.push_back(i);
-      settings.rows.push_back(question_.coordinates[i].rows);
-    }
     return settings;
   }
 

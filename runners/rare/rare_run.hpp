@@ -25,6 +25,8 @@ struct RareSettings {
 
 struct RareAnswer {
   double confidence{0.95};
+  std::optional<std::int64_t> max_trials{};  ///< RareSettings::max_trials
+  std::optional<double> max_seconds{};       ///< RareSettings::seconds
   EstimatorState state;
   Estimate estimate;
   std::vector<FailureInput> inputs;

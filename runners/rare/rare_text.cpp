@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -47,7 +48,7 @@ std::string_view reason_of(EstimateStatus status) {
     case EstimateStatus::estimated:
       return "the bounds are as narrow as asked";
     case EstimateStatus::no_failure:
-      return "no score leads to a failure; the same command searches with other random numbers";
+      return "no score leads to a failure, and no plain trial failed";
     case EstimateStatus::not_covered:
       return "there are failures that the learned distribution does not foresee; another seed may help";
     case EstimateStatus::too_many:
@@ -65,13 +66,35 @@ double plain_trials_for(const Estimate& estimate, double confidence) {
   return failures / estimate.probability;
 }
 
+/// Discrete draws with more values than are tried one by one, as "a and b"; empty if there are none.
+std::string untried_draws(const Question& question) {
+  std::vector<std::string> names;
+  for (const study::DiscreteDraw& draw : question.space.discrete) {
+    if (draw.values() > max_tried_values) names.push_back(draw.name);
+  }
+  return fmt::format("{}", fmt::join(names, " and "));
+}
+
+std::string premise_of(const Question& question) {
+  const std::string untried = untried_draws(question);
+  return untried.empty() ? "no failures hide where neither a plain trial nor a score led"
+                         : fmt::format(
+                               "no failures hide where neither a plain trial nor a score led, nor at single "
+                               "values of {}, which are too many to be tried each",
+                               untried);
+}
+
 std::string status_text(const RareAnswer& answer) {
   const std::string_view reason = reason_of(answer.estimate.status);
   if (is_estimated(answer)) return fmt::format("{}\n", reason);
-  if (answer.estimate.status != EstimateStatus::budget) return fmt::format("undecided: {}\n", reason);
-  return fmt::format(
-      "undecided: {}; {}\n", reason,
-      answer.state.learned ? "the same command goes on" : "the search for failures needs a larger --budget");
+  std::string text = fmt::format("undecided: {}", reason);
+  if (answer.estimate.status == EstimateStatus::budget ||
+      answer.estimate.status == EstimateStatus::no_failure)
+    text += answer.state.learned ? "; the same command goes on"
+                                 : "; the search for failures needs a larger --budget";
+  if (answer.max_seconds)
+    text += "\na --budget in time makes this answer depend on the machine; one in trials does not";
+  return text + '\n';
 }
 
 std::string probability_text(const RareAnswer& answer, const Question& question) {
@@ -91,22 +114,47 @@ std::string probability_text(const RareAnswer& answer, const Question& question)
   return text + status_text(answer);
 }
 
-std::string premise_text(const RareAnswer& answer) {
+std::string premise_text(const RareAnswer& answer, const Question& question) {
   const EstimatorState& state = answer.state;
   std::string text;
   if (answer.estimate.plain_high < 1.0)
     text = fmt::format("of {} plain trials {} failed: that alone shows at most {:.2g}\n", state.plain_trials,
                        state.plain_failures == 0 ? "none" : std::to_string(state.plain_failures),
                        answer.estimate.plain_high);
-  if (state.learned && state.proposal.components.empty())
+  if (state.learned && state.proposal.is_natural())
     text +=
         "plain trials went on: failures are frequent, or depend too much on chance for a learned "
-        "distribution\n";
-  if (is_estimated(answer) && !state.proposal.components.empty())
-    text +=
-        "the upper bound assumes that no failures hide where neither a plain trial nor a score led; the\n"
-        "lower bound holds in any case\n";
+        "distribution, or none was found to learn from\n";
+  if (is_estimated(answer) && !state.proposal.is_natural())
+    text += fmt::format("the upper bound assumes that {}; the lower bound holds in any case\n",
+                        premise_of(question));
   return text;
+}
+
+double rate_of(const PinnedValue& value) {
+  return static_cast<double>(value.failures) / static_cast<double>(value.trials);
+}
+
+/// The values of discrete draws at which failures are frequent, the most probable failure first.
+std::vector<PinnedValue> failing_values(const RareAnswer& answer) {
+  std::vector<PinnedValue> values = answer.state.proposal.values;
+  std::ranges::stable_sort(values, std::greater<>(), &PinnedValue::weight);
+  return values;
+}
+
+std::string values_table(const RareAnswer& answer, const Question& question) {
+  std::vector<text::TextColumn> columns{
+      {"parameter", false, {}}, {"value", true, {}}, {"its probability", true, {}}, {"fails in", true, {}}};
+  for (const PinnedValue& one : failing_values(answer)) {
+    if (columns[0].cells.size() == most_inputs) break;
+    const study::DiscreteDraw& draw = question.space.discrete[one.draw];
+    columns[0].cells.push_back(draw.name);
+    columns[1].cells.push_back(study::value_text(draw, one.value));
+    columns[2].cells.push_back(fmt::format("{:.3g}", one.probability));
+    columns[3].cells.push_back(fmt::format("{:.3g} % of {} trials", 100.0 * rate_of(one), one.trials));
+  }
+  if (columns[0].cells.empty()) return "";
+  return "\nsingle values at which failures are frequent:\n\n" + text::aligned_table(columns);
 }
 
 std::string scores_table(const RareAnswer& answer, const Question& question) {
@@ -190,6 +238,19 @@ Json scores_json(const RareAnswer& answer, const Question& question) {
   return scores;
 }
 
+Json values_json(const RareAnswer& answer, const Question& question) {
+  Json values = Json::array();
+  for (const PinnedValue& one : failing_values(answer)) {
+    const study::DiscreteDraw& draw = question.space.discrete[one.draw];
+    values.push_back({{"parameter", draw.name},
+                      {"value", study::value_text(draw, one.value)},
+                      {"probability", one.probability},
+                      {"failures", one.failures},
+                      {"trials", one.trials}});
+  }
+  return values;
+}
+
 Json machines_json(const RareAnswer& answer) {
   if (!answer.machines) return {};
   const CarryingMachines& machines = *answer.machines;
@@ -211,36 +272,40 @@ std::string json_of(const RareAnswer& answer, const Question& question) {
                       {"shift", input.shift},
                       {"failures", range_json(input.failures)},
                       {"usual", range_json(input.usual)}});
-  return text::json_text(
-      {{"probability", has_probability(answer) ? Json(estimate.probability) : Json()},
-       {"low", estimate.bounds.low},
-       {"high", estimate.bounds.high},
-       {"trials", answer.state.trials},
-       {"status", is_estimated(answer) ? "estimated" : "undecided"},
-       {"reason", reason_of(estimate.status)},
-       {"premise", is_estimated(answer) && !answer.state.proposal.components.empty()
-                       ? Json("high: no failures hide where neither a plain trial nor a score led")
-                       : Json()},
-       {"confidence", answer.confidence},
-       {"event", question.event.text.empty() ? Json("goal") : Json(question.event.text)},
-       {"point", question.point},
-       {"label", question.study.point_labels[static_cast<std::size_t>(question.point)]},
-       {"world", question.world ? Json(*question.world) : Json()},
-       {"plain",
-        {{"trials", answer.state.plain_trials},
-         {"failures", answer.state.plain_failures},
-         {"high", estimate.plain_high}}},
-       {"scores", scores_json(answer, question)},
-       {"drawn", answer.state.drawn.size()},
-       {"failures_drawn", failures_drawn(answer.state)},
-       {"inputs", std::move(inputs)},
-       {"machines", machines_json(answer)},
-       {"seconds", answer.seconds}});
+  return text::json_text({{"probability", has_probability(answer) ? Json(estimate.probability) : Json()},
+                          {"low", estimate.bounds.low},
+                          {"high", estimate.bounds.high},
+                          {"trials", answer.state.trials},
+                          {"status", is_estimated(answer) ? "estimated" : "undecided"},
+                          {"reason", reason_of(estimate.status)},
+                          {"premise", is_estimated(answer) && !answer.state.proposal.is_natural()
+                                          ? Json("high: " + premise_of(question))
+                                          : Json()},
+                          {"budget",
+                           {{"trials", answer.max_trials ? Json(*answer.max_trials) : Json()},
+                            {"seconds", answer.max_seconds ? Json(*answer.max_seconds) : Json()}}},
+                          {"confidence", answer.confidence},
+                          {"event", question.event.text.empty() ? Json("goal") : Json(question.event.text)},
+                          {"point", question.point},
+                          {"label", question.study.point_labels[static_cast<std::size_t>(question.point)]},
+                          {"world", question.world ? Json(*question.world) : Json()},
+                          {"plain",
+                           {{"trials", answer.state.plain_trials},
+                            {"failures", answer.state.plain_failures},
+                            {"high", estimate.plain_high}}},
+                          {"scores", scores_json(answer, question)},
+                          {"drawn", answer.state.drawn.size()},
+                          {"failures_drawn", failures_drawn(answer.state)},
+                          {"values", values_json(answer, question)},
+                          {"inputs", std::move(inputs)},
+                          {"machines", machines_json(answer)},
+                          {"seconds", answer.seconds}});
 }
 
 std::string text_of(const RareAnswer& answer, const Question& question, const std::string& output) {
-  return probability_text(answer, question) + premise_text(answer) + scores_table(answer, question) +
-         inputs_table(answer) + machines_text(answer) + replays_text(answer, output);
+  return probability_text(answer, question) + premise_text(answer, question) +
+         scores_table(answer, question) + values_table(answer, question) + inputs_table(answer) +
+         machines_text(answer) + replays_text(answer, output);
 }
 
 std::string progress_text(const Estimate& estimate, const EstimatorState& state) {

@@ -135,12 +135,50 @@ TEST_F(Rare, AnEventIsAskedByAMeasure) {
 // Nothing leads to an event that does not exist.
 TEST_F(Rare, IsUndecidedWhereNothingFails) {
   folder_.write("spring.yaml", spring(1e-4));
-  const Json answer =
-      answer_to({"rare", "spring.yaml", "-o", "rare.h5", "--event", "holding_torque < -1"}, 3);
+  const Json answer = answer_to(
+      {"rare", "spring.yaml", "-o", "rare.h5", "--event", "holding_torque < -1", "--budget", "60000"}, 3);
   EXPECT_EQ(answer["status"], "undecided");
   EXPECT_TRUE(answer["probability"].is_null());
   EXPECT_EQ(answer["low"], 0.0);
-  EXPECT_LT(answer["high"].get<double>(), 0.01);
+  const double plain = answer["plain"]["trials"];
+  EXPECT_GE(plain, 30'000);  // the search for failures takes the others
+  EXPECT_LT(answer["high"].get<double>(), 10.0 / plain);
+  EXPECT_EQ(answer["budget"]["trials"], 60000);
+}
+
+// Of 12 000 loads in a list one takes more torque than the converter has. Its neighbours in the list are like
+// all others, and the failure of stiff contacts, to which a score leads, is 800 times rarer.
+TEST_F(Rare, TriesEveryEntryOfAChoice) {
+  constexpr std::int64_t entries = 12'000;
+  std::string loads;
+  for (std::int64_t i = 0; i < entries; ++i)
+    loads += fmt::format("{}{:.3e}", i == 0 ? "" : ", ",
+                         i == 8345 ? -0.05 : 1e-11 * static_cast<double>(i * 7919 % entries));
+  folder_.write("listed.yaml", spring(1e-7) + "disturbance: {torque: {choice: [" + loads + "]}}\n");
+  const double probability = 1.0 / static_cast<double>(entries) + 1e-7;
+  for (const char* seed : {"seed=1", "seed=2"}) {
+    const Json answer = answer_to({"rare", "listed.yaml", "-o", "rare.h5", "--force", "--set", seed});
+    EXPECT_LE(answer["low"].get<double>(), probability) << answer;
+    EXPECT_GE(answer["high"].get<double>(), probability) << answer;
+    ASSERT_EQ(answer["values"].size(), 1U) << answer;
+    EXPECT_EQ(answer["values"][0]["parameter"], "disturbance.torque");
+    EXPECT_EQ(answer["values"][0]["value"], "-0.05");
+  }
+  const ProgramResult text = program({"rare", "listed.yaml", "-o", "rare.h5", "--set", "seed=2"});  // goes on
+  EXPECT_EQ(text.code, 0) << text.err;
+  EXPECT_NE(text.out.find("single values at which failures are frequent"), std::string::npos) << text.out;
+}
+
+// The answer of a budget in time depends on the machine, and says so.
+TEST_F(Rare, SaysThatABudgetInTimeDependsOnTheMachine) {
+  folder_.write("spring.yaml", spring(1e-6));
+  const std::string words = "depend on the machine";
+  const ProgramResult in_time = program({"rare", "spring.yaml", "-o", "time.h5", "--budget", "0.01s"});
+  EXPECT_EQ(in_time.code, 3);
+  EXPECT_NE(in_time.out.find(words), std::string::npos) << in_time.out;
+  const ProgramResult in_trials = program({"rare", "spring.yaml", "-o", "trials.h5", "--budget", "2000"});
+  EXPECT_EQ(in_trials.code, 3);
+  EXPECT_EQ(in_trials.out.find(words), std::string::npos) << in_trials.out;
 }
 
 // The likely machine that the gain suits worst looks like the machines of rare failures.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "analysis/rare/proposal.hpp"
 #include "experiments/designs/random_key.hpp"
 
 namespace zerocount::rare {
@@ -27,11 +28,12 @@ WeightedPoints two_clusters(NumberSource& numbers) {
 // The mean of a likelihood ratio is 1, and it is at most the inverse of the natural share.
 TEST(NormalMixture, WeightsHaveTheMeanOne) {
   NumberSource numbers = numbers_of(1);
-  const Proposal proposal{0.1, fitted_mixture(two_clusters(numbers), numbers)};
+  const TrialSpace space = trial_space(4, {});
+  const Proposal proposal{.natural = 0.1, .components = fitted_mixture(two_clusters(numbers), numbers)};
   double sum = 0.0;
   double largest = 0.0;
   for (int i = 0; i < 200'000; ++i) {
-    const double weight = likelihood_ratio(proposal, draw(proposal, 4, numbers));
+    const double weight = likelihood_ratio(space, proposal, draw(space, proposal, numbers).z);
     sum += weight;
     largest = std::max(largest, weight);
   }

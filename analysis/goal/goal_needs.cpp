@@ -1,6 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 
+#include "analysis/goal/goal_chances.hpp"
 #include "analysis/goal/goal_verdict.hpp"
 
 namespace zerocount::goal {
@@ -66,85 +70,65 @@ std::int64_t smallest(std::int64_t low, std::int64_t high, const Decides& decide
 
 constexpr std::int64_t max_more_trials = 1024;  ///< times the trials of a rig that are observed
 
-/// The rigs with `more` times the trials each that decide; 0 if none of up to max_rigs do.
-std::int64_t rigs_needed(const study::Goal& goal, const measures::MoveCounts& counts, std::int64_t more,
-                         std::size_t points) {
-  std::vector<statistics::RigMoves> rigs = counts.rigs;
-  std::sort(rigs.begin(), rigs.end(), [](const statistics::RigMoves& a, const statistics::RigMoves& b) {
-    return a.met * b.moves < b.met * a.moves;
-  });
-  for (statistics::RigMoves& rig : rigs) {
-    rig.trials *= more;
-    rig.moves *= more;
-    rig.met *= more;
-  }
-  const std::int64_t needed = smallest(2, max_rigs, [&](std::int64_t n) {
-    return judge_goal(goal, rigs_like(rigs, n), points).status != Status::undecided;
-  });
-  return needed <= max_trials / std::max<std::int64_t>(rigs.front().trials, 1) ? needed : 0;
-}
-
-/// The trials without rigs that decide; 0 if none of up to max_trials do.
-std::int64_t trials_needed(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points) {
-  const std::int64_t trials = counts.of_trials.clusters;
-  if (trials == 0) return 0;
-  return smallest(2, max_trials, [&](std::int64_t n) {
-    const double factor = static_cast<double>(n) / static_cast<double>(trials);
-    return judge_goal(goal, larger_study(counts, factor), points).status != Status::undecided;
-  });
-}
-
-/// Study size of one world with which the verdicts of all these worlds are expected to be decided.
-Needs needs_of_each(const study::Goal& goal, const std::vector<measures::MoveCounts>& worlds,
-                    std::size_t points) {
-  const auto most_of_all = [&](const auto& needed_in) {
-    std::int64_t most = 0;
+/// The worlds of a study, or the study itself. Worlds in which the same was observed have the same chances.
+class ObservedStudy {
+ public:
+  ObservedStudy(const study::Goal& goal, const std::vector<measures::MoveCounts>& worlds, std::size_t points)
+      : worlds_(std::ssize(worlds)) {
+    std::map<std::array<double, 3>, std::size_t> known;  // of worlds without rigs
     for (const measures::MoveCounts& world : worlds) {
-      const std::int64_t needed = needed_in(world);
-      if (needed == 0) return std::int64_t{0};
-      most = std::max(most, needed);
+      const std::array<double, 3> key{static_cast<double>(world.met), static_cast<double>(world.moves),
+                                      world.of_trials.hits_squared};
+      const auto [at, is_new] = known.try_emplace(key, different_.size());
+      if (!is_new && world.rigs.empty()) {
+        ++different_[at->second].second;
+      } else {
+        different_.emplace_back(ObservedWorld(goal, world, points * static_cast<std::size_t>(worlds_)), 1);
+      }
     }
-    return most;
-  };
-  if (worlds.front().rigs.empty())
-    return {0, most_of_all([&](const auto& world) { return trials_needed(goal, world, points); })};
-  // More trials on each rig are needed where these cannot tell rigs below and above Goal::moves apart.
-  for (std::int64_t more = 1; more <= max_more_trials; more *= 2) {
-    const std::int64_t rigs =
-        most_of_all([&](const auto& world) { return rigs_needed(goal, world, more, points); });
-    if (rigs > 0) return {rigs, rigs * more * worlds.front().rigs.front().trials};
   }
-  return {};
-}
 
-/// Whether a world is expected to be found below the goal.
-bool is_below(const study::Goal& goal, const measures::MoveCounts& counts) {
-  if (!goal.machines) return static_cast<double>(counts.met) < goal.moves * static_cast<double>(counts.moves);
-  const auto meeting = std::count_if(counts.rigs.begin(), counts.rigs.end(), [&](const auto& rig) {
-    return static_cast<double>(rig.met) >= goal.moves * static_cast<double>(rig.moves);
-  });
-  return static_cast<double>(meeting) < *goal.machines * static_cast<double>(counts.rigs.size());
-}
+  std::int64_t worlds() const { return worlds_; }
 
-/// One world below the goal decides it: the cheapest of these. Where there is none, every world must be
-/// decided.
-Needs needs_of_worlds(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points) {
-  const std::vector<measures::MoveCounts> worlds = measures::in_worlds(counts);
-  points *= worlds.size();
-  Needs cheapest;
-  for (const measures::MoveCounts& world : worlds) {
-    if (!is_below(goal, world)) continue;
-    const Needs one = needs_of_each(goal, {world}, points);
-    if (one.trials > 0 && (cheapest.trials == 0 || one.trials < cheapest.trials)) cheapest = one;
+  /// Probability that a study whose worlds have this size is decided: met in all of them, or missed in one.
+  double chance_of_decision(const PlannedSize& planned) {
+    double all_met = 1.0;
+    double none_missed = 1.0;
+    for (auto& [world, alike] : different_) {
+      const Chances chances = world.chances_of(planned);
+      all_met *= std::pow(chances.met, static_cast<double>(alike));
+      none_missed *= std::pow(1.0 - chances.missed, static_cast<double>(alike));
+    }
+    return all_met + 1.0 - none_missed;
   }
-  const Needs needs = cheapest.trials > 0 ? cheapest : needs_of_each(goal, worlds, points);
-  return {needs.rigs * counts.worlds, needs.trials * counts.worlds};
-}
+
+ private:
+  std::int64_t worlds_;
+  std::vector<std::pair<ObservedWorld, std::int64_t>> different_;  ///< and how many are like it
+};
 
 }  // namespace
 
-Needs needs_of(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points) {
-  return counts.worlds > 0 ? needs_of_worlds(goal, counts, points) : needs_of_each(goal, {counts}, points);
+Needs needs_of(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points,
+               double probability) {
+  const std::vector<measures::MoveCounts> all =
+      counts.worlds > 0 ? measures::in_worlds(counts) : std::vector{counts};
+  if (std::ranges::any_of(all, [](const measures::MoveCounts& world) { return world.moves == 0; })) return {};
+  ObservedStudy observed(goal, all, points);
+  const std::int64_t worlds = observed.worlds();
+  const auto smallest_with = [&](std::int64_t most, std::int64_t more) {
+    return smallest(2, most, [&](std::int64_t units) {
+      return observed.chance_of_decision({units, more}) >= probability;
+    });
+  };
+  if (counts.rigs.empty()) return {0, worlds * smallest_with(max_trials / worlds, 1)};
+  // More trials on each rig are needed where those observed cannot tell rigs that meet the goal from others.
+  for (std::int64_t more = 1; more <= max_more_trials; more *= 2) {
+    const std::int64_t each = more * counts.rigs.front().trials;
+    const std::int64_t rigs = smallest_with(std::min(max_rigs, max_trials / each / worlds), more);
+    if (rigs > 0) return {rigs * worlds, rigs * each * worlds};
+  }
+  return {};
 }
 
 std::vector<Needs> smallest_studies(const study::Goal& goal, bool on_rigs, std::int64_t moves,

@@ -66,15 +66,20 @@ std::string readings_text(const study::Goal& goal, const measures::MoveCounts& c
 }
 
 std::string needs_sentence(const study::Goal& goal, const Needs& needs, bool on_rigs) {
+  const std::string chance = text::percent(probability_of_needs);
   if (needs.trials == 0) {
     return fmt::format(
-        "The proportion is so close to the goal that no study of up to 10⁹ trials{} is expected to decide it",
-        on_rigs ? " on 10⁵ rigs" : "");
+        "The proportion is so close to the goal that no study of up to 10⁹ trials{} decides it with a "
+        "probability of {}",
+        on_rigs ? " on 10⁵ rigs" : "", chance);
   }
-  if (needs.rigs == 0) return fmt::format("About {} trials are expected to decide it", needs.trials);
+  if (needs.rigs == 0)
+    return fmt::format("About {} trials decide it with a probability of {}, by what these leave likely",
+                       needs.trials, chance);
   const std::int64_t each = needs.trials / needs.rigs;
-  return fmt::format("About {} rigs with {} trial{} each are expected to decide it{}", needs.rigs, each,
-                     each == 1 ? "" : "s", goal.machines ? "" : ", if machines differ as these do");
+  return fmt::format("About {} rigs with {} trial{} each decide it with a probability of {}, {}", needs.rigs,
+                     each, each == 1 ? "" : "s", chance,
+                     goal.machines ? "if machines are as these" : "by what these leave likely");
 }
 
 }  // namespace zerocount::goal

@@ -15,7 +15,7 @@ std::string goal_sentence(const study::Goal& goal);
 std::string readings_text(const study::Goal& goal, const measures::MoveCounts& counts,
                           const Verdict& verdict);
 
-/// "300 rigs with 100 trials each are expected to decide it", or that no study is.
+/// "About 300 rigs with 100 trials each decide it with a probability of 90 %, …", or that no study does.
 /// @param on_rigs whether trials share rigs
 std::string needs_sentence(const study::Goal& goal, const Needs& needs, bool on_rigs);
 

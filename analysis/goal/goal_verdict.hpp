@@ -63,17 +63,20 @@ std::vector<std::size_t> worst_worlds_first(const study::Goal& goal, const Verdi
 /// The worlds of which the verdict says this, in order.
 std::vector<std::size_t> worlds_that(Status status, const Verdict& verdict);
 
-/// Study size that is expected to decide the goal.
+/// Study size that decides the goal with a stated probability.
 struct Needs {
   std::int64_t rigs{0};    ///< 0 without rigs
-  std::int64_t trials{0};  ///< per design point; 0 if none of up to 10⁹ trials decides, such as a rate on
-                           ///< the goal itself
+  std::int64_t trials{0};  ///< per design point; 0 if no study of up to 10⁹ trials is large enough
 };
 
-/// The smallest study of which the verdict is expected to be decided, if the proportions, and the differences
-/// between rigs, are those observed. With rigs it has at most 10⁵ of them; they get more trials each where
-/// those that they have cannot tell rigs that meet the goal from others.
-Needs needs_of(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points);
+/// Probability with which a study of the size of needs_of() is decided, unless another is asked for.
+inline constexpr double probability_of_needs = 0.9;
+
+/// The smallest study of which the verdict is decided with this probability, by what these counts leave
+/// likely (goal_chances.hpp). With rigs it has at most 10⁵ of them; they get more trials each where those
+/// that they have cannot tell rigs that meet the goal from others.
+Needs needs_of(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points,
+               double probability = probability_of_needs);
 
 /// The smallest studies that can meet the goal, if no move misses it: with rigs the fewest rigs for several
 /// numbers of trials on each, without them one study. Empty if none of up to 10⁹ trials, or 10⁵ rigs, can.

@@ -64,26 +64,35 @@ std::vector<RigMoves> without_further_moves(std::span<const RigMoves> rigs, std:
   return shortened;
 }
 
-double low_of(std::span<const RigMoves> rigs, const MovesOfRig& rig, double wanted, double confidence) {
-  const double at_best = proportion_at_least(std::ssize(rigs), std::ssize(rigs), confidence);
-  const double allowed = (at_best - wanted) / (2.0 * (1.0 - wanted));
-  const std::int64_t threshold =
-      first_where(rig.moves, [&](std::int64_t met) { return false_pass(rig, met) <= allowed; });
-  const double of_passing = proportion_at_least(passing(rigs, threshold), std::ssize(rigs), confidence);
-  const double wrong = false_pass(rig, threshold);
-  return wrong < 1.0 ? std::max(0.0, (of_passing - wrong) / (1.0 - wrong)) : 0.0;
-}
-
-double high_of(std::span<const RigMoves> rigs, const MovesOfRig& rig, double wanted, double confidence) {
-  const double allowed = 0.5 * (1.0 - wanted);
-  const std::int64_t beyond =
-      first_where(rig.moves + 1, [&](std::int64_t met) { return false_fail(rig, met) > allowed; });
-  const std::int64_t threshold = std::max<std::int64_t>(beyond - 1, 0);
-  const double of_passing = proportion_at_most(passing(rigs, threshold), std::ssize(rigs), confidence);
-  return std::min(1.0, of_passing / (1.0 - false_fail(rig, threshold)));
-}
-
 }  // namespace
+
+RigThresholds rig_thresholds(const RigMoves& rig, std::int64_t rigs, double proportion, double wanted,
+                             double confidence) {
+  const MovesOfRig moves{static_cast<double>(rig.trials), rig.moves, proportion};
+  const double allowed_pass = (proportion_at_least(rigs, rigs, confidence) - wanted) / (2.0 * (1.0 - wanted));
+  const double allowed_fail = 0.5 * (1.0 - wanted);
+  RigThresholds thresholds;
+  thresholds.low =
+      first_where(rig.moves, [&](std::int64_t met) { return false_pass(moves, met) <= allowed_pass; });
+  const std::int64_t beyond =
+      first_where(rig.moves + 1, [&](std::int64_t met) { return false_fail(moves, met) > allowed_fail; });
+  thresholds.high = std::max<std::int64_t>(beyond - 1, 0);
+  thresholds.false_pass = false_pass(moves, thresholds.low);
+  thresholds.false_fail = false_fail(moves, thresholds.high);
+  return thresholds;
+}
+
+double rigs_at_least(const RigThresholds& thresholds, std::int64_t passing, std::int64_t rigs,
+                     double confidence) {
+  const double wrong = thresholds.false_pass;
+  if (!(wrong < 1.0)) return 0.0;
+  return std::max(0.0, (proportion_at_least(passing, rigs, confidence) - wrong) / (1.0 - wrong));
+}
+
+double rigs_at_most(const RigThresholds& thresholds, std::int64_t passing, std::int64_t rigs,
+                    double confidence) {
+  return std::min(1.0, proportion_at_most(passing, rigs, confidence) / (1.0 - thresholds.false_fail));
+}
 
 RigProportion rig_proportion(std::span<const RigMoves> rigs, double proportion, double wanted,
                              double confidence) {
@@ -92,11 +101,13 @@ RigProportion rig_proportion(std::span<const RigMoves> rigs, double proportion, 
   const RigMoves fewest = *std::min_element(
       rigs.begin(), rigs.end(), [](const RigMoves& a, const RigMoves& b) { return a.moves < b.moves; });
   if (fewest.moves == 0) return {};
-  const MovesOfRig rig{static_cast<double>(fewest.trials), fewest.moves, proportion};
   const auto meeting = std::count_if(
       rigs.begin(), rigs.end(), [&](const RigMoves& one) { return rate(one.met, one.moves) >= proportion; });
-  return {meeting, low_of(without_further_moves(rigs, rig.moves), rig, wanted, confidence),
-          high_of(rigs, rig, wanted, confidence)};
+  const std::int64_t count = std::ssize(rigs);
+  const RigThresholds thresholds = rig_thresholds(fewest, count, proportion, wanted, confidence);
+  const std::int64_t passing_low = passing(without_further_moves(rigs, fewest.moves), thresholds.low);
+  return {meeting, rigs_at_least(thresholds, passing_low, count, confidence),
+          rigs_at_most(thresholds, passing(rigs, thresholds.high), count, confidence)};
 }
 
 }  // namespace zerocount::statistics

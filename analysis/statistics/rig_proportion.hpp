@@ -45,6 +45,24 @@ struct RigProportion {
   double high{1.0};
 };
 
+/// The thresholds c of the two bounds, and how they mislead. A rig passes that shows c moves or more.
+struct RigThresholds {
+  std::int64_t low{0};     ///< for the lower bound
+  std::int64_t high{0};    ///< for the upper bound
+  double false_pass{1.0};  ///< ε(low)
+  double false_fail{0.0};  ///< δ(high)
+};
+
+/// @param rig of which trials and moves count @param rigs their number
+RigThresholds rig_thresholds(const RigMoves& rig, std::int64_t rigs, double proportion, double wanted,
+                             double confidence);
+
+/// The bounds of π where so many of the rigs pass the threshold of each.
+double rigs_at_least(const RigThresholds& thresholds, std::int64_t passing, std::int64_t rigs,
+                     double confidence);
+double rigs_at_most(const RigThresholds& thresholds, std::int64_t passing, std::int64_t rigs,
+                    double confidence);
+
 /// @param rigs with moves each @param proportion q @param wanted the proportion of rigs that is asked about
 /// @param confidence of each bound
 RigProportion rig_proportion(std::span<const RigMoves> rigs, double proportion, double wanted,

@@ -75,7 +75,8 @@ void print_plan_of_pilot(const std::string& path, bool json) {
     const bool known = judged.needs && judged.needs->trials > 0;
     standard_output::write(text::json_text({{"goal", goal::goal_sentence(*summary.goal)},
                                             {"status", goal::text_of(judged.verdict.status)},
-                                            {"needed", known ? needs_json(*judged.needs) : Json()}}));
+                                            {"needed", known ? needs_json(*judged.needs) : Json()},
+                                            {"probability", goal::probability_of_needs}}));
     return;
   }
   standard_output::write_fitted(summary::judgement_text(summary, judged) +

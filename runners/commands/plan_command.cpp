@@ -29,7 +29,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* plan_help =
     "Prints how many trials a claim needs. With a MANIFEST or a PILOT alone: the rigs and trials\n"
-    "that decide the goal of the manifest, if no move misses it, or by the pilot's results.\n"
+    "that can meet the goal of the manifest, if no move misses it; or that decide it with a probability\n"
+    "of 90 %, by what the pilot's results leave likely.\n"
     "--success P: the number of trials that shows that at least the proportion P of axes succeeds,\n"
     "if none, one, two, … of the trials fail; with --true-success also the probability that the\n"
     "plan shows it, and with --power the plan that has this probability. --halfwidth H: the number\n"

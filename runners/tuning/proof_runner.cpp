@@ -110,7 +110,8 @@ std::int64_t proof_units(const study::Study& study, const measures::MoveCounts& 
   const std::int64_t worlds = std::max<std::int64_t>(study.worlds, 1);
   const std::int64_t most = std::max<std::int64_t>(most_trials / each / worlds, 1) * worlds;
   const std::int64_t least = std::max(usual_units, least_units_of(study, each, points));
-  const goal::Needs needs = goal::needs_of(*study.goal, counts, points);
+  // Half as many more are taken below.
+  const goal::Needs needs = goal::needs_of(*study.goal, counts, points, 0.5);
   const std::int64_t wanted = needs.trials == 0 ? most / 8 : (study.rigs > 0 ? needs.rigs : needs.trials);
   return in_equal_worlds(study, std::clamp(wanted + wanted / 2, std::min(least, most), most));
 }

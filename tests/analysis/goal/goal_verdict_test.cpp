@@ -89,7 +89,9 @@ TEST(GoalNeeds, DecideIfTheProportionsAreThoseObserved) {
     return counts_of(static_cast<std::int64_t>(rate * static_cast<double>(n) + 0.5), n);
   };
   EXPECT_EQ(judge_goal(moves, at(0.99, trials.trials), 1).status, Status::met);
-  EXPECT_EQ(judge_goal(moves, at(0.99, trials.trials / 2), 1).status, Status::undecided);
+  // What is likelier to be decided takes fewer trials, and so does a lower probability of it.
+  EXPECT_LT(needs_of(moves, counts_of(499, 500), 1).trials, trials.trials);
+  EXPECT_LT(needs_of(moves, counts_of(99, 100), 1, 0.5).trials, trials.trials / 5);
 
   const study::Goal machines{.within = 0.05, .moves = 0.9, .machines = 0.9};
   const measures::MoveCounts few = counts_of(200, 200, 20);
@@ -97,7 +99,6 @@ TEST(GoalNeeds, DecideIfTheProportionsAreThoseObserved) {
   const Needs rigs = needs_of(machines, few, 1);
   ASSERT_GT(rigs.rigs, 20);
   EXPECT_EQ(judge_goal(machines, counts_of(rigs.trials, rigs.trials, rigs.rigs), 1).status, Status::met);
-  EXPECT_EQ(needs_of({.within = 0.05, .moves = 0.5}, counts_of(50, 100), 1).trials, 0);
 }
 
 TEST(GoalText, NamesTheGoalAndItsThreeReadings) {

@@ -217,13 +217,7 @@ TEST(GoalNeedsInWorlds, DecideIfTheRatesAreThoseObserved) {
       return judge_goal(goal, counts_in_worlds(met, trials), 1).status;
     };
     EXPECT_EQ(status_of(needs.trials / counts.worlds), observed.expected);
-    EXPECT_EQ(status_of(needs.trials / counts.worlds / 2), Status::undecided);
   }
-}
-
-TEST(GoalNeedsInWorlds, AreNotKnownIfTheWorstWorldIsAtTheGoal) {
-  const study::Goal goal{.within = 0.05, .moves = 0.95};
-  EXPECT_EQ(needs_of(goal, counts_in_worlds({95, 99, 99}, 100), 1).trials, 0);
 }
 
 /// The rigs of all worlds. @param worlds [world][rig]

@@ -1,0 +1,134 @@
+#include "analysis/goal/goal_chances.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "analysis/goal/goal_verdict.hpp"
+#include "analysis/statistics/clustered_proportion.hpp"
+#include "analysis/statistics/distributions.hpp"
+#include "analysis/statistics/proportion.hpp"
+#include "analysis/statistics/rig_proportion.hpp"
+
+namespace zerocount::goal {
+namespace {
+
+/// The first of 0 … n at which `holds`, which stays true from there on; n + 1 if there is none.
+template <class Holds>
+std::int64_t first_of(std::int64_t n, const Holds& holds) {
+  std::int64_t low = 0, high = n + 1;
+  while (low < high) {
+    const std::int64_t middle = low + (high - low) / 2;
+    if (holds(middle)) {
+      high = middle;
+    } else {
+      low = middle + 1;
+    }
+  }
+  return low;
+}
+
+}  // namespace
+
+ObservedWorld::ObservedWorld(const study::Goal& goal, measures::MoveCounts counts, std::size_t points)
+    : goal_(goal),
+      counts_(std::move(counts)),
+      points_(points),
+      confidence_(statistics::confidence_of_each(goal.confidence, points)),
+      sums_(measures::clusters_of(counts_)) {
+  if (!goal_.machines) {
+    const double worth = statistics::effective_events(sums_);
+    of_all_moves_ = likely_proportions(statistics::rate(sums_.hits, sums_.events) * worth, worth);
+    return;
+  }
+  for (const statistics::RigMoves& rig : counts_.rigs) ++machines_[rig.met];
+}
+
+Chances ObservedWorld::chances_of(const PlannedSize& planned) {
+  return goal_.machines ? of_machines(planned) : of_moves(planned);
+}
+
+/// After `hits` of `events`, which need not be whole numbers.
+ObservedWorld::Proportions ObservedWorld::likely_proportions(double hits, double events) {
+  Proportions values{};
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = statistics::lower_bound_on_p(
+        hits + 0.5, events, (static_cast<double>(i) + 0.5) / static_cast<double>(values.size()));
+  return values;
+}
+
+double ObservedWorld::chance_of_at_least(const Proportions& proportions, std::int64_t events,
+                                         std::int64_t hits) {
+  if (hits > events) return 0.0;
+  if (hits <= 0) return 1.0;
+  double sum = 0.0;
+  for (const double p : proportions) sum += statistics::binomial_upper_tail(events, p, hits - 1);
+  return sum / static_cast<double>(proportions.size());
+}
+
+/// Independent moves that all clusters of the planned study are worth.
+double ObservedWorld::planned_events(const PlannedSize& planned) const {
+  const auto clusters = static_cast<double>(sums_.clusters);
+  const double moves = static_cast<double>(sums_.events) / clusters;
+  const double worth = std::min(moves, statistics::effective_events(sums_) / clusters);
+  const double between = 1.0 / worth - 1.0 / moves;
+  const double events = static_cast<double>(planned.units) /
+                        (between + 1.0 / (moves * static_cast<double>(planned.more_on_each_rig)));
+  if (sums_.clusters == sums_.events) return events;
+  // The bounds use Student's distribution, because the differences between clusters are estimated.
+  const double t = statistics::student_t_quantile(static_cast<double>(planned.units - 1), confidence_) /
+                   statistics::student_t_quantile(std::max(1.0, events - 1.0), confidence_);
+  return std::max(1.0, events / (t * t));
+}
+
+Chances ObservedWorld::of_moves(const PlannedSize& planned) const {
+  const auto n = static_cast<std::int64_t>(planned_events(planned));
+  const auto status = [&](std::int64_t hits) {
+    const auto k = static_cast<double>(hits);
+    const measures::MoveCounts counts{
+        .moves = n, .met = hits, .of_trials = {n, hits, n, k, k, static_cast<double>(n)}, .rigs = {}};
+    return judge_goal(goal_, counts, points_).status;
+  };
+  const std::int64_t met = first_of(n, [&](std::int64_t hits) { return status(hits) == Status::met; });
+  const std::int64_t not_missed =
+      first_of(n, [&](std::int64_t hits) { return status(hits) != Status::missed; });
+  return {chance_of_at_least(of_all_moves_, n, met), 1.0 - chance_of_at_least(of_all_moves_, n, not_missed)};
+}
+
+/// So many of the rigs observed would show `threshold` or more moves that meet the goal.
+double ObservedWorld::rigs_passing(std::int64_t threshold, std::int64_t more) {
+  const auto [at, is_new] = passing_.try_emplace({threshold, more}, 0.0);
+  if (!is_new) return at->second;
+  const std::int64_t moves = counts_.rigs.front().moves;
+  for (const auto& [met, rigs] : machines_) {
+    const double chance = threshold <= 0 ? 1.0
+                                         : statistics::binomial_upper_tail(
+                                               moves * more, statistics::rate(met, moves), threshold - 1);
+    at->second += static_cast<double>(rigs) * chance;
+  }
+  return at->second;
+}
+
+Chances ObservedWorld::of_machines(const PlannedSize& planned) {
+  statistics::RigMoves rig = counts_.rigs.front();
+  rig.trials *= planned.more_on_each_rig;
+  rig.moves *= planned.more_on_each_rig;
+  const std::int64_t rigs = planned.units;
+  const statistics::RigThresholds thresholds =
+      statistics::rig_thresholds(rig, rigs, goal_.moves, *goal_.machines, confidence_);
+  const std::int64_t met = first_of(rigs, [&](std::int64_t passing) {
+    return statistics::rigs_at_least(thresholds, passing, rigs, confidence_) >= *goal_.machines;
+  });
+  const std::int64_t not_missed = first_of(rigs, [&](std::int64_t passing) {
+    return statistics::rigs_at_most(thresholds, passing, rigs, confidence_) >= *goal_.machines;
+  });
+  const auto chance = [&](std::int64_t threshold, std::int64_t passing) {
+    if (passing > rigs) return 0.0;
+    if (passing <= 0) return 1.0;
+    const double p =
+        rigs_passing(threshold, planned.more_on_each_rig) / static_cast<double>(counts_.rigs.size());
+    return statistics::binomial_upper_tail(rigs, std::clamp(p, 0.0, 1.0), passing - 1);
+  };
+  return {chance(thresholds.low, met), 1.0 - chance(thresholds.high, not_missed)};
+}
+
+}  // namespace zerocount::goal

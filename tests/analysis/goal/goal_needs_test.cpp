@@ -1,0 +1,173 @@
+// Of studies as large as planned after a pilot, nine in ten are decided.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "analysis/goal/goal_verdict.hpp"
+#include "tests/support/draws.hpp"
+
+namespace zerocount::goal {
+namespace {
+
+/// Machines: the proportion of good moves of each is beta-distributed with this mean and standard deviation;
+/// 0: all are alike.
+struct Machines {
+  double mean;
+  double sd;
+
+  double draw(testing::Draws& draws) const {
+    if (sd == 0.0) return mean;
+    const double size = mean * (1.0 - mean) / (sd * sd) - 1.0;
+    const double a = gamma(draws, mean * size);
+    return a / (a + gamma(draws, (1.0 - mean) * size));
+  }
+
+ private:
+  /// Marsaglia and Tsang, ACM Trans. Math. Software 26 (2000) 363.
+  static double gamma(testing::Draws& draws, double shape) {
+    if (shape < 1.0) return gamma(draws, shape + 1.0) * std::pow(draws.uniform(1e-300, 1.0), 1.0 / shape);
+    const double d = shape - 1.0 / 3.0;
+    const double c = 1.0 / std::sqrt(9.0 * d);
+    for (;;) {
+      const double x = draws.normal();
+      const double v = std::pow(1.0 + c * x, 3.0);
+      if (v > 0.0 && std::log(draws.uniform(1e-300, 1.0)) < 0.5 * x * x + d - d * v + d * std::log(v))
+        return d * v;
+    }
+  }
+};
+
+std::int64_t binomial(testing::Draws& draws, std::int64_t n, double p) {
+  if (static_cast<double>(n) * std::min(p, 1.0 - p) > 200.0) {
+    const double mean = static_cast<double>(n) * p;
+    const auto drawn = std::llround(mean + std::sqrt(mean * (1.0 - p)) * draws.normal());
+    return std::clamp<std::int64_t>(drawn, 0, n);
+  }
+  std::int64_t hits = 0;
+  for (std::int64_t i = 0; i < n; ++i) hits += draws.chance(p) ? 1 : 0;
+  return hits;
+}
+
+/// A study of one world. @param rigs 0: every trial on a machine of its own
+measures::MoveCounts counts_of_study(testing::Draws& draws, const Machines& machines, std::int64_t rigs,
+                                     std::int64_t trials) {
+  measures::MoveCounts counts;
+  counts.moves = trials;
+  if (rigs == 0) {
+    counts.met = binomial(draws, trials, machines.mean);
+    const auto met = static_cast<double>(counts.met);
+    counts.of_trials = {trials, counts.met, trials, met, met, static_cast<double>(trials)};
+    return counts;
+  }
+  for (std::int64_t rig = 0; rig < rigs; ++rig) {
+    const std::int64_t each = trials / rigs;
+    counts.rigs.push_back({each, each, binomial(draws, each, machines.draw(draws))});
+    counts.met += counts.rigs.back().met;
+  }
+  return counts;
+}
+
+struct Planned {
+  std::string name;
+  study::Goal goal;
+  std::int64_t rigs;    ///< of the pilot
+  std::int64_t trials;  ///< of the pilot
+  double sd;            ///< between machines
+  double least_mean;    ///< of the machines, which is drawn for each pilot
+};
+
+class GoalNeedsOf : public ::testing::TestWithParam<Planned> {};
+
+// The truth is drawn evenly for each pilot. Pilots that decide are left out.
+TEST_P(GoalNeedsOf, NineInTenStudiesAreDecided) {
+  const Planned& plan = GetParam();
+  testing::Draws draws(7);
+  int planned = 0;
+  int decided = 0;
+  while (planned < 200) {
+    const Machines machines{draws.uniform(plan.least_mean, 1.0 - 0.02 * (1.0 - plan.least_mean)), plan.sd};
+    const measures::MoveCounts pilot = counts_of_study(draws, machines, plan.rigs, plan.trials);
+    if (judge_goal(plan.goal, pilot, 1).status != Status::undecided) continue;
+    const Needs needs = needs_of(plan.goal, pilot, 1);
+    ++planned;
+    if (needs.trials == 0) continue;
+    const measures::MoveCounts study = counts_of_study(draws, machines, needs.rigs, needs.trials);
+    decided += judge_goal(plan.goal, study, 1).status == Status::undecided ? 0 : 1;
+  }
+  EXPECT_GE(decided, 167);  // 0.9·200 − 3 standard deviations
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Machines, GoalNeedsOf,
+    ::testing::Values(Planned{"one_trial_each", {.within = 0.05, .moves = 0.95}, 0, 200, 0.0, 0.85},
+                      Planned{"small_pilot", {.within = 0.05, .moves = 0.8}, 0, 30, 0.0, 0.5},
+                      Planned{"moves_of_rigs", {.within = 0.05, .moves = 0.9}, 30, 300, 0.05, 0.75}),
+    [](const auto& info) { return info.param.name; });
+
+// A goal on machines is planned for machines like those of the pilot.
+TEST(GoalNeeds, OfMachinesDecideNineInTenStudiesOfMachinesAsThese) {
+  testing::Draws draws(13);
+  const study::Goal goal{.within = 0.05, .moves = 0.8, .machines = 0.8};
+  int planned = 0;
+  int decided = 0;
+  for (int pilots = 0; pilots < 100 && planned < 25; ++pilots) {
+    const measures::MoveCounts pilot = counts_of_study(draws, {draws.uniform(0.8, 0.99), 0.06}, 40, 4000);
+    if (judge_goal(goal, pilot, 1).status != Status::undecided) continue;
+    const Needs needs = needs_of(goal, pilot, 1);
+    if (needs.trials == 0 || needs.rigs > 5000) continue;
+    ++planned;
+    measures::MoveCounts study;
+    for (std::int64_t rig = 0; rig < needs.rigs; ++rig) {
+      const statistics::RigMoves& like = pilot.rigs[static_cast<std::size_t>(draws.integer(0, 39))];
+      const std::int64_t each = needs.trials / needs.rigs;
+      study.rigs.push_back(
+          {each, each,
+           binomial(draws, each, static_cast<double>(like.met) / static_cast<double>(like.moves))});
+      study.moves += each;
+      study.met += study.rigs.back().met;
+    }
+    decided += judge_goal(goal, study, 1).status == Status::undecided ? 0 : 1;
+  }
+  EXPECT_GE(planned, 10);
+  EXPECT_GE(decided, planned - 7);  // 2.5 ± 1.5 of 25 are undecided
+}
+
+// In worlds each of which has its own truth, the study is decided as a whole.
+TEST(GoalNeedsInWorlds, NineInTenStudiesAreDecided) {
+  testing::Draws draws(11);
+  const study::Goal goal{.within = 0.05, .moves = 0.9};
+  constexpr std::int64_t worlds = 4;
+  const auto study_of = [&](const std::vector<Machines>& truth, std::int64_t trials) {
+    measures::MoveCounts counts;
+    counts.worlds = worlds;
+    for (const Machines& world : truth) {
+      const measures::MoveCounts one = counts_of_study(draws, world, 0, trials / worlds);
+      counts.moves += one.moves;
+      counts.met += one.met;
+      counts.of_trials += one.of_trials;
+      counts.of_worlds.push_back(one.of_trials);
+    }
+    return counts;
+  };
+  int planned = 0;
+  int decided = 0;
+  while (planned < 200) {
+    std::vector<Machines> truth;
+    for (std::int64_t world = 0; world < worlds; ++world) truth.push_back({draws.uniform(0.7, 1.0), 0.0});
+    const measures::MoveCounts pilot = study_of(truth, 100 * worlds);
+    if (judge_goal(goal, pilot, 1).status != Status::undecided) continue;
+    const Needs needs = needs_of(goal, pilot, 1);
+    ++planned;
+    if (needs.trials == 0) continue;
+    decided += judge_goal(goal, study_of(truth, needs.trials), 1).status == Status::undecided ? 0 : 1;
+  }
+  EXPECT_GE(decided, 167);  // 0.9·200 − 3 standard deviations
+}
+
+}  // namespace
+}  // namespace zerocount::goal

@@ -127,7 +127,8 @@ bool fits(const RareRecord& record, const Question& question) {
 /// Completes the pinned values by what follows from the manifest.
 void complete_values(std::vector<PinnedValue>& values, const Question& question) {
   for (PinnedValue& one : values) {
-    const PinnedValue& full = pinned_values(question.space, one.draw)[static_cast<std::size_t>(one.value)];
+    const std::vector<PinnedValue> all = pinned_values(question.space, one.draw);
+    const PinnedValue& full = all[static_cast<std::size_t>(one.value)];
     one.rows = full.rows;
     one.probability = full.probability;
   }

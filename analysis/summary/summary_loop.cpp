@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -35,16 +36,34 @@ bool any_undecided(const StudySummary& summary) {
                    [](const measures::PointSummary& point) { return point.outcomes.off_target > 0; });
 }
 
-/// Trials that ended within one count and are not stable.
-std::int64_t unsettled(const measures::PointSummary& point) {
-  return point.outcomes.zero_count + point.outcomes.one_count - point.of(&trial::MoveOutcome::stable).trials;
-}
+/// What keeps a trial from being stable, by its worst move. With the stable trials and the undecided ones,
+/// which ended off target, these are all.
+struct NotStable {
+  const char* head;
+  std::int64_t (*trials)(const measures::PointSummary& point);
+  const char* legend;
+};
+
+constexpr std::array<NotStable, 2> not_stable{
+    {{"in jerks",
+      [](const measures::PointSummary& p) {
+        return p.outcomes.zero_count + p.outcomes.one_count - p.of(&trial::MoveOutcome::stable).trials;
+      },
+      "in jerks: proportion of trials that ended within one count, but not stable: a move was still creeping "
+      "in "
+      "jerks, which kept the error from being zero for a dwell or carried it beyond one count after that, or "
+      "it hunts by one count; a longer hold tells which\n"},
+     {"oscillates",
+      [](const measures::PointSummary& p) { return p.outcomes.oscillating + p.outcomes.nonfinite; },
+      "oscillates: proportion of trials with a move whose error still swung by more than one count at its "
+      "end, "
+      "or that was lost\n"}}};
 
 /// Whether these are many enough at some point to have a column.
-bool any_unsettled(const StudySummary& summary) {
+bool is_shown(const StudySummary& summary, const NotStable& reason) {
   constexpr double min_proportion = 0.02;
-  return any_point(summary, [](const measures::PointSummary& point) {
-    return static_cast<double>(unsettled(point)) > min_proportion * static_cast<double>(point.judged);
+  return any_point(summary, [&](const measures::PointSummary& point) {
+    return static_cast<double>(reason.trials(point)) > min_proportion * static_cast<double>(point.judged);
   });
 }
 
@@ -110,9 +129,10 @@ void add_outcomes(std::vector<text::TextColumn>& columns, const StudySummary& su
       return text::percentage(p.outcomes.off_target, p.judged);
     }));
   }
-  if (any_unsettled(summary)) {
-    columns.push_back(by_point(summary, "unsettled", [](const measures::PointSummary& p) {
-      return text::percentage(unsettled(p), p.judged);
+  for (const NotStable& reason : not_stable) {
+    if (!is_shown(summary, reason)) continue;
+    columns.push_back(by_point(summary, reason.head, [&](const measures::PointSummary& p) {
+      return text::percentage(reason.trials(p), p.judged);
     }));
   }
   if (has_several_trials_of_rigs(summary)) {
@@ -301,10 +321,8 @@ std::string loop_legend(const StudySummary& summary) {
         "undecided: proportion of trials whose worst move ended off target, stalled or still on its way: "
         "neither stable nor shown unstable\n";
   }
-  if (any_unsettled(summary)) {
-    legend +=
-        "unsettled: proportion of trials that ended within one count without being stable: a move had not "
-        "arrived yet, hunts by one count, or had left by more than one; all other trials oscillated\n";
+  for (const NotStable& reason : not_stable) {
+    if (is_shown(summary, reason)) legend += reason.legend;
   }
   legend += legend_of(summary, layout::is_quality);
   legend += legend_of(

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -229,6 +230,48 @@ TEST(SummaryTable, NamesThePointsThatLostTrials) {
   EXPECT_EQ(summary_table(summary).find("nonfinite"), std::string::npos);
   summary.points[1].outcomes.nonfinite = 3;
   EXPECT_NE(summary_table(summary).find("high, gain: 3 of 7 trials nonfinite"), std::string::npos);
+}
+
+/// A point of a hundred trials with these outcomes; of those that ended within one count the last ones are
+/// not stable.
+measures::PointSummary point_with(int in_jerks, int off_target, int oscillating) {
+  measures::PointAccumulator point;
+  for (int i = 0; i < 100; ++i) {
+    trial::MoveOutcome move;
+    move.arrived = move.stable = i >= in_jerks + off_target + oscillating;
+    move.outcome = i < oscillating                ? trial::Outcome::oscillating
+                   : i < oscillating + off_target ? trial::Outcome::off_target
+                   : i % 2 == 0                   ? trial::Outcome::zero_count
+                                                  : trial::Outcome::one_count;
+    point.add({{move}}, {});
+  }
+  return point.statistics();
+}
+
+// What keeps trials from being stable adds up to those that are not, and none of it is called instability
+// that is not.
+TEST(SummaryTable, SaysWhatKeepsTrialsFromBeingStable) {
+  StudySummary summary = two_cases();
+  const auto row_of = [&](int in_jerks, int off_target, int oscillating) {
+    summary.points[0] = summary.points[1] = point_with(in_jerks, off_target, oscillating);
+    const std::vector<std::string> lines = lines_of(summary_table(summary));
+    std::string row;
+    for (const char* head : {"stable", "undecided", "in jerks", "oscillates"}) {
+      const std::size_t at = lines[3].find(std::string("  ") + head);
+      if (at == std::string::npos) continue;
+      const std::size_t end = at + 2 + std::string(head).size();
+      const std::size_t begin = lines[5].find_last_of(' ', lines[5].find_last_not_of(" %", end - 1));
+      const std::string cell = lines[5].substr(begin + 1, end - begin - 1);
+      row += fmt::format("{} {} ", head, cell.substr(0, cell.find_last_not_of(' ') + 1));
+    }
+    return row;
+  };
+  EXPECT_EQ(row_of(0, 0, 0), "stable 100 % ");
+  EXPECT_EQ(row_of(4, 0, 0), "stable 96.0 % in jerks 4.0 % ");
+  EXPECT_EQ(row_of(20, 5, 10), "stable 65.0 % undecided 5.0 % in jerks 20.0 % oscillates 10.0 % ");
+  EXPECT_EQ(row_of(0, 0, 37), "stable 63.0 % oscillates 37.0 % ");
+  const std::string legend = summary_table(summary, {.legend = true});
+  EXPECT_NE(legend.find("oscillates: proportion of trials with a move"), std::string::npos) << legend;
 }
 
 TEST(SummaryTable, HasColumnsForWhatTheStudyUses) {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/friction/creep.hpp"
+#include "core/friction/presliding_range.hpp"
 #include "core/friction/spring.hpp"
 #include "core/numerics/elementary_functions.hpp"
 #include "experiments/parameters/study_units.hpp"
@@ -34,7 +35,7 @@ double stiffness_at_rest(const FrictionParameters& contact, double torque) {
 }
 
 double presliding_range(const FrictionParameters& contact, double /*torque*/) {
-  return friction::virgin_elongation(contact, contact.breakaway);
+  return friction::presliding_range(contact);
 }
 
 constexpr std::array<DerivedQuantity, 5> table{{

@@ -94,9 +94,9 @@ TEST(Search, FindsWhatIsAdmissibleOnAFaceOnly) {
   const MadeUpProblem truth{.reliable = {0.0, 0.6}, .fast = {0.0, 0.4}};
   SearchProblem problem = truth.problem(512);
   problem.size = search_size({.free = 2, .faces = 1, .max_units = 512}, 20'000);
-  problem.admissible = [](std::span<const Values> values) {
+  problem.admissible = [](std::span<const Candidate> candidates) {
     std::vector<bool> kept;
-    for (const Values& at : values) kept.push_back(at[0] <= 1e-4);
+    for (const Candidate& one : candidates) kept.push_back(one.values[0] <= 1e-4);
     return kept;
   };
   EXPECT_TRUE(search(problem, {.seed = 2, .effort = effort_of(20'000)}).finalists.empty());

@@ -153,6 +153,10 @@ QuantileDifference quantile_difference(const ClusteredValues& baseline, const Cl
   result.bounds = {
       -first_from(range, bound_precision * range, [&](double x) { return test(-x).worse <= alpha; }),
       first_from(range, bound_precision * range, [&](double x) { return test(x).better <= alpha; })};
+  // The tests are about a shift of all values; quantiles of other shapes may differ by more or less than
+  // that.
+  result.bounds.low = std::min(result.bounds.low, result.effect);
+  result.bounds.high = std::max(result.bounds.high, result.effect);
   return result;
 }
 

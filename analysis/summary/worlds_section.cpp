@@ -133,7 +133,7 @@ std::string bad_worlds_sentence(const worlds::PointWorlds& point,
   const auto bad = std::count(point.bad.begin(), point.bad.end(), true);
   const std::int64_t all = std::ssize(point.bad);
   const std::string what = has_goal ? "fall short of the goal by their observed rates"
-                                    : "succeed less often than the median world";
+                                    : "are shown to succeed less often than the median world";
   if (bad == 0 || bad == all) return fmt::format("{} of {} worlds {}", bad == 0 ? "none" : "all", all, what);
   if (!point.rule) {
     return fmt::format(

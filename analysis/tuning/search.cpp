@@ -168,7 +168,7 @@ class Search {
         run_units(candidates, units);
         keep_admissible(candidates);
         sort_by_merit(candidates, units);
-        verify_best(candidates);
+        verify_leaders(candidates);
         if (candidates.empty()) return;
         drop(candidates, units);
         if (units == problem_.size.max_units) return;
@@ -229,10 +229,16 @@ class Search {
     candidates = std::move(sorted);
   }
 
-  /// Removes leading candidates that do not keep all conditions.
-  void verify_best(std::vector<Candidate>& candidates) {
-    while (!candidates.empty() && !problem_.verified(candidates.front())) {
-      candidates.erase(candidates.begin());
+  /// Removes candidates that do not keep all conditions, until as many as become the population lead that do:
+  /// others are dropped because of these.
+  void verify_leaders(std::vector<Candidate>& candidates) {
+    const auto wanted = static_cast<std::size_t>(problem_.size.elites);
+    for (std::size_t i = 0; i < std::min(wanted, candidates.size());) {
+      if (problem_.verified(candidates[i])) {
+        ++i;
+        continue;
+      }
+      candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(i));
       keep_admissible(candidates);
     }
   }

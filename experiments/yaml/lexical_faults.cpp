@@ -97,7 +97,7 @@ class Lexer {
       read_quoted();
     } else if (is_one_of(c, "&*!")) {
       note_node();
-      while (!is_blank_at(at_) && !(in_flow() && is_one_of(text_[at_], flow_indicators))) ++at_;
+      skip_property();
     } else if (is_one_of(c, "[{")) {
       note_node();
       ++depth_;
@@ -106,6 +106,15 @@ class Lexer {
       step_in_flow(c);
     } else {
       step_in_block(c);
+    }
+  }
+
+  // An anchor, an alias or a tag. It has no quotation mark: yaml-cpp begins a text right after a lone '!'.
+  void skip_property() {
+    for (; !is_blank_at(at_) && !(in_flow() && is_one_of(text_[at_], flow_indicators)); ++at_) {
+      if (!is_one_of(text_[at_], "\"'")) continue;
+      refuse(at_, "quotation mark in an anchor or a tag", "a blank before a text in quotation marks");
+      return;
     }
   }
 

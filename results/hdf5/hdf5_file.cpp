@@ -109,6 +109,7 @@ Dataset Group::open_dataset(const std::string& name) const {
 }
 
 bool Group::contains(const std::string& name) const {
+  if (name.empty() || name == "." || name.find('/') != std::string::npos) return false;  // paths, not names
   const htri_t answer = H5Lexists(id(), name.c_str(), H5P_DEFAULT);
   require(answer, "its list of members");
   return answer > 0;

@@ -34,7 +34,7 @@ constexpr const char* learn_help =
     "decides most of them: 'by chance' is the probability of as many if the unknowns did not matter.\n"
     "Beside the unknowns it tests what follows from those of the friction, such as the extension at\n"
     "which creep ends. What decides need not be the cause.\n"
-    "Without a goal, worlds fall short that succeed less often than the median world.\n"
+    "Without a goal, worlds fall short that are shown to succeed less often than the median world.\n"
     "The last column names the record of 'zerocount identify' that tells the unknown;\n"
     "'zerocount experiment' designs it.\n"
     "The exit code is 3 if these trials are too few: the goal is undecided, and no unknown is named.\n"

@@ -296,7 +296,16 @@ ExitCode print_plan(const command_line::Arguments& arguments) {
     return print_equivalence_plan(arguments);
   }
   const bool asked = arguments.has("success") || arguments.has("halfwidth") || arguments.has("rigs-share");
-  if (!asked && !arguments.operands().empty()) return print_goal_plan(arguments);
+  if (!asked && !arguments.operands().empty()) {
+    for (const char* const option : {"power", "confidence", "failures", "true-success", "rig-sd"}) {
+      if (arguments.has(option))
+        arguments.refuse(
+            fmt::format("option '--{}' has no effect on the plan of a goal: the goal has its own "
+                        "confidence, and sizes are for a probability of 90 %",
+                        option));
+    }
+    return print_goal_plan(arguments);
+  }
   if (arguments.has("set")) arguments.refuse("option '--set' needs a MANIFEST");
   const std::string format = arguments.choice("format");
   const PlanRequest request = request_of(arguments);

@@ -144,8 +144,11 @@ void add_hunting(Items& items, const theory::HuntingPrediction& hunting) {
                      fmt::format("not predicted, since the predictions leave out {}", hunting.left_out)});
     return;
   }
-  add_cycles(items, "by describing function", hunting.by_function, hunting);
-  if (hunting.sticks) add_cycles(items, "by stick-slip", hunting.by_stick_slip, hunting);
+  // A cycle that one method finds is there: each leaves out cycles that the other has.
+  const bool stick_slip_alone = hunting.by_function.empty() && !hunting.by_stick_slip.empty();
+  const bool function_alone = hunting.by_stick_slip.empty() && !hunting.by_function.empty();
+  if (!stick_slip_alone) add_cycles(items, "by describing function", hunting.by_function, hunting);
+  if (hunting.sticks && !function_alone) add_cycles(items, "by stick-slip", hunting.by_stick_slip, hunting);
 }
 
 Items items_outside(const PointTheory& theory) {

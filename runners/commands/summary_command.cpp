@@ -175,9 +175,9 @@ std::optional<summary::SelectedSummary> summary_of_selected(const command_line::
   const std::optional<std::int64_t> point =
       command_line::point_option(arguments, described_study(path).point_labels);
   const bool bootstrap = arguments.choice("format") != "table";
-  return selected_by(arguments, [&] {
-    return summary::summarise_selected(path, bootstrap, selection_of(arguments), point);
-  });
+  const summary::PointSelection selection = selection_of(arguments);
+  return selected_by(arguments,
+                     [&] { return summary::summarise_selected(path, bootstrap, selection, point); });
 }
 
 /// The summary of all points.
@@ -189,8 +189,9 @@ summary::SelectedSummary summary_of_all(const command_line::Arguments& arguments
   if (table && (summary.features.motion || summary.features.following))
     summary = summary.unfinished ? summary::summarise_unfinished(path, confidence, true)
                                  : summary::summarise_file(path, confidence, true);
+  const summary::PointSelection selection = selection_of(arguments);
   std::vector<std::int64_t> points =
-      selected_by(arguments, [&] { return summary::selected_points(summary, selection_of(arguments)); });
+      selected_by(arguments, [&] { return summary::selected_points(summary, selection); });
   return {std::move(summary), std::move(points), {}};
 }
 

@@ -116,8 +116,10 @@ ExitCode trace_rare(const command_line::Arguments& arguments, const std::filesys
   const rare::Question question = rare::recorded_question(record, input, plugin_option(arguments));
   require_loaded_plugin(arguments, question.study);
   const auto drawn = std::ssize(record.state.drawn);
+  if (drawn == 0)
+    arguments.refuse(
+        fmt::format("{}: it holds no drawn trials: its search ended before any was drawn", input));
   const std::int64_t index = arguments.whole_number("trial", 0, drawn - 1).value_or(0);
-  if (index >= drawn) arguments.refuse(fmt::format("{}: it holds no drawn trials yet", input));
   const rare::WeightedTrial& trial = record.state.drawn[static_cast<std::size_t>(index)];
   const study::StudyTrial drawn_trial = rare::trial_at(question, trial.point);
   const shards::TrialResult replayed =

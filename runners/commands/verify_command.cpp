@@ -82,6 +82,8 @@ ExitCode verify(const command_line::Arguments& arguments) {
   const std::string format = arguments.choice("format");
   verification::VerifySettings settings;
   settings.reseal = arguments.has("reseal");
+  if (settings.reseal && arguments.has("trials"))
+    arguments.refuse("option '--reseal' runs all trials again; expected no '--trials' beside it");
   settings.trials =
       arguments.whole_number("trials", 0, max_trials).value_or(settings.reseal ? max_trials : default_trials);
   settings.seed = static_cast<std::uint64_t>(

@@ -75,6 +75,12 @@ class NearestSearch {
 
 }  // namespace
 
+bool keeps(const SmallestMargins& margins, const study::LoopMargins& wanted) {
+  return margins.stable && margins.gain >= wanted.gain.value_or(margins.gain) &&
+         margins.phase >= wanted.phase.value_or(margins.phase) &&
+         margins.delay >= wanted.delay.value_or(margins.delay);
+}
+
 std::optional<NearestPoint> nearest_point(std::span<const Values> tried, const LoopExaminer& examiner,
                                           const study::LoopMargins& wanted,
                                           const std::function<study::Study(const Values&)>& candidate,

@@ -17,6 +17,9 @@ struct NearestPoint {
   SmallestMargins margins;  ///< of all examined machines
 };
 
+/// Whether these are at least as large as wanted.
+bool keeps(const SmallestMargins& margins, const study::LoopMargins& wanted);
+
 /// Of the points that keep the largest part of all margins together, the first; where every loop is unstable,
 /// one of those with the smallest gain margin. Nothing without points.
 /// @param tried points whose margins were examined; of many about a thousand are taken

@@ -180,6 +180,11 @@ Json nearest_json(const TuneAnswer& answer, const study::LoopMargins& wanted) {
 
 std::string headline(const TuneAnswer& answer, const study::Study& study) {
   if (!answer.proof) {
+    if (answer.status == goal::Status::undecided)
+      return fmt::format(
+          "undecided: of {} points that were tried some keep the margins, but the search lost them "
+          "to faster ones that do not; a larger --budget may find them",
+          answer.examined);
     return fmt::format("unreachable in these ranges: none of {} points that were tried keeps the margins",
                        answer.examined);
   }

@@ -144,6 +144,8 @@ class Tuner {
         search_.examined(), search_.examiner(), study_.tuning->margins,
         [this](const Values& values) { return search_.examined_candidate(values); }, search_.some_slid(),
         effort_.stop());
+    if (answer_.nearest && keeps(answer_.nearest->margins, study_.tuning->margins))
+      answer_.status = goal::Status::undecided;
   }
 
   void find() {

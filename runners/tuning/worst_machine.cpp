@@ -24,7 +24,8 @@ WorstMachine worst_machine(const study::Study& study, std::int64_t point,
   WorstMachine machine{worst - results.begin(), 0, met_share(*worst), {}};
   const auto machines = std::ssize(results);
   machine.trial = machine.rig + latest_move(*worst) / study.moves * machines;
-  const bool of_rig = study.rigs > 0 && !study.rig_columns.empty();
+  const bool of_rig =
+      study.rigs > 0 && (!study.rig_columns.empty() || (study.worlds > 0 && !study.world_columns.empty()));
   const std::vector<study::InputColumn>& columns = of_rig ? study.rig_columns : study.input_columns;
   const std::vector<double> inputs =
       of_rig ? study::rig_inputs(study, machine.rig) : study::study_trial(study, point, machine.rig).inputs;

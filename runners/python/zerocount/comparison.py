@@ -78,7 +78,7 @@ def compare(
     Examples
     --------
     >>> zc.compare("my-axis.h5", points=(2, 3)).verdict
-    'passed'
+    'regression'
     """
     files = [path_of(file) for file in (baseline, current) if file is not None]
     words = ["--points", *map(str, points)] if points is not None else []

@@ -154,7 +154,7 @@ def tune(
     >>> tuned.status
     'met'
     >>> tuned.manifest
-    <Study 'my-axis': 1 design point × 7387 trials>
+    <Study 'my-axis': 1 design point × 4032 trials>
     """
     from .results import Results
     from .studies import study

@@ -40,6 +40,9 @@ TEST(PointTheoryText, PredictsStickSlipWithABristleToo) {
   const std::string bristle = value_of("model: lugre, sigma0: 3.0e+4, sigma1: 15, " + levels, name);
   EXPECT_EQ(bristle.substr(0, 9), "amplitude");
   EXPECT_NE(bristle.find("within a third"), std::string::npos) << bristle;
+  EXPECT_NE(value_of("model: lugre, sigma0: 3.0e+4, sigma1: 15, " + levels,
+                     "hunting of trial 0, by describing function"),
+            "no lasting cycle");
   EXPECT_EQ(value_of("model: dahl, sigma0: 3.0e+4, breakaway: 0.1", name), "no lasting cycle");
 }
 

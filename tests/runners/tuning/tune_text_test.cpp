@@ -65,8 +65,8 @@ TEST(TuneText, NamesEachMarginWithItsUnitAndWhatIsWanted) {
   answer.margins = SmallestMargins{true, never, 41.0, 10.0, 8};
   EXPECT_THAT(
       rest_text(answer, study),
-      HasSubstr("smallest margins of 8 machines: gain margin ∞ dB (at least 6 wanted), phase margin 41° "
-                "(at least 30 wanted), delay margin 10 samples or more (none wanted)\n"));
+      HasSubstr("smallest margins of 8 machines before they slide: gain margin ∞ dB (at least 6 wanted), "
+                "phase margin 41° (at least 30 wanted), delay margin 10 samples or more (none wanted)\n"));
 }
 
 TEST(TuneText, NamesTheMarginsThatTheNearestPointLacks) {

@@ -234,6 +234,7 @@ class Estimator {
 
   std::vector<TrialPoint> numbered(std::vector<std::vector<double>> points) const {
     std::vector<TrialPoint> trials;
+    trials.reserve(points.size());
     for (std::vector<double>& z : points)
       trials.push_back({std::move(z), state_.trials + std::ssize(trials)});
     return trials;

@@ -183,6 +183,7 @@ std::vector<bool> texts_hold(const std::vector<std::string>& texts, const Condit
   }
   const bool equal = condition.relation.holds(0.0, 0.0);
   std::vector<bool> holds;
+  holds.reserve(texts.size());
   for (const std::string& text : texts) holds.push_back((text == wanted) == equal);
   return holds;
 }
@@ -198,6 +199,7 @@ std::vector<bool> holds_at(const StudySummary& summary, const std::string& text,
   const auto [end, error] = std::from_chars(limit.data(), limit.data() + limit.size(), number);
   if (error != std::errc{} || end != limit.data() + limit.size()) refuse(text);
   std::vector<bool> holds;
+  holds.reserve(values.size());
   for (const double value : values) holds.push_back(condition.relation.holds(value, number));
   return holds;
 }

@@ -74,6 +74,7 @@ text::TextColumn point_column(const StudySummary& summary, bool by_number, std::
   text::TextColumn column{"point", false, {}};
   const std::vector<std::int64_t> points = complete_points(summary);
   std::vector<std::string> labels;
+  labels.reserve(points.size());
   for (const std::int64_t point : points) labels.push_back(summary.labels[static_cast<std::size_t>(point)]);
   labels = short_labels(std::move(labels), summary.axes);
   for (std::size_t i = 0; i < labels.size(); ++i) {

@@ -265,7 +265,7 @@ Answer answer_to(const command_line::Arguments& arguments, const summary::StudyS
 }
 
 /// Inconclusive where the goal is undecided and no unknown is named.
-ExitCode exit_code_of(const Answer& answer) {
+ExitCode exit_code_after(const Answer& answer) {
   const bool undecided = answer.judged && answer.judged->verdict.status == goal::Status::undecided;
   switch (next_of(answer)) {
     case Next::nothing:
@@ -290,7 +290,7 @@ ExitCode learn(const command_line::Arguments& arguments) {
   } else {
     standard_output::write_fitted(text_of(answer));
   }
-  return exit_code_of(answer);
+  return exit_code_after(answer);
 }
 
 }  // namespace

@@ -127,6 +127,18 @@ TEST(Search, KeepsConditionsThatAreCostlyToExamine) {
   for (const Candidate& one : result.finalists) EXPECT_LE(one.values[0], 0.4);
 }
 
+// Fast candidates that fail such a condition must not drive out the slower ones that keep it.
+TEST(Search, FindsWhatKeepsACostlyConditionWhereFewOfTheBestDo) {
+  const MadeUpProblem truth;
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+    SearchProblem problem = truth.problem(512);
+    problem.verified = [](const Candidate& one) { return one.values[0] <= 0.05; };
+    const SearchResult result = search(problem, {.seed = seed, .effort = effort_of(100'000)});
+    ASSERT_FALSE(result.finalists.empty()) << seed;
+    for (const Candidate& one : result.finalists) EXPECT_LE(one.values[0], 0.05) << seed;
+  }
+}
+
 TEST(Search, WithoutAnAdmissiblePointFindsNothing) {
   const MadeUpProblem truth;
   SearchProblem problem = truth.problem(512);

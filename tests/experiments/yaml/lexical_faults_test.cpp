@@ -90,6 +90,14 @@ TEST(LexicalFaults, TheUnclosedMarkItselfIsNamedAlsoWhereALaterOneEndsTheText) {
   EXPECT_TRUE(problem_in("\"x", true).starts_with("m.yaml: manifest: unclosed quotation mark"));
 }
 
+// yaml-cpp begins the text right after a lone '!'.
+TEST(LexicalFaults, AQuotationMarkInATagOrAnAnchorIsAnError) {
+  for (const char* const value : {"!\"two", "!'two", "&a !\"two", "!x\"two\"", "&a\"two\""}) {
+    const std::string problem = problem_in(fmt::format("a: 1\nb: {}\nc: 3\n", value));
+    EXPECT_TRUE(problem.starts_with("m.yaml:2:")) << value << ": " << problem;
+  }
+}
+
 TEST(LexicalFaults, AFaultIsReportedWhereItBeginsAndNotWhereTheParserStumbles) {
   const auto starts = [](const std::string& text, const std::string& problem) {
     EXPECT_TRUE(problem_in(text).starts_with(problem)) << text << "\n" << problem_in(text);

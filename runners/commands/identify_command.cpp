@@ -242,6 +242,7 @@ std::vector<records::RawSeries> read_all_series(const command_line::Arguments& a
   const records::SeriesChoice choice = series_choice(arguments);
   const std::vector<std::string>& paths = arguments.operands();
   std::vector<RecordFile> files;
+  files.reserve(paths.size());
   for (const std::string& path : paths) files.push_back(record_file(path, choice));
   refuse_options_without_file(arguments, files);
   std::vector<records::RawSeries> found;

@@ -64,8 +64,9 @@ OrderedJson worst_object(const WorstMachine& worst) {
 }
 
 std::string worst_text(const WorstMachine& worst, bool on_rigs) {
-  return fmt::format("worst machine: {}, {:.4g} % of its moves meet the goal; {}\n",
-                     unit_text(worst, on_rigs), 100.0 * worst.met, values_text(worst.inputs));
+  return fmt::format("worst machine: {}, {:.4g} % of its moves meet the goal{}{}\n",
+                     unit_text(worst, on_rigs), 100.0 * worst.met, worst.inputs.empty() ? "" : "; ",
+                     values_text(worst.inputs));
 }
 
 std::string worst_json(const WorstMachines& worst) {

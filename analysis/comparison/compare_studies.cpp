@@ -257,7 +257,7 @@ std::optional<study::Goal> judged_goal(const GateRules& rules, const reading::St
   return goal;
 }
 
-/// What is read of a file to judge it by the goal.
+/// The trials of a file that its judgement by the goal needs.
 AlsoRead read_by(const std::optional<study::Goal>& goal, const reading::StudyFile& file,
                  const ManifestValues& values, std::int64_t clusters) {
   AlsoRead also;

@@ -20,7 +20,7 @@ struct GateMargin {
   bool changed_fails{false};  ///< a change for the better beyond the margin is a failure too
 };
 
-/// What is compared of a measure.
+/// The statistic of a measure that the gate compares.
 enum class GateStatistic {
   trials,    ///< proportion of trials with a quality
   mean,      ///< mean over the trials

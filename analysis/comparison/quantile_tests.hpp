@@ -22,12 +22,12 @@ struct DirectionalP {
   double better{1.0};  ///< against a change for the better
 };
 
-/// Of units that failed (1) or not (0): McNemar's exact test, or Fisher's.
+/// Tests units that failed (1) or not (0): by McNemar's exact test, or Fisher's.
 /// @param baseline, current [unit]; @param paired unit i of both drew the same random numbers
 DirectionalP p_of_failures(std::span<const double> baseline, std::span<const double> current, bool paired);
-/// Of the means of pairs: the larger p of the signed-rank test and the paired t. @param differences 2 or more
+/// Tests the means of pairs: the larger p of signed ranks and the paired t. @param differences 2 or more
 DirectionalP p_of_differences(std::span<const double> differences);
-/// Of the means of two samples: the larger p of Smirnov's test and Welch's t.
+/// Tests the means of two samples: the larger p of Smirnov's test and Welch's t.
 DirectionalP p_of_means(std::span<const double> baseline, std::span<const double> current);
 
 /// The values of one file: `values_of_trial` of each trial after the other; trial i in cluster i mod

@@ -27,7 +27,7 @@ bool is_disturbed(const trial::TrialParameters& trial) {
   return d.torque != 0.0 || !d.ripple.empty() || !d.vibration.empty() || !d.spectra.empty();
 }
 
-/// Of the contact before it slides, N m/rad; 0 for a relay.
+/// Stiffness of the contact before it slides, N m/rad; 0 for a relay.
 double stiffest_stiffness(const trial::TrialParameters& trial, const friction::FrictionParameters& contact) {
   const friction::LawTraits& law = friction::traits_of(trial.friction.model);
   return friction::stiffest_of(law.linear_contacts(trial.plant, trial.friction, contact)).stiffness;

@@ -21,7 +21,7 @@ struct HuntingPrediction {
   std::vector<LimitCycle> by_stick_slip;
 };
 
-/// What makes a predicted cycle rough: within a third of what trials show, in place of a twentieth.
+/// Why a predicted cycle is rough: it is within a third of what trials show, otherwise within a twentieth.
 enum class Roughness {
   none,
   few_counts,   ///< the amplitude is below 10 counts

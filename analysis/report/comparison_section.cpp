@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/comparison/comparison_report.hpp"
+#include "analysis/document/markup.hpp"
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/report/html.hpp"
 #include "analysis/report/report_sections.hpp"
@@ -170,15 +171,15 @@ Figure success_change(const comparison::StudyComparison& comparison,
 PageSection comparison_section(const comparison::StudyComparison& comparison) {
   const std::vector<ComparedMeasure> measures = worst_first(comparison);
   PageSection section{"baseline", "Against the baseline", "", {}};
-  section.html =
-      fmt::format("<div class=\"verdict\"><p class=\"headline\">{}</p><p>{}</p></div>\n",
-                  html_prose(comparison::verdict_sentence(comparison)), html_text(comparison.layer_reason)) +
-      html_facts(
-          {{"Baseline", file_text(comparison.baseline)}, {"This study", file_text(comparison.current)}});
+  section.html = fmt::format("<div class=\"verdict\"><p class=\"headline\">{}</p><p>{}</p></div>\n",
+                             document::prose_markup(comparison::verdict_sentence(comparison)),
+                             document::markup(comparison.layer_reason)) +
+                 html_facts({{"Baseline", file_text(comparison.baseline)},
+                             {"This study", file_text(comparison.current)}});
   if (comparison.goal)
-    section.html += fmt::format("<p>Goal: {}</p>\n", html_text(goal::goal_sentence(*comparison.goal)));
+    section.html += fmt::format("<p>Goal: {}</p>\n", document::markup(goal::goal_sentence(*comparison.goal)));
   for (const std::string& note : comparison.notes)
-    section.html += fmt::format("<p>{}</p>\n", html_text(note));
+    section.html += fmt::format("<p>{}</p>\n", document::markup(note));
   section.html += differences_table(comparison);
   if (!measures.empty()) {
     section.html += "<h3>Measures</h3>\n" + table_of(measures);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/document/markup.hpp"
 #include "analysis/report/html.hpp"
 #include "analysis/report/report_sections.hpp"
 
@@ -88,7 +89,7 @@ PageSection history_section(const history::History& history, std::size_t max_fig
   section.html = fmt::format("<p>{} {}</p>\n",
                              changed == 0 ? "No change is significant."
                                           : fmt::format("{} of {} series changed.", changed, ordered.size()),
-                             html_prose(false_alarm_sentence(history)));
+                             document::prose_markup(false_alarm_sentence(history)));
   if (ordered.size() > max_figures) {
     section.html += fmt::format("<p>Shown are {} of {} series, those that changed first.</p>\n", max_figures,
                                 ordered.size());

@@ -5,8 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "analysis/text/text.hpp"
-#include "core/text/utf8.hpp"
+#include "analysis/document/markup.hpp"
 
 namespace zerocount::report {
 namespace {
@@ -27,17 +26,18 @@ std::string html_table(const std::vector<HtmlColumn>& columns) {
   std::string text = "<div class=\"scroll\"><table><thead><tr>";
   for (const HtmlColumn& column : columns) {
     text += fmt::format(
-        "<th{}>{}{}</th>", column.text ? " class=\"text\"" : "", html_text(column.head),
-        column.unit.empty() ? "" : fmt::format("<span class=\"unit\">{}</span>", html_text(column.unit)));
+        "<th{}>{}{}</th>", column.text ? " class=\"text\"" : "", document::markup(column.head),
+        column.unit.empty() ? ""
+                            : fmt::format("<span class=\"unit\">{}</span>", document::markup(column.unit)));
   }
   text += "</tr></thead><tbody>\n";
   for (std::size_t row = 0; !columns.empty() && row < columns.front().cells.size(); ++row) {
     text += "<tr>";
     for (const HtmlColumn& column : columns) {
-      text +=
-          fmt::format("<td{}>{}", column.text ? " class=\"text wrap\"" : "", html_text(column.cells[row]));
+      text += fmt::format("<td{}>{}", column.text ? " class=\"text wrap\"" : "",
+                          document::markup(column.cells[row]));
       if (!column.below.empty())
-        text += fmt::format("<span class=\"unit\">{}</span>", html_text(column.below[row]));
+        text += fmt::format("<span class=\"unit\">{}</span>", document::markup(column.below[row]));
       text += "</td>";
     }
     text += "</tr>\n";
@@ -48,28 +48,21 @@ std::string html_table(const std::vector<HtmlColumn>& columns) {
 std::string html_facts(const std::vector<HtmlFact>& facts) {
   std::string text = "<div class=\"scroll\"><table class=\"facts\"><tbody>\n";
   for (const HtmlFact& fact : facts)
-    text += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", html_text(fact.name), html_text(fact.value));
+    text += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", document::markup(fact.name),
+                        document::markup(fact.value));
   return text + "</tbody></table></div>\n";
 }
 
 std::string html_verdict(const std::string& headline, const std::vector<std::string>& lines) {
   std::string html =
-      fmt::format("<div class=\"verdict\"><p class=\"headline\">{}</p>\n", html_prose(headline));
-  for (const std::string& line : lines) html += fmt::format("<p>{}</p>\n", html_prose(line));
+      fmt::format("<div class=\"verdict\"><p class=\"headline\">{}</p>\n", document::prose_markup(headline));
+  for (const std::string& line : lines) html += fmt::format("<p>{}</p>\n", document::prose_markup(line));
   return html + "</div>\n";
 }
 
 std::string html_preformatted(const std::string& head, const std::string& text, bool open) {
   return fmt::format("<details{}><summary>{}</summary><pre>{}</pre></details>\n", open ? " open" : "",
-                     html_text(head), html_text(text));
-}
-
-std::string html_text(std::string_view text) {
-  return text::escaped_markup(text::printable_lines(text));
-}
-
-std::string html_prose(std::string_view text) {
-  return replaced(html_text(text), " %", "&nbsp;%");
+                     document::markup(head), document::markup(text));
 }
 
 std::string script_json(const nlohmann::ordered_json& json) {

@@ -36,13 +36,6 @@ std::string html_verdict(const std::string& headline, const std::vector<std::str
 /// Preformatted text below the line `head`, which hides and shows it. @param open shown at first
 std::string html_preformatted(const std::string& head, const std::string& text, bool open = false);
 
-/// For the text of an element or a quoted attribute: escapes & < > " '; replaces control characters other
-/// than tab and line feed, and bytes that are not UTF-8, by U+FFFD.
-std::string html_text(std::string_view text);
-
-/// As html_text, without line breaks before percent signs.
-std::string html_prose(std::string_view text);
-
 /// For the content of <script type="application/json">: escapes every '<', so that the content cannot end the
 /// script or open a comment. Replaces bytes that are not UTF-8 by U+FFFD; NaN and infinity become null.
 std::string script_json(const nlohmann::ordered_json& json);

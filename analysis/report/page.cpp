@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/document/markup.hpp"
 #include "analysis/report/embedded_files.hpp"
 #include "analysis/report/html.hpp"
 #include "core/hash/sha256.hpp"
@@ -35,8 +36,13 @@ std::string css_colours() {
       css_variables(all["light"]), css_variables(all["dark"]));
 }
 
-/// The scripts of the page, in the order in which they run.
-std::vector<std::string> script_sources() {
+bool has_figures(const ReportPage& page) {
+  return std::ranges::any_of(page.sections, [](const PageSection& one) { return !one.figures.empty(); });
+}
+
+/// The scripts of the page, in the order in which they run; none without figures.
+std::vector<std::string> script_sources(const ReportPage& page) {
+  if (!has_figures(page)) return {};
   std::vector<std::string_view> names(drawing_libraries.begin(), drawing_libraries.end());
   names.emplace_back("page.js");
   std::vector<std::string> sources(names.size());
@@ -51,8 +57,9 @@ std::string script_elements(const std::vector<std::string>& sources) {
   return text;
 }
 
-/// The hashes by which a Content-Security-Policy (level 2) allows these scripts and no others.
+/// The sources that a Content-Security-Policy (level 2) allows: the hashes of these scripts.
 std::string script_hashes(const std::vector<std::string>& sources) {
+  if (sources.empty()) return "'none'";
   std::string text;
   for (const std::string& source : sources)
     text += fmt::format("{}'sha256-{}'", text.empty() ? "" : " ", hash::base64(hash::sha256(source)));
@@ -75,12 +82,12 @@ std::string figure_html(const Figure& figure) {
       "<figure id=\"figure-{0}\"><h3>{1}</h3><div class=\"plot\" role=\"img\" "
       "aria-label=\"{1}\"></div><figcaption>{2}</figcaption><details class=\"data\"><summary>Data of this "
       "figure</summary><div class=\"scroll\"></div></details></figure>\n",
-      html_text(figure.name), html_text(figure.title), html_prose(figure.caption));
+      document::markup(figure.name), document::markup(figure.title), document::prose_markup(figure.caption));
 }
 
 std::string section_html(const PageSection& section) {
-  std::string text = fmt::format("<section id=\"{}\"><h2>{}</h2>\n{}\n", html_text(section.name),
-                                 html_text(section.title), section.html);
+  std::string text = fmt::format("<section id=\"{}\"><h2>{}</h2>\n{}\n", document::markup(section.name),
+                                 document::markup(section.title), section.html);
   for (const Figure& figure : section.figures) text += figure_html(figure);
   return text + section.html_after + "</section>\n";
 }
@@ -88,7 +95,8 @@ std::string section_html(const PageSection& section) {
 std::string contents_html(const ReportPage& page) {
   std::string text;
   for (const PageSection& section : page.sections)
-    text += fmt::format("<a href=\"#{}\">{}</a>\n", html_text(section.name), html_text(section.title));
+    text += fmt::format("<a href=\"#{}\">{}</a>\n", document::markup(section.name),
+                        document::markup(section.title));
   return text;
 }
 
@@ -118,10 +126,10 @@ ordered_json light_colours() {
 std::string html_page(const ReportPage& page) {
   std::string sections;
   for (const PageSection& section : page.sections) sections += section_html(section);
-  const std::vector<std::string> sources = script_sources();
-  return filled(embedded_file("page.html"), {{"title", html_text(page.title)},
-                                             {"subtitle", html_text(page.subtitle)},
-                                             {"footer", html_text(page.footer)},
+  const std::vector<std::string> sources = script_sources(page);
+  return filled(embedded_file("page.html"), {{"title", document::markup(page.title)},
+                                             {"subtitle", document::markup(page.subtitle)},
+                                             {"footer", document::markup(page.footer)},
                                              {"colours", css_colours()},
                                              {"style", std::string(embedded_file("page.css"))},
                                              {"contents", contents_html(page)},

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/document/markup.hpp"
 #include "analysis/measures/point_columns.hpp"
 #include "analysis/report/html.hpp"
 #include "analysis/report/report_sections.hpp"
@@ -215,8 +216,8 @@ std::string loop_tables(const ReportedStudy& reported, std::size_t rows) {
                  ? "Sd between rigs: standard deviation of the success probability. Worst 5 % of rigs: mean "
                    "observed success rate of the rigs with the lowest rates. "
                  : "",
-             dependent ? html_text(fmt::format("{} {}", dependence_sentence, too_narrow_sentence))
-                       : html_text(summary::design_line(summary))) +
+             dependent ? document::markup(fmt::format("{} {}", dependence_sentence, too_narrow_sentence))
+                       : document::markup(summary::design_line(summary))) +
          html_table(motion) +
          "<p class=\"note\">Arrival: the error is first 0 for the whole dwell. Settled ±b: the error stays "
          "within b counts from then to the end of the move. Quantiles are those of all moves, with "
@@ -240,7 +241,7 @@ std::string level_table_html(const summary::StudySummary& summary, std::size_t r
     columns.push_back({column.head, "", !column.numeric, std::move(column.cells)});
   }
   return html_table(columns) + fmt::format("<p class=\"note lines\">{}</p>\n",
-                                           html_text(summary::level_legend(summary.features.axis)));
+                                           document::markup(summary::level_legend(summary.features.axis)));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/document/markup.hpp"
 #include "analysis/report/embedded_files.hpp"
 #include "analysis/report/html.hpp"
 #include "analysis/report/report_figures.hpp"
@@ -55,7 +56,7 @@ std::vector<Figure> traces(const ReportedStudy& reported, Replays& replays) {
 std::string warnings_html(const std::vector<std::string>& warnings) {
   std::string html;
   for (const std::string& warning : warnings)
-    html += fmt::format("<p class=\"warning\">{}</p>\n", html_text(warning));
+    html += fmt::format("<p class=\"warning\">{}</p>\n", document::markup(warning));
   return html;
 }
 
@@ -78,7 +79,7 @@ PageSection success_section(const ReportedStudy& reported) {
 void put_on_axis(parameters::AxisKind axis, ReportPage& page) {
   for (PageSection& section : page.sections) {
     section.title = parameters::text_on(axis, section.title);
-    for (Figure& figure : section.figures) put_on_axis(figure, axis);
+    for (Figure& figure : section.figures) report::put_on_axis(figure, axis);
   }
 }
 
@@ -88,7 +89,7 @@ std::string without_traces_html(const plugin::ControllerPlugin& plugin) {
   return fmt::format(
       "<p>The trials cannot be run again for this page: the controller is the plugin {} {}, and only the "
       "commands run, check and trace load plugins.</p>",
-      html_text(plugin.description.name), html_text(plugin.description.version));
+      document::markup(plugin.description.name), document::markup(plugin.description.version));
 }
 
 void qualify_bounds(const ReportedStudy& reported, ReportPage& page) {

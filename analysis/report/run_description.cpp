@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/document/markup.hpp"
 #include "analysis/report/html.hpp"
 #include "analysis/report/report_sections.hpp"
 #include "analysis/report/reported_study.hpp"
@@ -150,7 +151,7 @@ std::vector<HtmlFact> facts_of(const ReportedStudy& reported) {
 std::string run_html(const ReportedStudy& reported) {
   std::string html;
   if (!reported.study.description.empty())
-    html += fmt::format("<p>{}</p>\n", html_text(reported.study.description));
+    html += fmt::format("<p>{}</p>\n", document::markup(reported.study.description));
   if (layout::is_dirty(reported.file.header().provenance)) {
     html +=
         "<p class=\"warning\">The program that ran this study had uncommitted changes: it cannot be built "

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/document/markup.hpp"
 #include "analysis/report/html.hpp"
 #include "analysis/report/report_sections.hpp"
 #include "analysis/sensitivity/sensitivity.hpp"
@@ -76,7 +77,7 @@ std::optional<PageSection> sensitivity_section(const ReportedStudy& reported) {
   if (!sensitivity::any_estimated(answer)) {
     if (chosen.outcomes.zero_count < chosen.trials) return std::nullopt;
     section.html = fmt::format("<p>All trials of {} succeed: no parameter explains a failure.</p>\n",
-                               html_text(label_of(reported, reported.chosen.point)));
+                               document::markup(label_of(reported, reported.chosen.point)));
     return section;
   }
   const sensitivity::PointSensitivity& point = answer.points.front();
@@ -85,7 +86,7 @@ std::optional<PageSection> sensitivity_section(const ReportedStudy& reported) {
     const std::string within = output.of_worlds            ? "Between worlds: "
                                : reported.study.worlds > 0 ? "Within worlds: "
                                                            : "";
-    section.html += fmt::format("<p>{}{}</p>\n", within, html_prose(output.conclusion));
+    section.html += fmt::format("<p>{}{}</p>\n", within, document::prose_markup(output.conclusion));
     section.figures.push_back(figure_for(output, point.label, answer.from_saltelli));
   }
   return section;

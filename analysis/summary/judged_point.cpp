@@ -40,18 +40,24 @@ JudgedPoint judge_point(const StudySummary& summary, const ChosenPoint& chosen) 
   return judged;
 }
 
-std::string judgement_text(const StudySummary& summary, const JudgedPoint& judged) {
+std::string judgement_headline(const StudySummary& summary, const JudgedPoint& judged) {
+  return fmt::format("{}: {}", name_of_chosen(summary, judged.chosen), verdict_words(judged.verdict.status));
+}
+
+std::string judgement_details(const StudySummary& summary, const JudgedPoint& judged) {
   const ChosenPoint& chosen = judged.chosen;
-  std::string text =
-      fmt::format("goal: {}\n{}: {}\n{}", goal::goal_sentence(*summary.goal), name_of_chosen(summary, chosen),
-                  verdict_words(judged.verdict.status),
-                  goal::readings_text(*summary.goal, counts_of(summary, chosen.point), judged.verdict));
+  std::string text = goal::readings_text(*summary.goal, counts_of(summary, chosen.point), judged.verdict);
   if (chosen.chosen_from > 1) text += "  the bounds allow for the choice of the point by these trials\n";
   if (const auto worlds = worlds_of_point(summary, chosen.point, points_of(chosen)))
     text += fmt::format("  {}\n", bad_worlds_sentence(*worlds, world_inputs_of(summary, chosen.point), true));
   if (judged.needs)
     text += fmt::format("  {}\n", goal::needs_sentence(*summary.goal, *judged.needs, summary.features.rigs));
   return text + competition_text(summary, chosen);
+}
+
+std::string judgement_text(const StudySummary& summary, const JudgedPoint& judged) {
+  return fmt::format("goal: {}\n{}\n{}", goal::goal_sentence(*summary.goal),
+                     judgement_headline(summary, judged), judgement_details(summary, judged));
 }
 
 }  // namespace zerocount::summary

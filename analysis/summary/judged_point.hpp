@@ -22,8 +22,13 @@ JudgedPoint judge_point(const StudySummary& summary, const ChosenPoint& chosen);
 /// "the goal is met", "the goal is missed", "it is undecided whether the goal is met".
 std::string_view verdict_words(goal::Status status);
 
-/// The judgement as a paragraph: the goal, the point, the verdict with its bounds, what would decide it, and
-/// the competitors of the point.
+/// "best of 8 points: 3 (kp=400): the goal is met".
+std::string judgement_headline(const StudySummary& summary, const JudgedPoint& judged);
+
+/// What the verdict rests on, whole lines: its bounds, what would decide it, the competitors of the point.
+std::string judgement_details(const StudySummary& summary, const JudgedPoint& judged);
+
+/// The judgement as a paragraph: the goal, judgement_headline() and judgement_details().
 std::string judgement_text(const StudySummary& summary, const JudgedPoint& judged);
 
 }  // namespace zerocount::summary

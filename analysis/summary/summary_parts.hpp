@@ -142,15 +142,7 @@ inline const std::vector<worlds::WorldInput>& world_inputs_of(const StudySummary
 std::string bad_worlds_sentence(const worlds::PointWorlds& point,
                                 const std::vector<worlds::WorldInput>& inputs, bool has_goal);
 
-/// {"n", "success": {"worst", "worst_low", "worst_high", "median", "best", "worst_world", "best_world"},
-/// "success_rates": [world], with a goal "goal_rates": [world], "goal_status": [world], "met", "missed",
-/// "undecided" (numbers of worlds), "bad_worlds": […], "rule": null or {"text", "conditions": [{"parameter",
-/// "relation", "value"}], "same": […] likewise, "joined_by", "bad_named", "others_named", "error_rate",
-/// "p_value"}}
-nlohmann::ordered_json worlds_json(const worlds::PointWorlds& point,
-                                   const std::vector<worlds::WorldInput>& inputs);
-
-/// The section "worlds" of a summary of a study with worlds. Its JSON is worlds_json(); its columns are
+/// The section "worlds" of a summary of a study with worlds. Its JSON is that of worlds_description(); its columns are
 /// worlds_success_worst, …; its text is a table and a sentence a point on what bad worlds have in common.
 measures::SummarySection worlds_section(const StudySummary& summary);
 

@@ -6,8 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "analysis/document/answer.hpp"
 #include "analysis/summary/shown_points.hpp"
 #include "analysis/summary/summary_parts.hpp"
+#include "analysis/summary/worlds_description.hpp"
 #include "analysis/text/percent.hpp"
 
 namespace zerocount::summary {
@@ -106,16 +108,6 @@ std::string meanings_text(const worlds::WorldRule& rule, const std::vector<world
   return text;
 }
 
-Json conditions_json(const std::vector<worlds::Condition>& conditions,
-                     const std::vector<worlds::WorldInput>& inputs) {
-  Json json = Json::array();
-  for (const worlds::Condition& one : conditions)
-    json.push_back({{"parameter", inputs[one.input].name},
-                    {"relation", one.above ? ">" : "<"},
-                    {"value", one.threshold}});
-  return json;
-}
-
 }  // namespace
 
 Worlds worlds_of_point(const StudySummary& summary, std::int64_t point, std::size_t chosen_from) {
@@ -150,48 +142,6 @@ std::string bad_worlds_sentence(const worlds::PointWorlds& point,
       meanings_text(rule, inputs));
 }
 
-Json worlds_json(const worlds::PointWorlds& point, const std::vector<worlds::WorldInput>& inputs) {
-  const worlds::RatesOfWorlds& success = point.success;
-  Json json{{"n", point.bad.size()},
-            {"success",
-             {{"worst", success.lowest.value},
-              {"worst_low", success.lowest.low},
-              {"worst_high", success.lowest.high},
-              {"median", success.median},
-              {"best", success.worlds[success.best].value},
-              {"worst_world", success.worst},
-              {"best_world", success.best}}}};
-  json["success_rates"] = Json::array();
-  for (const goal::BoundedProportion& world : success.worlds) json["success_rates"].push_back(world.value);
-  if (point.goal) {
-    json["goal_rates"] = Json::array();
-    for (const goal::WorldVerdict& world : point.goal->worlds)
-      json["goal_rates"].push_back(world.moves.value);
-    json["goal_status"] = Json::array();
-    for (const goal::WorldVerdict& world : point.goal->worlds)
-      json["goal_status"].push_back(goal::text_of(world.status));
-    for (const goal::Status status : {goal::Status::met, goal::Status::missed, goal::Status::undecided})
-      json[std::string(goal::text_of(status))] = worlds_with(status, point);
-  }
-  json["bad_worlds"] = Json::array();
-  for (std::size_t world = 0; world < point.bad.size(); ++world) {
-    if (point.bad[world]) json["bad_worlds"].push_back(world);
-  }
-  json["rule"] = nullptr;
-  if (point.rule) {
-    const worlds::WorldRule& rule = *point.rule;
-    json["rule"] = {{"text", worlds::text_of(rule, inputs)},
-                    {"conditions", conditions_json(rule.conditions, inputs)},
-                    {"same", conditions_json(rule.same, inputs)},
-                    {"joined_by", rule.all ? "and" : "or"},
-                    {"bad_named", rule.bad_named},
-                    {"others_named", rule.good_named},
-                    {"error_rate", rule.error_rate()},
-                    {"p_value", rule.p_value}};
-  }
-  return json;
-}
-
 measures::SummarySection worlds_section(const StudySummary& summary) {
   std::vector<Worlds> points;
   for (std::int64_t point = 0; point < std::ssize(summary.points); ++point)
@@ -207,7 +157,8 @@ measures::SummarySection worlds_section(const StudySummary& summary) {
   constexpr std::size_t max_sentences = 12;
   std::size_t sentences = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    section.json.push_back(points[i] ? worlds_json(*points[i], summary.world_inputs[i]) : Json());
+    section.json.push_back(
+        points[i] ? document::json(worlds_description(), {*points[i], summary.world_inputs[i]}) : Json());
     if (points[i] && ++sentences <= max_sentences) {
       section.note += fmt::format("{}: {}\n", text::printable(labels[i]),
                                   bad_worlds_sentence(*points[i], summary.world_inputs[i], has_goal));

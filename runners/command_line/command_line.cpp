@@ -209,7 +209,9 @@ std::string Arguments::required(std::string_view option) const {
 }
 
 std::string Arguments::choice(std::string_view option) const {
-  return one_of(option, find_spec(spec_, option)->words);
+  const OptionSpec& spec = *find_spec(spec_, option);
+  const auto other = spec.other_names.find(value(option).value_or(""));
+  return other != spec.other_names.end() ? other->second : one_of(option, spec.words);
 }
 
 std::string Arguments::one_of(std::string_view option, const std::vector<std::string>& words) const {

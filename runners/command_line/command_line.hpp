@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,8 +15,9 @@ struct OptionSpec {
   std::string value;  ///< name of its value in the help; empty for a flag
   std::string help;
   bool repeatable{false};
-  std::size_t count{1};                 ///< number of its values
-  std::vector<std::string> words{};     ///< its allowed values, the default first; empty: any text
+  std::size_t count{1};              ///< number of its values
+  std::vector<std::string> words{};  ///< its allowed values, the default first; empty: any text
+  std::map<std::string, std::string> other_names{};  ///< name → the word that it stands for; not in the help
   std::vector<std::string> needs{};     ///< it has an effect only beside one of these; empty: always
   std::vector<std::string> excludes{};  ///< it has none beside any of these
   std::vector<std::string> operands{};  ///< it has one only with such a first operand; empty: with all

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/document/answer.hpp"
 #include "analysis/goal/goal_verdict.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/study/study.hpp"
@@ -19,6 +20,7 @@ struct Command {
   std::string summary;  ///< one line
   std::string help;     ///< complete description with examples
   ExitCode (*run)(const command_line::Arguments&){nullptr};
+  std::vector<document::AnswerType> answers{};  ///< that it gives; empty where it answers no question
 };
 
 Command check_command();

@@ -4,14 +4,16 @@
 
 #include <fmt/format.h>
 
+#include "analysis/goal/goal_description.hpp"
+#include "analysis/goal/goal_text.hpp"
 #include "analysis/summary/judged_point.hpp"
 #include "analysis/summary/summary_parts.hpp"
-#include "analysis/text/report_json.hpp"
+#include "analysis/summary/worlds_description.hpp"
 #include "results/shards/pieces.hpp"
+#include "runners/answers/answer_format.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/commands.hpp"
 #include "runners/commands/study_argument.hpp"
-#include "runners/standard_output/standard_output.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -29,27 +31,61 @@ constexpr const char* judge_help =
     "Example: zerocount judge gains.h5\n"
     "         zerocount judge gains.h5 --point 3 --format json\n";
 
-nlohmann::ordered_json judgement_json(const summary::StudySummary& summary,
-                                      const summary::JudgedPoint& judged) {
-  const goal::Verdict& verdict = judged.verdict;
-  nlohmann::ordered_json json{{"point", judged.chosen.point},
-                              {"label", summary.labels[static_cast<std::size_t>(judged.chosen.point)]},
-                              {"status", goal::text_of(verdict.status)},
-                              {"rate", verdict.moves.value},
-                              {"rate_low", verdict.moves.low},
-                              {"rate_high", verdict.moves.high}};
-  const bool machines = summary.goal->machines.has_value();
-  json["machines_low"] = machines ? nlohmann::ordered_json(verdict.machines.low) : nullptr;
-  json["machines_high"] = machines ? nlohmann::ordered_json(verdict.machines.high) : nullptr;
-  json["text"] = summary::judgement_text(summary, judged);
-  json["chosen_from"] = judged.chosen.chosen_from;
-  json["needed"] = nullptr;
-  if (judged.needs && judged.needs->trials > 0)
-    json["needed"] = {{"rigs", judged.needs->rigs}, {"trials", judged.needs->trials}};
-  if (const auto worlds = summary::worlds_of_point(summary, judged.chosen.point,
-                                                   static_cast<std::size_t>(judged.chosen.chosen_from)))
-    json["worlds"] = summary::worlds_json(*worlds, summary::world_inputs_of(summary, judged.chosen.point));
-  return json;
+struct Judgement {
+  const summary::StudySummary& summary;
+  summary::JudgedPoint judged;
+  std::optional<worlds::PointWorlds> worlds;
+
+  const std::string& label() const { return summary.labels[static_cast<std::size_t>(judged.chosen.point)]; }
+  std::optional<double> of_machines(double bound) const {
+    return summary.goal->machines ? std::optional(bound) : std::nullopt;
+  }
+  std::optional<summary::WorldsReading> worlds_reading() const {
+    if (!worlds) return {};
+    return summary::WorldsReading{*worlds, summary::world_inputs_of(summary, judged.chosen.point)};
+  }
+};
+
+document::AnswerDescription<Judgement> judge_answer() {
+  using document::Shown;
+  using Of = const Judgement&;
+  document::AnswerDescription<Judgement> answer{
+      {.name = "judge", .meaning = "whether a study meets its goal"}, {}};
+  answer.items.headline([](Of j) { return summary::judgement_headline(j.summary, j.judged); })
+      .value({.key = "point", .meaning = "number of the design point", .shown = Shown::in_data},
+             [](Of j) { return j.judged.chosen.point; })
+      .value({.key = "label", .meaning = "label of the design point", .shown = Shown::in_data},
+             &Judgement::label)
+      .value({.key = "goal", .heading = "goal", .meaning = "the goal in words"},
+             [](Of j) { return goal::goal_sentence(*j.summary.goal); })
+      .value({.key = "status",
+              .meaning = "verdict on the goal",
+              .shown = Shown::in_data,
+              .words = goal::status_words()},
+             [](Of j) { return goal::text_of(j.judged.verdict.status); })
+      .value({.key = "rate",
+              .meaning = "proportion of moves that meet the goal, with one-sided bounds",
+              .unit = "1",
+              .shown = Shown::in_data},
+             [](Of j) { return goal::bounded(j.judged.verdict.moves); })
+      .value(
+          {.key = "machines_low",
+           .meaning = "lower bound of the proportion of machines that meet the goal, if it is about machines",
+           .unit = "1",
+           .shown = Shown::in_data},
+          [](Of j) { return j.of_machines(j.judged.verdict.machines.low); })
+      .value({.key = "machines_high", .meaning = "its upper bound", .unit = "1", .shown = Shown::in_data},
+             [](Of j) { return j.of_machines(j.judged.verdict.machines.high); })
+      .sentence([](Of j) { return summary::judgement_details(j.summary, j.judged); })
+      .value({.key = "chosen_from",
+              .meaning = "design points that the point is the best of; 1 if it was named",
+              .shown = Shown::in_data},
+             [](Of j) { return j.judged.chosen.chosen_from; })
+      .object({.key = "needed", .meaning = "study that would decide the goal", .shown = Shown::in_data},
+              goal::needs_description(), [](Of j) { return goal::practicable(j.judged.needs); })
+      .object({.key = "worlds", .meaning = "the worlds at the point", .shown = Shown::in_data},
+              summary::worlds_description(), &Judgement::worlds_reading);
+  return answer;
 }
 
 /// Refuses what the description of the file tells, before its trials are read.
@@ -75,13 +111,12 @@ ExitCode judge(const command_line::Arguments& arguments) {
   require_judgeable(arguments);
   const summary::StudySummary summary = summary::summarise_file(arguments.operands()[0]);
   const auto point = command_line::point_option(arguments, summary.labels);
-  const summary::JudgedPoint judged = summary::judge_point(summary, summary::choose_point(summary, point));
-  if (arguments.choice("format") == "json") {
-    standard_output::write(text::json_text(judgement_json(summary, judged)));
-  } else {
-    standard_output::write_fitted(summary::judgement_text(summary, judged));
-  }
-  return exit_code_of(judged.verdict.status);
+  const summary::ChosenPoint chosen = summary::choose_point(summary, point);
+  const Judgement judgement{
+      summary, summary::judge_point(summary, chosen),
+      summary::worlds_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from))};
+  return answers::print(arguments,
+                        judge_answer().of(judgement, exit_code_of(judgement.judged.verdict.status)));
 }
 
 }  // namespace
@@ -89,11 +124,12 @@ ExitCode judge(const command_line::Arguments& arguments) {
 Command judge_command() {
   return {{"judge",
            "FILE",
-           {command_line::format_option({"text", "json"}),
+           {answers::format_option(judge_answer().complete_type()),
             {"point", "P", "the design point to judge (default: the best by the goal)"}}},
           "judge a study by the goal in its manifest",
           judge_help,
-          judge};
+          judge,
+          {judge_answer().complete_type()}};
 }
 
 }  // namespace zerocount::commands

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/text/report_json.hpp"
 #include "experiments/manifest/json_schema.hpp"
 #include "experiments/manifest/parameter_listing.hpp"
 #include "runners/commands/commands.hpp"
@@ -45,8 +46,17 @@ ExitCode print_parameters(const command_line::Arguments& arguments) {
   return ExitCode::success;
 }
 
-ExitCode print_schema(const command_line::Arguments&) {
-  standard_output::write(manifest::json_schema().dump(2) + "\n");
+/// The types of the answers of all commands.
+std::vector<document::AnswerType> answer_types() {
+  std::vector<document::AnswerType> types;
+  for (const Command& command : commands())
+    types.insert(types.end(), command.answers.begin(), command.answers.end());
+  return types;
+}
+
+ExitCode print_schema(const command_line::Arguments& arguments) {
+  standard_output::write(text::json_text(arguments.has("answers") ? document::json_schema(answer_types())
+                                                                  : manifest::json_schema()));
   return ExitCode::success;
 }
 
@@ -79,11 +89,12 @@ Command parameters_command() {
 }
 
 Command schema_command() {
-  return {{"schema", "", {}, 0, 0},
-          "print the JSON Schema of manifests, for editors",
-          "Example: zerocount schema > zerocount.schema.json, and in the manifest's first line\n"
-          "  # yaml-language-server: $schema=zerocount.schema.json\n",
-          print_schema};
+  return {
+      {"schema", "", {{"answers", "", "the schema of what the commands answer with --format json"}}, 0, 0},
+      "print the JSON Schema of manifests, for editors, or of answers",
+      "Example: zerocount schema > zerocount.schema.json, and in the manifest's first line\n"
+      "  # yaml-language-server: $schema=zerocount.schema.json\n",
+      print_schema};
 }
 
 }  // namespace zerocount::commands

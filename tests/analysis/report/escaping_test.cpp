@@ -12,21 +12,21 @@ namespace {
 const std::string hostile = "</script><script>alert('x')</script><!-- & \"quoted\" \xff\x01";
 
 TEST(Escaping, TextHoldsNoMarkup) {
-  const std::string text = html_text(hostile);
+  const std::string text = document::markup(hostile);
   EXPECT_EQ(text.find_first_of("<>\"'"), std::string::npos) << text;
-  EXPECT_EQ(html_text("a < b & c"), "a &lt; b &amp; c");
-  EXPECT_EQ(html_text("µrad\n\tnext"), "µrad\n\tnext");
+  EXPECT_EQ(document::markup("a < b & c"), "a &lt; b &amp; c");
+  EXPECT_EQ(document::markup("µrad\n\tnext"), "µrad\n\tnext");
 }
 
 TEST(Escaping, WhatIsNotTextIsReplaced) {
-  EXPECT_EQ(html_text("a\xff"), "a\xEF\xBF\xBD");
-  EXPECT_EQ(html_text(std::string("a\0b", 3)),
+  EXPECT_EQ(document::markup("a\xff"), "a\xEF\xBF\xBD");
+  EXPECT_EQ(document::markup(std::string("a\0b", 3)),
             "a\xEF\xBF\xBD"
             "b");
 }
 
 TEST(Escaping, NoLineBreaksBeforeAPercentSign) {
-  EXPECT_EQ(html_prose("95 % of < 3"), "95&nbsp;% of &lt; 3");
+  EXPECT_EQ(document::prose_markup("95 % of < 3"), "95&nbsp;% of &lt; 3");
 }
 
 TEST(Escaping, JsonCannotEndItsScriptAndReadsBack) {

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "analysis/document/content.hpp"
+#include "analysis/document/description.hpp"
+#include "analysis/document/item.hpp"
+#include "core/failure/failure.hpp"
+
+namespace zerocount::document {
+
+/// What every answer of a kind has in common.
+struct AnswerType {
+  std::string name;         ///< "answer" in JSON: the command
+  std::string meaning;      ///< a phrase without a full stop
+  int version{1};           ///< in JSON: counts changes that a reader of the JSON notices
+  std::string csv_table{};  ///< key of the table that CSV has; empty: there is no CSV
+  std::vector<Item> items{};
+};
+
+/// What a command says: the same in every format.
+struct Answer {
+  AnswerType type;
+  Members contents;  ///< of type.items
+  ExitCode exit_code{ExitCode::success};
+};
+
+/// A type of answers, and how each item is found in a `Subject`.
+template <class Subject>
+struct AnswerDescription {
+  AnswerType type;  ///< without items
+  Description<Subject> items;
+
+  AnswerType complete_type() const {
+    AnswerType complete = type;
+    complete.items = items.items();
+    return complete;
+  }
+  Answer of(const Subject& subject, ExitCode exit_code = ExitCode::success) const {
+    return {complete_type(), items.members_of(subject), exit_code};
+  }
+};
+
+/// For people: the headline, sentences a line each, values in two columns, tables below their titles. UTF-8;
+/// text::fitted fits it to a terminal. Columns without any content are left out, and so are tables without
+/// rows.
+std::string text(const Answer& answer);
+
+/// Likewise, as GitHub-flavoured Markdown.
+std::string markdown(const Answer& answer);
+
+/// Likewise, as a fragment of HTML, without figures.
+std::string html(const Answer& answer);
+
+/// The figures of the answer, in their order.
+std::vector<Figure> figures(const Answer& answer);
+
+/// {"answer": name, "version": …, "headline": …, …}: values, objects and lists by their keys, a table as a
+/// list of objects. Unknown numbers and items without content are null; every number reads back to the same
+/// double.
+nlohmann::ordered_json json(const Answer& answer);
+
+/// {…} of these items, likewise.
+nlohmann::ordered_json json(const std::vector<Item>& items, const Members& contents);
+
+/// {…} of the row, likewise.
+template <class Row>
+nlohmann::ordered_json json(const Description<Row>& description, const Row& row) {
+  return json(description.items(), description.members_of(row));
+}
+
+/// The rows of the type's csv_table: RFC 4180 with \n, a line with the names of the columns first. A member
+/// of an object has the name "<object>_<member>"; an unknown number is `nan`, a list is written as in JSON.
+std::string csv(const Answer& answer);
+
+/// The schema of json() of all answers of the type.
+nlohmann::ordered_json json_schema(const AnswerType& type);
+
+/// The JSON Schema (draft 2020-12) of all these answers: "$defs" has one for each name.
+nlohmann::ordered_json json_schema(const std::vector<AnswerType>& types);
+
+}  // namespace zerocount::document

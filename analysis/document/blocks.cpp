@@ -1,0 +1,189 @@
+#include "analysis/document/blocks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/text/percent.hpp"
+
+namespace zerocount::document {
+namespace {
+
+constexpr const char* unknown_text = "–";
+
+bool is_percent(Notation notation) {
+  return notation == Notation::percent || notation == Notation::given_percent;
+}
+
+std::string number_text(double value, Notation notation) {
+  if (!std::isfinite(value)) return unknown_text;
+  switch (notation) {
+    case Notation::three_digits:
+      return fmt::format("{:.3g}", value);
+    case Notation::two_digits:
+      return fmt::format("{:.2g}", value);
+    case Notation::exact:
+      return fmt::format("{}", value);
+    case Notation::percent:
+      return text::percent_near(value);
+    case Notation::given_percent:
+      return text::percent(value);
+    case Notation::change:
+      return fmt::format("{:+.1f}", value);
+    case Notation::four_digits:
+      break;
+  }
+  return fmt::format("{:.4g}", value);
+}
+
+std::string bounded_text(const Bounded& number, Notation notation) {
+  if (!std::isfinite(number.value)) return unknown_text;
+  const std::string bounds = is_percent(notation) ? text::percent_bounds(number.low, number.high)
+                                                  : fmt::format("{}, {}", number_text(number.low, notation),
+                                                                number_text(number.high, notation));
+  return fmt::format("{} [{}]", number_text(number.value, notation), bounds);
+}
+
+/// The text of each alternative of Content that is a value.
+struct ValueText {
+  const Item& item;
+
+  std::string operator()(std::monostate) const { return unknown_text; }
+  std::string operator()(bool value) const { return value ? "yes" : "no"; }
+  std::string operator()(std::int64_t value) const { return std::to_string(value); }
+  std::string operator()(double value) const { return number_text(value, item.notation); }
+  std::string operator()(const Bounded& value) const { return bounded_text(value, item.notation); }
+  std::string operator()(const std::string& value) const { return value; }
+  std::string operator()(const List& list) const {
+    std::vector<std::string> values;
+    for (const Content& value : list.values) values.push_back(shown_value(item.members[0], value));
+    return values.empty() ? unknown_text : fmt::format("{}", fmt::join(values, ", "));
+  }
+  std::string operator()(const Named& named) const {
+    std::vector<std::string> values;
+    for (const auto& [name, value] : named.values)
+      values.push_back(fmt::format("{} = {}", name, shown_value(item.members[0], value)));
+    return values.empty() ? unknown_text : fmt::format("{}", fmt::join(values, ", "));
+  }
+  std::string operator()(const Members& members) const {
+    std::vector<std::string> values;
+    for (std::size_t i = 0; i < members.contents.size(); ++i) {
+      const Item& member = item.members[i];
+      if (member.shown == Shown::in_data || members.contents[i].is_empty()) continue;
+      values.push_back(fmt::format("{} {}", member.heading, shown_value(member, members.contents[i])));
+    }
+    return fmt::format("{}", fmt::join(values, ", "));
+  }
+  std::string operator()(const Rows&) const { return unknown_text; }
+  std::string operator()(const Figure&) const { return unknown_text; }
+};
+
+/// The unit as it is shown beside numbers in this notation.
+std::string shown_unit(const Item& item) {
+  return item.unit == "1" || is_percent(item.notation) ? "" : item.unit;
+}
+
+bool is_numeric(const Item& item) {
+  return item.kind == Kind::whole || item.kind == Kind::number;
+}
+
+TableBlock table_block(const Item& item, const Rows& rows) {
+  TableBlock table{item.heading, {}};
+  for (std::size_t i = 0; i < item.members.size(); ++i) {
+    const Item& column = item.members[i];
+    if (column.shown == Shown::in_data) continue;
+    BlockColumn shown{column.heading, shown_unit(column), is_numeric(column)};
+    for (const Members& row : rows.rows)
+      shown.cells.push_back(
+          row.contents[i].is_empty() && !is_numeric(column) ? "" : shown_value(column, row.contents[i]));
+    const bool is_known = std::ranges::any_of(
+        shown.cells, [](const std::string& cell) { return !cell.empty() && cell != unknown_text; });
+    if (is_known) table.columns.push_back(std::move(shown));
+  }
+  return table;
+}
+
+class BlockList {
+ public:
+  void add(const std::vector<Item>& items, const Members& members) {
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      if (items[i].shown != Shown::in_data && !members.contents[i].is_empty())
+        add(items[i], members.contents[i]);
+    }
+  }
+
+  std::vector<Block> take() && { return std::move(blocks_); }
+
+ private:
+  void add(const Item& item, const Content& content) {
+    switch (item.kind) {
+      case Kind::headline:
+        blocks_.emplace_back(HeadlineBlock{std::get<std::string>(content.value)});
+        return;
+      case Kind::sentence:
+        blocks_.emplace_back(SentenceBlock{std::get<std::string>(content.value)});
+        return;
+      case Kind::table:
+        if (const Rows& rows = std::get<Rows>(content.value); !rows.rows.empty())
+          blocks_.emplace_back(table_block(item, rows));
+        return;
+      case Kind::object:
+        blocks_.emplace_back(SectionBlock{item.heading});
+        add(item.members, std::get<Members>(content.value));
+        return;
+      case Kind::figure:
+        return;
+      case Kind::flag:
+      case Kind::whole:
+      case Kind::number:
+      case Kind::text:
+      case Kind::list:
+      case Kind::map:
+        add_fact(item, content);
+    }
+  }
+
+  void add_fact(const Item& item, const Content& content) {
+    if (blocks_.empty() || !std::holds_alternative<FactsBlock>(blocks_.back()))
+      blocks_.emplace_back(FactsBlock{});
+    std::string value = shown_value(item, content);
+    if (value == unknown_text) return;
+    const std::string unit = shown_unit(item);
+    if (!unit.empty()) value += " " + unit;
+    std::get<FactsBlock>(blocks_.back()).facts.push_back({item.heading, std::move(value)});
+  }
+
+  std::vector<Block> blocks_;
+};
+
+void collect_figures(const Content& content, std::vector<Figure>& figures) {
+  if (const auto* const figure = std::get_if<Figure>(&content.value)) figures.push_back(*figure);
+  if (const auto* const list = std::get_if<List>(&content.value)) {
+    for (const Content& value : list->values) collect_figures(value, figures);
+  }
+  if (const auto* const members = std::get_if<Members>(&content.value)) {
+    for (const Content& member : members->contents) collect_figures(member, figures);
+  }
+}
+
+}  // namespace
+
+std::string shown_value(const Item& item, const Content& content) {
+  return std::visit(ValueText{item}, content.value);
+}
+
+std::vector<Block> blocks(const Answer& answer) {
+  BlockList list;
+  list.add(answer.type.items, answer.contents);
+  return std::move(list).take();
+}
+
+std::vector<Figure> figures(const Answer& answer) {
+  std::vector<Figure> figures;
+  collect_figures({answer.contents}, figures);
+  return figures;
+}
+
+}  // namespace zerocount::document

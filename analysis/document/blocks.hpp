@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "analysis/document/answer.hpp"
+
+namespace zerocount::document {
+
+/// A value with its name.
+struct Fact {
+  std::string name;
+  std::string value;  ///< with its unit
+};
+
+/// A column of a table; a row is a cell of each column.
+struct BlockColumn {
+  std::string head;
+  std::string unit;  ///< empty: none
+  bool numeric;      ///< aligned to the right
+  std::vector<std::string> cells{};
+};
+
+struct FactsBlock {
+  std::vector<Fact> facts;
+};
+struct TableBlock {
+  std::string title;  ///< may be empty
+  std::vector<BlockColumn> columns;
+};
+struct HeadlineBlock {
+  std::string sentence;
+};
+struct SentenceBlock {
+  std::string sentence;  ///< may have several lines
+};
+struct SectionBlock {
+  std::string title;
+};
+
+/// A part of an answer for people, in plain text. A section is followed by its blocks.
+using Block = std::variant<HeadlineBlock, SentenceBlock, FactsBlock, TableBlock, SectionBlock>;
+
+/// The parts of an answer for people, in their order, without figures: empty ones, columns without any
+/// content and what is shown in data only are left out.
+std::vector<Block> blocks(const Answer& answer);
+
+/// A value as people read it, without its unit; "–" where it is unknown.
+std::string shown_value(const Item& item, const Content& content);
+
+}  // namespace zerocount::document

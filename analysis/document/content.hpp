@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "analysis/document/figure.hpp"
+
+namespace zerocount::document {
+
+/// A number with bounds, all in the unit of the item.
+struct Bounded {
+  double value;
+  double low;
+  double high;
+};
+
+struct Content;
+
+/// The contents of the members of an item, in their order.
+struct Members {
+  std::vector<Content> contents;
+};
+
+/// The values of a list.
+struct List {
+  std::vector<Content> values;
+};
+
+/// Values by name, in their order.
+struct Named {
+  std::vector<std::pair<std::string, Content>> values;
+};
+
+/// The rows of a table.
+struct Rows {
+  std::vector<Members> rows;
+};
+
+/// What an answer says of one item; std::monostate where it says nothing.
+struct Content {
+  std::variant<std::monostate, bool, std::int64_t, double, Bounded, std::string, Members, List, Named, Rows,
+               Figure>
+      value{};
+
+  bool is_empty() const { return value.index() == 0; }
+};
+
+}  // namespace zerocount::document

@@ -1,0 +1,247 @@
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <ranges>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "analysis/document/content.hpp"
+#include "analysis/document/item.hpp"
+
+namespace zerocount::document {
+
+/// The items of values of the type `T`: their kind follows from the type. A whole number, a floating-point
+/// number, Bounded, bool and text are values; a vector is a list, a map or a vector of pairs is a map; an
+/// optional value is null where there is none.
+template <class T>
+struct ValueType;
+
+template <>
+struct ValueType<bool> {
+  static void describe(Item& item) { item.kind = Kind::flag; }
+  static Content content(bool value) { return {value}; }
+};
+
+template <std::integral T>
+struct ValueType<T> {
+  static void describe(Item& item) { item.kind = Kind::whole; }
+  static Content content(T value) { return {static_cast<std::int64_t>(value)}; }
+};
+
+template <std::floating_point T>
+struct ValueType<T> {
+  static void describe(Item& item) { item.kind = Kind::number; }
+  static Content content(T value) { return {static_cast<double>(value)}; }
+};
+
+template <>
+struct ValueType<Bounded> {
+  static void describe(Item& item) {
+    item.kind = Kind::number;
+    item.bounded = true;
+  }
+  static Content content(const Bounded& value) { return {value}; }
+};
+
+template <class T>
+requires std::convertible_to<T, std::string_view>
+struct ValueType<T> {
+  static void describe(Item& item) { item.kind = Kind::text; }
+  static Content content(std::string_view value) { return {std::string(value)}; }
+};
+
+template <class T>
+struct ValueType<std::optional<T>> {
+  static void describe(Item& item) {
+    ValueType<T>::describe(item);
+    item.nullable = true;
+  }
+  static Content content(const std::optional<T>& value) {
+    return value ? ValueType<T>::content(*value) : Content{};
+  }
+};
+
+/// The item of the values of a list or a map: unit, notation and words are those of the whole.
+template <class T>
+Item element_of(const Item& whole) {
+  Item element{.unit = whole.unit, .notation = whole.notation, .words = whole.words};
+  ValueType<T>::describe(element);
+  return element;
+}
+
+template <class T>
+struct ValueType<std::vector<T>> {
+  static void describe(Item& item) {
+    item.kind = Kind::list;
+    item.members = {element_of<T>(item)};
+  }
+  static Content content(const std::vector<T>& values) {
+    List list;
+    for (auto&& value : values) list.values.push_back(ValueType<T>::content(value));
+    return {std::move(list)};
+  }
+};
+
+template <class T>
+struct ValueType<std::vector<std::pair<std::string, T>>> {
+  static void describe(Item& item) {
+    item.kind = Kind::map;
+    item.members = {element_of<T>(item)};
+  }
+  static Content content(const auto& values) {
+    Named named;
+    for (const auto& [name, value] : values) named.values.emplace_back(name, ValueType<T>::content(value));
+    return {std::move(named)};
+  }
+};
+
+template <class T>
+struct ValueType<std::map<std::string, T>> : ValueType<std::vector<std::pair<std::string, T>>> {};
+
+/// Where there is no subject there is no content: pointers and optional values are looked into.
+template <class T>
+const T* subject_in(const T& subject) {
+  return &subject;
+}
+template <class T>
+const T* subject_in(const T* subject) {
+  return subject;
+}
+template <class T>
+const T* subject_in(const std::optional<T>& subject) {
+  return subject ? &*subject : nullptr;
+}
+
+/// The items of an object, a row or an answer, and how each is found in a `Row`. The order of the items is
+/// that of all formats.
+template <class Row>
+class Description {
+ public:
+  /// A value. Its kind is that of what `get` returns (ValueType).
+  template <class Get>
+  Description& value(Item item, Get get) {
+    using Value = ValueType<std::remove_cvref_t<std::invoke_result_t<Get, const Row&>>>;
+    Value::describe(item);
+    return add(std::move(item),
+               [get = std::move(get)](const Row& row) { return Value::content(std::invoke(get, row)); });
+  }
+
+  /// An object with the items of `parts`. `get` returns a Part, an optional one, or a pointer to one.
+  template <class Part, class Get>
+  Description& object(Item item, Description<Part> parts, Get get) {
+    item.kind = Kind::object;
+    item.nullable = !std::is_same_v<std::remove_cvref_t<std::invoke_result_t<Get, const Row&>>, Part>;
+    item.members = parts.items();
+    return add(std::move(item), [parts = std::move(parts), get = std::move(get)](const Row& row) -> Content {
+      auto&& found = std::invoke(get, row);
+      const Part* const part = subject_in(found);
+      return part == nullptr ? Content{} : Content{parts.members_of(*part)};
+    });
+  }
+
+  /// A table with the items of `columns`. `get` returns a range of Parts.
+  template <class Part, class Get>
+  Description& table(Item item, Description<Part> columns, Get get) {
+    item.kind = Kind::table;
+    item.members = columns.items();
+    return add(std::move(item),
+               [columns = std::move(columns), get = std::move(get)](const Row& row) -> Content {
+                 Rows rows;
+                 auto&& parts = std::invoke(get, row);
+                 for (const Part& part : parts) rows.rows.push_back(columns.members_of(part));
+                 return {std::move(rows)};
+               });
+  }
+
+  /// Objects by name: a table whose rows have names. `get` returns a range of pairs of a name and a Part.
+  template <class Part, class Get>
+  Description& objects_by_name(Item item, Description<Part> parts, Get get) {
+    item.kind = Kind::map;
+    Item element{.kind = Kind::object};
+    element.members = parts.items();
+    item.members = {std::move(element)};
+    return add(std::move(item), [parts = std::move(parts), get = std::move(get)](const Row& row) -> Content {
+      Named named;
+      auto&& found = std::invoke(get, row);
+      for (const auto& [name, part] : found) named.values.emplace_back(name, Content{parts.members_of(part)});
+      return {std::move(named)};
+    });
+  }
+
+  /// The items of `parts` beside the others. Where `get` finds no Part they are empty.
+  template <class Part, class Get>
+  Description& include(const Description<Part>& parts, Get get) {
+    for (std::size_t i = 0; i < parts.items().size(); ++i) {
+      Item item = parts.items()[i];
+      item.nullable = true;
+      add(std::move(item), [content = parts.content_of(i), get](const Row& row) -> Content {
+        auto&& found = std::invoke(get, row);
+        const Part* const part = subject_in(found);
+        return part == nullptr ? Content{} : content(*part);
+      });
+    }
+    return *this;
+  }
+
+  /// The answer in one sentence. An answer has one.
+  template <class Get>
+  Description& headline(Get get) {
+    return add_text({.key = "headline", .meaning = "the answer in one sentence", .kind = Kind::headline},
+                    std::move(get));
+  }
+
+  /// Sentences for people, each on a line of its own; none where `get` returns an empty text.
+  template <class Get>
+  Description& sentence(Get get) {
+    return add_text({.shown = Shown::to_people, .kind = Kind::sentence}, std::move(get));
+  }
+
+  /// Figures, of which `get` returns a vector.
+  template <class Get>
+  Description& figures(Get get) {
+    return add({.shown = Shown::to_people, .kind = Kind::figure},
+               [get = std::move(get)](const Row& row) -> Content {
+                 List list;
+                 for (Figure& figure : std::invoke(get, row)) list.values.push_back({std::move(figure)});
+                 return {std::move(list)};
+               });
+  }
+
+  const std::vector<Item>& items() const { return items_; }
+  const std::function<Content(const Row&)>& content_of(std::size_t item) const { return contents_[item]; }
+
+  /// The contents of all items of `row`, in their order.
+  Members members_of(const Row& row) const {
+    Members members;
+    members.contents.reserve(contents_.size());
+    for (const auto& content : contents_) members.contents.push_back(content(row));
+    return members;
+  }
+
+ private:
+  Description& add(Item item, std::function<Content(const Row&)> content) {
+    items_.push_back(std::move(item));
+    contents_.push_back(std::move(content));
+    return *this;
+  }
+
+  template <class Get>
+  Description& add_text(Item item, Get get) {
+    return add(std::move(item), [get = std::move(get)](const Row& row) -> Content {
+      std::string sentence = std::invoke(get, row);
+      return sentence.empty() ? Content{} : Content{std::move(sentence)};
+    });
+  }
+
+  std::vector<Item> items_;
+  std::vector<std::function<Content(const Row&)>> contents_;
+};
+
+}  // namespace zerocount::document

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+/// Answers as data. An answer is a tree of items: named values, lists, tables, sentences and figures. Its
+/// description states each item once, with name, unit and meaning; text, JSON, CSV, Markdown, HTML and the
+/// JSON Schema follow from it.
+namespace zerocount::document {
+
+enum class Kind {
+  flag,      ///< true or false
+  whole,     ///< a whole number
+  number,    ///< a floating-point number; unknown where it is not finite
+  text,      ///< a word or a name
+  list,      ///< values of members[0]
+  map,       ///< values by name, of members[0]
+  object,    ///< members
+  table,     ///< rows, of which the members are the columns
+  headline,  ///< the answer in one sentence; "headline" in JSON
+  sentence,  ///< for people only
+  figure     ///< for people only
+};
+
+/// Where an item is shown.
+enum class Shown {
+  everywhere,
+  in_data,   ///< in JSON and CSV only
+  to_people  ///< in text, Markdown and HTML only
+};
+
+/// How a number is written for people. In JSON and CSV every number reads back to the same double.
+enum class Notation {
+  four_digits,    ///< 1.234e-05
+  three_digits,   ///< 1.23e-05
+  two_digits,     ///< 1.2e-05
+  exact,          ///< the shortest text that reads back to the same number
+  percent,        ///< of a proportion, with as many digits as tell it from 0 and 1 (text::percent_near)
+  given_percent,  ///< of a proportion that somebody chose: 95 % (text::percent)
+  change          ///< with its sign and one decimal: +0.4
+};
+
+/// What the description of an answer says of one item.
+struct Item {
+  std::string key{};      ///< in JSON, CSV and Python; no two of a level are equal; empty for sentences
+  std::string heading{};  ///< for people: the name of a value, the head of a column, the title of a table
+  std::string meaning{};  ///< in the schema and in legends: a phrase without a full stop
+  std::string unit{};     ///< "1" where it is dimensionless; empty where there is none
+  Notation notation{Notation::four_digits};
+  Shown shown{Shown::everywhere};
+  std::vector<std::string> words{};  ///< that a text can be; empty: any
+  bool optional{false};              ///< JSON has no such member where there is no content; else null
+
+  // What follows is filled in by the description.
+
+  Kind kind{Kind::sentence};
+  bool bounded{false};          ///< a number with bounds, "<key>_low" and "<key>_high"
+  bool nullable{false};         ///< may be without content
+  std::vector<Item> members{};  ///< of an object, a table or its rows; [0] of a list and a map
+};
+
+}  // namespace zerocount::document

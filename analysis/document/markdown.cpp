@@ -1,0 +1,85 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/document/answer.hpp"
+#include "analysis/document/blocks.hpp"
+#include "analysis/text/text.hpp"
+
+namespace zerocount::document {
+namespace {
+
+/// Plain text as Markdown on one line.
+std::string escaped(std::string_view text) {
+  std::string escaped;
+  for (const char c : text::printable(text)) {
+    if (std::string_view("|\\`*_<").find(c) != std::string_view::npos) escaped += '\\';
+    escaped += c;
+  }
+  return escaped;
+}
+
+/// A paragraph of each line.
+std::string paragraphs(std::string_view text) {
+  std::string paragraphs;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, end);
+    const std::size_t begin = line.find_first_not_of(' ');
+    if (begin != std::string_view::npos) paragraphs += escaped(line.substr(begin)) + "\n\n";
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return paragraphs;
+}
+
+std::string table_row(const std::vector<std::string>& cells) {
+  return fmt::format("| {} |\n", fmt::join(cells, " | "));
+}
+
+std::string table_markdown(const TableBlock& table) {
+  std::vector<std::string> heads;
+  std::vector<std::string> rules;
+  for (const BlockColumn& column : table.columns) {
+    heads.push_back(
+        escaped(column.unit.empty() ? column.head : fmt::format("{} ({})", column.head, column.unit)));
+    rules.emplace_back(column.numeric ? "---:" : "---");
+  }
+  std::string markdown = table.title.empty() ? "" : fmt::format("{}:\n\n", escaped(table.title));
+  markdown += table_row(heads) + table_row(rules);
+  for (std::size_t row = 0; !table.columns.empty() && row < table.columns.front().cells.size(); ++row) {
+    std::vector<std::string> cells;
+    for (const BlockColumn& column : table.columns) cells.push_back(escaped(column.cells[row]));
+    markdown += table_row(cells);
+  }
+  return markdown + "\n";
+}
+
+/// The Markdown of each kind of block.
+struct BlockMarkdown {
+  std::string operator()(const HeadlineBlock& block) const {
+    return fmt::format("**{}**\n\n", escaped(block.sentence));
+  }
+  std::string operator()(const SentenceBlock& block) const { return paragraphs(block.sentence); }
+  std::string operator()(const FactsBlock& block) const {
+    std::string list;
+    for (const Fact& fact : block.facts)
+      list += fmt::format("- {}: {}\n", escaped(fact.name), escaped(fact.value));
+    return list + "\n";
+  }
+  std::string operator()(const TableBlock& block) const { return table_markdown(block); }
+  std::string operator()(const SectionBlock& block) const {
+    return fmt::format("### {}\n\n", escaped(block.title));
+  }
+};
+
+}  // namespace
+
+std::string markdown(const Answer& answer) {
+  std::string markdown;
+  for (const Block& block : blocks(answer)) markdown += std::visit(BlockMarkdown{}, block);
+  if (markdown.ends_with("\n\n")) markdown.pop_back();
+  return markdown;
+}
+
+}  // namespace zerocount::document

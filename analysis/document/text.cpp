@@ -1,0 +1,68 @@
+#include "analysis/text/text.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "analysis/document/answer.hpp"
+#include "analysis/document/blocks.hpp"
+
+namespace zerocount::document {
+namespace {
+
+std::string with_line_end(std::string sentence) {
+  if (!sentence.ends_with('\n')) sentence += '\n';
+  return sentence;
+}
+
+std::string facts_text(const std::vector<Fact>& facts) {
+  std::size_t width = 0;
+  for (const Fact& fact : facts) width = std::max(width, text::display_width(fact.name));
+  std::string lines;
+  for (const Fact& fact : facts) {
+    const std::string gap(width + 2 - text::display_width(fact.name), ' ');
+    lines += fact.name + gap + fact.value + '\n';
+  }
+  return lines;
+}
+
+std::string table_text(const TableBlock& table) {
+  std::vector<text::TextColumn> columns;
+  for (const BlockColumn& column : table.columns) {
+    std::vector<std::string> cells;
+    for (const std::string& cell : column.cells) cells.push_back(text::printable(cell));
+    columns.push_back({column.unit.empty() ? column.head : fmt::format("{} ({})", column.head, column.unit),
+                       column.numeric, std::move(cells)});
+  }
+  const std::string title = table.title.empty() ? "" : fmt::format("{}:\n\n", table.title);
+  return title + text::aligned_table(columns);
+}
+
+/// The text of each kind of block.
+struct BlockText {
+  std::string operator()(const HeadlineBlock& block) const { return with_line_end(block.sentence); }
+  std::string operator()(const SentenceBlock& block) const { return with_line_end(block.sentence); }
+  std::string operator()(const FactsBlock& block) const { return facts_text(block.facts); }
+  std::string operator()(const TableBlock& block) const { return table_text(block); }
+  std::string operator()(const SectionBlock& block) const { return with_line_end(block.title + ":"); }
+};
+
+/// Whether a blank line stands between these blocks.
+bool apart(const Block& above, const Block& below) {
+  return std::holds_alternative<TableBlock>(above) || std::holds_alternative<TableBlock>(below) ||
+         std::holds_alternative<SectionBlock>(below);
+}
+
+}  // namespace
+
+std::string text(const Answer& answer) {
+  std::string text;
+  const std::vector<Block> all = blocks(answer);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (i > 0 && apart(all[i - 1], all[i])) text += '\n';
+    text += std::visit(BlockText{}, all[i]);
+  }
+  return text;
+}
+
+}  // namespace zerocount::document

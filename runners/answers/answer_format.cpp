@@ -1,0 +1,49 @@
+#include "runners/answers/answer_format.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "analysis/report/answer_page.hpp"
+#include "analysis/text/report_json.hpp"
+#include "runners/standard_output/standard_output.hpp"
+
+namespace zerocount::answers {
+namespace {
+
+nlohmann::ordered_json notebook_json(const document::Answer& answer) {
+  nlohmann::ordered_json json = document::json(answer);
+  json["text"] = document::text(answer);
+  json["html"] = document::html(answer);
+  return json;
+}
+
+}  // namespace
+
+command_line::OptionSpec format_option(const document::AnswerType& type, std::vector<std::string> more) {
+  std::vector<std::string> formats{"text", "json", "markdown", "html"};
+  if (!type.csv_table.empty()) formats.emplace_back("csv");
+  formats.insert(formats.end(), more.begin(), more.end());
+  command_line::OptionSpec option = command_line::format_option(std::move(formats));
+  option.other_names = {{"table", "text"}, {"notebook", "notebook"}};
+  return option;
+}
+
+std::string rendered(const document::Answer& answer, std::string_view format) {
+  if (format == "json") return text::json_text(document::json(answer));
+  if (format == "markdown") return document::markdown(answer);
+  if (format == "html") return report::html_page(report::answer_page(answer));
+  if (format == "csv") return document::csv(answer);
+  if (format == "notebook") return text::json_text(notebook_json(answer), text::one_line);
+  return document::text(answer);
+}
+
+ExitCode print(const command_line::Arguments& arguments, const document::Answer& answer) {
+  const std::string format = arguments.choice("format");
+  if (format == "text") {
+    standard_output::write_fitted(rendered(answer, format));
+  } else {
+    standard_output::write(rendered(answer, format));
+  }
+  return answer.exit_code;
+}
+
+}  // namespace zerocount::answers

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "analysis/document/answer.hpp"
+#include "runners/command_line/command_line.hpp"
+
+/// The formats in which commands answer.
+namespace zerocount::answers {
+
+/// `--format` of a command whose answers are of the type: text, json, markdown, html, csv where the type has
+/// a table for it, then `more`. `table` is another name of `text`. `notebook` is the JSON with the members
+/// "text" and "html", for the Python package.
+command_line::OptionSpec format_option(const document::AnswerType& type, std::vector<std::string> more = {});
+
+/// The answer in a format of format_option().
+/// @throws Failure (machine_failed) for HTML with figures, if the program was built without the libraries for
+/// drawing
+std::string rendered(const document::Answer& answer, std::string_view format);
+
+/// Writes the answer to standard output in the format that the arguments ask for. @returns its exit code
+ExitCode print(const command_line::Arguments& arguments, const document::Answer& answer);
+
+}  // namespace zerocount::answers

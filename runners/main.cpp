@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "core/failure/failure.hpp"
-#include "runners/commands/commands.hpp"
+#include "runners/program/commands.hpp"
 #include "runners/status/status.hpp"
 
 namespace {
@@ -44,7 +44,7 @@ ExitCode say_no_thread() {
 
 ExitCode run(const std::vector<std::string>& words) {
   try {
-    const ExitCode code = zerocount::commands::run_command_line(words);
+    const ExitCode code = zerocount::program::run_command_line(words);
     // Some file systems report a failed write only when the file is closed. EBADF: there is no standard
     // output, so nothing is lost.
     if (std::fflush(stdout) != 0 || (std::fclose(stdout) != 0 && errno != EBADF))

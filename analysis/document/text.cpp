@@ -20,8 +20,8 @@ std::string facts_text(const std::vector<Fact>& facts) {
   for (const Fact& fact : facts) width = std::max(width, text::display_width(fact.name));
   std::string lines;
   for (const Fact& fact : facts) {
-    const std::string gap(width + 2 - text::display_width(fact.name), ' ');
-    lines += fact.name + gap + fact.value + '\n';
+    const std::string gap(width + 1 - text::display_width(fact.name), ' ');
+    lines += fact.name + ':' + gap + fact.value + '\n';
   }
   return lines;
 }

@@ -142,8 +142,9 @@ inline const std::vector<worlds::WorldInput>& world_inputs_of(const StudySummary
 std::string bad_worlds_sentence(const worlds::PointWorlds& point,
                                 const std::vector<worlds::WorldInput>& inputs, bool has_goal);
 
-/// The section "worlds" of a summary of a study with worlds. Its JSON is that of worlds_description(); its columns are
-/// worlds_success_worst, …; its text is a table and a sentence a point on what bad worlds have in common.
+/// The section "worlds" of a summary of a study with worlds. Its JSON is that of worlds_description(); its
+/// columns are worlds_success_worst, …; its text is a table and a sentence a point on what bad worlds have in
+/// common.
 measures::SummarySection worlds_section(const StudySummary& summary);
 
 /// The section "assurance" of a summary: what the trials of each point show of all axes that the manifest

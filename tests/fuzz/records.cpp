@@ -10,7 +10,7 @@
 #include "analysis/identification/checked_record.hpp"
 #include "analysis/records/text_table.hpp"
 #include "analysis/sliding_identification/sliding_record.hpp"
-#include "runners/commands/record_options.hpp"
+#include "runners/identification_commands/record_options.hpp"
 #include "tests/fuzz/expectation.hpp"
 #include "tests/fuzz/memory_file.hpp"
 
@@ -32,16 +32,16 @@ std::vector<std::string> words_of(std::string_view lines) {
 }
 
 void read_record(const std::filesystem::path& path, const std::vector<std::string>& words) {
-  std::vector<command_line::OptionSpec> options = commands::column_options();
+  std::vector<command_line::OptionSpec> options = identification_commands::column_options();
   options.push_back({"help,h", "", ""});
   const command_line::Arguments arguments(
       {.name = "identify", .operands = "", .options = options, .min_operands = 0, .max_operands = 0}, words);
   records::SeriesChoice choice{.count_size = 0.00628};
-  commands::set_columns(arguments, choice);
+  identification_commands::set_columns(arguments, choice);
   const records::TextTable table(path, choice.separator);
   fuzz::require_text(table.columns_text());
   std::vector<records::RawSeries> found = records::read_columns(table, choice);
-  commands::exclude_times(arguments, found);
+  identification_commands::exclude_times(arguments, found);
   for (const records::RawSeries& series : found) {
     fuzz::require_clear_refusal([&] { identification::checked_record(series, true); });
     fuzz::require_clear_refusal([&] { identification::checked_record(series, false); });

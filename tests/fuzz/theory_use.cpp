@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "runners/commands/point_theory_text.hpp"
+#include "runners/study_commands/point_theory_text.hpp"
 #include "tests/fuzz/expectation.hpp"
 
 namespace zerocount::fuzz {
@@ -16,8 +16,9 @@ void use_theory(const study::Study& study) {
   first.trials = 1;
   first.rigs = std::min<std::int64_t>(study.rigs, 1);
   for (const std::int64_t point : std::set<std::int64_t>{0, study::point_count(study) - 1}) {
-    const std::vector<commands::TheoryItem> items = commands::theory_items(theory::examine(first, point));
-    const std::string text = commands::theory_text({}, {{items}}, 1);
+    const std::vector<study_commands::TheoryItem> items =
+        study_commands::theory_items(theory::examine(first, point));
+    const std::string text = study_commands::theory_text({}, {{items}}, 1);
     if (!text.empty()) require_text(text);
   }
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/document/markup.hpp"
 #include "analysis/report/html.hpp"
 
 namespace zerocount::report {

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/failure/failure.hpp"
-#include "runners/commands/commands.hpp"
+#include "runners/program/commands.hpp"
 #include "tests/runners/program.hpp"
 
 namespace zerocount::testing {
@@ -315,7 +315,7 @@ const command_line::OptionSpec& option_of(const command_line::CommandSpec& spec,
 // Each verb says of which question an option is; elsewhere the option would have no effect.
 TEST(OptionsWithoutEffect, AreErrorsOfEveryVerb) {
   int conditions = 0;
-  for (const commands::Command& command : commands::commands()) {
+  for (const commands::Command& command : program::commands()) {
     const command_line::CommandSpec& spec = command.spec;
     const std::string usual = spec.operand_words.empty() ? "x" : spec.operand_words.front();
     for (const command_line::OptionSpec& option : spec.options) {

@@ -1,0 +1,245 @@
+#include "runners/design_commands/equivalence_plan.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "analysis/comparison/comparison_report.hpp"
+#include "analysis/comparison/forecast.hpp"
+#include "analysis/comparison/measure_comparison.hpp"
+#include "analysis/comparison/point_trials.hpp"
+#include "analysis/parallel/parallel.hpp"
+#include "analysis/text/text.hpp"
+#include "runners/command_line/option_values.hpp"
+#include "runners/commands/study_argument.hpp"
+#include "runners/plugins/hidden_state.hpp"
+#include "runners/standard_output/standard_output.hpp"
+#include "runners/study_run/progress.hpp"
+#include "runners/study_run/study_runner.hpp"
+#include "runners/study_run/trial_runner.hpp"
+
+namespace zerocount::design_commands {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::int64_t pilot_trials = 1000;  ///< of each design point
+constexpr std::int64_t pilot_block = 100;    ///< that one task runs
+constexpr double min_planned_trials = 20.0;
+constexpr double max_planned_trials = 100'000.0;
+
+[[noreturn]] void refuse_margin(const command_line::Arguments& arguments, const std::string& text,
+                                const std::string& expected) {
+  arguments.refuse(fmt::format("option '--margin': '{}' is not a margin; expected {}", text, expected));
+}
+
+std::string measure_names() {
+  std::vector<std::string> names;
+  for (const comparison::GateMeasure& one : comparison::all_gate_measures()) names.emplace_back(one.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// `success_rate=0.02`, or `settling_time=5%` of the measure's value.
+std::pair<std::string, comparison::GateMargin> read_margin(const command_line::Arguments& arguments,
+                                                           const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const std::string name = text.substr(0, equals);
+  const auto measure = comparison::find_gate_measure(name);
+  if (equals == std::string::npos || !measure)
+    refuse_margin(arguments, text, fmt::format("MEASURE=M, a measure of {}", measure_names()));
+  std::string number = text.substr(equals + 1);
+  const bool relative = number.ends_with('%');
+  if (relative) number.pop_back();
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+  const bool read = error == std::errc{} && end == number.data() + number.size();
+  if (!read || !std::isfinite(value) || value <= 0.0)
+    refuse_margin(arguments, text, "a number greater than 0, or PERCENT% of the measure");
+  if (measure->proportion() && !relative && value >= 1.0)
+    refuse_margin(arguments, text, "less than 1, such as 0.02 for two percent points");
+  if (relative) return {name, {.relative = 0.01 * value}};
+  return {name, {.absolute = value}};
+}
+
+comparison::GateRules rules_of(const command_line::Arguments& arguments) {
+  comparison::GateRules rules;
+  rules.confidence = command_line::probability_option(arguments, "confidence").value_or(rules.confidence);
+  rules.changed_fails = true;
+  for (const std::string& text : arguments.values("margin")) {
+    const auto [name, margin] = read_margin(arguments, text);
+    rules.margins[name] = margin;
+    rules.measures.push_back(name);
+  }
+  return rules;
+}
+
+study::Study planned_study(const command_line::Arguments& arguments) {
+  const std::string& manifest = arguments.operands()[0];
+  study::Study study = commands::load_study(manifest, arguments);
+  plugins::require_no_hidden_state(study);
+  const auto refuse = [&](const char* what) {
+    throw Failure(ExitCode::bad_input, fmt::format("{}: {}", manifest, what));
+  };
+  if (study.open_loop) refuse("has torque levels and no targets; expected a study with targets");
+  if (study.design == study::Design::saltelli)
+    refuse("the trials of `design: saltelli` are not independent; expected another design");
+  return study;
+}
+
+/// The first `trials` trials of a point.
+comparison::PointTrials run_point(const study::Study& study, std::int64_t point, std::int64_t trials) {
+  std::vector<std::vector<trial::MoveOutcome>> blocks(
+      static_cast<std::size_t>((trials + pilot_block - 1) / pilot_block));
+  parallel::for_each_index(blocks.size(), [&](std::size_t block) {
+    const std::int64_t first = static_cast<std::int64_t>(block) * pilot_block;
+    const std::int64_t count = std::min(pilot_block, trials - first);
+    for (const shards::TrialResult& result :
+         study_run::TrialRunner(study).run({point * study.trials + first, count})) {
+      blocks[block].insert(blocks[block].end(), result.outcome.moves.begin(), result.outcome.moves.end());
+    }
+  });
+  std::vector<trial::MoveOutcome> outcomes;
+  for (const auto& block : blocks) outcomes.insert(outcomes.end(), block.begin(), block.end());
+  comparison::AlsoRead also;
+  also.rigs = also.goal_rigs = study.rigs;
+  also.worlds = study.worlds;
+  if (study.goal) also.judged = {*study.goal, *measures::counted_goal(study)};
+  return comparison::gather_trials(outcomes, std::ssize(outcomes) / trials, also);
+}
+
+/// A measure at a point of the pilot.
+struct PlannedMeasure {
+  std::string point;
+  comparison::MeasureComparison found;
+  comparison::JudgementForecast forecast{};
+};
+
+struct EquivalencePlan {
+  comparison::GateRules rules;
+  double power{comparison::decision_probability};
+  std::int64_t pilot{0};  ///< trials of each point
+  comparison::Forecast forecast;
+  std::vector<PlannedMeasure> measures;
+};
+
+/// Adds the measures of a point to the plan. The sample of the pilot stands for both studies.
+comparison::ForecastPoint planned_point(EquivalencePlan& plan, const std::string& label,
+                                        const comparison::PointTrials& trials) {
+  const auto found = comparison::compare_measures(plan.rules, label, trials, trials, false);
+  const auto samples = comparison::measure_samples(plan.rules, found, trials, trials, false);
+  comparison::ForecastPoint point{plan.pilot, plan.pilot, {}, {}, {}};
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const comparison::MeasureComparison& one = found[k];
+    if (!comparison::has_finite_bounds(one)) continue;
+    point.measures.push_back(samples[k]);
+    point.found.push_back(one);
+    plan.measures.push_back({label, one});
+  }
+  return point;
+}
+
+EquivalencePlan plan_of(const command_line::Arguments& arguments) {
+  EquivalencePlan plan;
+  plan.rules = rules_of(arguments);
+  plan.power = command_line::probability_option(arguments, "power").value_or(plan.power);
+  const study::Study study = planned_study(arguments);
+  if (!study.goal && comparison::names_goal_measure(plan.rules)) {
+    throw Failure(
+        ExitCode::bad_input,
+        fmt::format("{}: its manifest has no goal, by whose measures it is to be planned; expected one "
+                    "such as goal: {{band: 1, within: 0.05, moves: 0.99}}",
+                    arguments.operands()[0]));
+  }
+  plan.pilot = study.rigs > 0 ? study.trials : std::min(study.trials, pilot_trials);
+  const std::int64_t units = study.rigs > 0 ? study.rigs : plan.pilot;
+  comparison::ForecastSamples samples({units, units}, true);
+  study_run::Progress progress(study::point_count(study) * plan.pilot, 0, study_run::samples_per_trial(study),
+                               false);
+  for (std::int64_t i = 0; i < study::point_count(study); ++i) {
+    samples.add(planned_point(plan, study.point_labels[static_cast<std::size_t>(i)],
+                              run_point(study, i, plan.pilot)));
+    progress.update((i + 1) * plan.pilot);
+  }
+  if (plan.measures.empty()) {
+    throw Failure(
+        ExitCode::inconclusive,
+        fmt::format("{}: fewer than {} of {} trials of the pilot have a value; nothing can be planned",
+                    arguments.operands()[0], comparison::least_values, plan.pilot));
+  }
+  comparison::ForecastOptions options;
+  options.confidence = plan.rules.confidence;
+  options.probability = plan.power;
+  options.min_factor = min_planned_trials / static_cast<double>(plan.pilot);
+  options.max_factor = std::max(2.0, max_planned_trials / static_cast<double>(plan.pilot));
+  plan.forecast = comparison::forecast_equivalence(samples, options);
+  for (std::size_t k = 0; k < plan.measures.size(); ++k)
+    plan.measures[k].forecast = plan.forecast.judgements[k];
+  return plan;
+}
+
+Json json_of(const EquivalencePlan& plan) {
+  const auto number = [](const std::optional<double>& trials) {
+    return trials ? Json(static_cast<std::int64_t>(*trials)) : Json(nullptr);
+  };
+  Json json{{"confidence", plan.rules.confidence},
+            {"power", plan.power},
+            {"pilot_trials", plan.pilot},
+            {"trials", number(plan.forecast.trials)},
+            {"max_trials", static_cast<std::int64_t>(plan.forecast.max_trials)},
+            {"measures", Json::array()}};
+  for (const PlannedMeasure& one : plan.measures) {
+    json["measures"].push_back({{"point", one.point},
+                                {"measure", one.found.measure},
+                                {"unit", one.found.unit},
+                                {"value", one.found.current},
+                                {"margin", one.found.margin},
+                                {"trials", number(one.forecast.trials)}});
+  }
+  return json;
+}
+
+std::string trials_cell(const EquivalencePlan& plan, const PlannedMeasure& one) {
+  if (one.forecast.trials) return comparison::trials_text(*one.forecast.trials);
+  return fmt::format("{} decide a margin of {}", comparison::trials_text(plan.forecast.max_trials),
+                     comparison::value_text(one.forecast.margin, one.found.measure, one.found.unit));
+}
+
+std::string text_of(const EquivalencePlan& plan) {
+  std::vector<std::vector<std::string>> cells{{"point", "measure", "pilot", "margin", "trials"}};
+  for (const PlannedMeasure& one : plan.measures) {
+    const auto text = [&](double value) {
+      return comparison::value_text(value, one.found.measure, one.found.unit);
+    };
+    cells.push_back({text::printable(one.point), one.found.measure, text(one.found.current),
+                     "± " + text(one.found.margin), trials_cell(plan, one)});
+  }
+  const std::string trials = comparison::trials_text(plan.forecast.trials.value_or(plan.forecast.max_trials));
+  return fmt::format(
+      "to show that two equal studies with different random numbers differ by less than the margins\n"
+      "(bounds: {:.4g} % each), by a pilot of {} trials per design point\n\n{}\n"
+      "{} trials per design point in each of the two studies{} show with a probability of {:.4g} %\n"
+      "that all these measures are equivalent\n",
+      100.0 * plan.rules.confidence, plan.pilot, text::aligned_table(cells, {false, false, true, true, true}),
+      trials, plan.forecast.trials ? "" : " do not", 100.0 * plan.power);
+}
+
+}  // namespace
+
+ExitCode print_equivalence_plan(const command_line::Arguments& arguments) {
+  const bool json = arguments.choice("format") == "json";
+  const EquivalencePlan plan = plan_of(arguments);
+  standard_output::write(json ? json_of(plan).dump(2) + "\n" : text_of(plan));
+  return plan.forecast.trials ? ExitCode::success : ExitCode::inconclusive;
+}
+
+}  // namespace zerocount::design_commands

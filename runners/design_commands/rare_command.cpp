@@ -1,0 +1,150 @@
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "analysis/parallel/parallel.hpp"
+#include "core/failure/failure.hpp"
+#include "results/storage/durable_file.hpp"
+#include "results/storage/output_lock.hpp"
+#include "runners/command_line/option_values.hpp"
+#include "runners/command_line/output_place.hpp"
+#include "runners/commands/command.hpp"
+#include "runners/commands/study_argument.hpp"
+#include "runners/design_commands/design_commands.hpp"
+#include "runners/plugins/hidden_state.hpp"
+#include "runners/rare/rare_run.hpp"
+#include "runners/rare/rare_text.hpp"
+#include "runners/standard_output/standard_output.hpp"
+#include "runners/status/status.hpp"
+#include "runners/study_run/interruption.hpp"
+#include "runners/study_run/study_runner.hpp"
+
+namespace zerocount::design_commands {
+namespace {
+
+constexpr double usual_confidence = 0.95;
+constexpr std::int64_t usual_trials = 1'000'000;
+
+constexpr const char* rare_help =
+    "Estimates the probability that a move misses the goal, down to about 1e-8, where plain trials\n"
+    "see no failure. It drives trials towards failure along scores of a move (settling time,\n"
+    "largest torque, error at the end, unrest), learns a distribution of the failures it found,\n"
+    "draws trials from it, and weights them, so that each has the right expectation. Every value of a\n"
+    "choice, of integers and of samples is tried, be it ever so improbable. The lower bound holds in\n"
+    "any case. The upper bound assumes that no failures hide where neither a plain trial nor a score\n"
+    "leads. If nothing leads to a failure, plain trials go on to the end of the budget.\n"
+    "\n"
+    "--event asks for another event: MEASURE > x, such as 'settling_time > 0.5' or\n"
+    "'band_settling_time[1] > 0.05', with a column of moves.csv of 'zerocount export'. Each trial is\n"
+    "on a machine of its own. Of several points --point chooses one, of several worlds --world.\n"
+    "\n"
+    "It ends when high is at most --ratio (2) times low, or after --budget (1000000 trials). A budget\n"
+    "in time, such as 5min, makes an undecided answer depend on the machine. FILE holds the weighted\n"
+    "trials; 'zerocount trace FILE --trial I' replays one. The same command goes on from an unfinished\n"
+    "FILE; a search for failures that did not end begins anew. The exit code is 0 if the bounds are\n"
+    "narrow enough, 3 if not.\n"
+    "\n"
+    "Example: zerocount rare my-axis.yaml -o rare.h5\n"
+    "         zerocount rare my-axis.yaml -o late.h5 --event 'settling_time > 0.5'\n";
+
+std::int64_t point_to_ask(const command_line::Arguments& arguments, const study::Study& study) {
+  const std::optional<std::int64_t> point = command_line::point_option(arguments, study.point_labels);
+  if (!point && study::point_count(study) > 1)
+    throw Failure(ExitCode::bad_input, fmt::format("{}: it has {} design points; expected one with --point",
+                                                   arguments.operands()[0], study::point_count(study)));
+  return point.value_or(0);
+}
+
+std::optional<std::int64_t> world_to_ask(const command_line::Arguments& arguments,
+                                         const study::Study& study) {
+  if (study.worlds == 0) {
+    if (arguments.has("world")) arguments.refuse("option '--world': the study has no worlds");
+    return std::nullopt;
+  }
+  const std::optional<std::int64_t> world = arguments.whole_number("world", 0, study.worlds - 1);
+  if (!world)
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: it has {} worlds, and a probability over all of them would be an average "
+                              "over what nobody knows; expected one with --world, such as the worst one of "
+                              "'zerocount summary'",
+                              arguments.operands()[0], study.worlds));
+  return world;
+}
+
+measures::MoveEvent event_to_ask(const command_line::Arguments& arguments, const study::Study& study) {
+  if (const std::optional<std::string> text = arguments.value("event"))
+    return measures::parse_event(study, *text);
+  if (const std::optional<measures::MoveEvent> event = measures::missed_goal(study)) return *event;
+  throw Failure(ExitCode::bad_input,
+                fmt::format("{}: its manifest has no goal; expected one such as goal: {{band: 1, within: "
+                            "0.05, moves: 0.99}}, or an event with --event 'MEASURE > x'",
+                            arguments.operands()[0]));
+}
+
+rare::RareSettings settings_of(const command_line::Arguments& arguments) {
+  rare::RareSettings settings;
+  settings.output = command_line::output_place(arguments);
+  settings.confidence = command_line::probability_option(arguments, "confidence").value_or(usual_confidence);
+  settings.ratio = command_line::number_option(arguments, "ratio", 1.0).value_or(settings.ratio);
+  const command_line::Budget budget = command_line::budget_option(arguments);
+  settings.max_trials = budget.trials;
+  settings.seconds = budget.seconds;
+  if (!budget.trials && !budget.seconds) settings.max_trials = usual_trials;
+  settings.quiet = arguments.has("quiet");
+  settings.force = arguments.has("force");
+  return settings;
+}
+
+ExitCode rare(const command_line::Arguments& arguments) {
+  const rare::RareSettings settings = settings_of(arguments);
+  const study::Study study = commands::load_study(arguments.operands()[0], arguments, {&settings.output, 1});
+  const auto threads = static_cast<int>(arguments.whole_number("threads", 1, 4096).value_or(0));
+  const rare::Question question = rare::question_of(
+      study, point_to_ask(arguments, study), world_to_ask(arguments, study), event_to_ask(arguments, study));
+  if (question.coordinates.empty())
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: it draws nothing for each trial; expected distributions, such as "
+                              "friction.k1: {{lognormal: {{median: 110, cv: 0.1}}}}",
+                              arguments.operands()[0]));
+  const parallel::ThreadLimit limit(study_run::threads_to_use(threads));
+  commands::print_warnings(study);
+  plugins::require_no_hidden_state(study);
+  const study_run::InterruptionWatch interruption;
+  const storage::OutputLock lock(settings.output);
+  commands::print_fallback_lock(lock, settings.output);
+  storage::require_replaceable(settings.output);
+  const rare::RareAnswer answer = rare::run_rare(question, settings, interruption.token());
+  if (arguments.choice("format") == "json") {
+    standard_output::write(rare::json_of(answer, question));
+  } else {
+    standard_output::write_fitted(rare::text_of(answer, question, settings.output.string()));
+  }
+  return answer.estimate.status == rare::EstimateStatus::estimated ? ExitCode::success
+                                                                   : ExitCode::inconclusive;
+}
+
+}  // namespace
+
+commands::Command rare_command() {
+  return {{"rare",
+           "MANIFEST -o FILE",
+           {{"output,o", "FILE", "the file of the weighted trials (required)"},
+            command_line::format_option({"text", "json"}),
+            {"event", "EVENT", "in place of a missed goal: MEASURE > x, with > >= < or <="},
+            {"point", "P", "the design point, by label or number"},
+            {"world", "W", "the world, of a study with worlds"},
+            {"confidence", "C", "of both bounds together (default 0.95)"},
+            {"ratio", "R", "how narrow: high at most R times low (default 2)"},
+            {"budget", "B", "a number of trials (default 1000000), or a time such as 60s, 5min or 2h"},
+            {"threads", "N", "threads to use; default: all cores"},
+            {"set", "KEY=VALUE", "override a manifest key; may be repeated", true},
+            {"quiet,q", "", "print no progress"},
+            command_line::force_option()}},
+          "the probability of a failure that plain trials do not see",
+          rare_help,
+          rare};
+}
+
+}  // namespace zerocount::design_commands

@@ -1,0 +1,214 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "analysis/experiment_design/experiment_design.hpp"
+#include "analysis/report/experiment_page.hpp"
+#include "core/text/number_text.hpp"
+#include "runners/command_line/option_values.hpp"
+#include "runners/command_line/output_place.hpp"
+#include "runners/commands/command.hpp"
+#include "runners/commands/figure_picture.hpp"
+#include "runners/commands/stage_progress.hpp"
+#include "runners/commands/study_argument.hpp"
+#include "runners/identification_commands/identification_commands.hpp"
+#include "runners/standard_output/standard_output.hpp"
+
+namespace zerocount::identification_commands {
+namespace {
+
+constexpr const char* experiment_help =
+    "Designs the material test of an axis: the torque (force) over time to command open loop, so that\n"
+    "'zerocount identify' can tell the friction, the damping and the inertia from the record. The\n"
+    "manifest has rough guesses; the wider the distributions, the more careful the test. Pulses, ramps\n"
+    "with reversals and holds are chosen so that the parameters come out as narrow as possible for\n"
+    "this encoder, its noise and this converter, on machines drawn from the manifest, among the\n"
+    "protocols that are safe on all of them: none breaks away, none travels beyond --travel.\n"
+    "\n"
+    "The answer is the intervals to expect, by identifying a simulated record of the machine with\n"
+    "the median of every guess, and what cannot be told from it. Beside them is how wide they\n"
+    "are over the drawn machines, by the linear theory.\n"
+    "\n"
+    "-o writes the torque as a table (t, torque or force, DAC code). After the test add a column of\n"
+    "counts, and it is a record for identify. --streamer writes one torque per line, for LinuxCNC's\n"
+    "'loadrt streamer cfg=f' in a thread of the sample rate. The contact must be unloaded and virgin\n"
+    "at the first sample: let the axis slide, and set the torque to 0.\n"
+    "\n"
+    "If the guesses are far off, put the fragment that identify writes in their place, and design\n"
+    "a second experiment.\n"
+    "\n"
+    "Example: zerocount experiment my-axis.yaml -o torque.csv --streamer torque.txt\n";
+
+double positive_option(const command_line::Arguments& arguments, const std::string& option, double usual,
+                       double most, std::string_view expected) {
+  const std::optional<std::string> text = arguments.value(option);
+  if (!text) return usual;
+  const std::optional<double> number = text::parse_number<double>(*text);
+  if (!number || !(*number > 0.0) || !(*number <= most))
+    arguments.refuse(fmt::format("option '--{}': '{}' is not {}", option, *text, expected));
+  return *number;
+}
+
+/// "40", a number of protocols, or "30s", "2min".
+void read_budget(const command_line::Arguments& arguments, experiment_design::SearchSettings& search) {
+  const std::optional<std::string> text = arguments.value("budget");
+  if (!text) return;
+  if (const auto protocols = text::parse_number<int>(*text); protocols && *protocols > 0) {
+    search.max_protocols = *protocols;
+    return;
+  }
+  double seconds = 0.0;
+  for (const auto& [unit, factor] : {std::pair{"min", 60.0}, std::pair{"s", 1.0}}) {
+    const std::string_view whole = *text;
+    if (seconds > 0.0 || !whole.ends_with(unit)) continue;
+    const auto number =
+        text::parse_number<double>(whole.substr(0, whole.size() - std::string_view(unit).size()));
+    if (number && std::isfinite(*number)) seconds = *number * factor;
+  }
+  if (!(seconds > 0.0))
+    arguments.refuse(
+        fmt::format("option '--budget': '{}' is no budget; expected a number of protocols, or a "
+                    "time such as 30s or 2min",
+                    *text));
+  search.max_protocols = std::numeric_limits<int>::max();
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  search.go_on = [end](int) { return std::chrono::steady_clock::now() < end; };
+}
+
+/// The files to write besides standard output.
+struct ExperimentOutputs {
+  std::optional<std::filesystem::path> protocol;
+  std::optional<std::filesystem::path> streamer;
+  std::optional<std::filesystem::path> record;
+  std::optional<std::filesystem::path> plot;
+  commands::DrawingKind plot_kind{commands::DrawingKind::page};
+};
+
+ExperimentOutputs experiment_outputs(const command_line::Arguments& arguments) {
+  const auto place = [&](const char* option) { return command_line::text_place(arguments, option); };
+  ExperimentOutputs outputs{place("output"), place("streamer"), place("record"), place("plot")};
+  if (outputs.plot) outputs.plot_kind = commands::drawing_kind(arguments, "plot", *outputs.plot);
+  return outputs;
+}
+
+/// The study; none of the outputs is a file that it is read from.
+study::Study experiment_study(const command_line::Arguments& arguments, const ExperimentOutputs& outputs) {
+  std::vector<std::filesystem::path> places;
+  for (const auto& place : {outputs.protocol, outputs.streamer, outputs.record, outputs.plot}) {
+    if (place) places.push_back(*place);
+  }
+  command_line::require_places(arguments, {arguments.operands()[0]}, places);
+  return commands::load_study(arguments.operands()[0], arguments, places);
+}
+
+std::string_view label(identification::EstimateStatus status) {
+  return status == identification::EstimateStatus::estimated ? "estimated" : "not_identifiable";
+}
+
+std::string design_json(const experiment_design::ExperimentDesign& design) {
+  using nlohmann::ordered_json;
+  const auto number = [](double value) {
+    return std::isfinite(value) ? ordered_json(value) : ordered_json();
+  };
+  ordered_json json{{"name", design.study},
+                    {"axis", parameters::axis_labels.at(static_cast<std::size_t>(design.frame.axis))},
+                    {"sample_time", design.frame.sample_time},
+                    {"samples", design.frame.samples},
+                    {"max_torque", design.frame.max_torque},
+                    {"least_breakaway", design.least_breakaway},
+                    {"travel", design.travel},
+                    {"machines", design.machines},
+                    {"protocols", design.search.protocols},
+                    {"converged", design.search.converged},
+                    {"residuals_passed", design.identification.checks.passed},
+                    {"segments", ordered_json::array()},
+                    {"parameters", ordered_json::array()}};
+  for (const experiment_design::ProtocolSegment& segment : design.segments)
+    json["segments"].push_back({{"to", segment.to}, {"samples", segment.samples}});
+  for (const experiment_design::ExpectedParameter& parameter : design.parameters) {
+    const bool told = parameter.told > 0;
+    json["parameters"].push_back({{"key", parameter.key},
+                                  {"unit", parameter.unit},
+                                  {"guess", parameter.guess},
+                                  {"status", label(parameter.found.status)},
+                                  {"low", number(parameter.found.low)},
+                                  {"high", number(parameter.found.high)},
+                                  {"told", parameter.told},
+                                  {"narrowest", told ? number(parameter.narrowest) : ordered_json()},
+                                  {"widest", told ? number(parameter.widest) : ordered_json()},
+                                  {"reason", parameter.found.reason}});
+  }
+  return json.dump(2) + "\n";
+}
+
+ExitCode experiment(const command_line::Arguments& arguments) {
+  const ExperimentOutputs outputs = experiment_outputs(arguments);
+  const study::Study study = experiment_study(arguments, outputs);
+  experiment_design::DesignSettings settings;
+  constexpr double longest = 3600.0;  // s
+  settings.duration =
+      positive_option(arguments, "duration", settings.duration, longest, "a duration of up to 3600 s");
+  settings.max_torque = positive_option(arguments, "max-torque", settings.max_torque, 0.95,
+                                        "a proportion of the breakaway torque, above 0 and up to 0.95");
+  settings.max_travel = positive_option(arguments, "travel", settings.max_travel, settings.max_travel,
+                                        "a positive travel, in rad or, on a linear axis, m");
+  settings.machines = arguments.whole_number("machines", 1, 1000).value_or(settings.machines);
+  settings.point = command_line::point_option(arguments, study.point_labels).value_or(0);
+  read_budget(arguments, settings.search);
+  const experiment_design::ExperimentDesign design = [&] {
+    commands::StageProgress progress("zerocount experiment", arguments.has("quiet"));
+    settings.report = [&](std::string_view stage) { progress.enter(stage); };
+    return experiment_design::design_experiment(study, settings);
+  }();
+  if (outputs.protocol)
+    command_line::write_text(*outputs.protocol, experiment_design::protocol_table(design));
+  if (outputs.streamer)
+    command_line::write_text(*outputs.streamer, experiment_design::streamer_file(design.protocol));
+  if (outputs.record) command_line::write_text(*outputs.record, experiment_design::record_table(design));
+  if (outputs.plot)
+    command_line::write_text(*outputs.plot,
+                             commands::drawing(report::experiment_page(design), outputs.plot_kind));
+  if (arguments.choice("format") == "json") {
+    standard_output::write(design_json(design));
+  } else {
+    standard_output::write_fitted(experiment_design::design_text(design));
+  }
+  const bool any = std::ranges::any_of(design.parameters, [](const auto& parameter) {
+    return parameter.found.status == identification::EstimateStatus::estimated;
+  });
+  return any && design.identification.checks.passed ? ExitCode::success : ExitCode::inconclusive;
+}
+
+}  // namespace
+
+commands::Command experiment_command() {
+  return {{"experiment",
+           "MANIFEST",
+           {{"output,o", "FILE", "write the torque over time there, as CSV"},
+            {"streamer", "FILE", "write the torque there for LinuxCNC's streamer"},
+            {"record", "FILE", "write the simulated record of the median machine there, as CSV"},
+            {"plot", "FILE", "draw the torque and the expected readings: a page (*.html), *.svg or *.png"},
+            {"duration", "S", "of the record (default 10)"},
+            {"travel", "X", "largest distance from the start, rad or m (default: what breakaway allows)"},
+            {"max-torque", "P", "largest torque, as a proportion of the breakaway torque (default 0.7)"},
+            {"machines", "N", "machines drawn from the manifest (default 16)"},
+            {"budget", "B", "protocols to try (default 80), or a time such as 30s"},
+            {"point", "P", "design point, by label or number from 0 (default 0)"},
+            {"set", "KEY=VALUE", "override a manifest key; may be repeated", true},
+            command_line::format_option({"text", "json"}),
+            {"quiet,q", "", "print no progress"},
+            command_line::needing({"output", "streamer", "record", "plot"}, command_line::force_option())}},
+          "design the torque over time from which identify tells the friction",
+          experiment_help,
+          experiment};
+}
+
+}  // namespace zerocount::identification_commands

@@ -1,0 +1,446 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/identification/checked_record.hpp"
+#include "analysis/identification/identification.hpp"
+#include "analysis/records/raw_series.hpp"
+#include "analysis/report/identification_page.hpp"
+#include "analysis/sliding_identification/sliding_identification.hpp"
+#include "results/reading/study_file.hpp"
+#include "runners/command_line/option_values.hpp"
+#include "runners/command_line/output_place.hpp"
+#include "runners/commands/command.hpp"
+#include "runners/commands/figure_picture.hpp"
+#include "runners/commands/stage_progress.hpp"
+#include "runners/identification_commands/identification_commands.hpp"
+#include "runners/identification_commands/identify_laws.hpp"
+#include "runners/identification_commands/record_options.hpp"
+#include "runners/status/status.hpp"
+
+namespace zerocount::identification_commands {
+namespace {
+
+constexpr const char* identify_help =
+    "Identifies the rotor and its friction from material tests: records of torque, angle and\n"
+    "time before sliding, where a record ends. k1, k2 and beta come from slow loading and\n"
+    "unloading, the damping and the inertia from the ringing after a step of the torque, alpha,\n"
+    "lambda and n from creep at constant torque; all are fitted together, with 95 % confidence\n"
+    "intervals. A record may have only some of these tests: parameters that it does not determine\n"
+    "are listed with the reason. Several records must be tests of the same contact.\n"
+    "\n"
+    "A table (CSV) has the columns t (s), torque or drive_torque (N m), and theta (rad) or\n"
+    "count, for which --counts-per-revolution is needed; 'zerocount trace' writes such tables.\n"
+    "That of a linear axis has force or drive_force (N), and position (m) or count with\n"
+    "--resolution; a trace of a linear axis needs --axis linear.\n"
+    "--column names other columns and their units: QUANTITY=COLUMN, or QUANTITY=COLUMN[UNIT]\n"
+    "with factors *NUMBER and /NUMBER that convert it, such as *0.87 for 0.87 N m/A.\n"
+    "Quantities are time, torque or force, drive_torque or drive_force, angle or position, and\n"
+    "repetition. COLUMN is a name in the header, #NUMBER, or the path of a dataset in an HDF5 or\n"
+    "MAT v7.3 file. A new repetition of the tests begins where the column of the repetition\n"
+    "changes, or the time starts again.\n"
+    "A results file has the traces of the trials that its manifest retains, of which all points\n"
+    "of one axis are taken, unless --point chooses; the encoder's counts are used. At its first\n"
+    "sample the contact must be unloaded and virgin, or have the state given by --preload and\n"
+    "--hardening.\n"
+    "\n"
+    "--sliding takes motion records instead, in which the axis slides to and fro, under open or\n"
+    "closed loop, and finds the inertia, the viscous damping, the Coulomb level and, if visible,\n"
+    "the Stribeck curve.\n"
+    "\n"
+    "--model fits another friction law to the same tests (lugre, dahl, gms, spring), and --model all\n"
+    "compares them by their residuals and by Schwarz's information criterion BIC, where a difference of\n"
+    "10 is very strong evidence. The parameters are those of the law with the lowest BIC.\n"
+    "--series-compliance also fits the compliance of a fixture that yields under the torque.\n"
+    "\n"
+    "The output ends with the result as a fragment of a manifest; --format yaml prints only\n"
+    "this. Its parameters are drawn independently; --posterior writes joint draws, for the key\n"
+    "samples of a manifest. --plot draws each record with the fit, its residuals, and the torque\n"
+    "over the angle: as a page (.html), or one record as a picture (.svg or .png), which needs node,\n"
+    "and rsvg-convert for PNG (Debian: nodejs, librsvg2-bin).\n"
+    "\n"
+    "Unsuitable records are refused with the reason and exit code 4, files that are not such\n"
+    "tables with exit code 2. The exit code is 3 if nothing can be identified, or if encoder and\n"
+    "noise do not explain the residuals: the result is printed, but must not be trusted.\n"
+    "\n"
+    "Examples: zerocount identify ramps.csv steps.csv holds.csv --counts-per-revolution 1620000\n"
+    "          zerocount identify tests.h5 --format yaml -o friction.yaml\n"
+    "          zerocount identify tests.h5 --point 0 --point 1 --plot fit.html\n"
+    "          zerocount identify log.txt --column time=t[ms] --column 'torque=I[A]*0.87' \\\n"
+    "            --column 'angle=pos[mm]/10'\n";
+
+std::optional<std::string> column_option(const command_line::Arguments& arguments, const char* name,
+                                         const std::vector<std::string>& columns) {
+  if (!arguments.has(name)) return std::nullopt;
+  return arguments.one_of(name, columns);
+}
+
+/// A lower bandwidth is implausible for a positioning drive, and not identifiable from the samples.
+std::optional<double> bandwidth_option(const command_line::Arguments& arguments) {
+  constexpr double least = 0.01;
+  const std::optional<double> bandwidth = command_line::number_option(arguments, "amplifier-bandwidth", 0.0);
+  if (bandwidth && *bandwidth > 0.0 && *bandwidth < least) {
+    arguments.refuse(fmt::format(
+        "option '--amplifier-bandwidth': {:g} Hz; expected 0 (ideal amplifier), or {} Hz at least",
+        *bandwidth, least));
+  }
+  return bandwidth;
+}
+
+std::optional<double> delay_option(const command_line::Arguments& arguments) {
+  constexpr double most = 1e6;
+  const std::optional<double> delay = command_line::number_option(arguments, "delay", 0.0);
+  if (delay && *delay > most)
+    arguments.refuse(fmt::format("option '--delay': {:g} samples; expected up to {:g}", *delay, most));
+  return delay;
+}
+
+/// The size of a count (rad or m), by the option of the kind of axis.
+std::optional<double> count_size_option(const command_line::Arguments& arguments,
+                                        const records::SeriesChoice& choice) {
+  const auto counts = command_line::number_option(arguments, "counts-per-revolution", 1.0);
+  const auto resolution =
+      command_line::number_option(arguments, "resolution", std::numeric_limits<double>::min());
+  if (counts && resolution) {
+    arguments.refuse("options '--counts-per-revolution' and '--resolution' exclude each other");
+  }
+  if (counts && choice.linear) {
+    arguments.refuse("option '--counts-per-revolution' is of a rotary axis; expected '--resolution'");
+  }
+  return counts ? std::optional(2.0 * std::numbers::pi / *counts) : resolution;
+}
+
+records::SeriesChoice series_choice(const command_line::Arguments& arguments) {
+  constexpr double any = -std::numeric_limits<double>::infinity();
+  records::SeriesChoice choice;
+  choice.torque = column_option(arguments, "torque", {"torque", "drive_torque", "force", "drive_force"});
+  choice.angle = column_option(arguments, "angle", {"count", "theta", "position"});
+  choice.bandwidth = bandwidth_option(arguments);
+  choice.delay = delay_option(arguments);
+  choice.dac_bits = arguments.whole_number("dac-bits", 2, 32);
+  choice.preload = command_line::number_option(arguments, "preload", any);
+  choice.hardening = command_line::number_option(arguments, "hardening", 0.0);
+  set_columns(arguments, choice);
+  choice.linear =
+      arguments.choice("axis") == "linear" ||
+      std::any_of(choice.columns.begin(), choice.columns.end(),
+                  [](const records::ColumnMapping& one) { return records::is_linear(one.quantity); });
+  if (arguments.has("axis") && arguments.choice("axis") == "rotary" && choice.linear)
+    arguments.refuse("'--axis rotary' has a torque and an angle, '--column' gives a force or a position");
+  choice.rotary = (arguments.has("axis") && !choice.linear) || arguments.has("counts-per-revolution");
+  choice.count_size = count_size_option(arguments, choice);
+  return choice;
+}
+
+/// The least value of a known parameter.
+double least_known(identification::Coordinate coordinate) {
+  if (coordinate == identification::time_offset) return -identification::max_time_offset;
+  return coordinate == identification::creep_exponent ? 1.0 : std::numeric_limits<double>::min();
+}
+
+/// "KEY=VALUE".
+identification::KnownParameter known_parameter(const command_line::Arguments& arguments,
+                                               const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const std::string key = text.substr(0, equals);
+  const auto found =
+      std::find(identification::coordinate_keys.begin(), identification::coordinate_keys.end(), key);
+  if (equals == std::string::npos || found == identification::coordinate_keys.end()) {
+    arguments.refuse(fmt::format("option '--fix': '{}' is not KEY=VALUE with KEY one of {}", text,
+                                 fmt::join(identification::coordinate_keys, ", ")));
+  }
+  const auto coordinate =
+      static_cast<identification::Coordinate>(found - identification::coordinate_keys.begin());
+  const double value =
+      command_line::number_from(arguments, "fix", text.substr(equals + 1), least_known(coordinate));
+  if (coordinate == identification::time_offset && value > identification::max_time_offset) {
+    arguments.refuse(
+        fmt::format("option '--fix': a time offset of {:g} samples; expected {:g} to {:g}; "
+                    "put a larger one into --delay",
+                    value, -identification::max_time_offset, identification::max_time_offset));
+  }
+  return {coordinate, value};
+}
+
+identification::IdentificationOptions identification_options(const command_line::Arguments& arguments) {
+  identification::IdentificationOptions options;
+  for (const std::string& text : arguments.values("fix")) {
+    options.known.push_back(known_parameter(arguments, text));
+    const auto same = [&](const identification::KnownParameter& known) {
+      return known.coordinate == options.known.back().coordinate;
+    };
+    if (std::any_of(options.known.begin(), options.known.end() - 1, same)) {
+      arguments.refuse(fmt::format("option '--fix': '{}' is fixed twice", text.substr(0, text.find('='))));
+    }
+  }
+  if (arguments.has("posterior")) {
+    constexpr std::int64_t least = 1, most = 10'000, usual = 1000;
+    options.draws = static_cast<std::size_t>(arguments.whole_number("draws", least, most).value_or(usual));
+  }
+  constexpr double least = 0.1;
+  options.effort = command_line::number_option(arguments, "effort", least).value_or(1.0);
+  return options;
+}
+
+/// The chosen points, or all that keep the trace of the trial and are of one axis.
+std::vector<std::int64_t> points_of(const command_line::Arguments& arguments, const std::string& path,
+                                    std::int64_t index) {
+  if (arguments.has("point")) {
+    return command_line::point_options(arguments, reading::StudyFile(path).point_labels());
+  }
+  const records::TracedPoints traced = records::traced_points(path, index);
+  if (!traced.left_out.empty()) {
+    status::tell("zerocount identify: {}: left out, because plant or friction has other values there: {}\n",
+                 path, fmt::join(traced.left_out, ", "));
+  }
+  return traced.points;
+}
+
+/// Refuses options that no record is read by.
+void refuse_options_without_file(const command_line::Arguments& arguments,
+                                 const std::vector<RecordFile>& files) {
+  const auto any = [&](RecordFile kind) { return std::ranges::find(files, kind) != files.end(); };
+  const auto require = [&](bool there, std::initializer_list<const char*> options, const char* what) {
+    for (const char* option : options) {
+      if (!there && arguments.has(option))
+        arguments.refuse(fmt::format("option '--{}' needs {}", option, what));
+    }
+  };
+  require(any(RecordFile::results), {"point", "trial"}, "a results file");
+  require(any(RecordFile::table), {"separator"}, "a text table");
+  require(any(RecordFile::table) || any(RecordFile::datasets), {"sample-time", "axis", "any-magnitude"},
+          "a table; a results file says this itself");
+}
+
+/// Refuses options of which no record that was read has anything.
+void refuse_options_without_effect(const command_line::Arguments& arguments,
+                                   const std::vector<records::RawSeries>& series) {
+  const auto counted = [](const records::RawSeries& one) { return one.count_size > 0.0; };
+  if (std::ranges::none_of(series, counted)) {
+    for (const char* option : {"counts-per-revolution", "resolution"}) {
+      if (!arguments.has(option)) continue;
+      arguments.refuse(fmt::format(
+          "option '--{}' has no effect, because the {} is not in counts; expected a column count, or "
+          "--column '{}=COLUMN[count]'",
+          option, series.front().linear ? "position" : "angle",
+          series.front().linear ? "position" : "angle"));
+    }
+  }
+  const auto coded = [](const records::RawSeries& one) { return !one.code.empty(); };
+  if (arguments.has("dac-bits") && std::ranges::none_of(series, coded))
+    arguments.refuse("option '--dac-bits' has no effect without a column code");
+}
+
+std::vector<records::RawSeries> read_all_series(const command_line::Arguments& arguments) {
+  const records::SeriesChoice choice = series_choice(arguments);
+  const std::vector<std::string>& paths = arguments.operands();
+  std::vector<RecordFile> files;
+  files.reserve(paths.size());
+  for (const std::string& path : paths) files.push_back(record_file(path, choice));
+  refuse_options_without_file(arguments, files);
+  std::vector<records::RawSeries> found;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const std::string& path = paths[i];
+    if (files[i] != RecordFile::results) {
+      for (records::RawSeries& series : read_series(path, choice)) found.push_back(std::move(series));
+      continue;
+    }
+    constexpr std::int64_t most = std::int64_t{1} << 53;
+    const std::int64_t index = arguments.whole_number("trial", 0, most).value_or(0);
+    for (const std::int64_t point : points_of(arguments, path, index)) {
+      found.push_back(records::read_study_series(path, point, index, choice));
+    }
+  }
+  for (const records::RawSeries& series : found) {
+    for (const std::string& note : series.notes)
+      status::tell("zerocount identify: {}: {}\n", series.name, note);
+  }
+  refuse_options_without_effect(arguments, found);
+  exclude_times(arguments, found);
+  return found;
+}
+
+/// Windows of sliding begin at samples, and so must their torque.
+void refuse_fractional_delay(const command_line::Arguments& arguments) {
+  const std::optional<double> delay = delay_option(arguments);
+  if (delay && *delay != std::floor(*delay)) {
+    arguments.refuse(
+        fmt::format("option '--delay': {:g} samples; expected a whole number with --sliding", *delay));
+  }
+}
+
+std::string identify_sliding_axis(const command_line::Arguments& arguments, const std::string& format) {
+  std::vector<sliding_identification::SlidingRecord> found;
+  for (const records::RawSeries& series : read_all_series(arguments)) {
+    found.push_back(sliding_identification::sliding_record(series));
+    if (found.back().axis != found.front().axis) {
+      arguments.refuse("the records are of a linear and of a rotary axis; expected one axis");
+    }
+  }
+  const auto result = sliding_identification::identify_sliding(std::move(found));
+  return format == "json"   ? sliding_identification::sliding_json(result)
+         : format == "yaml" ? sliding_identification::sliding_fragment(result)
+                            : sliding_identification::sliding_text(result);
+}
+
+std::vector<identification::TestRecord> read_records(const command_line::Arguments& arguments) {
+  std::vector<identification::TestRecord> found;
+  for (const records::RawSeries& series : read_all_series(arguments)) {
+    found.push_back(identification::checked_record(series, arguments.has("any-magnitude")));
+  }
+  return found;
+}
+
+identification::Identification identify_with_progress(const command_line::Arguments& arguments,
+                                                      std::vector<identification::TestRecord> records,
+                                                      identification::IdentificationOptions options) {
+  commands::StageProgress progress("zerocount identify", arguments.has("quiet"));
+  options.report = [&](std::string_view stage) { progress.enter(stage); };
+  return identification::identify(std::move(records), options);
+}
+
+/// The output files and streams.
+struct IdentifyOutputs {
+  std::filesystem::path report;
+  std::optional<std::filesystem::path> posterior;
+  std::optional<std::filesystem::path> plot;
+  commands::DrawingKind plot_kind{commands::DrawingKind::page};
+};
+
+IdentifyOutputs identify_outputs(const command_line::Arguments& arguments) {
+  IdentifyOutputs outputs{command_line::text_place(arguments, "output").value_or("-"),
+                          command_line::text_place(arguments, "posterior"),
+                          command_line::text_place(arguments, "plot")};
+  std::vector<std::filesystem::path> places{outputs.report};
+  if (outputs.posterior) places.push_back(*outputs.posterior);
+  if (outputs.plot) {
+    places.push_back(*outputs.plot);
+    outputs.plot_kind = commands::drawing_kind(arguments, "plot", *outputs.plot);
+  }
+  command_line::require_places(arguments, {arguments.operands().begin(), arguments.operands().end()}, places);
+  return outputs;
+}
+
+/// A picture has room for one record.
+void refuse_picture_of_several(const command_line::Arguments& arguments, const IdentifyOutputs& outputs,
+                               std::size_t records) {
+  if (!outputs.plot || outputs.plot_kind == commands::DrawingKind::page || records == 1) return;
+  arguments.refuse(fmt::format(
+      "option '--plot': a picture shows one record, but there are {}; write a page (.html)", records));
+}
+
+void write_draws(const identification::Identification& found, std::size_t wanted,
+                 const std::filesystem::path& place) {
+  const std::string reason = identification::reason_of_missing_draws(found.draws, wanted);
+  if (found.draws.rows.empty()) {
+    status::tell("zerocount identify: {} is not written: {}\n", place.string(), reason);
+    return;
+  }
+  if (!reason.empty()) status::tell("zerocount identify: {}: {}\n", place.string(), reason);
+  command_line::write_text(place, identification::posterior_table(found));
+}
+
+/// Writes the result, with a message if it must not be trusted.
+ExitCode write_identification(const identification::Identification& found, const std::string& format,
+                              const IdentifyOutputs& outputs, std::size_t wanted_draws) {
+  command_line::write_text(outputs.report, format == "json"   ? identification::identification_json(found)
+                                           : format == "yaml" ? identification::manifest_fragment(found)
+                                                              : identification::identification_text(found));
+  if (outputs.posterior) write_draws(found, wanted_draws, *outputs.posterior);
+  if (outputs.plot) {
+    command_line::write_text(*outputs.plot,
+                             commands::drawing(report::identification_page(found), outputs.plot_kind));
+  }
+  return identification_verdict(found.parameters, found.checks);
+}
+
+ExitCode identify_records(const command_line::Arguments& arguments) {
+  const std::string format = arguments.choice("format");
+  identification::IdentificationOptions options = identification_options(arguments);
+  const IdentifyOutputs outputs = identify_outputs(arguments);
+  if (arguments.has("sliding")) {
+    refuse_fractional_delay(arguments);
+    command_line::write_text(outputs.report, identify_sliding_axis(arguments, format));
+    return ExitCode::success;
+  }
+  const law_identification::LawChoice choice = chosen_laws(arguments);
+  if (!choice.laws.empty()) {
+    refuse_options_beside_laws(arguments);
+    const LawsReport compared = identify_laws(arguments, choice, read_records(arguments), format);
+    command_line::write_text(outputs.report, compared.text);
+    return compared.code;
+  }
+  const std::size_t wanted_draws = options.draws;
+  std::vector<identification::TestRecord> records = read_records(arguments);
+  refuse_picture_of_several(arguments, outputs, records.size());
+  return write_identification(identify_with_progress(arguments, std::move(records), std::move(options)),
+                              format, outputs, wanted_draws);
+}
+
+/// An option of material tests.
+command_line::OptionSpec of_tests(command_line::OptionSpec option) {
+  return command_line::excluding({"sliding"}, std::move(option));
+}
+
+std::vector<command_line::OptionSpec> identify_options() {
+  std::vector<command_line::OptionSpec> options{
+      {"counts-per-revolution", "N", "resolution of the encoder, for an angle in counts"},
+      {"resolution", "SIZE", "size of a count, m (rad on a rotary axis), for a position in counts"},
+      command_line::choice_option("axis", "AXIS", {"rotary", "linear"},
+                                  "kind of axis of a table with the columns of zerocount trace")};
+  const auto append = [&](const std::vector<command_line::OptionSpec>& more) {
+    options.insert(options.end(), more.begin(), more.end());
+  };
+  append(column_options());
+  for (command_line::OptionSpec& option : law_options()) options.push_back(of_tests(std::move(option)));
+  append(
+      {{"sliding", "", "identify inertia and sliding friction from motion records"},
+       {"angle", "COLUMN",
+        "count, theta or position, if several exist (default count, if its size is given)"},
+       {"torque", "COLUMN", "torque, drive_torque, force or drive_force, if several exist (default drive_…)"},
+       {"amplifier-bandwidth", "HZ", "bandwidth of the amplifier (default 0: ideal amplifier)"},
+       {"delay", "SAMPLES",
+        "delay of the column torque, such as 1.5 (default 0); the time offset is fitted about it"},
+       of_tests({"dac-bits", "BITS", "word length of the converter of the column code, to detect clipping"}),
+       of_tests(
+           {"preload", "TORQUE", "torque of a slow load and unload before the test, N m or N (default 0)"}),
+       of_tests({"hardening", "XH", "work hardening before the test, rad or m (default 0)"}),
+       of_tests({"fix", "KEY=VALUE",
+                 "a known parameter, such as friction.n=2 or time_offset=0; may be repeated", true}),
+       of_tests({"effort", "FACTOR",
+                 "time for other starting points, if the first does not fit (default 1: about 20 s)"}),
+       of_tests({"any-magnitude", "", "accept values that suggest other units"}),
+       of_tests({"posterior", "FILE", "write joint draws of the parameters there, for the key samples"}),
+       command_line::needing({"posterior"},
+                             {"draws", "N", "number of joint draws (default 1000, up to 10000)"}),
+       of_tests(
+           {"plot", "FILE", "draw the fit: a page of all records (*.html), or one record as *.svg or *.png"}),
+       {"point", "P",
+        "design point in a results file, by label or number (default: all with a trace); may be repeated",
+        true},
+       {"trial", "I", "trial of the point (default 0)"},
+       command_line::format_option({"text", "json", "yaml"}),
+       {"output,o", "FILE", "write there instead of to standard output"},
+       {"quiet,q", "", "print no progress"},
+       command_line::needing({"output", "posterior", "plot"}, command_line::force_option())});
+  return options;
+}
+
+}  // namespace
+
+commands::Command identify_command() {
+  return {{"identify", "DATA.csv|FILE...", identify_options(), 1, 64},
+          "identify friction, damping and inertia from material tests",
+          identify_help,
+          identify_records};
+}
+
+}  // namespace zerocount::identification_commands

@@ -1,0 +1,90 @@
+#include "runners/identification_commands/identify_laws.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/law_identification/law_identification.hpp"
+#include "runners/commands/stage_progress.hpp"
+#include "runners/status/status.hpp"
+
+namespace zerocount::identification_commands {
+
+std::vector<command_line::OptionSpec> law_options() {
+  return {
+      {"model", "LAW",
+       fmt::format("friction law to fit, {} (default presliding), or all; may be repeated, to compare laws",
+                   fmt::join(law_identification::law_words(), ", ")),
+       true},
+      {"series-compliance", "", "fit the compliance of a fixture in series with the contact, too"}};
+}
+
+law_identification::LawChoice chosen_laws(const command_line::Arguments& arguments) {
+  const std::vector<std::string> words = law_identification::law_words();
+  std::vector<std::string> wanted;
+  for (const std::string& word : arguments.values("model")) {
+    if (word == "all") {
+      wanted = words;
+    } else if (std::find(words.begin(), words.end(), word) != words.end()) {
+      wanted.push_back(word);
+    } else {
+      arguments.refuse(
+          fmt::format("option '--model': '{}' is not one of {}, all", word, fmt::join(words, ", ")));
+    }
+  }
+  law_identification::LawChoice choice{{}, arguments.has("series-compliance")};
+  const std::string& usual = words.front();
+  if (wanted.empty() && choice.series_compliance) wanted.push_back(usual);
+  for (const std::string& word : words) {
+    if (std::find(wanted.begin(), wanted.end(), word) != wanted.end())
+      choice.laws.push_back(law_identification::law_of(word));
+  }
+  const bool presliding_alone = choice.laws.size() == 1 && wanted.front() == usual;
+  if (presliding_alone && !choice.series_compliance) choice.laws.clear();
+  return choice;
+}
+
+void refuse_options_beside_laws(const command_line::Arguments& arguments) {
+  for (const char* option : {"fix", "effort", "posterior", "plot"}) {
+    if (!arguments.has(option)) continue;
+    arguments.refuse(fmt::format(
+        "option '--{}' is only for the pre-sliding model, without '--model' and '--series-compliance'",
+        option));
+  }
+}
+
+ExitCode identification_verdict(std::span<const identification::ParameterEstimate> parameters,
+                                const record_fit::ResidualChecks& checks) {
+  if (!checks.passed) {
+    status::tell("zerocount identify: the result must not be trusted: {}\n",
+                 record_fit::reason_of_misfit(checks));
+    return ExitCode::inconclusive;
+  }
+  const bool any = std::ranges::any_of(parameters, [](const identification::ParameterEstimate& one) {
+    return one.status == identification::EstimateStatus::estimated;
+  });
+  if (any) return ExitCode::success;
+  status::tell("zerocount identify: no parameter is identifiable from these records\n");
+  return ExitCode::inconclusive;
+}
+
+LawsReport identify_laws(const command_line::Arguments& arguments,
+                         const law_identification::LawChoice& choice,
+                         std::vector<identification::TestRecord> records, const std::string& format) {
+  law_identification::LawComparison comparison;
+  {
+    commands::StageProgress progress("zerocount identify", arguments.has("quiet"));
+    comparison = law_identification::compare_laws(std::move(records), choice,
+                                                  [&](std::string_view stage) { progress.enter(stage); });
+  }
+  const law_identification::IdentifiedLaw& best = comparison.laws.front();
+  LawsReport report;
+  report.text = format == "json"   ? law_identification::comparison_json(comparison)
+                : format == "yaml" ? best.fragment
+                                   : law_identification::comparison_text(comparison);
+  report.code = identification_verdict(best.parameters, best.checks);
+  return report;
+}
+
+}  // namespace zerocount::identification_commands

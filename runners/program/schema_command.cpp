@@ -1,0 +1,35 @@
+#include "analysis/text/report_json.hpp"
+#include "experiments/manifest/json_schema.hpp"
+#include "runners/program/commands.hpp"
+#include "runners/program/shell_commands.hpp"
+#include "runners/standard_output/standard_output.hpp"
+
+namespace zerocount::program {
+namespace {
+
+/// The types of the answers of all commands.
+std::vector<document::AnswerType> answer_types() {
+  std::vector<document::AnswerType> types;
+  for (const commands::Command& command : commands())
+    types.insert(types.end(), command.answers.begin(), command.answers.end());
+  return types;
+}
+
+ExitCode print_schema(const command_line::Arguments& arguments) {
+  standard_output::write(text::json_text(arguments.has("answers") ? document::json_schema(answer_types())
+                                                                  : manifest::json_schema()));
+  return ExitCode::success;
+}
+
+}  // namespace
+
+commands::Command schema_command() {
+  return {
+      {"schema", "", {{"answers", "", "the schema of what the commands answer with --format json"}}, 0, 0},
+      "print the JSON Schema of manifests, for editors, or of answers",
+      "Example: zerocount schema > zerocount.schema.json, and in the manifest's first line\n"
+      "  # yaml-language-server: $schema=zerocount.schema.json\n",
+      print_schema};
+}
+
+}  // namespace zerocount::program

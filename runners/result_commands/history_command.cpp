@@ -1,0 +1,166 @@
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "analysis/history/database.hpp"
+#include "analysis/history/run_record.hpp"
+#include "analysis/history/series.hpp"
+#include "analysis/report/report.hpp"
+#include "results/reading/study_file.hpp"
+#include "runners/command_line/output_place.hpp"
+#include "runners/commands/command.hpp"
+#include "runners/commands/figure_picture.hpp"
+#include "runners/result_commands/result_commands.hpp"
+#include "runners/standard_output/standard_output.hpp"
+#include "runners/status/status.hpp"
+
+namespace zerocount::result_commands {
+namespace {
+
+constexpr const char* history_help =
+    "Results over time, in an SQLite database, which 'add' creates if it does not exist.\n"
+    "\n"
+    "history add FILE adds the measures of a results file that 'zerocount compare' judges (rates,\n"
+    "settling times, numbers of jerks), at every point, with 95 % bounds. With --compare also the\n"
+    "verdicts of a comparison of FILE with its baseline. A file is added only once.\n"
+    "\n"
+    "history show prints each series of values and where it changed: the runs and commits between\n"
+    "which the change lies, and the run since which it is significant. Runs of a changed manifest\n"
+    "are a new series; another seed or number of trials is not. The probability of a false alarm\n"
+    "is stated below the table. The method, and the tables of the database:\n"
+    "analysis/history/README.md\n"
+    "\n"
+    "history plot draws the series: values with bounds, and the first run after each change.\n"
+    "\n"
+    "Example: zerocount history add gains.h5 --database history.sqlite\n"
+    "         zerocount history show --database history.sqlite --point b --measure success_rate\n"
+    "         zerocount history plot --database history.sqlite -o history.html\n";
+
+std::filesystem::path database_of(const command_line::Arguments& arguments) {
+  return arguments.value("database").value_or("history.sqlite");
+}
+
+/// Says that another process holds the database, so that the command does not seem to hang.
+history::Wait patience_with(const std::filesystem::path& database) {
+  history::Wait wait;
+  wait.notify = [database, seconds = wait.seconds] {
+    status::tell("{}: another process is writing it; waiting for at most {:.0f} s\n", database.string(),
+                 seconds);
+  };
+  return wait;
+}
+
+history::SeriesFilter filter_of(const command_line::Arguments& arguments) {
+  return {arguments.value("study"), arguments.value("point"), arguments.value("measure")};
+}
+
+history::History history_shown(const command_line::Arguments& arguments) {
+  const std::filesystem::path database = database_of(arguments);
+  return history::history_of(history::read_runs(database, patience_with(database)), filter_of(arguments));
+}
+
+ExitCode add(const command_line::Arguments& arguments) {
+  if (arguments.operands().size() != 2) arguments.refuse("'history add' needs the results FILE to add");
+  const std::filesystem::path database = database_of(arguments);
+  const std::string file = arguments.operands()[1];
+  history::RunRecord run = history::record_of(reading::StudyFile(file));
+  if (const auto json = arguments.value("compare")) history::add_comparison(run, *json);
+  switch (history::add_run(database, run, patience_with(database))) {
+    case history::Addition::added:
+      status::tell("{}: added to {}\n", file, database.string());
+      break;
+    case history::Addition::already_there:
+      status::tell("{}: already in {}, nothing to do\n", file, database.string());
+      break;
+    case history::Addition::comparison_added:
+      status::tell("{}: already in {}; added its comparison\n", file, database.string());
+      break;
+  }
+  return ExitCode::success;
+}
+
+ExitCode show(const command_line::Arguments& arguments) {
+  const std::string format = arguments.choice("format");
+  const history::History shown = history_shown(arguments);
+  if (format == "text") standard_output::write_fitted(history::history_text(shown));
+  if (format == "json") standard_output::write(history::history_json(shown));
+  if (format == "csv") standard_output::write(history::history_csv(shown));
+  return ExitCode::success;
+}
+
+ExitCode plot_history(const command_line::Arguments& arguments) {
+  arguments.required("output");
+  const std::filesystem::path output = *command_line::text_place(arguments, "output");
+  const std::filesystem::path database = database_of(arguments);
+  const commands::DrawingKind kind = commands::drawing_kind(arguments, "output", output);
+  command_line::require_places(arguments, {database}, {output});
+  const history::History shown = history_shown(arguments);
+  if (kind != commands::DrawingKind::page && shown.series.size() > 1)
+    arguments.refuse(
+        fmt::format("a picture shows one series, but {} are selected; choose with --study, --point and "
+                    "--measure, or write a page (.html)",
+                    shown.series.size()));
+  command_line::write_text(output, commands::drawing(report::history_page(shown), kind));
+  return ExitCode::success;
+}
+
+/// An action on a history.
+struct HistoryAction {
+  std::string_view name;
+  ExitCode (*run)(const command_line::Arguments&);
+};
+
+std::vector<HistoryAction> actions() {
+  return {{"add", add}, {"show", show}, {"plot", plot_history}};
+}
+
+std::vector<std::string> names_of(const std::vector<HistoryAction>& all) {
+  std::vector<std::string> names;
+  names.reserve(all.size());
+  for (const HistoryAction& action : all) names.emplace_back(action.name);
+  return names;
+}
+
+ExitCode run_history(const command_line::Arguments& arguments) {
+  const std::vector<HistoryAction> all = actions();
+  const std::string& name = arguments.operands()[0];
+  const auto action = std::ranges::find(all, name, &HistoryAction::name);
+  if (name != "add" && arguments.operands().size() > 1)
+    arguments.refuse(fmt::format("'history {}' takes no file; name the history with --database", name));
+  return action->run(arguments);
+}
+
+}  // namespace
+
+commands::Command history_command() {
+  return {{"history",
+           "add FILE | show | plot -o PLOT",
+           {{"database", "DB", "the history (default: history.sqlite)"},
+            command_line::of_operands(
+                {"add"}, {"compare", "FILE",
+                          "add: the output of 'zerocount compare --json FILE' for the results file"}),
+            command_line::of_operands({"show", "plot"}, {"study", "NAME", "only this study"}),
+            command_line::of_operands({"show", "plot"}, {"point", "LABEL", "only this design point"}),
+            command_line::of_operands({"show", "plot"},
+                                      {"measure", "NAME", "only this measure, such as success_rate"}),
+            command_line::of_operands({"show"},
+                                      command_line::format_option({"text", "json", "csv"}, "of 'show'")),
+            command_line::of_operands(
+                {"plot"},
+                {"output,o", "PLOT", "plot: a page of all series (*.html), or one series as *.svg or *.png"}),
+            command_line::of_operands({"plot"}, command_line::force_option())},
+           1,
+           2,
+           names_of(actions())},
+          "results over time, with the runs at which they changed",
+          history_help,
+          run_history};
+}
+
+}  // namespace zerocount::result_commands

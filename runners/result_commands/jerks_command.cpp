@@ -1,0 +1,56 @@
+#include <string>
+#include <vector>
+
+#include "analysis/jerks/jerk_report.hpp"
+#include "results/layout/header.hpp"
+#include "results/reading/study_file.hpp"
+#include "runners/command_line/option_values.hpp"
+#include "runners/commands/command.hpp"
+#include "runners/result_commands/result_commands.hpp"
+#include "runners/standard_output/standard_output.hpp"
+#include "runners/status/status.hpp"
+
+namespace zerocount::result_commands {
+namespace {
+
+constexpr const char* jerks_help =
+    "Prints for each design point (or for the given ones) the rate of jerks over the time since\n"
+    "arrival, with bounds; the intervals between jerks; a test whether jerks slow down (Laplace);\n"
+    "the proportion in the direction of the holding torque; and the magnitudes. Some trials are\n"
+    "simulated again to compare their jerks with the closed form of creep at constant torque.\n"
+    "\n"
+    "Example: zerocount jerks fig8.h5 --format json\n";
+
+constexpr std::int64_t default_creep_trials = 20;
+
+ExitCode print_jerks(const command_line::Arguments& arguments) {
+  const std::string format = arguments.choice("format");
+  const double confidence =
+      command_line::probability_option(arguments, "confidence").value_or(statistics::summary_confidence);
+  const std::int64_t creep_trials =
+      arguments.whole_number("creep-trials", 0, 1'000'000).value_or(default_creep_trials);
+  const reading::StudyFile file(arguments.operands()[0]);
+  const study::Study study = layout::recorded_study(file.header(), file.path());
+  const std::vector<std::int64_t> points = command_line::point_options(arguments, study.point_labels);
+  const jerks::JerkReport report = jerks::jerk_report(file, study, points, confidence, creep_trials);
+  standard_output::write(format == "json" ? jerks::jerk_json_text(report) : jerks::jerk_text(report));
+  if (jerks::any_arrival(report)) return ExitCode::success;
+  status::tell("no move arrived, so there are no jerks\n");
+  return ExitCode::inconclusive;
+}
+
+}  // namespace
+
+commands::Command jerks_command() {
+  return {{"jerks",
+           "FILE",
+           {{"point", "P", "design point, by label or number; may be repeated (default: all)", true},
+            {"confidence", "LEVEL", "confidence of all bounds, between 0 and 1 (default 0.95)"},
+            {"creep-trials", "N", "trials per point to compare with creep (default 20)"},
+            command_line::format_option({"table", "json"})}},
+          "print the rate, intervals and trend of jerks",
+          jerks_help,
+          print_jerks};
+}
+
+}  // namespace zerocount::result_commands

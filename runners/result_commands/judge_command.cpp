@@ -1,0 +1,136 @@
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "analysis/goal/goal_description.hpp"
+#include "analysis/goal/goal_text.hpp"
+#include "analysis/summary/judged_point.hpp"
+#include "analysis/summary/summary_parts.hpp"
+#include "analysis/summary/worlds_description.hpp"
+#include "results/shards/pieces.hpp"
+#include "runners/answers/answer_format.hpp"
+#include "runners/command_line/option_values.hpp"
+#include "runners/commands/command.hpp"
+#include "runners/commands/study_argument.hpp"
+#include "runners/result_commands/result_commands.hpp"
+
+namespace zerocount::result_commands {
+namespace {
+
+constexpr const char* judge_help =
+    "Judges the best design point of a finished study by the goal in its manifest, such as\n"
+    "goal: {band: 1, within: 0.05, moves: 0.99, machines: 0.99, confidence: 0.95}: is the error\n"
+    "within 1 count for good after 0.05 s, in at least 99 % of the moves of at least 99 % of the\n"
+    "machines? One paragraph tells the point, the verdict, its bounds, and what would decide it.\n"
+    "The bounds of the best of several points allow for its choice; --point judges a point that\n"
+    "was chosen beforehand. In a study with worlds the goal must be met in each of them; the rates are\n"
+    "those of the worst world, and a rule says what the bad worlds have in common.\n"
+    "The exit code is 0 if the goal is met, 1 if it is missed, 3 if the trials do not decide it.\n"
+    "\n"
+    "Example: zerocount judge gains.h5\n"
+    "         zerocount judge gains.h5 --point 3 --format json\n";
+
+struct Judgement {
+  const summary::StudySummary& summary;
+  summary::JudgedPoint judged;
+  std::optional<worlds::PointWorlds> worlds;
+
+  const std::string& label() const { return summary.labels[static_cast<std::size_t>(judged.chosen.point)]; }
+  std::optional<double> of_machines(double bound) const {
+    return summary.goal->machines ? std::optional(bound) : std::nullopt;
+  }
+  std::optional<summary::WorldsReading> worlds_reading() const {
+    if (!worlds) return {};
+    return summary::WorldsReading{*worlds, summary::world_inputs_of(summary, judged.chosen.point)};
+  }
+};
+
+document::AnswerDescription<Judgement> judge_answer() {
+  using document::Shown;
+  using Of = const Judgement&;
+  document::AnswerDescription<Judgement> answer{
+      {.name = "judge", .meaning = "whether a study meets its goal"}, {}};
+  answer.items.headline([](Of j) { return summary::judgement_headline(j.summary, j.judged); })
+      .value({.key = "point", .meaning = "number of the design point", .shown = Shown::in_data},
+             [](Of j) { return j.judged.chosen.point; })
+      .value({.key = "label", .meaning = "label of the design point", .shown = Shown::in_data},
+             &Judgement::label)
+      .value({.key = "goal", .heading = "goal", .meaning = "the goal in words"},
+             [](Of j) { return goal::goal_sentence(*j.summary.goal); })
+      .value({.key = "status",
+              .meaning = "verdict on the goal",
+              .shown = Shown::in_data,
+              .words = goal::status_words()},
+             [](Of j) { return goal::text_of(j.judged.verdict.status); })
+      .value({.key = "rate",
+              .meaning = "proportion of moves that meet the goal, with one-sided bounds",
+              .unit = "1",
+              .shown = Shown::in_data},
+             [](Of j) { return goal::bounded(j.judged.verdict.moves); })
+      .value(
+          {.key = "machines_low",
+           .meaning = "lower bound of the proportion of machines that meet the goal, if it is about machines",
+           .unit = "1",
+           .shown = Shown::in_data},
+          [](Of j) { return j.of_machines(j.judged.verdict.machines.low); })
+      .value({.key = "machines_high", .meaning = "its upper bound", .unit = "1", .shown = Shown::in_data},
+             [](Of j) { return j.of_machines(j.judged.verdict.machines.high); })
+      .sentence([](Of j) { return summary::judgement_details(j.summary, j.judged); })
+      .value({.key = "chosen_from",
+              .meaning = "design points that the point is the best of; 1 if it was named",
+              .shown = Shown::in_data},
+             [](Of j) { return j.judged.chosen.chosen_from; })
+      .object({.key = "needed", .meaning = "study that would decide the goal", .shown = Shown::in_data},
+              goal::needs_description(), [](Of j) { return goal::practicable(j.judged.needs); })
+      .object({.key = "worlds", .meaning = "the worlds at the point", .shown = Shown::in_data},
+              summary::worlds_description(), &Judgement::worlds_reading);
+  return answer;
+}
+
+/// Refuses what the description of the file tells, before its trials are read.
+void require_judgeable(const command_line::Arguments& arguments) {
+  const std::filesystem::path path = arguments.operands()[0];
+  std::error_code error;
+  if (!std::filesystem::exists(path, error) && shards::has_begun(path)) {
+    throw Failure(ExitCode::bad_data,
+                  fmt::format("{}: unfinished: its run has not ended; 'zerocount run' goes on with it, and "
+                              "'zerocount summary' is of the finished trials",
+                              path.string()));
+  }
+  const study::Study study = commands::described_study(path);
+  command_line::point_option(arguments, study.point_labels);
+  if (study.goal) return;
+  throw Failure(ExitCode::bad_input,
+                fmt::format("{}: its manifest has no goal; expected one such as goal: {{band: 1, within: "
+                            "0.05, moves: 0.99}}",
+                            path.string()));
+}
+
+ExitCode judge(const command_line::Arguments& arguments) {
+  require_judgeable(arguments);
+  const summary::StudySummary summary = summary::summarise_file(arguments.operands()[0]);
+  const auto point = command_line::point_option(arguments, summary.labels);
+  const summary::ChosenPoint chosen = summary::choose_point(summary, point);
+  const Judgement judgement{
+      summary, summary::judge_point(summary, chosen),
+      summary::worlds_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from))};
+  return answers::print(
+      arguments, judge_answer().of(judgement, commands::exit_code_of(judgement.judged.verdict.status)));
+}
+
+}  // namespace
+
+commands::Command judge_command() {
+  return {{"judge",
+           "FILE",
+           {answers::format_option(judge_answer().complete_type()),
+            {"point", "P", "the design point to judge (default: the best by the goal)"}}},
+          "judge a study by the goal in its manifest",
+          judge_help,
+          judge,
+          {judge_answer().complete_type()}};
+}
+
+}  // namespace zerocount::result_commands

@@ -1,0 +1,179 @@
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/comparison/comparison.hpp"
+#include "analysis/comparison/gate_rules.hpp"
+#include "analysis/history/database.hpp"
+#include "analysis/report/report.hpp"
+#include "analysis/report/standalone_figure.hpp"
+#include "core/failure/failure.hpp"
+#include "experiments/yaml/text_file.hpp"
+#include "results/reading/study_file.hpp"
+#include "runners/command_line/option_values.hpp"
+#include "runners/command_line/output_place.hpp"
+#include "runners/commands/command.hpp"
+#include "runners/commands/figure_picture.hpp"
+#include "runners/result_commands/result_commands.hpp"
+#include "runners/standard_output/standard_output.hpp"
+#include "runners/status/status.hpp"
+#include "runners/verification/traced_trial.hpp"
+
+namespace zerocount::result_commands {
+namespace {
+
+constexpr const char* report_help =
+    "Writes an HTML page about a results file: the conclusions in words, success at every point\n"
+    "with bounds, stability maps with the criteria (6) and (7), settling times, jerks,\n"
+    "sensitivity, the Bode plot of the open loop, single trials (simulated again), the figures of\n"
+    "the paper that the study can reproduce, and the provenance. The page needs no other files\n"
+    "and no network. It adapts to phones, to dark mode and to paper; print it from a browser for a\n"
+    "PDF.\n"
+    "\n"
+    "With a baseline, the page also has the result of 'zerocount compare'. The exit code does\n"
+    "not depend on that result. With a history, it has the earlier runs and when they changed.\n"
+    "\n"
+    "Example: zerocount report gains.h5 -o gains.html\n";
+
+constexpr const char* plot_help =
+    "Draws one figure of the report as a file, for a paper: a picture, for which it needs node, and\n"
+    "for PNG also rsvg-convert (Debian: nodejs, librsvg2-bin); a page (*.html); or a specification\n"
+    "of Vega-Lite with its data (*.json). Without --figure it prints the names of the figures that\n"
+    "this study has.\n"
+    "\n"
+    "Example: zerocount plot gains.h5 --figure success -o success.svg\n";
+
+/// The runs of the file's study in a history; nothing if there are fewer than two.
+history::History history_of_study(const std::filesystem::path& database, const reading::StudyFile& file) {
+  std::vector<history::RunRecord> runs = history::read_runs(database);
+  const std::string series = history::series_sha256(file);
+  std::erase_if(runs, [&](const history::RunRecord& run) { return run.series_sha256 != series; });
+  return runs.size() < 2 ? history::History{} : history::history_of(runs);
+}
+
+report::StudyReport report_of(const command_line::Arguments& arguments, const reading::StudyFile& file) {
+  report::ReportOptions options;
+  options.point = command_line::point_option(arguments, file.point_labels());
+  if (const auto baseline = arguments.value("baseline")) {
+    comparison::CompareOptions compare;
+    if (const auto margins = arguments.value("margins")) compare.margins = *margins;
+    compare.changed_fails = arguments.has("changed-fails");
+    options.comparison = comparison::compare_studies(reading::StudyFile(*baseline), file,
+                                                     comparison::rules_of(compare, file.point_labels()));
+  }
+  if (const auto database = arguments.value("history")) options.history = history_of_study(*database, file);
+  const study::Study study = layout::recorded_study(file.header(), file.path());
+  options.check = [&](const report::ReplayedTrial& replayed) {
+    auto [different, parting] = verification::compare_with_record(file, study, replayed.result);
+    if (parting)
+      different.push_back(
+          verification::text_of(*parting) +
+          ", because the loop amplifies the rounding that parts the two engines, and the figure "
+          "is of the reference engine");
+    return different;
+  };
+  report::StudyReport report = report::study_report(file, options);
+  for (const std::string& warning : report.warnings) status::tell("zerocount: warning: {}\n", warning);
+  return report;
+}
+
+/// The output file. Its name must end in one of `extensions`, and it must not be an input.
+std::filesystem::path picture_or_page(const command_line::Arguments& arguments,
+                                      const std::vector<std::string>& extensions) {
+  arguments.required("output");
+  std::filesystem::path output = *command_line::text_place(arguments, "output");
+  const std::string extension = output.extension().string();
+  if (!yaml::is_standard_stream(output) &&
+      std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) {
+    arguments.refuse(fmt::format("option '--output': '{}' does not end in {}", output.string(),
+                                 fmt::join(extensions, " or ")));
+  }
+  std::vector<std::filesystem::path> inputs{arguments.operands()[0]};
+  for (const char* const option : {"baseline", "margins", "history"}) {
+    if (const auto path = arguments.value(option)) inputs.emplace_back(*path);
+  }
+  command_line::require_places(arguments, inputs, {output});
+  return output;
+}
+
+ExitCode write_report(const command_line::Arguments& arguments) {
+  const std::filesystem::path output = picture_or_page(arguments, {".html", ".htm"});
+  const reading::StudyFile file(arguments.operands()[0]);
+  command_line::write_text(output, report::html_page(report_of(arguments, file).page));
+  return ExitCode::success;
+}
+
+/// The file that shows the figure, by the extension of its name. @param title of a page
+std::string figure_text(const report::Figure& figure, const std::string& title,
+                        const std::string& extension) {
+  if (extension == ".json") return report::standalone_specification(figure).dump() + "\n";
+  if (extension == ".html") {
+    report::ReportPage page;
+    page.title = title;
+    page.sections.emplace_back().figures = {figure};
+    return report::html_page(page);
+  }
+  return commands::picture(figure, extension == ".png");
+}
+
+ExitCode plot(const command_line::Arguments& arguments) {
+  const std::string input = arguments.operands()[0];
+  if (!arguments.has("figure")) {
+    const reading::StudyFile file(input);
+    for (const std::string& name : report::figure_names(report_of(arguments, file).page))
+      standard_output::write(name + "\n");
+    return ExitCode::success;
+  }
+  const std::filesystem::path output = picture_or_page(arguments, {".svg", ".png", ".html", ".json"});
+  const reading::StudyFile file(input);
+  const report::StudyReport report = report_of(arguments, file);
+  const report::Figure& figure = report::find_figure(report.page, arguments.required("figure"));
+  command_line::write_text(output, figure_text(figure, report.page.title, output.extension().string()));
+  return ExitCode::success;
+}
+
+/// The options of both verbs. @param own those of one of them, which come first
+std::vector<command_line::OptionSpec> options_of_report(std::vector<command_line::OptionSpec> own) {
+  own.insert(own.end(),
+             {{"baseline", "FILE", "compare with these results"},
+              command_line::needing({"baseline"},
+                                    {"margins", "FILE", "the margins and requirements of that comparison"}),
+              command_line::needing({"baseline"},
+                                    {"changed-fails", "", "in that comparison an improvement fails too"}),
+              {"history", "DB", "show the earlier runs of the study in this history ('zerocount history')"},
+              {"point", "P", "design point whose trials are shown, by label or number (default: the best)"},
+              command_line::needing({"output"}, command_line::force_option())});
+  return own;
+}
+
+}  // namespace
+
+commands::Command report_command() {
+  return {{"report", "FILE",
+           options_of_report({{"output,o", "PAGE",
+                               "the page to write, such as report.html; - is standard output (required)"}})},
+          "write one HTML page on a results file",
+          report_help,
+          write_report};
+}
+
+commands::Command plot_command() {
+  return {{"plot", "FILE",
+           options_of_report(
+               {{"figure", "NAME", "name of the figure"},
+                command_line::needing(
+                    {"figure"},
+                    {"output,o", "PICTURE",
+                     "the file to write: *.svg, *.png, *.html or *.json; - is standard output, as SVG"})})},
+          "draw one figure of the report",
+          plot_help,
+          plot};
+}
+
+}  // namespace zerocount::result_commands

@@ -1,0 +1,246 @@
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "analysis/goal/goal_text.hpp"
+#include "analysis/goal/goal_verdict.hpp"
+#include "analysis/statistics/proportion.hpp"
+#include "analysis/summary/chosen_point.hpp"
+#include "analysis/summary/selected_summary.hpp"
+#include "analysis/summary/shown_points.hpp"
+#include "analysis/summary/summary.hpp"
+#include "analysis/summary/summary_parts.hpp"
+#include "analysis/text/percent.hpp"
+#include "analysis/text/report_json.hpp"
+#include "analysis/text/text.hpp"
+#include "core/failure/failure.hpp"
+#include "results/layout/header.hpp"
+#include "results/reading/study_file.hpp"
+#include "results/shards/pieces.hpp"
+#include "runners/command_line/option_values.hpp"
+#include "runners/commands/command.hpp"
+#include "runners/commands/plugin_option.hpp"
+#include "runners/commands/study_argument.hpp"
+#include "runners/result_commands/result_commands.hpp"
+#include "runners/standard_output/standard_output.hpp"
+#include "runners/status/status.hpp"
+#include "runners/study_run/confirmation.hpp"
+
+namespace zerocount::result_commands {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* summary_help =
+    "Prints one row per design point: the goal of the manifest if it has one, the proportions of\n"
+    "trials that ended at zero counts of error and that were stable (with 95 % bounds), arrival\n"
+    "and settling times, jerks, the prediction of the paper's criteria (6) and (7), and the\n"
+    "observation on the real rig if the manifest has one. --legend explains the columns.\n"
+    "For an open-loop study, one row per design point and torque level. A table that is too wide\n"
+    "for the terminal is divided. The last lines are the verdict on the best point, or on that of\n"
+    "--point: what is shown of all axes that the manifest describes, which points are as good,\n"
+    "and whether it lies at an end of the sweep.\n"
+    "--sort, --where and --top choose rows. They take the names of the columns of --format csv\n"
+    "and of swept parameters, which may be shortened (ki). Conditions are <, <=, >, >=, = and !=;\n"
+    "cases and labels can be equal or not: 'case != best'.\n"
+    "The formats json and csv have more statistics than the table. The file stores 95 % bounds;\n"
+    "others are computed.\n"
+    "--confirm N runs the best point again, with N new trials from a fresh seed, and prints what\n"
+    "they show, beside the bound of the file's trials that allows for the choice among all points.\n"
+    "The file stays as it is.\n"
+    "During a run, or after an interrupted one, the summary covers the finished trials and\n"
+    "reports that.\n"
+    "\n"
+    "Example: zerocount summary gains.h5 --format json\n"
+    "         zerocount summary gains.h5 --where 'kp > 0' --where 'stable_rate >= 0.9' --top 5\n"
+    "         zerocount summary gains.h5 --sort -success_rate\n"
+    "         zerocount summary gains.h5 --confirm 1000\n";
+
+bool is_there(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(path, error);
+}
+
+/// The summary of the file, or of the unfinished run that writes it.
+summary::StudySummary summary_of(const fs::path& path, double confidence, bool with_means) {
+  if (!is_there(path) && shards::has_begun(path)) {
+    try {
+      return summary::summarise_unfinished(path, confidence, with_means);
+    } catch (const Failure&) {
+      if (!is_there(path)) throw;  // otherwise the run has ended in the meantime and removed its shards
+    }
+  }
+  summary::StudySummary summary = summary::summarise_file(path, confidence, with_means);
+  if (const fs::path shards = layout::shards_directory(path); is_there(shards)) {
+    status::tell("note: an unfinished run ({1}) will replace {0}; this is the summary of the present file\n",
+                 path.string(), shards.string());
+  }
+  return summary;
+}
+
+/// The run that the option --confirm asks for; nothing without it.
+std::optional<study_run::Confirmation> confirmation_of(const command_line::Arguments& arguments,
+                                                       const summary::StudySummary& summary,
+                                                       std::int64_t point) {
+  constexpr std::int64_t max_trials = 10'000'000;
+  const std::optional<std::int64_t> trials = arguments.whole_number("confirm", 2, max_trials);
+  if (!trials) {
+    if (arguments.has("plugin")) arguments.refuse("option '--plugin' needs --confirm");
+    return std::nullopt;
+  }
+  if (summary.unfinished) arguments.refuse("option '--confirm' needs a run that has ended");
+  const reading::ResultsFile file(arguments.operands()[0]);
+  status::tell("running {} new trials of the point {}\n", *trials,
+               summary::point_names(summary)[static_cast<std::size_t>(point)]);
+  return study_run::confirm_point(file, point, *trials, commands::plugin_option(arguments));
+}
+
+/// Clopper–Pearson bounds of the success rate of the new trials, which are independent unless they share rigs
+/// (in a study with a goal).
+std::optional<statistics::ConfidenceInterval> bounds_of(const study_run::Confirmation& confirmed,
+                                                        double confidence) {
+  if (confirmed.rigs > 0 && confirmed.rigs < confirmed.trials) return std::nullopt;
+  return statistics::clopper_pearson(confirmed.successes, confirmed.trials, confidence);
+}
+
+std::string confirmation_text(const summary::StudySummary& summary,
+                              const study_run::Confirmation& confirmed) {
+  std::string text = fmt::format(
+      "\nrun anew with seed {}, everything drawn anew, chosen beforehand so that no bound needs a "
+      "correction:\n  {} of {} trials{} succeeded{}, {}",
+      confirmed.seed, confirmed.successes, confirmed.trials,
+      confirmed.rigs == 0                  ? ""
+      : confirmed.rigs == confirmed.trials ? ", each on a rig of its own,"
+                                           : fmt::format(" on {} rigs", confirmed.rigs),
+      summary.worlds > 0 ? " on average over new worlds" : "",
+      text::percentage(confirmed.successes, confirmed.trials));
+  if (const auto bounds = bounds_of(confirmed, summary.confidence)) {
+    text += fmt::format(", {} bounds [{}] % (Clopper and Pearson)", text::percent(summary.confidence),
+                        text::percent_bounds(bounds->low, bounds->high));
+  }
+  text += "\n";
+  if (!confirmed.goal) return text;
+  const goal::Verdict verdict = goal::judge_goal(*summary.goal, *confirmed.goal, 1);
+  return text + fmt::format("  goal: {}\n{}", goal::text_of(verdict.status),
+                            goal::readings_text(*summary.goal, *confirmed.goal, verdict));
+}
+
+nlohmann::ordered_json confirmation_json(const summary::StudySummary& summary,
+                                         const study_run::Confirmation& confirmed) {
+  const auto bounds = bounds_of(confirmed, summary.confidence);
+  nlohmann::ordered_json json{
+      {"point", confirmed.point},
+      {"seed", confirmed.seed},
+      {"trials", confirmed.trials},
+      {"zero_count", confirmed.successes},
+      {"success_rate", statistics::rate(confirmed.successes, confirmed.trials)},
+      {"success_rate_low", bounds ? nlohmann::ordered_json(bounds->low) : nlohmann::ordered_json()},
+      {"success_rate_high", bounds ? nlohmann::ordered_json(bounds->high) : nlohmann::ordered_json()},
+      {"one_trial_per_rig", confirmed.rigs == confirmed.trials}};
+  if (confirmed.goal) {
+    json["goal"] = summary::verdict_json(*summary.goal, goal::judge_goal(*summary.goal, *confirmed.goal, 1),
+                                         confirmed.rigs > 0);
+  }
+  return json;
+}
+
+/// The points that --sort, --where and --top ask for.
+summary::PointSelection selection_of(const command_line::Arguments& arguments) {
+  return {arguments.value("sort"), arguments.values("where"),
+          arguments.whole_number("top", 1, std::int64_t{1} << 40)};
+}
+
+/// What `select` returns. What is wrong with the selection is said of the options.
+template <class Select>
+auto selected_by(const command_line::Arguments& arguments, const Select& select) {
+  try {
+    return select();
+  } catch (const Failure& failure) {
+    if (failure.code() != ExitCode::bad_input) throw;
+    arguments.refuse(fmt::format("options '--sort' and '--where': {}", failure.what()));
+  }
+}
+
+/// The summary of the points that the options ask for, where that takes less than one of all.
+std::optional<summary::SelectedSummary> summary_of_selected(const command_line::Arguments& arguments,
+                                                            double confidence) {
+  const fs::path path = arguments.operands()[0];
+  if (confidence != statistics::summary_confidence || !is_there(path) ||
+      is_there(layout::shards_directory(path)))
+    return std::nullopt;
+  const std::optional<std::int64_t> point =
+      command_line::point_option(arguments, commands::described_study(path).point_labels);
+  const bool bootstrap = arguments.choice("format") != "table";
+  const summary::PointSelection selection = selection_of(arguments);
+  return selected_by(arguments,
+                     [&] { return summary::summarise_selected(path, bootstrap, selection, point); });
+}
+
+/// The summary of all points.
+summary::SelectedSummary summary_of_all(const command_line::Arguments& arguments, double confidence) {
+  const fs::path path = arguments.operands()[0];
+  const bool table = arguments.choice("format") == "table";
+  summary::StudySummary summary = summary_of(path, confidence, !table);
+  // Bounds of means take their time: in tables only those of the true motion are shown.
+  if (table && (summary.features.motion || summary.features.following))
+    summary = summary.unfinished ? summary::summarise_unfinished(path, confidence, true)
+                                 : summary::summarise_file(path, confidence, true);
+  const summary::PointSelection selection = selection_of(arguments);
+  std::vector<std::int64_t> points =
+      selected_by(arguments, [&] { return summary::selected_points(summary, selection); });
+  return {std::move(summary), std::move(points), {}};
+}
+
+ExitCode summarise_file(const command_line::Arguments& arguments) {
+  const std::string format = arguments.choice("format");
+  const double confidence =
+      command_line::probability_option(arguments, "confidence").value_or(statistics::summary_confidence);
+  if (format == "csv" && arguments.has("confirm"))
+    arguments.refuse("option '--confirm' goes with the formats table and json");
+  std::optional<summary::SelectedSummary> selected = summary_of_selected(arguments, confidence);
+  if (!selected) selected = summary_of_all(arguments, confidence);
+  const summary::StudySummary& summary = selected->summary;
+  const summary::SummaryForm form{std::move(selected->points),
+                                  command_line::point_option(arguments, summary.labels),
+                                  arguments.has("legend")};
+  const std::optional<study_run::Confirmation> confirmed =
+      confirmation_of(arguments, summary, summary::choose_point(summary, form.chosen).point);
+  if (format == "table") {
+    standard_output::write_fitted(summary::summary_table(summary, form) +
+                                  (confirmed ? confirmation_text(summary, *confirmed) : ""));
+  }
+  if (format == "json") {
+    nlohmann::ordered_json json = summary::summary_json(summary, form);
+    if (confirmed) json["confirmation"] = confirmation_json(summary, *confirmed);
+    standard_output::write(text::json_text(json));
+  }
+  if (format == "csv" && summary.unfinished) status::tell("{}\n", summary::unfinished_sentence(summary));
+  if (format == "csv") standard_output::write(summary::summary_csv(summary, form));
+  return ExitCode::success;
+}
+
+}  // namespace
+
+commands::Command summary_command() {
+  return {{"summary",
+           "FILE",
+           {command_line::format_option({"table", "json", "csv"}),
+            {"point", "P", "the design point that the last lines speak of (default: the best)"},
+            {"sort", "NAME", "order rows by a value, with -NAME from the largest on, or by 'best'"},
+            {"where", "CONDITION", "rows that meet it, such as 'ki < 2e4'; may be repeated", true},
+            {"top", "N", "the first N rows; without --sort the best"},
+            {"legend", "", "explain the columns of the table"},
+            {"confirm", "N", "run the chosen point again with N new trials, and print what they show"},
+            {"plugin", "LIBRARY", "for --confirm: the controller of a study that has one of its own"},
+            {"confidence", "LEVEL", "of all bounds, between 0 and 1 (default 0.95)"}}},
+          "print the statistics of a results file",
+          summary_help,
+          summarise_file};
+}
+
+}  // namespace zerocount::result_commands

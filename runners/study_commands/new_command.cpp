@@ -1,0 +1,153 @@
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/text/number_text.hpp"
+#include "experiments/guides/guide_manifest.hpp"
+#include "experiments/manifest/load_study.hpp"
+#include "experiments/manifests/shipped_manifests.hpp"
+#include "runners/command_line/output_place.hpp"
+#include "runners/commands/command.hpp"
+#include "runners/standard_output/standard_output.hpp"
+#include "runners/status/status.hpp"
+#include "runners/study_commands/study_commands.hpp"
+
+namespace zerocount::study_commands {
+namespace {
+
+constexpr const char* new_help =
+    "Copies a manifest that comes with the program to NAME.yaml in this folder, as the start of your own "
+    "study.\n"
+    "--list prints the names and questions of these manifests, and the guides.\n"
+    "With --guide it writes a manifest of an axis on that guide instead, whose friction nobody has measured\n"
+    "yet: each value has a range and its source (zerocount parameters --guides). It is a starting point, to\n"
+    "be replaced by what zerocount identify finds.\n"
+    "\n"
+    "Examples:\n"
+    "  zerocount new --list\n"
+    "  zerocount new paper-gains -o my-axis.yaml\n"
+    "  zerocount new --guide ball-rail --preload 800 --mass 12 -o my-axis.yaml\n";
+
+// Beyond them a number is a mistake, of units for example.
+constexpr double max_mass = 1e5;         // kg
+constexpr double max_preload = 1e6;      // N
+constexpr double max_resolution = 1e-3;  // m
+
+std::vector<std::string> manifest_names() {
+  std::vector<std::string> stems;
+  for (const text::EmbeddedFile& file : manifests::shipped_manifests())
+    stems.emplace_back(file.name.substr(0, file.name.rfind('.')));
+  return stems;
+}
+
+std::vector<std::string> guide_names() {
+  std::vector<std::string> names;
+  for (const guides::Guide& guide : guides::guide_table()) names.emplace_back(guide.name);
+  return names;
+}
+
+command_line::OptionSpec guide_choice() {
+  command_line::OptionSpec option{
+      "guide", "GUIDE", fmt::format("write a manifest of an axis on {}", fmt::join(guide_names(), ", "))};
+  option.words = guide_names();
+  return option;
+}
+
+void print_list() {
+  std::size_t width = 0;
+  for (const text::EmbeddedFile& file : manifests::shipped_manifests())
+    width = std::max(width, file.name.size());
+  for (const text::EmbeddedFile& file : manifests::shipped_manifests()) {
+    const study::Study study = manifest::parse_study(std::string(file.bytes), file.name);
+    standard_output::print("{:<{}} {}\n", file.name.substr(0, file.name.rfind('.')), width,
+                           study.description);
+  }
+  standard_output::print("\nGuides (zerocount new --guide NAME):\n");
+  for (const guides::Guide& guide : guides::guide_table())
+    standard_output::print("{:<{}} {}\n", guide.name, width, guide.description);
+}
+
+/// A positive option of --guide; nothing if it is missing.
+/// @param applies whether it has an effect on this guide
+std::optional<double> guide_option(const command_line::Arguments& arguments, std::string_view option,
+                                   const guides::Guide& guide, bool applies, double high) {
+  const std::optional<std::string> text = arguments.value(option);
+  if (!text) return std::nullopt;
+  if (!applies) arguments.refuse(fmt::format("option '--{}' has no effect on {}", option, guide.name));
+  const std::optional<double> number = text::parse_number<double>(*text);
+  if (!number || !(*number > 0.0) || !(*number <= high))
+    arguments.refuse(
+        fmt::format("option '--{}': '{}'; expected a number above 0 and at most {:g}", option, *text, high));
+  return number;
+}
+
+std::string manifest_of_guide(const command_line::Arguments& arguments) {
+  const guides::Guide& guide = guides::guide_named(arguments.choice("guide"));
+  const bool linear = guide.axis == parameters::AxisKind::linear;
+  guides::GuideAxis axis{.load = guides::usual_load(guide)};
+  axis.load.mass = guide_option(arguments, "mass", guide, linear, max_mass).value_or(axis.load.mass);
+  axis.load.preload = guide_option(arguments, "preload", guide, guides::has_load(guide), max_preload)
+                          .value_or(axis.load.preload);
+  axis.resolution =
+      guide_option(arguments, "resolution", guide, linear, max_resolution).value_or(axis.resolution);
+  return guides::guide_manifest(guide, axis);
+}
+
+void write_manifest(const command_line::Arguments& arguments, const std::string& usual_name,
+                    std::string_view manifest) {
+  const std::filesystem::path output =
+      command_line::text_place(arguments, "output").value_or(std::filesystem::path(usual_name));
+  command_line::require_places(arguments, {}, {output});
+  command_line::write_text(output, manifest);
+  if (output != "-") status::tell("wrote {}; next: zerocount check {}\n", output.string(), output.string());
+}
+
+ExitCode make_new(const command_line::Arguments& arguments) {
+  const bool list = arguments.has("list");
+  const bool guide = arguments.has("guide");
+  if (static_cast<int>(list) + static_cast<int>(guide) + static_cast<int>(std::ssize(arguments.operands())) !=
+      1)
+    arguments.refuse("expected either the name of a manifest, --guide or --list");
+  if (list) {
+    print_list();
+  } else if (guide) {
+    write_manifest(arguments, arguments.choice("guide") + ".yaml", manifest_of_guide(arguments));
+  } else {
+    const text::EmbeddedFile& file = manifests::shipped_manifest(arguments.operands()[0]);
+    write_manifest(arguments, std::string(file.name), file.bytes);
+  }
+  return ExitCode::success;
+}
+
+command_line::OptionSpec of_guide(command_line::OptionSpec option) {
+  return command_line::needing({"guide"}, std::move(option));
+}
+
+}  // namespace
+
+commands::Command new_command() {
+  return {
+      {"new",
+       "[NAME]",
+       {{"list", "", "print the names and questions of the manifests, and the guides"},
+        guide_choice(),
+        of_guide({"preload", "N", "with --guide: normal force on all its carriages together, N"}),
+        of_guide({"mass", "KG", "with --guide: moving mass of a linear axis, kg"}),
+        of_guide({"resolution", "M", "with --guide: encoder of a linear axis, m per count; default 1e-8"}),
+        command_line::excluding({"list"}, {"output,o", "FILE", "the manifest to make; default: NAME.yaml"}),
+        command_line::excluding({"list"}, command_line::force_option())},
+       0,
+       1,
+       manifest_names()},
+      "start a study from a manifest that comes with the program",
+      new_help,
+      make_new};
+}
+
+}  // namespace zerocount::study_commands

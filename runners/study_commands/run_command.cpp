@@ -1,0 +1,180 @@
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "analysis/parallel/parallel.hpp"
+#include "core/text/number_text.hpp"
+#include "experiments/study/study.hpp"
+#include "results/layout/header.hpp"
+#include "results/reading/study_file.hpp"
+#include "results/shards/shard.hpp"
+#include "results/storage/durable_file.hpp"
+#include "results/storage/output_lock.hpp"
+#include "runners/command_line/output_place.hpp"
+#include "runners/commands/command.hpp"
+#include "runners/commands/study_argument.hpp"
+#include "runners/plugins/hidden_state.hpp"
+#include "runners/status/status.hpp"
+#include "runners/study_commands/study_commands.hpp"
+#include "runners/study_run/earlier_shards.hpp"
+#include "runners/study_run/engine_use.hpp"
+#include "runners/study_run/existing_output.hpp"
+#include "runners/study_run/file_run.hpp"
+#include "runners/study_run/interruption.hpp"
+#include "runners/study_run/progress.hpp"
+#include "runners/study_run/stopping_run.hpp"
+#include "runners/study_run/study_runner.hpp"
+#include "runners/study_run/study_size.hpp"
+
+namespace zerocount::study_commands {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* run_help =
+    "Runs the trials of the manifest on all cores, and writes them to the results file.\n"
+    "During the run, finished trials are written to shards in FILE.shards/; at the end these are\n"
+    "merged to FILE. To continue a run that was interrupted or killed, give the same command\n"
+    "again. The data do not depend on the number of threads, on --shard, or on interruptions.\n"
+    "If FILE has the same study with fewer trials, only the missing trials are run and added.\n"
+    "The run first checks that the disk has room for the shards and the file; --force skips\n"
+    "this check.\n"
+    "\n"
+    "Examples:\n"
+    "  zerocount run experiments/manifests/paper-gains.yaml -o gains.h5\n"
+    "  zerocount run study.yaml --set trials=100000 --set controller.ki=9.45e-5 -o out.h5\n"
+    "  zerocount run study.yaml --shard 1/2 -o a.h5     on one machine, and on another\n"
+    "  zerocount run study.yaml --shard 2/2 -o b.h5     then: zerocount merge a.h5 b.h5 -o all.h5\n";
+
+/// The rows of part `text` = "I/N", I from 1 to N: parts differ by at most one trial in size.
+layout::RowRange part_of(const command_line::Arguments& arguments, const std::string& text,
+                         const study::Study& study) {
+  const std::size_t slash = text.find('/');
+  const auto part = text::parse_number<std::int64_t>(text.substr(0, slash));
+  const auto parts =
+      slash == std::string::npos ? std::nullopt : text::parse_number<std::int64_t>(text.substr(slash + 1));
+  if (!part || !parts || *part < 1 || *part > *parts) {
+    arguments.refuse(fmt::format("option '--shard': '{}' is not I/N with 1 ≤ I ≤ N, such as 2/8", text));
+  }
+  const std::int64_t rows = study::trial_count(study);
+  if (*parts > rows) {
+    arguments.refuse(fmt::format(
+        "option '--shard': the {} trials of the study cannot be divided into {} parts", rows, *parts));
+  }
+  const auto start = [&](std::int64_t i) { return rows / *parts * i + std::min(i, rows % *parts); };
+  return {start(*part - 1), start(*part) - start(*part - 1)};
+}
+
+/// Request of a run.
+struct RunRequest {
+  study::Study study;
+  fs::path output;
+  layout::RowRange wanted;  ///< rows of the study
+  int threads{0};
+  bool quiet{false};
+  bool force{false};
+};
+
+/// The requested engine.
+study::Engine engine_of(const command_line::Arguments& arguments) {
+  return arguments.choice("engine") == "batch" ? study::Engine::batch : study::Engine::reference;
+}
+
+/// @throws Failure (bad_input) if --study names another study.
+void require_study_of_option(const command_line::Arguments& arguments, const study::Study& study) {
+  const std::optional<std::string> wanted = arguments.value("study");
+  if (!wanted || *wanted == study.study_sha256) return;
+  throw Failure(
+      ExitCode::bad_input,
+      fmt::format("{}: not the study asked for: with its overrides, samples and plugin its SHA-256 is {}; "
+                  "expected {}",
+                  arguments.operands()[0], study.study_sha256, *wanted));
+}
+
+RunRequest run_request(const command_line::Arguments& arguments) {
+  RunRequest request;
+  request.output = command_line::output_place(arguments);
+  request.study = commands::load_study(arguments.operands()[0], arguments, {&request.output, 1});
+  require_study_of_option(arguments, request.study);
+  request.study.engine = engine_of(arguments);
+  const std::optional<std::string> part = arguments.value("shard");
+  request.wanted = part ? part_of(arguments, *part, request.study) : layout::all_rows(request.study);
+  if (request.study.stop && part) {
+    arguments.refuse(
+        "option '--shard': a study with `stop` cannot be divided, because its number of trials is decided "
+        "while it runs");
+  }
+  request.threads = static_cast<int>(arguments.whole_number("threads", 1, 4096).value_or(0));
+  request.quiet = arguments.has("quiet");
+  request.force = arguments.has("force");
+  return request;
+}
+
+study_run::ForeignShards foreign_shards(const RunRequest& request) {
+  return request.force ? study_run::ForeignShards::remove : study_run::ForeignShards::refuse;
+}
+
+ExitCode run(const command_line::Arguments& arguments) {
+  const RunRequest request = run_request(arguments);
+  const parallel::ThreadLimit limit(study_run::threads_to_use(request.threads));
+  commands::print_warnings(request.study);
+  if (request.study.plugin && !request.quiet) {
+    status::tell("the controller is the plugin {} {}\n", request.study.plugin->description.name,
+                 request.study.plugin->description.version);
+  }
+  const std::string engine = study_run::engine_text(study_run::points_on_reference(request.study));
+  if (!engine.empty() && !request.quiet) status::tell("{}\n", engine);
+  plugins::require_no_hidden_state(request.study);
+  const study_run::InterruptionWatch interruption;
+  const storage::OutputLock lock(request.output);
+  commands::print_fallback_lock(lock, request.output);
+  const study_run::ExistingUse existing =
+      request.force ? study_run::ExistingUse::none
+                    : study_run::use_of_existing(request.output, request.study, request.wanted);
+  if (existing == study_run::ExistingUse::complete) {
+    // Shards left by a run that was killed at its very end. Shards of other studies are kept.
+    const fs::path directory = layout::shards_directory(request.output);
+    study_run::remove_shards(
+        directory,
+        study_run::choose_shards(shards::list_shards(directory, request.study).shards, request.wanted).all);
+    if (!request.quiet) status::tell("{}: already complete, nothing to run\n", request.output.string());
+    return ExitCode::success;
+  }
+  storage::require_replaceable(request.output);
+  if (!request.study.stop) {
+    study_run::run_to_file({request.study, request.output, request.wanted, request.threads, request.quiet,
+                            foreign_shards(request), !request.force},
+                           existing, interruption.token());
+    return ExitCode::success;
+  }
+  return study_run::run_until_sure(request.study, request.output,
+                                   {request.threads, request.quiet, foreign_shards(request)},
+                                   interruption.token());
+}
+
+}  // namespace
+
+commands::Command run_command() {
+  return {{"run",
+           "MANIFEST -o FILE",
+           {{"output,o", "FILE", "the results file to make (required)"},
+            {"threads", "N", "threads to use; default: all cores"},
+            command_line::choice_option("engine", "NAME", {"batch", "reference"},
+                                        "many trials at a time in SIMD lanes, or one at a time"),
+            {"shard", "I/N", "run only the I-th of N parts, into a part file for 'zerocount merge'"},
+            {"study", "SHA256", "refuse a study with another hash, such as one whose manifest has changed"},
+            {"set", "KEY=VALUE",
+             "override a manifest key, e.g. controller.ki=2e-5; may be repeated; recorded in the file", true},
+            {"quiet,q", "", "print no progress"},
+            {"force", "",
+             "replace FILE, remove unfinished runs of other studies, skip the check of disk space"}}},
+          "run a study: manifest in, results file out",
+          run_help,
+          run};
+}
+
+}  // namespace zerocount::study_commands

@@ -1,0 +1,207 @@
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "analysis/text/percent.hpp"
+#include "core/trial/trial.hpp"
+#include "experiments/study/study.hpp"
+#include "experiments/yaml/text_file.hpp"
+#include "results/layout/header.hpp"
+#include "results/reading/results_file.hpp"
+#include "results/shards/shard.hpp"
+#include "results/storage/output_file.hpp"
+#include "runners/command_line/option_values.hpp"
+#include "runners/command_line/output_place.hpp"
+#include "runners/commands/command.hpp"
+#include "runners/commands/plugin_option.hpp"
+#include "runners/commands/study_argument.hpp"
+#include "runners/rare/rare_file.hpp"
+#include "runners/standard_output/standard_output.hpp"
+#include "runners/status/status.hpp"
+#include "runners/study_commands/study_commands.hpp"
+#include "runners/study_commands/trace_writer.hpp"
+#include "runners/verification/traced_trial.hpp"
+
+namespace zerocount::study_commands {
+namespace {
+
+constexpr const char* trace_help =
+    "Runs one trial again and writes it sample by sample. A trial of a results file is rebuilt\n"
+    "from the manifest in the file, and run by the engine that ran it too. If its inputs, outcome\n"
+    "or jerks then differ from the recorded ones, the differences are listed and the exit code is 4.\n"
+    "The samples are those of the reference engine. Where a loop amplifies the rounding that\n"
+    "parts the two engines, it is said from when on they differ from the recorded trial.\n"
+    "\n"
+    "Columns: k, t (s), target, count, coarse_count, error (counts), code, torque (N m),\n"
+    "theta (rad), omega (rad/s), xp, xh (rad), depth (reversal points), mode (stick or\n"
+    "slide). Values are those at the sampling instant; code and torque are commanded there.\n"
+    "Only if the study uses them: reference (counts), phase (fine or coarse), drive_torque (N m,\n"
+    "of the motor; if it differs from the code's torque by more than a delay of the closed\n"
+    "loop). A trial that is stopped early ends there. On a linear axis read N for N m and m for\n"
+    "rad. Of an estimate by 'zerocount rare' it replays a trial that was drawn.\n"
+    "\n"
+    "Example: zerocount trace gains.h5 --point 2 --trial 17 -o trial.csv\n";
+
+std::int64_t trial_option(const command_line::Arguments& arguments, const study::Study& study) {
+  const std::int64_t value = arguments.whole_number("trial", 0, std::int64_t{1} << 53).value_or(0);
+  if (value >= study.trials) {
+    arguments.refuse(fmt::format("option '--trial': {} is too large; '{}' has trials 0 to {}", value,
+                                 study.name, study.trials - 1));
+  }
+  return value;
+}
+
+void require_loaded_plugin(const command_line::Arguments& arguments, const study::Study& study) {
+  if (!study.plugin || study.plugin->functions != nullptr) return;
+  arguments.refuse(
+      fmt::format("the controller of {} is the plugin {}, which is not loaded from a results file; give "
+                  "its path with --plugin",
+                  arguments.operands()[0], study.plugin->description.name));
+}
+
+/// Runs the trial, writes its samples, and returns the rest of its result.
+shards::TrialResult write_trace(const TraceSubject& subject, const TraceWriter::Sink& sink, bool json) {
+  TraceWriter writer(sink, json);
+  writer.begin(subject);
+  trial::TrialObservers observers;
+  observers.sample = [&](const trial::SampleRecord& record) { writer.write(record); };
+  shards::TrialResult result;
+  observers.jerk = [&](const trial::Jerk& jerk) { result.jerks.push_back(jerk); };
+  result.row = subject.point * subject.study.trials + subject.index;
+  result.inputs = subject.trial.inputs;
+  result.outcome = trial::run_trial(subject.trial.parameters, observers);
+  writer.end(result.outcome);
+  return result;
+}
+
+/// Writes the trace to standard output, or to a file that appears when it is complete.
+shards::TrialResult write_trace_to(const std::filesystem::path& place, const TraceSubject& subject,
+                                   bool json) {
+  if (yaml::is_standard_stream(place)) {
+    return write_trace(subject, standard_output::write, json);
+  }
+  storage::OutputFile file(place);
+  shards::TrialResult result = write_trace(
+      subject, [&file](std::string_view text) { file.write(text); }, json);
+  file.finish();
+  file.publish();
+  return result;
+}
+
+/// Tells from where on the samples of the reference engine are not those of the recorded trial.
+void tell_parting(const std::string& input, const std::optional<verification::Parting>& parting) {
+  if (!parting) return;
+  status::tell(
+      "warning: {}: the engine of the run reproduces the recorded trial; {}, these samples, of the reference "
+      "engine, "
+      "differ from it: the loop amplifies the rounding that parts the two\n",
+      input, verification::text_of(*parting));
+}
+
+/// Replays a trial of an estimate by 'zerocount rare'.
+ExitCode trace_rare(const command_line::Arguments& arguments, const std::filesystem::path& place, bool json) {
+  const std::string& input = arguments.operands()[0];
+  for (const char* option : {"set", "point"}) {
+    if (arguments.has(option))
+      arguments.refuse(
+          fmt::format("option '--{}': an estimate of 'zerocount rare' is of one point of one "
+                      "manifest; expected --trial alone",
+                      option));
+  }
+  const rare::RareRecord record = rare::read_rare_file(input);
+  const rare::Question question = rare::recorded_question(record, input, commands::plugin_option(arguments));
+  require_loaded_plugin(arguments, question.study);
+  const auto drawn = std::ssize(record.state.drawn);
+  if (drawn == 0)
+    arguments.refuse(
+        fmt::format("{}: it holds no drawn trials: its search ended before any was drawn", input));
+  const std::int64_t index = arguments.whole_number("trial", 0, drawn - 1).value_or(0);
+  const rare::WeightedTrial& trial = record.state.drawn[static_cast<std::size_t>(index)];
+  const study::StudyTrial drawn_trial = rare::trial_at(question, trial.point);
+  const shards::TrialResult replayed =
+      write_trace_to(place, {question.study, question.point, index, drawn_trial}, json);
+  const std::vector<study::GivenDraws> draws{rare::draws_at(question, trial.point)};
+  const double failed = rare::run_trials(question, draws, {}).front().failed;
+  if (failed == trial.failed) {
+    if (rare::result_of(question, replayed.outcome.moves).failed != failed)
+      tell_parting(input, verification::parting_of_engines(drawn_trial.parameters));
+    return ExitCode::success;
+  }
+  throw Failure(
+      ExitCode::bad_data,
+      fmt::format("{}: trial {}: the event happens to {} of its moves in the replay, and to {} in the "
+                  "recorded trial",
+                  input, index, text::percent(failed), text::percent(trial.failed)));
+}
+
+ExitCode trace(const command_line::Arguments& arguments) {
+  const std::string input = arguments.operands()[0];
+  const std::optional<std::filesystem::path> output = command_line::text_place(arguments, "output");
+  if (output) {
+    std::vector<std::filesystem::path> inputs{input};
+    if (const auto plugin = arguments.value("plugin")) inputs.emplace_back(*plugin);
+    command_line::require_places(arguments, inputs, {*output});
+  }
+  const std::filesystem::path place = output.value_or("-");
+  const bool json = arguments.choice("format") == "json";
+  std::optional<reading::ResultsFile> file;
+  try {
+    if (commands::is_results_file(input)) file.emplace(input, reading::Require::any_part);
+  } catch (const layout::RareFile&) {
+    return trace_rare(arguments, place, json);
+  }
+  if (file && arguments.has("set"))
+    arguments.refuse("option '--set' needs a manifest instead of a results file");
+
+  if (!file && arguments.has("plugin"))
+    arguments.refuse("option '--plugin' needs a results file; a manifest names its plugin");
+
+  const study::Study study =
+      file ? layout::recorded_study(file->header(), input, commands::plugin_option(arguments))
+           : commands::load_study(input, arguments, std::span(&place, 1));
+  require_loaded_plugin(arguments, study);
+  const std::int64_t point = command_line::point_option(arguments, study.point_labels).value_or(0);
+  const std::int64_t index = trial_option(arguments, study);
+  const layout::RowRange row{point * study.trials + index, 1};
+  if (file && (row.first < file->rows().first || row.end() > file->rows().end())) {
+    arguments.refuse(fmt::format("{} is a part of the study without this trial", input));
+  }
+  const study::StudyTrial trial = study::study_trial(study, point, index);
+  const shards::TrialResult replayed = write_trace_to(place, {study, point, index, trial}, json);
+  const auto failed = [](const trial::MoveOutcome& move) { return move.controller_failed; };
+  if (std::any_of(replayed.outcome.moves.begin(), replayed.outcome.moves.end(), failed))
+    status::tell("the controller returned a non-finite torque at the last sample, which ends the trial\n");
+  if (!file) return ExitCode::success;
+
+  const auto [different, parting] = verification::compare_with_record(*file, study, replayed);
+  tell_parting(input, parting);
+  if (different.empty()) return ExitCode::success;
+  std::string message =
+      fmt::format("{}: point {}, trial {}: the replay differs from the recorded trial", input, point, index);
+  for (const std::string& line : different) message += "\n  " + line;
+  throw Failure(ExitCode::bad_data, message);
+}
+
+}  // namespace
+
+commands::Command trace_command() {
+  return {{"trace",
+           "MANIFEST|FILE",
+           {{"point", "P", "design point, by label or number from 0 (default 0)"},
+            {"trial", "I", "trial of the point, from 0 (default 0)"},
+            command_line::format_option({"csv", "json"}),
+            {"output,o", "FILE", "write there instead of to standard output"},
+            command_line::needing({"output"}, command_line::force_option()),
+            {"plugin", "LIBRARY", "the controller plugin of a results file"},
+            {"set", "KEY=VALUE", "override a manifest key; may be repeated", true}}},
+          "run one trial again, sample by sample",
+          trace_help,
+          trace};
+}
+
+}  // namespace zerocount::study_commands

@@ -40,6 +40,7 @@ std::string number_text(double value, Notation notation) {
 
 std::string bounded_text(const Bounded& number, Notation notation) {
   if (!std::isfinite(number.value)) return unknown_text;
+  if (std::isnan(number.low) && std::isnan(number.high)) return number_text(number.value, notation);
   const std::string bounds = is_percent(notation) ? text::percent_bounds(number.low, number.high)
                                                   : fmt::format("{}, {}", number_text(number.low, notation),
                                                                 number_text(number.high, notation));
@@ -71,7 +72,7 @@ struct ValueText {
     std::vector<std::string> values;
     for (std::size_t i = 0; i < members.contents.size(); ++i) {
       const Item& member = item.members[i];
-      if (member.shown == Shown::in_data || members.contents[i].is_empty()) continue;
+      if (!is_shown(member) || members.contents[i].is_empty()) continue;
       values.push_back(fmt::format("{} {}", member.heading, shown_value(member, members.contents[i])));
     }
     return fmt::format("{}", fmt::join(values, ", "));
@@ -93,7 +94,7 @@ TableBlock table_block(const Item& item, const Rows& rows) {
   TableBlock table{item.heading, {}};
   for (std::size_t i = 0; i < item.members.size(); ++i) {
     const Item& column = item.members[i];
-    if (column.shown == Shown::in_data) continue;
+    if (!is_shown(column)) continue;
     BlockColumn shown{column.heading, shown_unit(column), is_numeric(column)};
     for (const Members& row : rows.rows)
       shown.cells.push_back(
@@ -109,8 +110,7 @@ class BlockList {
  public:
   void add(const std::vector<Item>& items, const Members& members) {
     for (std::size_t i = 0; i < items.size(); ++i) {
-      if (items[i].shown != Shown::in_data && !members.contents[i].is_empty())
-        add(items[i], members.contents[i]);
+      if (is_shown(items[i]) && !members.contents[i].is_empty()) add(items[i], members.contents[i]);
     }
   }
 
@@ -122,12 +122,18 @@ class BlockList {
       case Kind::headline:
         blocks_.emplace_back(HeadlineBlock{std::get<std::string>(content.value)});
         return;
+      case Kind::title:
+        blocks_.emplace_back(SectionBlock{std::get<std::string>(content.value)});
+        return;
       case Kind::sentence:
         blocks_.emplace_back(SentenceBlock{std::get<std::string>(content.value)});
         return;
       case Kind::table:
         if (const Rows& rows = std::get<Rows>(content.value); !rows.rows.empty())
           blocks_.emplace_back(table_block(item, rows));
+        return;
+      case Kind::sections:
+        for (const Members& row : std::get<Rows>(content.value).rows) add(item.members, row);
         return;
       case Kind::object:
         blocks_.emplace_back(SectionBlock{item.heading});
@@ -146,10 +152,10 @@ class BlockList {
   }
 
   void add_fact(const Item& item, const Content& content) {
+    std::string value = shown_value(item, content);
+    if (value.empty() || value == unknown_text) return;
     if (blocks_.empty() || !std::holds_alternative<FactsBlock>(blocks_.back()))
       blocks_.emplace_back(FactsBlock{});
-    std::string value = shown_value(item, content);
-    if (value == unknown_text) return;
     const std::string unit = shown_unit(item);
     if (!unit.empty()) value += " " + unit;
     std::get<FactsBlock>(blocks_.back()).facts.push_back({item.heading, std::move(value)});
@@ -165,6 +171,9 @@ void collect_figures(const Content& content, std::vector<Figure>& figures) {
   }
   if (const auto* const members = std::get_if<Members>(&content.value)) {
     for (const Content& member : members->contents) collect_figures(member, figures);
+  }
+  if (const auto* const rows = std::get_if<Rows>(&content.value)) {
+    for (const Members& row : rows->rows) collect_figures({row}, figures);
   }
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -23,29 +24,41 @@ std::string csv_number(double value) {
   return std::isnan(value) ? "nan" : fmt::format("{}", value);
 }
 
-/// Names and cells of the columns of one item.
-class CsvRow {
+/// Names and cells of the columns of a line.
+class CsvLine {
  public:
-  CsvRow(const std::vector<Item>& items, const Members* members, const std::string& prefix = "") {
-    add(items, members, prefix);
+  /// @param members nothing: only the names matter
+  void add(const std::vector<Item>& items, const Members* members, const std::string& prefix = "") {
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      if (!is_data(items[i])) continue;
+      add(items[i], members == nullptr ? Content{} : members->contents[i], prefix + items[i].key);
+    }
+  }
+
+  /// Those of the items that are one value.
+  void add_values(const std::vector<Item>& items, const Members* members) {
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      if (is_data(items[i]) && is_one_value(items[i].kind))
+        add(items[i], members == nullptr ? Content{} : members->contents[i], items[i].key);
+    }
   }
 
   std::string names() const { return line(names_); }
   std::string cells() const { return line(cells_); }
 
  private:
+  static bool is_data(const Item& item) {
+    return item.shown == Shown::everywhere || item.shown == Shown::in_data;
+  }
+
+  static bool is_one_value(Kind kind) {
+    return kind == Kind::flag || kind == Kind::whole || kind == Kind::number || kind == Kind::text;
+  }
+
   static std::string line(const std::vector<std::string>& texts) {
     std::string line;
     for (std::size_t i = 0; i < texts.size(); ++i) line += (i == 0 ? "" : ",") + csv_cell(texts[i]);
     return line + '\n';
-  }
-
-  /// @param members nothing: only the names matter
-  void add(const std::vector<Item>& items, const Members* members, const std::string& prefix) {
-    for (std::size_t i = 0; i < items.size(); ++i) {
-      if (items[i].shown == Shown::to_people) continue;
-      add(items[i], members == nullptr ? Content{} : members->contents[i], prefix + items[i].key);
-    }
   }
 
   void add(const Item& item, const Content& content, const std::string& name) {
@@ -75,17 +88,35 @@ class CsvRow {
   std::vector<std::string> cells_;
 };
 
+/// Adds the lines of the table that `path` names: keys of tables that hold one another, with dots between.
+/// @param members nothing: only the line of names
+/// @param line begins each
+void add_lines(std::string& csv, const std::vector<Item>& items, const Members* members,
+               std::string_view path, const CsvLine& line = {}) {
+  const std::size_t dot = path.find('.');
+  const auto item = std::ranges::find(items, path.substr(0, dot), &Item::key);
+  if (item == items.end()) return;
+  const auto add_row = [&](const Members* row) {
+    CsvLine longer = line;
+    if (dot != std::string_view::npos) {
+      longer.add_values(item->members, row);
+      return add_lines(csv, item->members, row, path.substr(dot + 1), longer);
+    }
+    longer.add(item->members, row);
+    csv += row == nullptr ? longer.names() : longer.cells();
+  };
+  if (members == nullptr) return add_row(nullptr);
+  const Content& content = members->contents[static_cast<std::size_t>(item - items.begin())];
+  for (const Members& row : std::get<Rows>(content.value).rows) add_row(&row);
+}
+
 }  // namespace
 
 std::string csv(const Answer& answer) {
   std::string csv;
-  for (std::size_t i = 0; i < answer.type.items.size(); ++i) {
-    const Item& item = answer.type.items[i];
-    if (item.key != answer.type.csv_table || item.kind != Kind::table) continue;
-    csv += CsvRow(item.members, nullptr).names();
-    for (const Members& row : std::get<Rows>(answer.contents.contents[i].value).rows)
-      csv += CsvRow(item.members, &row).cells();
-  }
+  if (answer.type.csv_table.empty()) return csv;
+  add_lines(csv, answer.type.items, nullptr, answer.type.csv_table);
+  add_lines(csv, answer.type.items, &answer.contents, answer.type.csv_table);
   return csv;
 }
 

@@ -150,14 +150,15 @@ class Description {
   template <class Part, class Get>
   Description& table(Item item, Description<Part> columns, Get get) {
     item.kind = Kind::table;
-    item.members = columns.items();
-    return add(std::move(item),
-               [columns = std::move(columns), get = std::move(get)](const Row& row) -> Content {
-                 Rows rows;
-                 auto&& parts = std::invoke(get, row);
-                 for (const Part& part : parts) rows.rows.push_back(columns.members_of(part));
-                 return {std::move(rows)};
-               });
+    return add_rows(std::move(item), std::move(columns), std::move(get));
+  }
+
+  /// Sections with the items of `parts`: a list of objects in JSON, for people one below the other. `get`
+  /// returns a range of Parts.
+  template <class Part, class Get>
+  Description& sections(Item item, Description<Part> parts, Get get) {
+    item.kind = Kind::sections;
+    return add_rows(std::move(item), std::move(parts), std::move(get));
   }
 
   /// Objects by name: a table whose rows have names. `get` returns a range of pairs of a name and a Part.
@@ -197,6 +198,12 @@ class Description {
                     std::move(get));
   }
 
+  /// The title of a section.
+  template <class Get>
+  Description& title(Get get) {
+    return add_text({.shown = Shown::to_people, .kind = Kind::title}, std::move(get));
+  }
+
   /// Sentences for people, each on a line of its own; none where `get` returns an empty text.
   template <class Get>
   Description& sentence(Get get) {
@@ -230,6 +237,17 @@ class Description {
     items_.push_back(std::move(item));
     contents_.push_back(std::move(content));
     return *this;
+  }
+
+  template <class Part, class Get>
+  Description& add_rows(Item item, Description<Part> parts, Get get) {
+    item.members = parts.items();
+    return add(std::move(item), [parts = std::move(parts), get = std::move(get)](const Row& row) -> Content {
+      Rows rows;
+      auto&& found = std::invoke(get, row);
+      for (const Part& part : found) rows.rows.push_back(parts.members_of(part));
+      return {std::move(rows)};
+    });
   }
 
   template <class Get>

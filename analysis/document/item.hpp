@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 /// Answers as data. An answer is a tree of items: named values, lists, tables, sentences and figures. Its
@@ -17,7 +18,9 @@ enum class Kind {
   map,       ///< values by name, of members[0]
   object,    ///< members
   table,     ///< rows, of which the members are the columns
+  sections,  ///< rows, of which each is a section for people
   headline,  ///< the answer in one sentence; "headline" in JSON
+  title,     ///< of a section, for people only
   sentence,  ///< for people only
   figure     ///< for people only
 };
@@ -26,6 +29,7 @@ enum class Kind {
 enum class Shown {
   everywhere,
   in_data,   ///< in JSON and CSV only
+  in_json,   ///< in JSON only: long texts
   to_people  ///< in text, Markdown and HTML only
 };
 
@@ -56,7 +60,24 @@ struct Item {
   Kind kind{Kind::sentence};
   bool bounded{false};          ///< a number with bounds, "<key>_low" and "<key>_high"
   bool nullable{false};         ///< may be without content
-  std::vector<Item> members{};  ///< of an object, a table or its rows; [0] of a list and a map
+  std::vector<Item> members{};  ///< of an object, a table, sections or their rows; [0] of a list and a map
 };
+
+/// Whether an item stands in text, Markdown and HTML.
+inline bool is_shown(const Item& item) {
+  return item.shown == Shown::everywhere || item.shown == Shown::to_people;
+}
+
+/// An item that is shown in JSON and CSV only.
+inline Item in_data(std::string key, std::string meaning, std::string unit = {}) {
+  return {
+      .key = std::move(key), .meaning = std::move(meaning), .unit = std::move(unit), .shown = Shown::in_data};
+}
+
+/// An item that is text, of which these are all words.
+inline Item with_words(Item item, std::vector<std::string> words) {
+  item.words = std::move(words);
+  return item;
+}
 
 }  // namespace zerocount::document

@@ -50,11 +50,13 @@ Json kind_schema(const Item& item) {
     case Kind::object:
       return object_schema(item.members);
     case Kind::table:
+    case Kind::sections:
       return {{"type", "array"}, {"items", object_schema(item.members)}};
     case Kind::text:
       if (!item.words.empty()) return {{"enum", item.words}};
       break;
     case Kind::headline:
+    case Kind::title:
     case Kind::sentence:
     case Kind::figure:
       break;

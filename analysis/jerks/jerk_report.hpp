@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
+#include "analysis/document/answer.hpp"
 #include "analysis/jerks/jerk_statistics.hpp"
 
 /// Output of the verb `jerks`.
@@ -28,13 +27,7 @@ JerkReport jerk_report(const reading::StudyFile& file, const study::Study& study
 /// Whether any move arrived. Without an arrival there are no measurements.
 bool any_arrival(const JerkReport& report);
 
-/// {"name", "confidence", "points": [{"point", "label", …}]} with the names of JerkStatistics; NaN is null.
-nlohmann::ordered_json jerk_json(const JerkReport& report);
-
-/// jerk_json as text, indented, ending with a line break.
-std::string jerk_json_text(const JerkReport& report);
-
-/// The report as text: for each point a paragraph and the table of rates. UTF-8.
-std::string jerk_text(const JerkReport& report);
+/// The answer of `jerks`: for each point its numbers in words, the table of rates and the intervals.
+document::AnswerDescription<JerkReport> jerk_answer();
 
 }  // namespace zerocount::jerks

@@ -4,11 +4,10 @@
 #include "analysis/jerks/jerk_report.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/study_file.hpp"
+#include "runners/answers/answer_format.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/result_commands/result_commands.hpp"
-#include "runners/standard_output/standard_output.hpp"
-#include "runners/status/status.hpp"
 
 namespace zerocount::result_commands {
 namespace {
@@ -24,7 +23,6 @@ constexpr const char* jerks_help =
 constexpr std::int64_t default_creep_trials = 20;
 
 ExitCode print_jerks(const command_line::Arguments& arguments) {
-  const std::string format = arguments.choice("format");
   const double confidence =
       command_line::probability_option(arguments, "confidence").value_or(statistics::summary_confidence);
   const std::int64_t creep_trials =
@@ -33,10 +31,8 @@ ExitCode print_jerks(const command_line::Arguments& arguments) {
   const study::Study study = layout::recorded_study(file.header(), file.path());
   const std::vector<std::int64_t> points = command_line::point_options(arguments, study.point_labels);
   const jerks::JerkReport report = jerks::jerk_report(file, study, points, confidence, creep_trials);
-  standard_output::write(format == "json" ? jerks::jerk_json_text(report) : jerks::jerk_text(report));
-  if (jerks::any_arrival(report)) return ExitCode::success;
-  status::tell("no move arrived, so there are no jerks\n");
-  return ExitCode::inconclusive;
+  const ExitCode code = jerks::any_arrival(report) ? ExitCode::success : ExitCode::inconclusive;
+  return answers::print(arguments, jerks::jerk_answer().of(report, code));
 }
 
 }  // namespace
@@ -47,10 +43,11 @@ commands::Command jerks_command() {
            {{"point", "P", "design point, by label or number; may be repeated (default: all)", true},
             {"confidence", "LEVEL", "confidence of all bounds, between 0 and 1 (default 0.95)"},
             {"creep-trials", "N", "trials per point to compare with creep (default 20)"},
-            command_line::format_option({"table", "json"})}},
+            answers::format_option(jerks::jerk_answer().complete_type())}},
           "print the rate, intervals and trend of jerks",
           jerks_help,
-          print_jerks};
+          print_jerks,
+          {jerks::jerk_answer().complete_type()}};
 }
 
 }  // namespace zerocount::result_commands

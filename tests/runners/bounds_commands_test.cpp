@@ -149,7 +149,7 @@ TEST_F(BoundsCommands, JerksOfChosenPoints) {
   EXPECT_EQ(one["points"][0], all["points"][1]);
   const ProgramResult table = run({"jerks", "study.h5"});
   EXPECT_EQ(table.code, 0);
-  EXPECT_NE(table.out.find("since arrival (s)"), std::string::npos) << table.out;
+  EXPECT_NE(table.out.find("Rate of jerks since arrival"), std::string::npos) << table.out;
 }
 
 TEST_F(BoundsCommands, WhereNothingArrivedNothingWasMeasured) {

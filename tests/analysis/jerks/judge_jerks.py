@@ -68,13 +68,13 @@ def adjusted(hits, events):
     return independent(hits, events) * ((stats.t.isf(tail, n - 1) / stats.t.isf(tail, m - 1)) ** 2 if known else 1.0)
 
 
-def judge_share(found, hits, events, place):
+def judge_proportion(found, hits, events, place):
     p = hits.sum() / events.sum()
-    close(found["share"], p, place)
+    close(found["proportion"], p, place)
     close(found["independent"], independent(hits, events), place)
     n = adjusted(hits, events)
-    close(found["share_low"], stats.beta.ppf(tail, p * n, n - p * n + 1) if p > 0 else 0.0, place)
-    close(found["share_high"], stats.beta.isf(tail, p * n + 1, n - p * n) if p < 1 else 1.0, place)
+    close(found["proportion_low"], stats.beta.ppf(tail, p * n, n - p * n + 1) if p > 0 else 0.0, place)
+    close(found["proportion_high"], stats.beta.isf(tail, p * n + 1, n - p * n) if p < 1 else 1.0, place)
 
 
 def judge_point(found, file, point, rigs):
@@ -175,8 +175,8 @@ def judge_point(found, file, point, rigs):
     p = ((permuted <= sum((weights * between).sum() for weights, between in trends)).sum() + 1) / (rounds + 1)
     assert slowing["permutations"] == 9999
     assert abs(slowing["p_value"] - p) < 4 * numpy.sqrt(p * (1 - p) * (1 / rounds + 1 / 9999)) + 1 / rounds, (slowing, p)
-    judge_share(found["agreement"], agreeing, jerks, "agreement")
-    judge_share(found["magnitude"]["one_count"], one_count, jerks, "one count")
+    judge_proportion(found["agreement"], agreeing, jerks, "agreement")
+    judge_proportion(found["magnitude"]["one_count"], one_count, jerks, "one count")
     return int(jerks.sum())
 
 
@@ -193,7 +193,7 @@ def judge_study(zerocount, rigs):
     assert len(counts) == 2 and min(counts) > 30, counts
     for found in report["points"]:
         creep = found["creep"]
-        assert creep["foretold"] == creep["ended"] and creep["lasting_foretold"] == creep["lasting"], creep
+        assert creep["predicted"] == creep["ended"] and creep["lasting_predicted"] == creep["lasting"], creep
     print(f"{counts} jerks agree, {rigs} rigs")
 
 

@@ -1,17 +1,24 @@
 #include "analysis/report/answer_page.hpp"
 
+#include <utility>
+
 #include <fmt/format.h>
 
+#include "analysis/report/report_sections.hpp"
 #include "results/layout/header.hpp"
 
 namespace zerocount::report {
+
+PageSection answer_section(std::string name, std::string title, const document::Answer& answer) {
+  return {std::move(name), std::move(title), document::html(answer), document::figures(answer)};
+}
 
 ReportPage answer_page(const document::Answer& answer) {
   const std::string title = fmt::format("zerocount {}", answer.type.name);
   return {title,
           answer.type.meaning,
           fmt::format("zerocount {}", layout::current_provenance().zerocount_version),
-          {{"answer", "Answer", document::html(answer), document::figures(answer)}}};
+          {answer_section("answer", "Answer", answer)}};
 }
 
 }  // namespace zerocount::report

@@ -5,12 +5,16 @@
 #include <string>
 
 #include "analysis/comparison/comparison.hpp"
+#include "analysis/document/answer.hpp"
 #include "analysis/history/series.hpp"
 #include "analysis/report/page.hpp"
 #include "analysis/report/reported_study.hpp"
 
 /// The texts and tables of a report, as HTML, and its sections with both text and figures.
 namespace zerocount::report {
+
+/// An answer with its figures as a section.
+PageSection answer_section(std::string name, std::string title, const document::Answer& answer);
 
 /// The conclusions in words: success of the best and the worst point with tolerance statements, settling
 /// times, jerks, and the prediction of the criteria. For 100 % success it states the upper bound of the

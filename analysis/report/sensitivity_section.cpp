@@ -4,10 +4,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "analysis/document/markup.hpp"
-#include "analysis/report/html.hpp"
+#include "analysis/report/answer_figures.hpp"
 #include "analysis/report/report_sections.hpp"
-#include "analysis/sensitivity/sensitivity.hpp"
 #include "analysis/text/percent.hpp"
 
 namespace zerocount::report {
@@ -30,13 +28,16 @@ std::string label_text(std::string name) {
   return name;
 }
 
-Figure figure_for(const sensitivity::OutputSensitivity& output, const std::string& label, bool total) {
+Figure figure_for(const sensitivity::StudySensitivity& study, const sensitivity::PointSensitivity& point,
+                  const sensitivity::OutputSensitivity& output) {
+  const bool total = study.from_saltelli;
+  const std::string level = text::percent(study.confidence);
   FigureData data{"factors",
                   {{"factor", "parameter", ""},
                    {"index", "index", ""},
                    {"value", "value", "1"},
-                   {"low", "lower 95 % bound", "1"},
-                   {"high", "upper 95 % bound", "1"}}};
+                   {"low", fmt::format("lower {} bound", level), "1"},
+                   {"high", fmt::format("upper {} bound", level), "1"}}};
   const std::size_t shown = std::min(max_factors, output.factors.size());
   for (std::size_t i = 0; i < shown; ++i) {
     const sensitivity::FactorSensitivity& factor = output.factors[i];
@@ -44,10 +45,10 @@ Figure figure_for(const sensitivity::OutputSensitivity& output, const std::strin
     add_index(data, factor, "total: with all others", factor.total);
   }
   std::string caption = fmt::format(
-      "Sobol' indices of {} at point {} (dots) with 95 % bounds (bars), for each random parameter, strongest "
+      "Sobol' indices of {} at point {} (dots) with {} bounds (bars), for each random parameter, strongest "
       "first: the proportion of the variance that the parameter {}. A parameter influences the output if its "
       "lower bound{} is above {}. Bounds that include {} leave it open. ",
-      label_text(output.output), label,
+      label_text(output.output), point.label, level,
       total ? "explains alone (first order), or has a part in, alone or with others (total)"
             : "explains alone",
       total ? " of the total index" : "", text::percent(sensitivity::relevant_index),
@@ -58,38 +59,40 @@ Figure figure_for(const sensitivity::OutputSensitivity& output, const std::strin
   if (shown < output.factors.size())
     caption += fmt::format("Shown are {} of {}. ", shown, output.factors.size());
   for (const std::string& note : output.notes) caption += note + (note.ends_with('.') ? " " : ". ");
-  Figure figure = figure_of("sensitivity", "sensitivity-" + output.output,
+  const std::string of_point = study.points.size() > 1 ? fmt::format("-{}", point.point) : "";
+  Figure figure = figure_of("sensitivity", fmt::format("sensitivity-{}{}", output.output, of_point),
                             "Sensitivity of " + label_text(output.output), caption, {std::move(data)});
   if (!total) figure.specification["encoding"]["color"]["legend"] = nullptr;
   set_rows(figure, shown, 28);
   return figure;
 }
 
+std::vector<Figure> figures_of(const sensitivity::StudySensitivity& study) {
+  std::vector<Figure> figures;
+  for (const sensitivity::PointSensitivity& point : study.points) {
+    for (const sensitivity::OutputSensitivity& output : point.outputs) {
+      if (output.estimated) figures.push_back(figure_for(study, point, output));
+    }
+  }
+  return figures;
+}
+
 }  // namespace
+
+document::AnswerDescription<sensitivity::StudySensitivity> sensitivity_answer() {
+  document::AnswerDescription<sensitivity::StudySensitivity> answer = sensitivity::sensitivity_answer();
+  answer.items.figures(figures_of);
+  return answer;
+}
 
 std::optional<PageSection> sensitivity_section(const ReportedStudy& reported) {
   if (reported.study.open_loop) return std::nullopt;
   sensitivity::SensitivityQuestion question;
   question.points = {reported.chosen.point};
-  const sensitivity::StudySensitivity answer = sensitivity::study_sensitivity(reported.file, question);
-  PageSection section{sensitivity_section_name, "Which parameters matter", "", {}};
+  const sensitivity::StudySensitivity found = sensitivity::study_sensitivity(reported.file, question);
   const measures::PointSummary& chosen = point_of(reported, reported.chosen.point);
-  if (!sensitivity::any_estimated(answer)) {
-    if (chosen.outcomes.zero_count < chosen.trials) return std::nullopt;
-    section.html = fmt::format("<p>All trials of {} succeed: no parameter explains a failure.</p>\n",
-                               document::markup(label_of(reported, reported.chosen.point)));
-    return section;
-  }
-  const sensitivity::PointSensitivity& point = answer.points.front();
-  for (const sensitivity::OutputSensitivity& output : point.outputs) {
-    if (!output.estimated) continue;
-    const std::string within = output.of_worlds            ? "Between worlds: "
-                               : reported.study.worlds > 0 ? "Within worlds: "
-                                                           : "";
-    section.html += fmt::format("<p>{}{}</p>\n", within, document::prose_markup(output.conclusion));
-    section.figures.push_back(figure_for(output, point.label, answer.from_saltelli));
-  }
-  return section;
+  if (!sensitivity::any_estimated(found) && chosen.outcomes.zero_count < chosen.trials) return std::nullopt;
+  return answer_section(sensitivity_section_name, "Which parameters matter", sensitivity_answer().of(found));
 }
 
 }  // namespace zerocount::report

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "analysis/document/answer.hpp"
 #include "analysis/sensitivity/bounded_number.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/unknown.hpp"
@@ -40,19 +41,6 @@ struct FactorSensitivity {
   /// is, or the bounds of partial_rank_correlation exclude all up to relevant_correlation.
   bool matters{false};
 };
-
-/// The numbers of a factor, in the order of the outputs.
-struct FactorNumber {
-  const char* name;  ///< in JSON and CSV
-  const char* head;  ///< in the table
-  BoundedNumber FactorSensitivity::*number;
-};
-inline constexpr FactorNumber factor_numbers[] = {
-    {"total", "total", &FactorSensitivity::total},
-    {"first_order", "first order", &FactorSensitivity::first_order},
-    {"rank_correlation", "rank corr.", &FactorSensitivity::rank_correlation},
-    {"partial_rank_correlation", "partial rank corr.", &FactorSensitivity::partial_rank_correlation},
-    {"log_odds", "log odds per sd", &FactorSensitivity::log_odds}};
 
 /// A factor that has no row, and why.
 struct FactorLeftOut {
@@ -91,7 +79,7 @@ struct StudySensitivity {
   std::vector<PointSensitivity> points;
 };
 
-/// Something of a trial that can be asked about.
+/// An output whose sensitivity can be estimated.
 struct SensitivityOutput {
   std::string_view name;
   std::string_view unit;
@@ -125,11 +113,7 @@ StudySensitivity study_sensitivity(const reading::StudyFile& file, const Sensiti
 /// Whether at least one output at one point could be estimated.
 bool any_estimated(const StudySensitivity& sensitivity);
 
-/// A table per point and output for people, UTF-8.
-std::string sensitivity_table(const StudySensitivity& sensitivity);
-/// The report as one JSON object, indented; numbers read back to the same double, null where there is none.
-std::string sensitivity_json(const StudySensitivity& sensitivity);
-/// A line per point, output and factor. RFC 4180 with \n; NaN is `nan`.
-std::string sensitivity_csv(const StudySensitivity& sensitivity);
+/// The answer of `sensitivity`: for each point and output a conclusion and the table of the factors.
+document::AnswerDescription<StudySensitivity> sensitivity_answer();
 
 }  // namespace zerocount::sensitivity

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "analysis/sensitivity/sensitivity.hpp"
+#include "analysis/report/answer_figures.hpp"
 #include "results/reading/study_file.hpp"
+#include "runners/answers/answer_format.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/result_commands/result_commands.hpp"
-#include "runners/standard_output/standard_output.hpp"
 #include "runners/status/status.hpp"
 
 namespace zerocount::result_commands {
@@ -39,7 +39,6 @@ std::string full_help() {
 }
 
 ExitCode print_sensitivity(const command_line::Arguments& arguments) {
-  const std::string format = arguments.choice("format");
   sensitivity::SensitivityQuestion question;
   const reading::StudyFile file(arguments.operands()[0]);
   question.points = command_line::point_options(arguments, file.point_labels());
@@ -53,10 +52,8 @@ ExitCode print_sensitivity(const command_line::Arguments& arguments) {
     line.show([&] { return fmt::format("sensitivity: {} of {} outputs", done, all); });
   };
   const sensitivity::StudySensitivity sensitivity = sensitivity::study_sensitivity(file, question);
-  if (format == "table") standard_output::write_fitted(sensitivity::sensitivity_table(sensitivity));
-  if (format == "json") standard_output::write(sensitivity::sensitivity_json(sensitivity));
-  if (format == "csv") standard_output::write(sensitivity::sensitivity_csv(sensitivity));
-  return sensitivity::any_estimated(sensitivity) ? ExitCode::success : ExitCode::inconclusive;
+  const ExitCode code = sensitivity::any_estimated(sensitivity) ? ExitCode::success : ExitCode::inconclusive;
+  return answers::print(arguments, report::sensitivity_answer().of(sensitivity, code));
 }
 
 }  // namespace
@@ -70,10 +67,11 @@ commands::Command sensitivity_command() {
         {"confidence", "C", "confidence of the bounds, above 0 and up to 0.999 (default 0.95)"},
         {"max-trials", "N",
          "use the first N trials of each point (default 100000; of a saltelli design all are used)"},
-        command_line::format_option({"table", "json", "csv"})}},
+        answers::format_option(report::sensitivity_answer().complete_type())}},
       "print which random parameters influence the outputs of the trials",
       full_help(),
-      print_sensitivity};
+      print_sensitivity,
+      {report::sensitivity_answer().complete_type()}};
 }
 
 }  // namespace zerocount::result_commands

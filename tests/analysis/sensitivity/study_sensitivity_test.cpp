@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -337,42 +336,44 @@ TEST(StudySensitivity, QuestionsThatMakeNoSenseAreRefused) {
   }
 }
 
+nlohmann::ordered_json json_of(const StudySensitivity& found) {
+  return document::json(sensitivity_answer().of(found));
+}
+
 TEST(StudySensitivity, DoesNotDependOnTheNumberOfThreads) {
   for (const char* design : {"", "design: monte_carlo\n"}) {
     std::string text = manifest();
     if (*design != '\0') text.replace(text.find("design: saltelli\n"), 17, design);
     const MadeUpStudy study(text, both_in_upper_half);
-    const std::string many = sensitivity_json(study.ask());
+    const auto many = json_of(study.ask());
     const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
-    EXPECT_EQ(sensitivity_json(study.ask()), many);
+    EXPECT_EQ(json_of(study.ask()), many);
   }
 }
 
-TEST(StudySensitivity, IsTheSameEveryTimeInAllForms) {
+TEST(StudySensitivity, AnswersWithTheNumbersOfTheFactors) {
   const MadeUpStudy study(manifest(), both_in_upper_half);
-  EXPECT_EQ(sensitivity_json(study.ask()), sensitivity_json(study.ask()));
   const StudySensitivity found = study.ask();
-  const auto json = nlohmann::json::parse(sensitivity_json(found));
+  const document::Answer answer = sensitivity_answer().of(found);
+  const auto json = document::json(answer);
+  EXPECT_EQ(json, json_of(study.ask())) << "the same every time";
   const auto& first = json["points"][0]["outputs"][0]["factors"][0];
   const FactorSensitivity& strongest = found.points[0].outputs[0].factors[0];
   EXPECT_EQ(first["name"], strongest.name);
-  EXPECT_EQ(first["total"]["value"].get<double>(), strongest.total.value);
-  EXPECT_EQ(first["total"]["low"].get<double>(), strongest.total.low);
+  EXPECT_EQ(first["total"].get<double>(), strongest.total.value);
+  EXPECT_EQ(first["total_low"].get<double>(), strongest.total.low);
   const auto& settling = json["points"][0]["outputs"][1]["factors"][0];
-  EXPECT_TRUE(settling["log_odds"]["value"].is_null()) << "settling_time is no yes or no";
+  EXPECT_TRUE(settling["log_odds"].is_null()) << "settling_time is no yes or no";
 
-  std::istringstream csv(sensitivity_csv(found));
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(csv, line);) lines.push_back(line);
-  ASSERT_EQ(lines.size(), 1u + 2 * 2 * 3);
-  const auto commas = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
-  EXPECT_EQ(lines[0].find("point,label,output,factor,matters,total,total_low,total_high,first_order,"), 0u);
-  for (const std::string& line : lines) EXPECT_EQ(commas(line), commas(lines[0]));
+  const std::string csv = document::csv(answer);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * 2 * 3);
+  EXPECT_EQ(csv.find("point,label,output,"), 0u);
+  EXPECT_NE(csv.find(",name,matters,total,total_low,total_high,first_order,"), std::string::npos);
 
-  const std::string table = sensitivity_table(found);
+  const std::string text = document::text(answer);
   for (const char* expected : {"Point 1: b", "friction.k1", "total", "first order", "log odds per sd",
-                               "left out: controller.ki: the same in all trials of the point"}) {
-    EXPECT_NE(table.find(expected), std::string::npos) << expected << "\n" << table;
+                               "controller.ki  the same in all trials of the point"}) {
+    EXPECT_NE(text.find(expected), std::string::npos) << expected << "\n" << text;
   }
 }
 

@@ -1,0 +1,178 @@
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/sensitivity/sensitivity.hpp"
+#include "analysis/text/percent.hpp"
+#include "analysis/text/text.hpp"
+
+namespace zerocount::sensitivity {
+namespace {
+
+using document::Description;
+using document::in_data;
+using document::Shown;
+
+Description<FactorSensitivity> factor_description() {
+  Description<FactorSensitivity> description;
+  description
+      .value({.key = "name",
+              .heading = "factor",
+              .meaning = "dotted path of the parameter, or what is drawn within trials"},
+             &FactorSensitivity::name)
+      .value({.key = "matters", .heading = "matters", .meaning = "whether it is shown to have an influence"},
+             &FactorSensitivity::matters);
+  const auto add = [&](const char* key, const char* heading, const char* meaning,
+                       BoundedNumber FactorSensitivity::*number) {
+    description.value({.key = key,
+                       .heading = heading,
+                       .meaning = meaning,
+                       .unit = "1",
+                       .notation = document::Notation::three_digits},
+                      [number](const FactorSensitivity& factor) {
+                        const BoundedNumber& found = factor.*number;
+                        return document::Bounded{found.value, found.low, found.high};
+                      });
+  };
+  add("total", "total", "total Sobol' index", &FactorSensitivity::total);
+  add("first_order", "first order", "first-order Sobol' index", &FactorSensitivity::first_order);
+  add("rank_correlation", "rank corr.", "Spearman's rank correlation", &FactorSensitivity::rank_correlation);
+  add("partial_rank_correlation", "partial rank corr.",
+      "rank correlation with the part of the other factors taken out",
+      &FactorSensitivity::partial_rank_correlation);
+  add("log_odds", "log odds per sd",
+      "change of ln(p/(1 - p)) over one standard deviation of the factor, p the proportion of yes",
+      &FactorSensitivity::log_odds);
+  return description;
+}
+
+std::string trials_sentence(const OutputSensitivity& output) {
+  return fmt::format("{}\n{} {}, mean {}, standard deviation {}", output.meaning, output.trials,
+                     output.of_worlds ? "worlds" : "trials", text::short_number(output.mean),
+                     text::short_number(output.standard_deviation));
+}
+
+std::string notes_sentences(const OutputSensitivity& output) {
+  return output.notes.empty() ? "" : fmt::format("note: {}", fmt::join(output.notes, "\nnote: "));
+}
+
+Description<OutputSensitivity> output_description() {
+  using Output = const OutputSensitivity&;
+  return Description<OutputSensitivity>()
+      .title([](Output o) { return o.unit == "1" ? o.output : fmt::format("{} ({})", o.output, o.unit); })
+      .value(in_data("output", "name of the output"), &OutputSensitivity::output)
+      .value(in_data("unit", "unit of the mean and the standard deviation"), &OutputSensitivity::unit)
+      .sentence(trials_sentence)
+      .value({.key = "meaning", .meaning = "what the output is", .shown = Shown::in_json},
+             &OutputSensitivity::meaning)
+      .value(in_data("estimated", "whether the factors could be estimated"), &OutputSensitivity::estimated)
+      .sentence(&OutputSensitivity::conclusion)
+      .value({.key = "conclusion",
+              .meaning = "which factors matter, which do not, and what stays open",
+              .shown = Shown::in_json},
+             &OutputSensitivity::conclusion)
+      .sentence(notes_sentences)
+      .value(in_data("notes", "what limits these numbers"), &OutputSensitivity::notes)
+      .value(in_data("trials", "trials, or worlds, that are used"), &OutputSensitivity::trials)
+      .value(in_data("mean", "mean of the output, in its unit"), &OutputSensitivity::mean)
+      .value(in_data("standard_deviation", "standard deviation of the output, in its unit"),
+             &OutputSensitivity::standard_deviation)
+      .table({.key = "factors", .meaning = "what varies in the trials, strongest first"},
+             factor_description(), &OutputSensitivity::factors)
+      .table({.key = "left_out", .heading = "Left out", .meaning = "factors without numbers"},
+             Description<FactorLeftOut>()
+                 .value({.key = "name", .heading = "factor", .meaning = "name of the factor"},
+                        &FactorLeftOut::name)
+                 .value({.key = "reason", .heading = "reason", .meaning = "why it has no numbers"},
+                        &FactorLeftOut::reason),
+             &OutputSensitivity::left_out);
+}
+
+Description<PointSensitivity> point_description() {
+  return Description<PointSensitivity>()
+      .title([](const PointSensitivity& p) {
+        return fmt::format("Point {}: {}", p.point, text::printable(p.label));
+      })
+      .value(in_data("point", "number of the design point"), &PointSensitivity::point)
+      .value(in_data("label", "label of the design point"), &PointSensitivity::label)
+      .sections({.key = "outputs", .meaning = "outputs of the trials"}, output_description(),
+                &PointSensitivity::outputs);
+}
+
+/// "success at low: friction.k1; …": the factors that matter, of each output at each point.
+std::vector<std::string> influences(const StudySensitivity& sensitivity) {
+  std::vector<std::string> found;
+  for (const PointSensitivity& point : sensitivity.points) {
+    for (const OutputSensitivity& output : point.outputs) {
+      std::vector<std::string> names;
+      for (const FactorSensitivity& factor : output.factors) {
+        if (factor.matters) names.push_back(text::printable(factor.name));
+      }
+      if (!names.empty())
+        found.push_back(
+            fmt::format("{} at {}: {}", output.output, text::printable(point.label), fmt::join(names, ", ")));
+    }
+  }
+  return found;
+}
+
+std::string headline(const StudySensitivity& sensitivity) {
+  constexpr std::size_t max_shown = 4;
+  std::vector<std::string> found = influences(sensitivity);
+  if (found.empty()) {
+    return fmt::format("{}: {}", text::printable(sensitivity.name),
+                       any_estimated(sensitivity) ? "no parameter is shown to matter"
+                                                  : "nothing can be said of which parameters matter");
+  }
+  if (found.size() > max_shown) {
+    found.resize(max_shown);
+    found.emplace_back("more below");
+  }
+  return fmt::format("{}: what matters of {}", text::printable(sensitivity.name), fmt::join(found, "; "));
+}
+
+std::string legend(const StudySensitivity& sensitivity) {
+  const std::string matters =
+      sensitivity.from_saltelli
+          ? fmt::format("total are above {:g}", relevant_index)
+          : fmt::format("first order are above {:g}, or those of partial rank corr. beyond ±{:g}",
+                        relevant_index, relevant_correlation);
+  const char* const proportions =
+      sensitivity.from_saltelli
+          ? "total, first order: proportions of the variance (Sobol' indices) in which the factor has a "
+            "part, and that it explains alone. A part that several factors share counts in the total of "
+            "each: totals need not add up to 1."
+          : "first order: proportion of the variance that the factor explains alone (Sobol' index); what it "
+            "does only together with others does not show here, but does with design: saltelli.";
+  return fmt::format(
+      "[,]: {} confidence bounds, each by itself. matters: those of {}.\n{}\n"
+      "rank corr.: whether the output rises (+) or falls (-) with the factor; partial rank corr.: with the "
+      "part of the other factors taken out. log odds per sd: what a standard deviation of the factor adds to "
+      "ln(p/(1 - p)), p the proportion of yes.",
+      text::percent(sensitivity.confidence), matters, proportions);
+}
+
+}  // namespace
+
+document::AnswerDescription<StudySensitivity> sensitivity_answer() {
+  document::AnswerDescription<StudySensitivity> answer{
+      {.name = "sensitivity",
+       .meaning = "which random parameters influence the outputs of the trials",
+       .csv_table = "points.outputs.factors"},
+      {}};
+  answer.items.headline(headline)
+      .value(in_data("name", "name of the study"), &StudySensitivity::name)
+      .value(in_data("design_is_saltelli", "whether the design is saltelli, and there are total indices"),
+             &StudySensitivity::from_saltelli)
+      .value(in_data("confidence", "confidence of all bounds, each by itself", "1"),
+             &StudySensitivity::confidence)
+      .sections({.key = "points", .meaning = "the design points"}, point_description(),
+                &StudySensitivity::points)
+      .title([](const StudySensitivity&) { return "Legend"; })
+      .sentence(legend);
+  return answer;
+}
+
+}  // namespace zerocount::sensitivity

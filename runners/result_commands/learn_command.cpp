@@ -7,22 +7,20 @@
 
 #include <fmt/format.h>
 
+#include "analysis/goal/goal_description.hpp"
 #include "analysis/summary/judged_point.hpp"
 #include "analysis/summary/shown_points.hpp"
 #include "analysis/summary/summary_parts.hpp"
 #include "analysis/text/percent.hpp"
-#include "analysis/text/report_json.hpp"
 #include "analysis/worlds/learning.hpp"
+#include "runners/answers/answer_format.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/result_commands/result_commands.hpp"
-#include "runners/standard_output/standard_output.hpp"
 
 namespace zerocount::result_commands {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr double usual_precision = 0.1;
 constexpr double significance = 0.05;
@@ -49,11 +47,22 @@ enum class Next {
   nothing,      ///< the goal is met in every world
   change_axis,  ///< it is missed in every world
   more_trials,  ///< these trials show no difference between the worlds, and do not decide the goal
-  measure,      ///< Answer::best()
+  measure,      ///< measure what Outcome::best() names
   no_single     ///< worlds differ, but no single measurement is shown to tell them apart
 };
 
-struct Answer {
+/// What a measurement of one unknown decides.
+struct Measurement {
+  const worlds::Learned& learned;
+  const worlds::WorldInput& input;
+  std::size_t worlds;
+
+  double decided_proportion() const {
+    return static_cast<double>(learned.decided()) / static_cast<double>(worlds);
+  }
+};
+
+struct Outcome {
   const summary::StudySummary& summary;
   summary::ChosenPoint chosen;
   std::optional<summary::JudgedPoint> judged;  ///< of a study with a goal
@@ -78,15 +87,21 @@ struct Answer {
   std::size_t worlds_that(goal::Status status) const {
     return judged ? goal::worlds_that(status, judged->verdict).size() : 0;
   }
+  std::vector<Measurement> measurements() const {
+    std::vector<Measurement> all;
+    for (const worlds::Learned& one : learned) all.push_back({one, inputs()[one.input], worlds.bad.size()});
+    return all;
+  }
+  Next next() const {
+    if (judged && judged->verdict.status == goal::Status::met) return Next::nothing;
+    if (worlds_that(goal::Status::missed) == worlds.bad.size()) return Next::change_axis;
+    if (!worlds_differ()) return Next::more_trials;
+    return best() != nullptr ? Next::measure : Next::no_single;
+  }
+  std::optional<std::string> unknown_to_measure() const {
+    return next() == Next::measure ? std::optional(inputs()[best()->input].name) : std::nullopt;
+  }
 };
-
-Next next_of(const Answer& answer) {
-  const std::size_t all = answer.worlds.bad.size();
-  if (answer.judged && answer.judged->verdict.status == goal::Status::met) return Next::nothing;
-  if (answer.worlds_that(goal::Status::missed) == all) return Next::change_axis;
-  if (!answer.worlds_differ()) return Next::more_trials;
-  return answer.best() != nullptr ? Next::measure : Next::no_single;
-}
 
 std::string_view word_of(Next next) {
   switch (next) {
@@ -104,127 +119,141 @@ std::string_view word_of(Next next) {
   return "no_single_measurement";
 }
 
-std::string percent_of(std::int64_t count, std::size_t worlds) {
-  return text::percentage(count, static_cast<std::int64_t>(worlds));
-}
-
-std::string table_of(const Answer& answer) {
-  const std::size_t worlds = answer.worlds.bad.size();
-  std::vector<text::TextColumn> columns{
-      {"unknown", false, {}},  {"decided", true, {}}, {"meets it", true, {}},  {"falls short", true, {}},
-      {"misjudged", true, {}}, {"open", true, {}},    {"by chance", true, {}}, {"record", false, {}}};
-  for (const worlds::Learned& one : answer.learned) {
-    const std::string_view record = worlds::record_of(answer.inputs()[one.input].name);
-    columns[0].cells.push_back(answer.inputs()[one.input].name);
-    columns[1].cells.push_back(percent_of(one.decided(), worlds));
-    columns[2].cells.push_back(std::to_string(one.decided_good));
-    columns[3].cells.push_back(std::to_string(one.decided_bad));
-    columns[4].cells.push_back(std::to_string(one.misjudged));
-    columns[5].cells.push_back(std::to_string(one.open));
-    columns[6].cells.push_back(fmt::format("{:.2g}", one.p_value));
-    columns[7].cells.emplace_back(record.empty() ? "none of identify" : record);
-  }
-  return text::aligned_table(columns);
+std::vector<std::string> next_words() {
+  std::vector<std::string> words;
+  for (const Next next :
+       {Next::nothing, Next::change_axis, Next::more_trials, Next::measure, Next::no_single})
+    words.emplace_back(word_of(next));
+  return words;
 }
 
 /// Where some worlds are undecided, the table takes them by their observed rates.
-std::string undecided_worlds_text(const Answer& answer) {
-  const std::size_t undecided = answer.worlds_that(goal::Status::undecided);
-  if (undecided == 0) return "";
+std::string undecided_worlds_sentence(const Outcome& outcome) {
+  const std::size_t undecided = outcome.worlds_that(goal::Status::undecided);
+  if (outcome.learned.empty() || undecided == 0) return "";
   return fmt::format(
-      "{} of {} worlds are undecided, and count by their observed rates here; more trials decide them\n",
-      undecided, answer.worlds.bad.size());
+      "{} of {} worlds are undecided, and count by their observed rates here; more trials decide them",
+      undecided, outcome.worlds.bad.size());
 }
 
-std::string meanings_text(const Answer& answer) {
+/// What the derived quantities of the table are, a line each.
+std::string meanings_text(const Outcome& outcome) {
   std::string text;
-  for (const worlds::WorldInput& input : answer.inputs()) {
+  if (outcome.learned.empty()) return text;
+  for (const worlds::WorldInput& input : outcome.inputs()) {
     if (input.is_derived()) text += fmt::format("{} ({}): {}\n", input.name, input.unit, input.meaning);
   }
-  return text.empty() ? text : text + '\n';
+  return text;
 }
 
-std::string next_text(const Answer& answer) {
-  const std::size_t all = answer.worlds.bad.size();
-  switch (next_of(answer)) {
+std::string headline_of(const Outcome& outcome) {
+  const std::size_t all = outcome.worlds.bad.size();
+  switch (outcome.next()) {
     case Next::nothing:
       return "no measurement is needed: the goal is met in every world, whatever the truth is within what "
-             "the manifest states\n";
+             "the manifest states";
     case Next::change_axis:
       return "no measurement of these unknowns helps: the goal is missed in every world; other gains or "
-             "another axis may meet it\n";
+             "another axis may meet it";
     case Next::more_trials:
-      if (!answer.judged)
+      if (!outcome.judged)
         return "these trials show no difference between the worlds: more trials may, and a goal says what "
-               "is to be decided\n";
+               "is to be decided";
       return fmt::format(
           "first more trials, then a measurement: {} of {} worlds are undecided, and {} fall short by their "
-          "observed rates, so that no difference between worlds is seen that a measurement could tell\n",
-          answer.worlds_that(goal::Status::undecided), all,
-          answer.bad() == 0 ? std::string("none") : fmt::format("all {}", all));
+          "observed rates, so that no difference between worlds is seen that a measurement could tell",
+          outcome.worlds_that(goal::Status::undecided), all,
+          outcome.bad() == 0 ? std::string("none") : fmt::format("all {}", all));
     case Next::measure: {
-      const worlds::Learned& best = *answer.best();
-      return fmt::format("measure {}: it decides {} of {} worlds, and misjudges {}\n",
-                         answer.inputs()[best.input].name, best.decided(), all, best.misjudged);
+      const worlds::Learned& best = *outcome.best();
+      return fmt::format("measure {}: it decides {} of {} worlds, and misjudges {}",
+                         outcome.inputs()[best.input].name, best.decided(), all, best.misjudged);
     }
     case Next::no_single:
       break;
   }
   return fmt::format(
       "no single measurement is shown to decide more than chance does (at a significance of {}); more "
-      "worlds, or more trials in each, may show one\n",
+      "worlds, or more trials in each, may show one",
       text::percent(significance));
 }
 
 /// The paragraph of `judge`; without a goal the worlds that fall short.
-std::string verdict_text(const Answer& answer) {
-  if (answer.judged) return summary::judgement_text(answer.summary, *answer.judged);
-  return fmt::format("{}: {}\n",
-                     summary::point_names(answer.summary)[static_cast<std::size_t>(answer.chosen.point)],
-                     summary::bad_worlds_sentence(answer.worlds, answer.inputs(), false));
+std::string verdict_text(const Outcome& outcome) {
+  if (outcome.judged) return summary::judgement_text(outcome.summary, *outcome.judged);
+  return fmt::format("{}: {}",
+                     summary::point_names(outcome.summary)[static_cast<std::size_t>(outcome.chosen.point)],
+                     summary::bad_worlds_sentence(outcome.worlds, outcome.inputs(), false));
 }
 
-std::string text_of(const Answer& answer) {
-  std::string text = verdict_text(answer) + "\n";
-  if (!answer.learned.empty())
-    text += fmt::format("if one unknown were measured to ±{}:\n\n{}\n{}{}", text::percent(answer.precision),
-                        table_of(answer), meanings_text(answer), undecided_worlds_text(answer));
-  return text + next_text(answer);
+std::optional<std::string_view> record_of(const Measurement& measurement) {
+  const std::string_view record = worlds::record_of(measurement.input.name);
+  return record.empty() ? std::nullopt : std::optional(record);
 }
 
-Json needed_json(const Answer& answer) {
-  if (!answer.judged || !answer.judged->needs || answer.judged->needs->trials == 0) return {};
-  return {{"rigs", answer.judged->needs->rigs}, {"trials", answer.judged->needs->trials}};
+document::Description<Measurement> measurement_description() {
+  using document::in_data;
+  using Of = const Measurement&;
+  return document::Description<Measurement>()
+      .value({"parameter", "unknown", "dotted path of the unknown, or name of a derived quantity"},
+             [](Of m) { return m.input.name; })
+      .value(in_data("unit", "unit of the unknown"), [](Of m) { return m.input.unit; })
+      .value(in_data("derived", "what the derived quantity is"),
+             [](Of m) { return m.input.is_derived() ? std::optional(m.input.meaning) : std::nullopt; })
+      .value({.key = "decided_proportion",
+              .heading = "decided",
+              .notation = document::Notation::percent,
+              .shown = document::Shown::to_people},
+             &Measurement::decided_proportion)
+      .value(in_data("decided", "worlds that the measurement decides rightly"),
+             [](Of m) { return m.learned.decided(); })
+      .value({"decided_good", "meets it", "those of them that meet the goal"},
+             [](Of m) { return m.learned.decided_good; })
+      .value({"decided_bad", "falls short", "those of them that fall short"},
+             [](Of m) { return m.learned.decided_bad; })
+      .value({"misjudged", "misjudged", "worlds that are unlike all that remain possible"},
+             [](Of m) { return m.learned.misjudged; })
+      .value({"open", "open", "worlds that the measurement does not decide"},
+             [](Of m) { return m.learned.open; })
+      .value({"p_value", "by chance", "probability of as many decided if the unknowns did not matter", "1",
+              document::Notation::two_digits},
+             [](Of m) { return m.learned.p_value; })
+      .value({"record", "record", "record of identify that tells the unknown; null: none"}, record_of);
 }
 
-Json json_of(const Answer& answer) {
-  Json unknowns = Json::array();
-  for (const worlds::Learned& one : answer.learned) {
-    const worlds::WorldInput& input = answer.inputs()[one.input];
-    const std::string_view record = worlds::record_of(input.name);
-    unknowns.push_back({{"parameter", input.name},
-                        {"unit", input.unit},
-                        {"derived", input.is_derived() ? Json(input.meaning) : Json()},
-                        {"decided", one.decided()},
-                        {"decided_good", one.decided_good},
-                        {"decided_bad", one.decided_bad},
-                        {"misjudged", one.misjudged},
-                        {"open", one.open},
-                        {"p_value", one.p_value},
-                        {"record", record.empty() ? Json() : Json(record)}});
-  }
-  const Next next = next_of(answer);
-  return {{"point", answer.chosen.point},
-          {"label", answer.summary.labels[static_cast<std::size_t>(answer.chosen.point)]},
-          {"status", answer.judged ? Json(goal::text_of(answer.judged->verdict.status)) : Json()},
-          {"worlds", answer.worlds.bad.size()},
-          {"bad", answer.bad()},
-          {"undecided", answer.worlds_that(goal::Status::undecided)},
-          {"needed", needed_json(answer)},
-          {"next", word_of(next)},
-          {"measure", next == Next::measure ? Json(answer.inputs()[answer.best()->input].name) : Json()},
-          {"precision", answer.precision},
-          {"unknowns", std::move(unknowns)}};
+document::AnswerDescription<Outcome> learn_answer() {
+  using document::in_data;
+  using Of = const Outcome&;
+  document::AnswerDescription<Outcome> answer{
+      {.name = "learn", .meaning = "which unknown to measure next", .csv_table = "unknowns"}, {}};
+  answer.items.headline(headline_of)
+      .sentence(verdict_text)
+      .value(in_data("point", "number of the design point"), [](Of o) { return o.chosen.point; })
+      .value(in_data("label", "label of the design point"),
+             [](Of o) { return o.summary.labels[static_cast<std::size_t>(o.chosen.point)]; })
+      .value(with_words(in_data("status", "verdict on the goal; null without one"), goal::status_words()),
+             [](Of o) {
+               return o.judged ? std::optional(goal::text_of(o.judged->verdict.status)) : std::nullopt;
+             })
+      .value(in_data("worlds", "number of worlds"), [](Of o) { return o.worlds.bad.size(); })
+      .value(in_data("bad", "worlds that fall short"), &Outcome::bad)
+      .value(in_data("undecided", "worlds that are undecided"),
+             [](Of o) { return o.worlds_that(goal::Status::undecided); })
+      .object(in_data("needed", "study that would decide the goal"), goal::needs_description(),
+              [](Of o) { return o.judged ? goal::practicable(o.judged->needs) : nullptr; })
+      .value(with_words(in_data("next", "what to do next"), next_words()),
+             [](Of o) { return word_of(o.next()); })
+      .value(in_data("measure", "the unknown to measure; null: none"), &Outcome::unknown_to_measure)
+      .value(in_data("precision", "relative error of the measurement", "1"), &Outcome::precision)
+      .sentence([](Of o) {
+        if (o.learned.empty()) return std::string();
+        return fmt::format("if one unknown were measured to ±{}:", text::percent(o.precision));
+      })
+      .table({.key = "unknowns", .meaning = "what a measurement of each unknown decides"},
+             measurement_description(), &Outcome::measurements)
+      .sentence(meanings_text)
+      .sentence(undecided_worlds_sentence);
+  return answer;
 }
 
 [[noreturn]] void refuse_equal_worlds(const std::string& path) {
@@ -248,28 +277,28 @@ void require_worlds(const command_line::Arguments& arguments) {
   }
 }
 
-Answer answer_to(const command_line::Arguments& arguments, const summary::StudySummary& summary) {
+Outcome outcome_of(const command_line::Arguments& arguments, const summary::StudySummary& summary) {
   const auto asked = command_line::point_option(arguments, summary.labels);
   const summary::ChosenPoint chosen = summary::choose_point(summary, asked);
   if (summary::world_inputs_of(summary, chosen.point).empty()) refuse_equal_worlds(arguments.operands()[0]);
-  Answer answer{
+  Outcome outcome{
       .summary = summary,
       .chosen = chosen,
       .judged = {},
       .precision = command_line::probability_option(arguments, "precision").value_or(usual_precision),
       .worlds =
           *summary::worlds_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from))};
-  if (summary.goal) answer.judged = summary::judge_point(summary, chosen);
-  if (answer.worlds_differ())
-    answer.learned =
-        worlds::what_to_learn(answer.inputs(), answer.worlds.bad, answer.precision, summary.seed);
-  return answer;
+  if (summary.goal) outcome.judged = summary::judge_point(summary, chosen);
+  if (outcome.worlds_differ())
+    outcome.learned =
+        worlds::what_to_learn(outcome.inputs(), outcome.worlds.bad, outcome.precision, summary.seed);
+  return outcome;
 }
 
 /// Inconclusive where the goal is undecided and no unknown is named.
-ExitCode exit_code_after(const Answer& answer) {
-  const bool undecided = answer.judged && answer.judged->verdict.status == goal::Status::undecided;
-  switch (next_of(answer)) {
+ExitCode exit_code_after(const Outcome& outcome) {
+  const bool undecided = outcome.judged && outcome.judged->verdict.status == goal::Status::undecided;
+  switch (outcome.next()) {
     case Next::nothing:
     case Next::change_axis:
     case Next::measure:
@@ -286,13 +315,8 @@ ExitCode exit_code_after(const Answer& answer) {
 ExitCode learn(const command_line::Arguments& arguments) {
   require_worlds(arguments);
   const summary::StudySummary summary = summary::summarise_file(arguments.operands()[0]);
-  const Answer answer = answer_to(arguments, summary);
-  if (arguments.choice("format") == "json") {
-    standard_output::write(text::json_text(json_of(answer)));
-  } else {
-    standard_output::write_fitted(text_of(answer));
-  }
-  return exit_code_after(answer);
+  const Outcome outcome = outcome_of(arguments, summary);
+  return answers::print(arguments, learn_answer().of(outcome, exit_code_after(outcome)));
 }
 
 }  // namespace
@@ -300,12 +324,13 @@ ExitCode learn(const command_line::Arguments& arguments) {
 commands::Command learn_command() {
   return {{"learn",
            "FILE",
-           {command_line::format_option({"text", "json"}),
+           {answers::format_option(learn_answer().complete_type()),
             {"point", "P", "the design point (default: the best)"},
             {"precision", "R", "relative error of the measurement, 0 to 1 (default 0.1)"}}},
           "say which unknown to measure next",
           learn_help,
-          learn};
+          learn,
+          {learn_answer().complete_type()}};
 }
 
 }  // namespace zerocount::result_commands

@@ -1,15 +1,16 @@
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "analysis/text/report_json.hpp"
+#include "analysis/document/answer.hpp"
 #include "analysis/text/text.hpp"
+#include "runners/answers/answer_format.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/plugin_option.hpp"
-#include "runners/standard_output/standard_output.hpp"
 #include "runners/study_commands/study_commands.hpp"
 #include "runners/study_run/interruption.hpp"
 #include "runners/verification/verification.hpp"
@@ -46,6 +47,8 @@ constexpr std::int64_t default_trials = 20;
 constexpr std::int64_t max_trials = std::int64_t{1} << 53;
 constexpr std::int64_t default_seed = 1;
 
+using Reports = std::vector<verification::CheckReport>;
+
 std::string line_of(const verification::CheckReport& report, const verification::Check& check) {
   const std::string subject = fmt::format("{}: {}", text::printable(report.path.string()), check.name);
   if (check.skipped) return fmt::format("skipped {}: {}\n", subject, check.detail);
@@ -58,29 +61,59 @@ std::string line_of(const verification::CheckReport& report, const verification:
   return lines;
 }
 
-nlohmann::ordered_json json_of(const verification::CheckReport& report) {
-  nlohmann::ordered_json json{{"path", report.path.string()},
-                              {"ok", verification::holds(report)},
-                              {"checks", nlohmann::ordered_json::array()}};
-  for (const verification::Check& check : report.checks) {
-    json["checks"].push_back({{"check", check.name},
-                              {"ok", check.problems.empty()},
-                              {"skipped", check.skipped},
-                              {"detail", check.detail},
-                              {"problems", check.problems}});
+std::string lines_of(const Reports& reports) {
+  std::string lines;
+  for (const verification::CheckReport& report : reports) {
+    for (const verification::Check& check : report.checks) lines += line_of(report, check);
   }
-  return json;
+  return lines;
 }
 
-ExitCode code_of(const std::vector<verification::CheckReport>& reports) {
+ExitCode code_of(const Reports& reports) {
   if (std::any_of(reports.begin(), reports.end(), [](const auto& report) { return report.unreadable; }))
     return ExitCode::machine_failed;
   const bool all = std::all_of(reports.begin(), reports.end(), verification::holds);
   return all ? ExitCode::success : ExitCode::bad_data;
 }
 
+/// "2 of 3 files hold all their checks".
+std::string headline_of(const Reports& reports) {
+  const auto holding = std::ranges::count_if(reports, verification::holds);
+  if (reports.size() == 1) return holding == 1 ? "all checks hold" : "not all checks hold";
+  return fmt::format("all checks hold in {} of {} files and folders", holding, reports.size());
+}
+
+document::Description<verification::Check> check_description() {
+  using document::in_data;
+  using Of = const verification::Check&;
+  return document::Description<verification::Check>()
+      .value(in_data("check", "name of the check"), &verification::Check::name)
+      .value(in_data("ok", "whether it has found no problem"), [](Of c) { return c.problems.empty(); })
+      .value(in_data("skipped", "whether it was left out"), &verification::Check::skipped)
+      .value(in_data("detail", "what was checked, or why it was left out"), &verification::Check::detail)
+      .value(in_data("problems", "what does not hold"), &verification::Check::problems);
+}
+
+document::AnswerDescription<Reports> verify_answer() {
+  using document::in_data;
+  document::AnswerDescription<Reports> answer{
+      {.name = "verify", .meaning = "whether results files hold what their manifests say"}, {}};
+  answer.items.headline(headline_of)
+      .value(in_data("ok", "whether all checks hold"),
+             [](const Reports& reports) { return code_of(reports) == ExitCode::success; })
+      .table(in_data("files", "the files, and the folders of shards"),
+             document::Description<verification::CheckReport>()
+                 .value(in_data("path", "the file or folder"),
+                        [](const auto& report) { return report.path.string(); })
+                 .value(in_data("ok", "whether all its checks hold"), verification::holds)
+                 .table(in_data("checks", "its checks"), check_description(),
+                        &verification::CheckReport::checks),
+             std::identity())
+      .sentence(lines_of);
+  return answer;
+}
+
 ExitCode verify(const command_line::Arguments& arguments) {
-  const std::string format = arguments.choice("format");
   verification::VerifySettings settings;
   settings.reseal = arguments.has("reseal");
   if (settings.reseal && arguments.has("trials"))
@@ -95,20 +128,8 @@ ExitCode verify(const command_line::Arguments& arguments) {
   const study_run::InterruptionWatch interruption;  // so that no temporary folder is left behind
   settings.stop = interruption.token();
   const std::vector<std::filesystem::path> operands(arguments.operands().begin(), arguments.operands().end());
-  const std::vector<verification::CheckReport> reports = verification::verify(operands, settings);
-  const ExitCode code = code_of(reports);
-  if (format == "json") {
-    nlohmann::ordered_json json{{"ok", code == ExitCode::success},
-                                {"files", nlohmann::ordered_json::array()}};
-    for (const verification::CheckReport& report : reports) json["files"].push_back(json_of(report));
-    standard_output::write(text::json_text(json));
-    return code;
-  }
-  for (const verification::CheckReport& report : reports) {
-    for (const verification::Check& check : report.checks)
-      standard_output::print("{}", line_of(report, check));
-  }
-  return code;
+  const Reports reports = verification::verify(operands, settings);
+  return answers::print(arguments, verify_answer().of(reports, code_of(reports)));
 }
 
 }  // namespace
@@ -121,12 +142,13 @@ commands::Command verify_command() {
             {"seed", "S", "seed of the choice of these trials (default 1)"},
             {"plugin", "LIBRARY", "the controller plugin of the study"},
             {"reseal", "", "make a checksum again that does not hold, if everything else does"},
-            command_line::format_option({"table", "json"})},
+            answers::format_option(verify_answer().complete_type())},
            1,
            100000},
           "check results files, and run a sample of their trials again",
           verify_help,
-          verify};
+          verify,
+          {verify_answer().complete_type()}};
 }
 
 }  // namespace zerocount::study_commands

@@ -44,8 +44,9 @@ struct AnswerDescription {
     complete.items = items.items();
     return complete;
   }
-  Answer of(const Subject& subject, ExitCode exit_code = ExitCode::success) const {
-    return {complete_type(), items.members_of(subject), exit_code};
+  Answer of(const Subject& subject, ExitCode exit_code = ExitCode::success,
+            Audience audience = Audience::all) const {
+    return {complete_type(), items.members_of(subject, audience), exit_code};
   }
 };
 

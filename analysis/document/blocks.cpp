@@ -13,6 +13,10 @@ namespace {
 
 constexpr const char* unknown_text = "–";
 
+bool is_for_people(const Item& item) {
+  return is_shown(item.shown, Audience::people);
+}
+
 bool is_percent(Notation notation) {
   return notation == Notation::percent || notation == Notation::given_percent;
 }
@@ -72,13 +76,13 @@ struct ValueText {
     std::vector<std::string> values;
     for (std::size_t i = 0; i < members.contents.size(); ++i) {
       const Item& member = item.members[i];
-      if (!is_shown(member) || members.contents[i].is_empty()) continue;
+      if (!is_for_people(member) || members.contents[i].is_empty()) continue;
       values.push_back(fmt::format("{} {}", member.heading, shown_value(member, members.contents[i])));
     }
     return fmt::format("{}", fmt::join(values, ", "));
   }
   std::string operator()(const Rows&) const { return unknown_text; }
-  std::string operator()(const Figure&) const { return unknown_text; }
+  std::string operator()(const std::shared_ptr<const Figure>&) const { return unknown_text; }
 };
 
 /// The unit as it is shown beside numbers in this notation.
@@ -87,14 +91,14 @@ std::string shown_unit(const Item& item) {
 }
 
 bool is_numeric(const Item& item) {
-  return item.kind == Kind::whole || item.kind == Kind::number;
+  return item.kind == Kind::whole || item.kind == Kind::number || item.numeric;
 }
 
 TableBlock table_block(const Item& item, const Rows& rows) {
   TableBlock table{item.heading, {}};
   for (std::size_t i = 0; i < item.members.size(); ++i) {
     const Item& column = item.members[i];
-    if (!is_shown(column)) continue;
+    if (!is_for_people(column)) continue;
     BlockColumn shown{column.heading, shown_unit(column), is_numeric(column)};
     for (const Members& row : rows.rows)
       shown.cells.push_back(
@@ -110,7 +114,7 @@ class BlockList {
  public:
   void add(const std::vector<Item>& items, const Members& members) {
     for (std::size_t i = 0; i < items.size(); ++i) {
-      if (is_shown(items[i]) && !members.contents[i].is_empty()) add(items[i], members.contents[i]);
+      if (is_for_people(items[i]) && !members.contents[i].is_empty()) add(items[i], members.contents[i]);
     }
   }
 
@@ -145,6 +149,7 @@ class BlockList {
       case Kind::whole:
       case Kind::number:
       case Kind::text:
+      case Kind::scalar:
       case Kind::list:
       case Kind::map:
         add_fact(item, content);
@@ -165,7 +170,8 @@ class BlockList {
 };
 
 void collect_figures(const Content& content, std::vector<Figure>& figures) {
-  if (const auto* const figure = std::get_if<Figure>(&content.value)) figures.push_back(*figure);
+  if (const auto* const figure = std::get_if<std::shared_ptr<const Figure>>(&content.value))
+    figures.push_back(**figure);
   if (const auto* const list = std::get_if<List>(&content.value)) {
     for (const Content& value : list->values) collect_figures(value, figures);
   }

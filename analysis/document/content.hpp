@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <variant>
@@ -42,7 +43,7 @@ struct Rows {
 /// What an answer says of one item; std::monostate where it says nothing.
 struct Content {
   std::variant<std::monostate, bool, std::int64_t, double, Bounded, std::string, Members, List, Named, Rows,
-               Figure>
+               std::shared_ptr<const Figure>>
       value{};
 
   bool is_empty() const { return value.index() == 0; }

@@ -47,12 +47,11 @@ class CsvLine {
   std::string cells() const { return line(cells_); }
 
  private:
-  static bool is_data(const Item& item) {
-    return item.shown == Shown::everywhere || item.shown == Shown::in_data;
-  }
+  static bool is_data(const Item& item) { return is_shown(item.shown, Audience::csv); }
 
   static bool is_one_value(Kind kind) {
-    return kind == Kind::flag || kind == Kind::whole || kind == Kind::number || kind == Kind::text;
+    return kind == Kind::flag || kind == Kind::whole || kind == Kind::number || kind == Kind::text ||
+           kind == Kind::scalar;
   }
 
   static std::string line(const std::vector<std::string>& texts) {

@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <ranges>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "analysis/document/content.hpp"
@@ -18,8 +20,8 @@
 namespace zerocount::document {
 
 /// The items of values of the type `T`: their kind follows from the type. A whole number, a floating-point
-/// number, Bounded, bool and text are values; a vector is a list, a map or a vector of pairs is a map; an
-/// optional value is null where there is none.
+/// number, Bounded, bool, text, and a number or text are values; a vector is a list, a map or a vector of
+/// pairs is a map; an optional value is null where there is none.
 template <class T>
 struct ValueType;
 
@@ -55,6 +57,14 @@ requires std::convertible_to<T, std::string_view>
 struct ValueType<T> {
   static void describe(Item& item) { item.kind = Kind::text; }
   static Content content(std::string_view value) { return {std::string(value)}; }
+};
+
+template <>
+struct ValueType<std::variant<double, std::string>> {
+  static void describe(Item& item) { item.kind = Kind::scalar; }
+  static Content content(const std::variant<double, std::string>& value) {
+    return std::visit([](const auto& one) { return Content{one}; }, value);
+  }
 };
 
 template <class T>
@@ -124,13 +134,16 @@ const T* subject_in(const std::optional<T>& subject) {
 template <class Row>
 class Description {
  public:
+  using ContentOf = std::function<Content(const Row&, Audience)>;
+
   /// A value. Its kind is that of what `get` returns (ValueType).
   template <class Get>
   Description& value(Item item, Get get) {
     using Value = ValueType<std::remove_cvref_t<std::invoke_result_t<Get, const Row&>>>;
     Value::describe(item);
-    return add(std::move(item),
-               [get = std::move(get)](const Row& row) { return Value::content(std::invoke(get, row)); });
+    return add(std::move(item), [get = std::move(get)](const Row& row, Audience) {
+      return Value::content(std::invoke(get, row));
+    });
   }
 
   /// An object with the items of `parts`. `get` returns a Part, an optional one, or a pointer to one.
@@ -139,11 +152,13 @@ class Description {
     item.kind = Kind::object;
     item.nullable = !std::is_same_v<std::remove_cvref_t<std::invoke_result_t<Get, const Row&>>, Part>;
     item.members = parts.items();
-    return add(std::move(item), [parts = std::move(parts), get = std::move(get)](const Row& row) -> Content {
-      auto&& found = std::invoke(get, row);
-      const Part* const part = subject_in(found);
-      return part == nullptr ? Content{} : Content{parts.members_of(*part)};
-    });
+    return add(
+        std::move(item),
+        [parts = std::move(parts), get = std::move(get)](const Row& row, Audience audience) -> Content {
+          auto&& found = std::invoke(get, row);
+          const Part* const part = subject_in(found);
+          return part == nullptr ? Content{} : Content{parts.members_of(*part, audience)};
+        });
   }
 
   /// A table with the items of `columns`. `get` returns a range of Parts.
@@ -168,12 +183,15 @@ class Description {
     Item element{.kind = Kind::object};
     element.members = parts.items();
     item.members = {std::move(element)};
-    return add(std::move(item), [parts = std::move(parts), get = std::move(get)](const Row& row) -> Content {
-      Named named;
-      auto&& found = std::invoke(get, row);
-      for (const auto& [name, part] : found) named.values.emplace_back(name, Content{parts.members_of(part)});
-      return {std::move(named)};
-    });
+    return add(
+        std::move(item),
+        [parts = std::move(parts), get = std::move(get)](const Row& row, Audience audience) -> Content {
+          Named named;
+          auto&& found = std::invoke(get, row);
+          for (const auto& [name, part] : found)
+            named.values.emplace_back(name, Content{parts.members_of(part, audience)});
+          return {std::move(named)};
+        });
   }
 
   /// The items of `parts` beside the others. Where `get` finds no Part they are empty.
@@ -182,11 +200,12 @@ class Description {
     for (std::size_t i = 0; i < parts.items().size(); ++i) {
       Item item = parts.items()[i];
       item.nullable = true;
-      add(std::move(item), [content = parts.content_of(i), get](const Row& row) -> Content {
-        auto&& found = std::invoke(get, row);
-        const Part* const part = subject_in(found);
-        return part == nullptr ? Content{} : content(*part);
-      });
+      add(std::move(item),
+          [content = parts.content_of(i), get](const Row& row, Audience audience) -> Content {
+            auto&& found = std::invoke(get, row);
+            const Part* const part = subject_in(found);
+            return part == nullptr ? Content{} : content(*part, audience);
+          });
     }
     return *this;
   }
@@ -214,26 +233,29 @@ class Description {
   template <class Get>
   Description& figures(Get get) {
     return add({.shown = Shown::to_people, .kind = Kind::figure},
-               [get = std::move(get)](const Row& row) -> Content {
+               [get = std::move(get)](const Row& row, Audience) -> Content {
                  List list;
-                 for (Figure& figure : std::invoke(get, row)) list.values.push_back({std::move(figure)});
+                 for (Figure& figure : std::invoke(get, row))
+                   list.values.push_back({std::make_shared<const Figure>(std::move(figure))});
                  return {std::move(list)};
                });
   }
 
   const std::vector<Item>& items() const { return items_; }
-  const std::function<Content(const Row&)>& content_of(std::size_t item) const { return contents_[item]; }
+  const ContentOf& content_of(std::size_t item) const { return contents_[item]; }
 
-  /// The contents of all items of `row`, in their order.
-  Members members_of(const Row& row) const {
+  /// The contents of all items of `row`, in their order; those that the audience is not shown are empty.
+  Members members_of(const Row& row, Audience audience = Audience::all) const {
     Members members;
     members.contents.reserve(contents_.size());
-    for (const auto& content : contents_) members.contents.push_back(content(row));
+    for (std::size_t i = 0; i < items_.size(); ++i)
+      members.contents.push_back(is_shown(items_[i].shown, audience) ? contents_[i](row, audience)
+                                                                     : Content{});
     return members;
   }
 
  private:
-  Description& add(Item item, std::function<Content(const Row&)> content) {
+  Description& add(Item item, ContentOf content) {
     items_.push_back(std::move(item));
     contents_.push_back(std::move(content));
     return *this;
@@ -242,24 +264,26 @@ class Description {
   template <class Part, class Get>
   Description& add_rows(Item item, Description<Part> parts, Get get) {
     item.members = parts.items();
-    return add(std::move(item), [parts = std::move(parts), get = std::move(get)](const Row& row) -> Content {
-      Rows rows;
-      auto&& found = std::invoke(get, row);
-      for (const Part& part : found) rows.rows.push_back(parts.members_of(part));
-      return {std::move(rows)};
-    });
+    return add(
+        std::move(item),
+        [parts = std::move(parts), get = std::move(get)](const Row& row, Audience audience) -> Content {
+          Rows rows;
+          auto&& found = std::invoke(get, row);
+          for (const Part& part : found) rows.rows.push_back(parts.members_of(part, audience));
+          return {std::move(rows)};
+        });
   }
 
   template <class Get>
   Description& add_text(Item item, Get get) {
-    return add(std::move(item), [get = std::move(get)](const Row& row) -> Content {
+    return add(std::move(item), [get = std::move(get)](const Row& row, Audience) -> Content {
       std::string sentence = std::invoke(get, row);
       return sentence.empty() ? Content{} : Content{std::move(sentence)};
     });
   }
 
   std::vector<Item> items_;
-  std::vector<std::function<Content(const Row&)>> contents_;
+  std::vector<ContentOf> contents_;
 };
 
 }  // namespace zerocount::document

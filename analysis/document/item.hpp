@@ -14,6 +14,7 @@ enum class Kind {
   whole,     ///< a whole number
   number,    ///< a floating-point number; unknown where it is not finite
   text,      ///< a word or a name
+  scalar,    ///< a floating-point number, or a text
   list,      ///< values of members[0]
   map,       ///< values by name, of members[0]
   object,    ///< members
@@ -29,9 +30,30 @@ enum class Kind {
 enum class Shown {
   everywhere,
   in_data,   ///< in JSON and CSV only
-  in_json,   ///< in JSON only: long texts
+  in_json,   ///< in JSON only
+  in_csv,    ///< in CSV only: a column of what the JSON has in another form
   to_people  ///< in text, Markdown and HTML only
 };
+
+/// For whom an answer is made: what others are shown is not computed.
+enum class Audience { all, people, json, csv };
+
+/// Whether the audience is shown an item with this `shown`.
+constexpr bool is_shown(Shown shown, Audience audience) {
+  switch (shown) {
+    case Shown::everywhere:
+      return true;
+    case Shown::in_data:
+      return audience != Audience::people;
+    case Shown::in_json:
+      return audience == Audience::all || audience == Audience::json;
+    case Shown::in_csv:
+      return audience == Audience::all || audience == Audience::csv;
+    case Shown::to_people:
+      break;
+  }
+  return audience == Audience::all || audience == Audience::people;
+}
 
 /// How a number is written for people. In JSON and CSV every number reads back to the same double.
 enum class Notation {
@@ -52,6 +74,7 @@ struct Item {
   std::string unit{};     ///< "1" where it is dimensionless; empty where there is none
   Notation notation{Notation::four_digits};
   Shown shown{Shown::everywhere};
+  bool numeric{false};               ///< a text that stands in tables as numbers do: "> 1 s"
   std::vector<std::string> words{};  ///< that a text can be; empty: any
   bool optional{false};              ///< JSON has no such member where there is no content; else null
 
@@ -62,11 +85,6 @@ struct Item {
   bool nullable{false};         ///< may be without content
   std::vector<Item> members{};  ///< of an object, a table, sections or their rows; [0] of a list and a map
 };
-
-/// Whether an item stands in text, Markdown and HTML.
-inline bool is_shown(const Item& item) {
-  return item.shown == Shown::everywhere || item.shown == Shown::to_people;
-}
 
 /// An item that is shown in JSON and CSV only.
 inline Item in_data(std::string key, std::string meaning, std::string unit = {}) {

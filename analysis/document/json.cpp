@@ -16,7 +16,7 @@ Json number_json(double value) {
 Json content_json(const Item& item, const Content& content);
 
 void add_member(Json& object, const Item& item, const Content& content) {
-  if (item.shown == Shown::to_people || (item.optional && content.is_empty())) return;
+  if (!is_shown(item.shown, Audience::json) || (item.optional && content.is_empty())) return;
   if (item.bounded) {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     const auto* const found = std::get_if<Bounded>(&content.value);
@@ -61,7 +61,7 @@ struct ContentJson {
     for (const Members& row : rows.rows) array.push_back(members_json(item.members, row));
     return array;
   }
-  Json operator()(const Figure&) const { return nullptr; }
+  Json operator()(const std::shared_ptr<const Figure>&) const { return nullptr; }
 };
 
 Json content_json(const Item& item, const Content& content) {

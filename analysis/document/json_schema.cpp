@@ -10,7 +10,7 @@ using Json = nlohmann::ordered_json;
 Json item_schema(const Item& item);
 
 void add_property(Json& object, const Item& item) {
-  if (item.shown == Shown::to_people) return;
+  if (!is_shown(item.shown, Audience::json)) return;
   const auto add = [&](const std::string& key, Json schema) {
     object["properties"][key] = std::move(schema);
     if (!item.optional) object["required"].push_back(key);
@@ -43,6 +43,8 @@ Json kind_schema(const Item& item) {
       return {{"type", "integer"}};
     case Kind::number:
       return {{"type", Json::array({"number", "null"})}};
+    case Kind::scalar:
+      return {{"type", Json::array({"number", "string", "null"})}};
     case Kind::list:
       return {{"type", "array"}, {"items", item_schema(item.members[0])}};
     case Kind::map:

@@ -36,6 +36,13 @@ std::string rendered(const document::Answer& answer, std::string_view format) {
   return document::text(answer);
 }
 
+document::Audience audience_of(std::string_view format) {
+  if (format == "json") return document::Audience::json;
+  if (format == "csv") return document::Audience::csv;
+  if (format == "notebook") return document::Audience::all;
+  return document::Audience::people;
+}
+
 ExitCode print(const command_line::Arguments& arguments, const document::Answer& answer) {
   const std::string format = arguments.choice("format");
   if (format == "text") {

@@ -22,4 +22,15 @@ std::string rendered(const document::Answer& answer, std::string_view format);
 /// Writes the answer to standard output in the format that the arguments ask for. @returns its exit code
 ExitCode print(const command_line::Arguments& arguments, const document::Answer& answer);
 
+/// For whom the format is.
+document::Audience audience_of(std::string_view format);
+
+/// Likewise of the subject: what the format does not show is not computed.
+template <class Subject>
+ExitCode print(const command_line::Arguments& arguments,
+               const document::AnswerDescription<Subject>& description, const Subject& subject,
+               ExitCode exit_code = ExitCode::success) {
+  return print(arguments, description.of(subject, exit_code, audience_of(arguments.choice("format"))));
+}
+
 }  // namespace zerocount::answers

@@ -37,11 +37,21 @@ def stated_sentences(documented):
             yield name, page, sentence.replace("{}", figure["value"])
 
 
+def unsupported_numbers(claim):
+    """The numbers of the claim's result that are in none of its sentences and settings."""
+    number = re.compile(r"\d+(?:\.\d+)?")
+    known = number.findall(json.dumps([claim["says"], claim.get("set"), claim["checks"]]))
+    return sorted(set(number.findall(claim.get("result", ""))) - set(known))
+
+
 def check_pages(root):
-    """The sentences that a page no longer has, one message each."""
-    return [f"{page} does not say what claims.yaml has as {name}: {sentence}"
-            for name, page, sentence in stated_sentences(load(root))
-            if plain(sentence) not in plain((root / page).read_text(encoding="utf-8"))]
+    """The sentences that a page no longer has, and the results with other numbers than the sentences; one message each."""
+    documented = load(root)
+    missing = [f"{page} does not say what claims.yaml has as {name}: {sentence}"
+               for name, page, sentence in stated_sentences(documented)
+               if plain(sentence) not in plain((root / page).read_text(encoding="utf-8"))]
+    return missing + [f"{name}: its result has {', '.join(numbers)}, which no sentence or setting of it has"
+                      for name, claim in documented["claims"].items() if (numbers := unsupported_numbers(claim))]
 
 
 def manifest_of(claim, root):

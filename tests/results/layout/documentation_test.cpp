@@ -21,24 +21,42 @@ std::string trimmed(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" `") - first + 1);
 }
 
-/// The cells of the table in datasets.md whose head begins with `head`.
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream text(line.substr(1));
+  for (std::string cell; std::getline(text, cell, '|');) cells.push_back(trimmed(cell));
+  return cells;
+}
+
+/// The cells of the tables in datasets.md whose head begins with `head`. Where a table has no column of
+/// dimensions, they are those in the brackets of its heading.
 Rows documented(const std::string& head) {
   std::istringstream text(read_bytes(ZEROCOUNT_FORMAT_DOCUMENTATION));
   Rows rows;
   bool inside = false;
+  bool has_dimensions = false;
+  std::string heading;
   for (std::string line; std::getline(text, line);) {
+    if (line.starts_with("#")) heading = line;
     if (line.starts_with(fmt::format("| {} |", head))) {
       inside = true;
-    } else if (inside && !line.starts_with("|")) {
-      break;
+      has_dimensions = head != "path" || cells_of(line)[2] == "dimensions";
+    } else if (!line.starts_with("|")) {
+      inside = false;
     } else if (inside && !line.starts_with("| ---")) {
-      std::vector<std::string> cells;
-      std::istringstream cell_text(line.substr(1));
-      for (std::string cell; std::getline(cell_text, cell, '|');) cells.push_back(trimmed(cell));
-      rows.push_back(cells);
+      rows.push_back(cells_of(line));
+      if (has_dimensions) continue;
+      const std::size_t bracket = heading.find('[') + 1;
+      rows.back().insert(rows.back().begin() + 2, heading.substr(bracket, heading.find(']') - bracket));
     }
   }
   return rows;
+}
+
+/// Whether core/trial/measures.md defines the measure with this path.
+bool is_defined_elsewhere(const std::string& path) {
+  static const std::string definitions = read_bytes(ZEROCOUNT_MEASURE_DEFINITIONS);
+  return definitions.find(fmt::format("`{}`", path.substr(path.rfind('/') + 1))) != std::string::npos;
 }
 
 /// True where `path` is `described`, in which the step `<word>` stands for any name.
@@ -105,7 +123,9 @@ TEST(Documentation, DescribesEveryDatasetOfAFileAndNoOther) {
     EXPECT_NE(row[1].find(type_name(dataset.element())), std::string::npos) << dataset.path();
     EXPECT_EQ(std::ssize(dataset.extent()), dimensions_of(row)) << dataset.path();
     EXPECT_TRUE(row[3] == "own" || row[3] == dataset.text("units")) << dataset.path();
-    if (row[0].find('<') == std::string::npos) {
+    if (row[4].empty()) {
+      EXPECT_TRUE(is_defined_elsewhere(dataset.path())) << dataset.path();
+    } else if (row[0].find('<') == std::string::npos) {
       EXPECT_TRUE(row[4].starts_with(dataset.text("long_name")))
           << dataset.path() << ": " << dataset.text("long_name");
     }

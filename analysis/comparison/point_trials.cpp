@@ -25,7 +25,7 @@ void add_to_goal(GoalTrials& goal, std::int64_t first, std::int64_t moves,
 void add_goal_times(PointTrials& trials, std::span<const trial::MoveOutcome> outcomes) {
   std::vector<double>& times = trials.values["goal_settling_time"];
   for (const trial::MoveOutcome& move : outcomes) {
-    const double time = move.bands[trials.judged->counted.slot].settling_time;
+    const double time = measures::settling_time(trials.judged->counted, move);
     times.push_back(std::isnan(time) ? std::numeric_limits<double>::infinity() : time);
   }
 }

@@ -1,5 +1,8 @@
 #include "analysis/goal/goal_text.hpp"
 
+#include <algorithm>
+#include <string_view>
+
 #include <fmt/format.h>
 
 #include "analysis/statistics/proportion.hpp"
@@ -13,6 +16,29 @@ namespace {
 std::string with_bounds(const BoundedProportion& proportion) {
   return fmt::format("at least {}, at most {}", text::percent_at_least(proportion.low),
                      text::percent_at_most(proportion.high));
+}
+
+std::string band_text(const study::Goal& goal) {
+  if (goal.band == 0) return "error 0";
+  return fmt::format("|error| ≤ {} count{}", goal.band, goal.band == 1 ? "" : "s");
+}
+
+std::string_view ending_of(trial::Outcome outcome) {
+  switch (outcome) {
+    case trial::Outcome::zero_count:
+      return "it ends at zero counts";
+    case trial::Outcome::one_count:
+      return "it ends within one count of the target";
+    case trial::Outcome::off_target:
+      return "it ends more than one count away: stalled, or still moving to the target";
+    case trial::Outcome::oscillating:
+      return "it ends oscillating by more than one count";
+    case trial::Outcome::nonfinite:
+      return "it failed numerically";
+    case trial::Outcome::open_loop:
+      break;
+  }
+  return "it has no target";
 }
 
 /// The readings of a study with worlds: the worst world, and the worlds by their verdicts.
@@ -37,13 +63,26 @@ std::string readings_of_worlds(const study::Goal& goal, const Verdict& verdict) 
 }  // namespace
 
 std::string goal_sentence(const study::Goal& goal) {
-  const std::string error =
-      goal.band == 0 ? "error 0" : fmt::format("|error| ≤ {} count{}", goal.band, goal.band == 1 ? "" : "s");
+  const std::string error = band_text(goal);
   const std::string machines =
       goal.machines ? fmt::format("the moves of at least {} of machines", text::percent(*goal.machines))
                     : std::string("all moves of all machines");
   return fmt::format("{} for good after {:.4g} s in at least {} of {}, with {} confidence", error,
                      goal.within, text::percent(goal.moves), machines, text::percent(goal.confidence));
+}
+
+std::string missing_text(const Question& question) {
+  if (!question.claim()) return "does not end at zero counts";
+  return fmt::format("misses the goal: {} for good after {} s", band_text(*question.claim()),
+                     question.claim()->within);
+}
+
+std::string ending_text(const Question& question, std::span<const trial::MoveOutcome> moves) {
+  if (!question.claim()) return std::string(ending_of(trial::worst_outcome(moves)));
+  const auto met = std::ranges::count_if(moves, [&](const trial::MoveOutcome& move) {
+    return meets(question, {&move, 1});
+  });
+  return fmt::format("{} of {} move{} the goal", met, moves.size(), moves.size() == 1 ? " meets" : "s meet");
 }
 
 std::string readings_text(const study::Goal& goal, const measures::MoveCounts& counts,

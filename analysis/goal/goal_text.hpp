@@ -1,8 +1,10 @@
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "analysis/goal/goal_verdict.hpp"
+#include "analysis/goal/question.hpp"
 
 namespace zerocount::goal {
 
@@ -14,6 +16,14 @@ std::string goal_sentence(const study::Goal& goal);
 /// meet the goal in Goal::moves of their moves, and of rigs without a miss.
 std::string readings_text(const study::Goal& goal, const measures::MoveCounts& counts,
                           const Verdict& verdict);
+
+/// What a move does that does not meet the question: "misses the goal: |error| ≤ 1 count for good after 0.05
+/// s", "does not end at zero counts".
+std::string missing_text(const Question& question);
+
+/// How the moves of a trial end: "2 of 3 moves meet the goal", or by the worst of them "it ends at zero
+/// counts".
+std::string ending_text(const Question& question, std::span<const trial::MoveOutcome> moves);
 
 /// "About 300 rigs with 100 trials each decide it with a probability of 90 %, …", or that no study does.
 /// @param on_rigs whether trials share rigs

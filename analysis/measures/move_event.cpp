@@ -48,11 +48,9 @@ layout::Measure measure_named(const study::Study& study, std::string_view text, 
 
 }  // namespace
 
-std::optional<MoveEvent> missed_goal(const study::Study& study) {
-  const std::optional<CountedGoal> goal = counted_goal(study);
-  if (!goal) return std::nullopt;
+MoveEvent missed_question(const study::Study& study) {
   MoveEvent event;
-  event.goal = *goal;
+  event.goal = asked_of_moves(study);
   return event;
 }
 
@@ -87,7 +85,8 @@ bool happens(const MoveEvent& event, const trial::MoveOutcome& move) {
 std::string name_of(MoveScore score, const MoveEvent& event) {
   switch (score) {
     case MoveScore::event:
-      return event.text.empty() ? "settling time in the band" : event.measure.field.column.name;
+      if (!event.text.empty()) return event.measure.field.column.name;
+      return event.goal.slot ? "settling time in the band" : "time until arrival";
     case MoveScore::peak_torque:
       return "largest torque";
     case MoveScore::final_error:
@@ -101,7 +100,7 @@ std::string name_of(MoveScore score, const MoveEvent& event) {
 double score_of(MoveScore score, const MoveEvent& event, const trial::MoveOutcome& move) {
   switch (score) {
     case MoveScore::event:
-      if (event.text.empty()) return move.bands[event.goal.slot].settling_time;
+      if (event.text.empty()) return settling_time(event.goal, move);
       return event.above ? value_of(event.measure, move) : -value_of(event.measure, move);
     case MoveScore::peak_torque:
       return move.peak_torque;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,9 +12,9 @@
 
 namespace zerocount::measures {
 
-/// An event of a move: it misses the goal, or a measure of it is beyond a limit.
+/// An event of a move: it misses what is asked of it, or a measure of it is beyond a limit.
 struct MoveEvent {
-  std::string text;           ///< "settling_time > 0.5"; empty: it misses the goal
+  std::string text;           ///< "settling_time > 0.5"; empty: it misses the goal, or does not succeed
   CountedGoal goal{};         ///< used if text is empty
   layout::Measure measure{};  ///< used otherwise
   bool above{true};           ///< the event is a value above the limit; otherwise below
@@ -23,8 +22,8 @@ struct MoveEvent {
   double limit{0.0};          ///< in the measure's unit
 };
 
-/// The event that a move misses the goal; nothing without a goal.
-std::optional<MoveEvent> missed_goal(const study::Study& study);
+/// The event that a move misses the goal of the study or, without a goal, that it does not succeed.
+MoveEvent missed_question(const study::Study& study);
 
 /// The event of a text such as "settling_time > 0.5" or "band_settling_time[1] >= 0.05".
 /// @throws Failure (bad_input) unless it is MEASURE, one of > >= < <=, and a number
@@ -36,7 +35,7 @@ bool happens(const MoveEvent& event, const trial::MoveOutcome& move);
 
 /// The continuous scores of a move. Each is larger the nearer a move is to some kind of failure.
 enum class MoveScore {
-  event,        ///< settling time in the goal's band, s; or the measure, with the sign of the event
+  event,        ///< settling time in the goal's band, or arrival, s; or the measure, with the event's sign
   peak_torque,  ///< largest |torque|, N m: towards the range of the converter, and towards breakaway
   final_error,  ///< |true error| at the end, counts: towards the edge of a band
   restlessness  ///< part of the samples after arrival at which the error is not 0
@@ -46,7 +45,7 @@ enum class MoveScore {
 inline constexpr std::array move_scores{MoveScore::event, MoveScore::peak_torque, MoveScore::final_error,
                                         MoveScore::restlessness};
 
-/// "settling time in the band", or the name of the event's measure; "largest torque" …
+/// "settling time in the band", "time until arrival", or the name of the event's measure; "largest torque" …
 std::string name_of(MoveScore score, const MoveEvent& event);
 
 /// The score of a move; NaN where it has none.

@@ -20,6 +20,7 @@ struct SummarySection {
   std::vector<text::PointTable> tables{};    ///< below the main table
   std::string note{};                        ///< below these, whole lines
   bool open{false};                          ///< the report shows the section at once: it is a result
+  bool of_success{false};                    ///< about success: not the question of a study with a goal
 };
 
 /// The rows of these points in the tables of the section, with its title and its note; empty without rows.

@@ -63,6 +63,12 @@ void call_bounds_too_narrow(Figure& figure, const std::string& why) {
   figure.caption += why;
 }
 
+void retitle(Figure& figure, const std::map<std::string_view, std::string_view>& words) {
+  change_titles(figure.specification, [&](std::string& title) {
+    if (const auto found = words.find(title); found != words.end()) title = found->second;
+  });
+}
+
 void put_on_axis(Figure& figure, parameters::AxisKind axis) {
   const auto reword = [axis](std::string& title) { reword_title(title, axis); };
   figure.title = parameters::text_on(axis, figure.title);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,9 @@ Figure figure_of(std::string_view specification, std::string name, std::string t
 /// Marks all bounds in the data table and the tooltips as too narrow, and adds `why` to the caption. No
 /// effect on a figure without bounds.
 void call_bounds_too_narrow(Figure& figure, const std::string& why);
+
+/// Replaces titles in the specification. @param words each title as it is there, and as it shall be
+void retitle(Figure& figure, const std::map<std::string_view, std::string_view>& words);
 
 /// Converts the figure's titles, units and caption from a rotary axis to an axis of this kind.
 void put_on_axis(Figure& figure, parameters::AxisKind axis);

@@ -110,44 +110,54 @@ HtmlColumn label_column(const ReportedStudy& reported, std::size_t rows) {
   return label;
 }
 
-/// The verdict of each point by the goal, and the proportions with their one-sided bounds.
+/// The 95 % quantile of the settling time of an error band, s.
+HtmlColumn band_column(const ReportedStudy& reported, std::int64_t band, std::size_t rows) {
+  HtmlColumn column{fmt::format("settled ±{}, 95 %", band), "s", false, {}};
+  for (std::size_t i = 0; i < rows; ++i) {
+    const measures::PointSummary& point = reported.summary.points[i];
+    const statistics::Quantile p95 = measures::of_band(point, "band_settling_time", band).p95;
+    column.cells.push_back(summary::settling_text(point, p95.value));
+    column.below.push_back(settling_bounds(point, p95));
+  }
+  return column;
+}
+
+/// The goal at each point: the verdict, and the proportions with their one-sided bounds.
 std::vector<HtmlColumn> goal_columns(const ReportedStudy& reported, std::size_t rows) {
   const summary::StudySummary& summary = reported.summary;
-  if (!summary.goal) return {};
+  const study::Goal& goal = *summary.question.claim();
   const std::vector<std::optional<goal::Verdict>> verdicts = summary::goal_verdicts(summary);
-  const std::string bounds = text::percent(summary.goal->confidence) + " bounds";
+  const std::string bounds = text::percent(goal.confidence) + " bounds";
+  const std::string where = summary.question.worlds > 0 ? " (worst world)" : "";
   std::vector<HtmlColumn> columns{
-      {"goal", "", true, {}},
-      {summary.worlds > 0 ? "moves in goal (worst world)" : "moves in goal", bounds, false, {}}};
+      label_column(reported, rows), {"goal", "", true, {}}, {"moves in goal" + where, bounds, false, {}}};
+  if (goal.machines) columns.push_back({"machines in goal" + where, bounds, false, {}});
   const auto add = [](HtmlColumn& column, const goal::BoundedProportion& proportion) {
     column.cells.push_back(text::percent_near(proportion.value));
     column.below.push_back(text::percent_bounds(proportion.low, proportion.high, 1, " … "));
   };
-  if (summary.goal->machines) columns.push_back({"machines in goal", bounds, false, {}});
+  HtmlColumn rigs{"rigs without a miss", "", false, {}};
+  HtmlColumn trials{"trials", "", false, {}};
   for (std::size_t i = 0; i < rows; ++i) {
     const goal::Verdict verdict = verdicts[i].value_or(goal::Verdict{});
-    columns[0].cells.emplace_back(goal::text_of(verdict.status));
-    add(columns[1], verdict.moves);
-    if (summary.goal->machines) add(columns[2], verdict.machines);
+    columns[1].cells.emplace_back(goal::text_of(verdict.status));
+    add(columns[2], verdict.moves);
+    if (goal.machines) add(columns[3], verdict.machines);
+    const goal::RigsWithoutFailure without = rigs_without_failure(summary.question, summary.points[i]);
+    rigs.cells.push_back(fmt::format("{} of {}", without.rigs, without.of));
+    trials.cells.push_back(std::to_string(summary.points[i].trials));
   }
+  columns.push_back(band_column(reported, goal.band, rows));
+  if (summary.features.rigs) columns.push_back(std::move(rigs));
+  columns.push_back(std::move(trials));
   return columns;
 }
 
 /// The 95 % quantile of the settling time of each error band.
 std::vector<HtmlColumn> band_columns(const ReportedStudy& reported, std::size_t rows) {
   std::vector<HtmlColumn> columns;
-  const trial::ErrorBands& bands = reported.summary.features.bands;
-  for (std::size_t slot = 0; slot < bands.count; ++slot) {
-    HtmlColumn& column = columns.emplace_back(
-        HtmlColumn{fmt::format("settled ±{}, 95 %", bands.values()[slot]), "s", false, {}});
-    for (std::size_t i = 0; i < rows; ++i) {
-      const measures::PointSummary& point = reported.summary.points[i];
-      const statistics::Quantile p95 =
-          measures::of_band(point, "band_settling_time", bands.values()[slot]).p95;
-      column.cells.push_back(summary::settling_text(point, p95.value));
-      column.below.push_back(settling_bounds(point, p95));
-    }
-  }
+  for (const std::int64_t band : reported.summary.features.bands.values())
+    columns.push_back(band_column(reported, band, rows));
   return columns;
 }
 
@@ -195,12 +205,20 @@ std::vector<HtmlColumn> columns_of(std::span<const PointCell> cells, const Repor
   return columns;
 }
 
-std::string loop_tables(const ReportedStudy& reported, std::size_t rows) {
+std::string goal_table(const ReportedStudy& reported, std::size_t rows) {
+  const summary::StudySummary& summary = reported.summary;
+  return html_table(goal_columns(reported, rows)) +
+         fmt::format(
+             "<p class=\"note\">Bounds are one-sided, of each point alone. Settled: the error stays "
+             "within the goal's band from then to the end of the move. {}</p>\n",
+             html_text(summary::design_line(summary)));
+}
+
+std::string zero_count_tables(const ReportedStudy& reported, std::size_t rows) {
   const summary::StudySummary& summary = reported.summary;
   const bool dependent = summary.features.dependent_trials;
   constexpr std::size_t after_arrival = 3;  // label, median and 95 % quantile
   std::vector<HtmlColumn> outcomes = columns_of(outcome_cells, reported, rows);
-  append(outcomes, goal_columns(reported, rows), 1);
   std::vector<HtmlColumn> motion = columns_of(motion_cells, reported, rows);
   append(motion, band_columns(reported, rows), after_arrival);
   if (!summary.observed.empty()) motion.push_back(observed_column(summary, rows));
@@ -244,24 +262,44 @@ std::string level_table_html(const summary::StudySummary& summary, std::size_t r
                                            document::markup(summary::level_legend(summary.features.axis)));
 }
 
+/// Rows of the table of points, or levels.
+std::size_t all_rows(const ReportedStudy& reported) {
+  const std::size_t points = reported.summary.points.size();
+  return reported.study.open_loop ? points * static_cast<std::size_t>(reported.file.moves()) : points;
+}
+
+/// The sections of the summary about the question of the study, or the others.
+std::string sections_html(const summary::StudySummary& summary, bool of_question) {
+  std::string html;
+  for (const measures::SummarySection& section : summary.sections) {
+    const std::string text = measures::text_of(section, summary::points_shown(summary, {}));
+    if (!text.empty() && is_of_question(summary, section) == of_question)
+      html += html_preformatted(title_of(section.key), text, section.open);
+  }
+  return html;
+}
+
 }  // namespace
 
 std::string points_html(const ReportedStudy& reported) {
   const summary::StudySummary& summary = reported.summary;
-  std::size_t all = summary.points.size();
-  if (reported.study.open_loop) all *= static_cast<std::size_t>(reported.file.moves());
+  const std::size_t all = all_rows(reported);
   const std::size_t rows = std::min(all, max_points);
-  std::string html = reported.study.open_loop ? level_table_html(summary, rows) : loop_tables(reported, rows);
+  const bool claim = summary.question.claim().has_value();
+  std::string html = reported.study.open_loop ? level_table_html(summary, rows)
+                     : claim                  ? goal_table(reported, rows)
+                                              : zero_count_tables(reported, rows);
   if (rows < all) {
     html += fmt::format(
         "<p class=\"note\">The first {} of {} rows; all are printed by <code>zerocount summary</code>.</p>\n",
         rows, all);
   }
-  for (const measures::SummarySection& section : summary.sections) {
-    const std::string text = measures::text_of(section, summary::points_shown(summary, {}));
-    if (!text.empty()) html += html_preformatted(title_of(section.key), text, section.open);
-  }
-  return html;
+  return html + sections_html(summary, true);
+}
+
+std::string zero_count_tables_html(const ReportedStudy& reported) {
+  return zero_count_tables(reported, std::min(all_rows(reported), max_points)) +
+         sections_html(reported.summary, false);
 }
 
 }  // namespace zerocount::report

@@ -65,13 +65,24 @@ void add(ReportPage& page, PageSection section) {
 }
 
 PageSection success_section(const ReportedStudy& reported) {
-  PageSection section{"points", reported.study.open_loop ? "$Torque levels" : "Success", "", {}};
+  const char* title = reported.study.open_loop        ? "$Torque levels"
+                      : question_of(reported).claim() ? "The goal"
+                                                      : "Success";
+  PageSection section{"points", title, "", {}};
   std::vector<Figure> maps = stability_maps(reported);
   // A study with a map has many points: the map shows them better than a long table.
   (maps.empty() ? section.html : section.html_after) = points_html(reported);
   if (std::optional<Figure> success = success_figure(reported))
     section.figures.push_back(std::move(*success));
   for (Figure& map : maps) section.figures.push_back(std::move(map));
+  return section;
+}
+
+/// Zero counts, of a study that is judged by a goal.
+PageSection zero_count_section(const ReportedStudy& reported) {
+  PageSection section{"zero-counts", "Zero counts", "", {}};
+  if (question_of(reported).claim())
+    section.html = zero_counts_html(reported) + zero_count_tables_html(reported);
   return section;
 }
 
@@ -120,6 +131,7 @@ StudyReport study_report(const reading::StudyFile& file, const ReportOptions& op
   add(page, success_section(reported));
   add(page, {"worlds", "Worlds", "", world_figures(reported)});
   add(page, {"settling", "Arrival and settling", "", distribution_figures(reported)});
+  add(page, zero_count_section(reported));
   add(page,
       {"jerks", "Jerks", "", reported.study.open_loop ? std::vector<Figure>{} : jerk_figures(reported)});
   if (std::optional<PageSection> sensitivity = sensitivity_section(reported))

@@ -16,17 +16,25 @@ namespace zerocount::report {
 /// An answer with its figures as a section.
 PageSection answer_section(std::string name, std::string title, const document::Answer& answer);
 
-/// The conclusions in words: success of the best and the worst point with tolerance statements, settling
-/// times, jerks, and the prediction of the criteria. For 100 % success it states the upper bound of the
-/// failure probability.
+/// The conclusions in words. Of a study with a goal: the goal at the chosen point, its settling times, and
+/// the worst point. Otherwise success at both with tolerance statements, and zero_counts_html() without its
+/// rate. For 100 % success it states the upper bound of the failure probability.
 std::string verdict_html(const ReportedStudy& reported);
+
+/// Zero counts at the chosen point of a study with a goal: their rate, moves that are undecided, rigs,
+/// arrival, jerks, and the prediction of the criteria.
+std::string zero_counts_html(const ReportedStudy& reported);
 
 /// The provenance: size, design, random parameters, program, manifest.
 std::string run_html(const ReportedStudy& reported);
 
-/// The table of the points, or of the levels of an open-loop study. At most 400 rows; a note states if there
-/// are more.
+/// The table of the points by the question of the study, or of the levels of an open-loop study. At most 400
+/// rows; a note states if there are more.
 std::string points_html(const ReportedStudy& reported);
+
+/// Of a study with a goal: the tables of zero counts, arrival, jerks and criteria, and the sections of the
+/// summary that are about zero counts. Without a goal these are part of points_html().
+std::string zero_count_tables_html(const ReportedStudy& reported);
 
 /// Comparison with a baseline: the verdict, the differences of the manifests, and every measure at every
 /// point, failed ones first.

@@ -6,10 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "analysis/goal/goal_verdict.hpp"
+#include "analysis/goal/success_bounds.hpp"
 #include "analysis/summary/best_point.hpp"
 #include "analysis/summary/shown_points.hpp"
 #include "analysis/summary/summary.hpp"
+#include "analysis/text/percent.hpp"
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
 
@@ -26,7 +27,7 @@ ReportedStudy reported_study(const reading::StudyFile& file, std::optional<std::
                                                : "Clopper-Pearson bounds";
   for (const measures::PointSummary& one : reported.summary.points)
     reported.success_bounds.push_back(
-        summary::bounds_of_chosen(one, 1, reported.study.stop.has_value(), statistics::summary_confidence));
+        goal::bounds_of_chosen(one, 1, reported.summary.question.stopped, statistics::summary_confidence));
   reported.chosen = summary::choose_point(reported.summary, point);
   reported.names = summary::short_labels(reported.summary.labels, reported.summary.axes);
   return reported;
@@ -47,22 +48,13 @@ std::vector<std::int64_t> leading_points(const ReportedStudy& reported) {
   return points;
 }
 
-ShownRate shown_rate(const ReportedStudy& reported, std::int64_t point) {
-  const measures::PointSummary& summary = point_of(reported, point);
-  if (!reported.summary.goal)
-    return {summary.success_rate().value, bounds_of(reported, point), summary.outcomes.zero_count,
-            summary.trials};
-  const goal::Verdict verdict = goal::judge_goal(*reported.summary.goal, *summary.goal, 1);
-  const measures::MoveCounts& counts = *summary.goal;
-  const measures::MoveCounts shown =
-      counts.worlds > 0
-          ? measures::in_worlds(counts)[goal::worst_worlds_first(*reported.summary.goal, verdict).front()]
-          : counts;
-  return {verdict.moves.value, {verdict.moves.low, verdict.moves.high}, shown.met, shown.moves};
+goal::QuestionRate shown_rate(const ReportedStudy& reported, std::int64_t point) {
+  return goal::rate_of(question_of(reported), point_of(reported, point));
 }
 
-std::string_view rate_meaning(const ReportedStudy& reported) {
-  return reported.summary.goal ? "moves that meet the goal" : "trials that end at zero counts";
+std::string shown_bounds(const ReportedStudy& reported) {
+  if (!question_of(reported).claim()) return "95 % " + reported.bounds_name;
+  return fmt::format("one-sided {} bounds", text::percent(question_of(reported).claim()->confidence));
 }
 
 layout::RowRange rows_of(const ReportedStudy& reported, std::int64_t point) {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "analysis/goal/question.hpp"
 #include "analysis/measures/trial_value.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/summary/chosen_point.hpp"
@@ -42,16 +43,14 @@ inline const statistics::ConfidenceInterval& bounds_of(const ReportedStudy& repo
   return reported.success_bounds[static_cast<std::size_t>(point)];
 }
 
-/// The rate that figures compare points by: of the moves that meet the goal, or without a goal of the trials
-/// that succeed.
-struct ShownRate {
-  double value{0.0};
-  statistics::ConfidenceInterval bounds;
-  std::int64_t hits{0}, events{0};
-};
-ShownRate shown_rate(const ReportedStudy& reported, std::int64_t point);
-/// What these rates are: "moves that meet the goal", "trials that end at zero counts".
-std::string_view rate_meaning(const ReportedStudy& reported);
+/// What the study is judged by.
+inline const goal::Question& question_of(const ReportedStudy& reported) {
+  return reported.summary.question;
+}
+/// The rate that figures compare points by.
+goal::QuestionRate shown_rate(const ReportedStudy& reported, std::int64_t point);
+/// Its bounds: "one-sided 95 % bounds", "95 % Clopper-Pearson bounds".
+std::string shown_bounds(const ReportedStudy& reported);
 
 /// Note for results of a study with dependent trials (StudyFeatures::dependent_trials).
 inline constexpr std::string_view dependence_sentence =

@@ -23,6 +23,7 @@ struct EndOnRotor {
   std::int64_t trial{0};  ///< index within the point
   double angle{0.0};      ///< rad or m, in [0, period)
   trial::Outcome outcome{trial::Outcome::zero_count};
+  bool met{true};  ///< the trial meets the question
 };
 
 double on_rotor(double angle, double period) {
@@ -57,7 +58,7 @@ void visit_ends(const ReportedStudy& reported, const ShownTrials& shown, std::si
         const double end = starts[static_cast<std::size_t>(row - rows.first)] + moves.back().final_position;
         const double start = starts[static_cast<std::size_t>(row - rows.first)];
         visit(EndOnRotor{row - rows.first, on_rotor(std::isfinite(end) ? end : start, reported.study.period),
-                         trial::worst_outcome(moves)});
+                         trial::worst_outcome(moves), meets(question_of(reported), moves)});
       });
 }
 
@@ -85,7 +86,7 @@ FigureData profile_data(const reading::StoredProfile& profile) {
   return data;
 }
 
-/// Success rate in equal sectors of the rotor.
+/// Rate of the trials that meet the question in equal sectors of the rotor.
 struct Sectors {
   std::vector<std::int64_t> trials, successes;
   double period;  ///< rad or m
@@ -94,18 +95,18 @@ struct Sectors {
   void add(const EndOnRotor& end) {
     const auto sector = static_cast<std::size_t>(end.angle / period * static_cast<double>(trials.size()));
     ++trials[std::min(sector, trials.size() - 1)];
-    successes[std::min(sector, trials.size() - 1)] += trial::is_success(end.outcome);
+    successes[std::min(sector, trials.size() - 1)] += end.met;
   }
 };
 
-FigureData sector_data(const Sectors& sectors) {
+FigureData sector_data(const Sectors& sectors, const goal::QuestionWords& words) {
   FigureData data{"sectors",
                   {{"from", "from", "rad"},
                    {"to", "to", "rad"},
-                   {"rate", "success rate", "1"},
+                   {"rate", std::string(words.trial_rate), "1"},
                    {"low", "lower 95 % bound", "1"},
                    {"high", "upper 95 % bound", "1"},
-                   {"successes", "successes", "1"},
+                   {"successes", "trials that met it", "1"},
                    {"trials", "trials", "1"}}};
   const double width = sectors.period / static_cast<double>(sectors.trials.size());
   for (std::size_t i = 0; i < sectors.trials.size(); ++i) {
@@ -120,11 +121,11 @@ FigureData sector_data(const Sectors& sectors) {
   return data;
 }
 
-/// The rig that succeeds least often at the point.
+/// The rig that meets the question least often at the point.
 std::int64_t worst_rig(const ReportedStudy& reported, std::int64_t point) {
-  const reading::StoredGroups rigs = reported.file.rigs().value();
-  const auto of_point = rigs.success.begin() + point * rigs.count;
-  return std::min_element(of_point, of_point + rigs.count) - of_point;
+  const std::vector<statistics::RigMoves> rigs =
+      counts_of(question_of(reported), point_of(reported, point)).rigs;
+  return std::ranges::min_element(rigs, {}, &statistics::RigMoves::met) - rigs.begin();
 }
 
 reading::StoredProfile rotor_of_rig(const reading::StoredProfile& profile, std::int64_t rig) {
@@ -139,19 +140,20 @@ std::string caption_of(const ReportedStudy& reported, const std::string& paramet
   const std::string& label = label_of(reported, shown.point);
   const std::string trials =
       shown.rig ? fmt::format("rig {} at point {}", *shown.rig, label) : fmt::format("point {}", label);
+  const goal::QuestionWords& words = words_of(question_of(reported));
   std::string caption =
-      shown.rig
-          ? fmt::format("The line is {} along the $track of rig {}, the rig with the lowest success rate. ",
-                        parameter, *shown.rig)
-          : fmt::format("The line is {} along the $track, the same in all trials. ", parameter);
-  caption +=
-      failed ? fmt::format("The marks are the failed trials of {}, at the $rotor_angle where they ended. ",
-                           trials)
-             : fmt::format("No trial of {} failed. ", trials);
+      shown.rig ? fmt::format("The line is {} along the $track of rig {}, the rig with the lowest {}. ",
+                              parameter, *shown.rig, words.rate)
+                : fmt::format("The line is {} along the $track, the same in all trials. ", parameter);
+  caption += failed ? fmt::format("The marks are the {} of {}, at the $rotor_angle where they ended. ",
+                                  words.failing, trials)
+                    : fmt::format("No trial of {} {}. ", trials, words.failed);
   return caption +
-         "Below: success rate of the trials that ended in each sector of the $track, with 95 % "
-         "Clopper-Pearson bounds. If it follows the line, the minimum of the profile limits the success, as "
-         "the paper states for k1 (practical issue 1).";
+         fmt::format(
+             "Below: {} that ended in each sector of the $track, with 95 % Clopper-Pearson bounds. If "
+             "it follows the line, the minimum of the profile limits it, as the paper states for k1 "
+             "(practical issue 1).",
+             words.trial_rate);
 }
 
 Figure rotor_figure(const ReportedStudy& reported, const reading::StoredProfile& stored, std::size_t column) {
@@ -164,7 +166,7 @@ Figure rotor_figure(const ReportedStudy& reported, const reading::StoredProfile&
   std::vector<EndOnRotor> failures;
   visit_ends(reported, shown, column, [&](const EndOnRotor& end) {
     sectors.add(end);
-    if (!trial::is_success(end.outcome)) failures.push_back(end);
+    if (!end.met) failures.push_back(end);
   });
   FigureData trials{"trials",
                     {{"trial", "trial of the point", "1"},
@@ -178,17 +180,19 @@ Figure rotor_figure(const ReportedStudy& reported, const reading::StoredProfile&
                              layout::outcome_labels()[static_cast<std::size_t>(end.outcome)].word}));
   }
   const std::string parameter = profile.name.substr(0, profile.name.find('@'));
+  const goal::QuestionWords& words = words_of(question_of(reported));
   std::string caption = caption_of(reported, parameter, shown, !failures.empty());
   if (std::ssize(failures) > max_failures) {
     caption += fmt::format(" {} of {} failures are shown, evenly spaced.", max_failures, failures.size());
   }
-  Figure figure = figure_of(
-      "rotor", fmt::format("rotor-{}", profile.name),
-      fmt::format("{} along the $track{}", parameter, failures.empty() ? "" : ", and the trials that failed"),
-      caption, {std::move(trials), profile_data(profile), sector_data(sectors)});
+  Figure figure = figure_of("rotor", fmt::format("rotor-{}", profile.name),
+                            fmt::format("{} along the $track{}", parameter,
+                                        failures.empty() ? "" : fmt::format(", and the {}", words.failing)),
+                            caption, {std::move(trials), profile_data(profile), sector_data(sectors, words)});
   figure.specification["vconcat"][0]["layer"][0]["encoding"]["y"]["title"] =
       profile.unit == "1" ? parameter : fmt::format("{} ({})", parameter, profile.unit);
   figure.specification["vconcat"][1]["encoding"]["x"]["scale"]["domain"] = {0.0, period};
+  retitle(figure, {{"success rate", words.trial_rate}, {"failed trials", words.failing}});
   if (failures.empty()) {
     figure.specification["vconcat"][0]["layer"].erase(1);
     std::rotate(figure.data.begin(), figure.data.begin() + 2, figure.data.end());

@@ -90,8 +90,8 @@ std::optional<PageSection> sensitivity_section(const ReportedStudy& reported) {
   sensitivity::SensitivityQuestion question;
   question.points = {reported.chosen.point};
   const sensitivity::StudySensitivity found = sensitivity::study_sensitivity(reported.file, question);
-  const measures::PointSummary& chosen = point_of(reported, reported.chosen.point);
-  if (!sensitivity::any_estimated(found) && chosen.outcomes.zero_count < chosen.trials) return std::nullopt;
+  const goal::QuestionRate rate = shown_rate(reported, reported.chosen.point);
+  if (!sensitivity::any_estimated(found) && rate.hits < rate.events) return std::nullopt;
   return answer_section(sensitivity_section_name, "Which parameters matter", sensitivity_answer().of(found));
 }
 

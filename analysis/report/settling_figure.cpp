@@ -219,7 +219,7 @@ std::optional<Figure> band_figure(const ReportedStudy& reported) {
   figure.specification["layer"][0]["encoding"]["y"]["title"] = "proportion of moves";
   if (reported.study.worlds > 0)
     figure.caption += "It is an average over the worlds, and a goal must be met in each. ";
-  if (reported.study.goal) add_goal(figure, *reported.study.goal);
+  if (question_of(reported).claim()) add_goal(figure, *question_of(reported).claim());
   return figure;
 }
 
@@ -230,6 +230,7 @@ std::vector<Figure> distribution_figures(const ReportedStudy& reported) {
   if (std::optional<Figure> arrival = arrival_figure(reported)) figures.push_back(std::move(*arrival));
   if (reported.study.open_loop) return figures;
   if (std::optional<Figure> settled = band_figure(reported)) figures.push_back(std::move(*settled));
+  if (question_of(reported).claim()) std::ranges::reverse(figures);  // what the goal is about comes first
   return figures;
 }
 

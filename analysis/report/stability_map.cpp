@@ -56,7 +56,7 @@ FigureData cells_of(const ReportedStudy& reported, const PointGroup& group, cons
                     {"y_to", "", y.unit},
                     {"x", x.name, x.unit},
                     {"y", y.name, y.unit},
-                    {"rate", reported.summary.goal ? "rate of moves in goal" : "success rate", "1"},
+                    {"rate", std::string(words_of(question_of(reported)).rate), "1"},
                     {"low", "lower 95 % bound", "1"},
                     {"high", "upper 95 % bound", "1"},
                     {"stable", "(6) holds in", "1"},
@@ -64,7 +64,7 @@ FigureData cells_of(const ReportedStudy& reported, const PointGroup& group, cons
                     {"star", "", ""}}};
   for (const std::int64_t point : group.points) {
     const auto at = static_cast<std::size_t>(point);
-    const ShownRate rate = shown_rate(reported, point);
+    const goal::QuestionRate rate = shown_rate(reported, point);
     const bool predicted = !reported.summary.predictions.empty();
     const theory::PointPrediction prediction =
         predicted ? reported.summary.predictions[at] : theory::PointPrediction{};
@@ -119,23 +119,24 @@ FigureData curves_of(const ReportedStudy& reported, const PointGroup& group, con
 Figure map_of(const ReportedStudy& reported, const PointGroup& group, std::size_t number,
               const study::SweepAxis& x, const study::SweepAxis& y) {
   FigureData curves = curves_of(reported, group, x, y);
+  const goal::QuestionWords& words = words_of(question_of(reported));
   std::string caption = fmt::format(
       "Each cell is a design point. Its colour is the proportion of the {}. A star marks the chosen "
       "point. ",
-      rate_meaning(reported));
+      words.meeting);
   if (!curves.rows.empty()) {
     caption +=
         "The lines are the paper's criteria (6), white, and (7), orange; solid for the trial with the lowest "
         "bound, dashed for the trial with the highest. Below the solid line of (6) the theory promises "
         "stability of every trial; above the dashed line of (7) it predicts instability of every trial. The "
-        "success rate should decrease between them.";
+        "rate should decrease between them.";
   }
   Figure figure =
       figure_of("stability-map", number == 0 ? "stability-map" : fmt::format("stability-map-{}", number + 1),
                 group.label.empty() ? "Stability map" : fmt::format("Stability map: {}", group.label),
                 caption, {cells_of(reported, group, x, y), std::move(curves)});
+  retitle(figure, {{"success rate", words.rate}});
   ordered_json& encoding = figure.specification["layer"][0]["encoding"];
-  if (reported.summary.goal) encoding["color"]["title"] = "moves in goal";
   set_axis(encoding["x"], x, CellEdges(x));
   set_axis(encoding["y"], y, CellEdges(y));
   if (figure.data.back().rows.empty()) {

@@ -10,7 +10,6 @@
 #include "analysis/report/report_figures.hpp"
 #include "analysis/report/reported_study.hpp"
 #include "analysis/statistics/spread_over.hpp"
-#include "analysis/text/percent.hpp"
 
 namespace zerocount::report {
 namespace {
@@ -21,37 +20,31 @@ constexpr std::int64_t max_lines = 60;  ///< maximum number of points with a lin
 constexpr std::int64_t max_series = 8;  ///< number of colours
 
 std::string bounds_note(const ReportedStudy& reported) {
-  if (reported.summary.goal) {
-    return fmt::format("The bars or bands are one-sided {} bounds, for each point separately.",
-                       text::percent(reported.summary.goal->confidence));
-  }
-  return fmt::format(
-      "The bars or bands are 95 % {}, for each point separately. They count all trials of the point.",
-      reported.bounds_name);
+  return fmt::format("The bars or bands are {}, for each point separately.", shown_bounds(reported));
 }
 
 std::vector<FigureColumn> common_columns(const ReportedStudy& reported) {
-  const bool goal = reported.summary.goal.has_value();
+  const goal::QuestionWords& words = words_of(question_of(reported));
   return {{"label", "point", ""},
-          {"rate", goal ? "rate of moves in goal" : "success rate", "1"},
-          {"low", goal ? "lower bound" : "lower 95 % bound", "1"},
-          {"high", goal ? "upper bound" : "upper 95 % bound", "1"},
-          {"successes", goal ? "moves in goal" : "successes", "1"},
-          {"trials", goal ? "moves" : "trials", "1"}};
+          {"rate", std::string(words.rate), "1"},
+          {"low", "lower bound", "1"},
+          {"high", "upper bound", "1"},
+          {"successes", std::string(words.hits), "1"},
+          {"trials", std::string(words.events), "1"}};
 }
 
 ordered_json row_of(const ReportedStudy& reported, std::int64_t point) {
-  const ShownRate rate = shown_rate(reported, point);
+  const goal::QuestionRate rate = shown_rate(reported, point);
   return ordered_json::array({marked_label_of(reported, point), datum(rate.value), datum(rate.bounds.low),
                               datum(rate.bounds.high), rate.hits, rate.events});
 }
 
-/// The title of an axis of rates: "success rate", "proportion of moves that meet the goal".
-std::string rate_title(const ReportedStudy& reported) {
-  return reported.summary.goal ? fmt::format("proportion of {}", rate_meaning(reported)) : "success rate";
+/// Puts the words of the question in place of those of success.
+void speak_of_question(Figure& figure, const goal::QuestionWords& words) {
+  retitle(figure, {{"success rate", words.rate}, {"successes", words.hits}, {"trials", words.events}});
 }
 
-/// The points by decreasing success; evenly spaced points of that order if there are too many.
+/// The points by decreasing rate; evenly spaced points of that order if there are too many.
 std::vector<std::int64_t> points_with_lines(const ReportedStudy& reported) {
   std::vector<std::int64_t> order(reported.summary.points.size());
   std::iota(order.begin(), order.end(), std::int64_t{0});
@@ -72,9 +65,10 @@ std::vector<std::int64_t> points_with_lines(const ReportedStudy& reported) {
 
 Figure line_per_point(const ReportedStudy& reported) {
   const std::vector<std::int64_t> shown = points_with_lines(reported);
-  std::string caption =
-      fmt::format("Proportion of the {}, of all of each point{}. ", rate_meaning(reported),
-                  reported.summary.worlds > 0 && reported.summary.goal ? " in its worst world" : "");
+  const goal::Question& question = question_of(reported);
+  const goal::QuestionWords& words = words_of(question);
+  std::string caption = fmt::format("Proportion of the {}, of all of each point{}. ", words.meeting,
+                                    goal::is_of_worst_world(question) ? " in its worst world" : "");
   if (!reported.summary.features.dependent_trials) {
     caption +=
         "Points whose bounds do not overlap differ significantly. A dot at 100 % does not exclude failures: "
@@ -91,14 +85,11 @@ Figure line_per_point(const ReportedStudy& reported) {
     data.rows.push_back(row_of(reported, point));
     lowest = std::min(lowest, shown_rate(reported, point).bounds.low);
   }
-  Figure figure =
-      figure_of("success", "success",
-                reported.summary.goal ? "Moves in the goal at each point" : "Success at each point",
-                caption + bounds_note(reported), {std::move(data)});
+  Figure figure = figure_of("success", "success", fmt::format("{} at each point", words.title),
+                            caption + bounds_note(reported), {std::move(data)});
+  speak_of_question(figure, words);
   const double from = lowest > 0.9 ? std::floor(lowest * 100.0) / 100.0 : 0.0;
-  ordered_json& x = figure.specification["layer"][0]["encoding"]["x"];
-  x["scale"]["domain"] = {from, 1};
-  if (reported.summary.goal) x["title"] = rate_title(reported);
+  figure.specification["layer"][0]["encoding"]["x"]["scale"]["domain"] = {from, 1};
   set_rows(figure, shown.size(), 24);
   return figure;
 }
@@ -116,10 +107,11 @@ std::vector<std::int64_t> groups_shown(const ReportedStudy& reported, const std:
 
 Figure along_axis(const ReportedStudy& reported, std::size_t axis) {
   const study::SweepAxis& swept = reported.summary.axes[axis];
+  const goal::QuestionWords& words = words_of(question_of(reported));
   const std::vector<PointGroup> groups = groups_along(reported, {axis});
   std::string caption = fmt::format(
       "Proportion of the {}, of all of each point (line), over {}. A star marks the chosen point. ",
-      rate_meaning(reported), axis_title(swept));
+      words.meeting, axis_title(swept));
   if (std::ssize(groups) > max_series) {
     caption += fmt::format("Shown are {} of {} lines: that of the chosen point, and others evenly spaced. ",
                            max_series, groups.size());
@@ -135,13 +127,11 @@ Figure along_axis(const ReportedStudy& reported, std::size_t axis) {
       data.rows.push_back(std::move(row));
     }
   }
-  Figure figure = figure_of(
-      "success-along", "success",
-      fmt::format("{} over {}", reported.summary.goal ? "Moves in the goal" : "Success", swept.name),
-      caption + bounds_note(reported), {std::move(data)});
+  Figure figure = figure_of("success-along", "success", fmt::format("{} over {}", words.title, swept.name),
+                            caption + bounds_note(reported), {std::move(data)});
+  speak_of_question(figure, words);
   ordered_json& encoding = figure.specification["encoding"];
   encoding["x"]["title"] = axis_title(swept);
-  figure.specification["layer"][0]["encoding"]["y"]["title"] = rate_title(reported);
   set_number_format(encoding["x"]["axis"], values_of(swept).back());
   if (spaced_by_ratio(values_of(swept))) encoding["x"]["scale"]["type"] = "log";
   encoding["x"]["scale"]["domain"] = {values_of(swept).front(), values_of(swept).back()};

@@ -6,35 +6,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/goal/goal_text.hpp"
 #include "analysis/report/report_figures.hpp"
 
 namespace zerocount::report {
 namespace {
 
 using nlohmann::ordered_json;
-
-/// Rank of a trial: the greater, the worse.
-struct TrialRank {
-  trial::Outcome outcome{trial::Outcome::zero_count};
-  std::int64_t final_error{0};  ///< maximum |final error| of its moves, counts
-  double settling_time{0.0};    ///< maximum of its moves, s; infinite if one never arrived
-
-  bool operator<(const TrialRank& other) const {
-    if (outcome != other.outcome) return trial::severity(outcome) < trial::severity(other.outcome);
-    if (final_error != other.final_error) return final_error < other.final_error;
-    return settling_time < other.settling_time;
-  }
-};
-
-TrialRank rank_of(std::span<const trial::MoveOutcome> moves) {
-  TrialRank rank{trial::worst_outcome(moves), 0, 0.0};
-  for (const trial::MoveOutcome& move : moves) {
-    rank.final_error = std::max(rank.final_error, std::abs(move.final_error));
-    rank.settling_time = std::max(
-        rank.settling_time, move.arrived ? move.settling_time : std::numeric_limits<double>::infinity());
-  }
-  return rank;
-}
 
 /// The rows of a point that a report shows; −1 for none.
 struct RowsOfPoint {
@@ -44,57 +22,49 @@ struct RowsOfPoint {
 };
 
 RowsOfPoint rows_to_show(const ReportedStudy& reported) {
+  const goal::Question& question = question_of(reported);
   RowsOfPoint rows;
-  TrialRank worst;
-  const double median =
-      point_of(reported, reported.chosen.point).of(&trial::MoveOutcome::settling_time).median.value;
+  goal::Badness worst{};
+  const double median = settling_of(question, point_of(reported, reported.chosen.point)).median.value;
   measures::visit_trials(reported.file, rows_of(reported, reported.chosen.point),
                          [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
-                           const TrialRank rank = rank_of(moves);
-                           if (rows.worst < 0 || worst < rank) {
-                             worst = rank;
+                           const goal::Badness badness = badness_of(question, moves);
+                           if (rows.worst < 0 || worst < badness) {
+                             worst = badness;
                              rows.worst = row;
                            }
-                           const bool failed = !trial::is_success(rank.outcome);
+                           const bool failed = !meets(question, moves);
                            if (failed && rows.first_failure < 0) rows.first_failure = row;
                            const bool typical =
-                               std::any_of(moves.begin(), moves.end(), [&](const trial::MoveOutcome& move) {
-                                 return move.arrived && move.settling_time == median;
+                               std::ranges::any_of(moves, [&](const trial::MoveOutcome& move) {
+                                 return settling_time(question, {&move, 1}) == median;
                                });
                            if (!failed && typical && rows.median < 0) rows.median = row;
                          });
   return rows;
 }
 
-const char* ending_of(trial::Outcome outcome) {
-  switch (outcome) {
-    case trial::Outcome::zero_count:
-      return "it ends at zero counts";
-    case trial::Outcome::one_count:
-      return "it ends within one count of the target";
-    case trial::Outcome::off_target:
-      return "it ends more than one count away: stalled, or still moving to the target";
-    case trial::Outcome::oscillating:
-      return "it ends oscillating by more than one count";
-    case trial::Outcome::nonfinite:
-      return "it failed numerically";
-    case trial::Outcome::open_loop:
-      break;
-  }
-  return "it has no target";
-}
-
 std::int64_t first_failure_of_study(const ReportedStudy& reported) {
   std::int64_t first = -1;
-  for (std::size_t point = 0; point < reported.summary.points.size() && first < 0; ++point) {
-    const measures::PointSummary& summary = reported.summary.points[point];
-    if (summary.outcomes.zero_count == summary.trials) continue;
-    measures::visit_trials(reported.file, rows_of(reported, static_cast<std::int64_t>(point)),
+  for (std::int64_t point = 0; point < std::ssize(reported.summary.points) && first < 0; ++point) {
+    const measures::MoveCounts counts = counts_of(question_of(reported), point_of(reported, point));
+    if (counts.met == counts.moves) continue;
+    measures::visit_trials(reported.file, rows_of(reported, point),
                            [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
-                             if (first < 0 && !trial::succeeded(moves)) first = row;
+                             if (first < 0 && !meets(question_of(reported), moves)) first = row;
                            });
   }
   return first;
+}
+
+/// "the first move arrives after 0.0275 s; it ends at zero counts".
+std::string course_of(const goal::Question& question, std::span<const trial::MoveOutcome> moves) {
+  const double time = settling_time(question, moves.first(1));
+  const std::string_view settles = words_of(question).settles;
+  return fmt::format("{}{}; {}", moves.size() == 1 ? "" : "the first move ",
+                     std::isfinite(time) ? fmt::format("{} after {:.4g} s", settles, time)
+                                         : fmt::format("never {}", settles),
+                     goal::ending_text(question, moves));
 }
 
 }  // namespace
@@ -118,23 +88,21 @@ std::vector<SampleTrial> sample_trials(const ReportedStudy& reported) {
   };
   add("median", "the median trial", rows.median);
   add("worst", "the worst trial", rows.worst);
-  add("first-failure", elsewhere ? "the first trial of the study that failed" : "the first trial that failed",
+  add("first-failure",
+      fmt::format("the first trial {}that {}", elsewhere ? "of the study " : "",
+                  words_of(question_of(reported)).failed),
       rows.first_failure);
   for (SampleTrial& trial : trials) trial.title.front() = 'T';
   return trials;
 }
 
 Figure trace_figure(const ReportedStudy& reported, const SampleTrial& trial, const ReplayedTrial& replayed) {
-  const trial::Outcome outcome = trial::worst_outcome(replayed.result.outcome.moves);
-  const trial::MoveOutcome& first = replayed.result.outcome.moves.front();
-  const std::string settled =
-      first.arrived ? fmt::format("arrives after {:.4g} s", first.settling_time) : "never arrives";
   std::string caption = fmt::format(
-      "Error and $torque over time of trial {} of point {}, simulated again: {}; {}. The error should reach "
+      "Error and $torque over time of trial {} of point {}, simulated again: {}. The error should reach "
       "the dashed line and stay there. Its scale is linear within one count and logarithmic beyond. Samples "
       "are thinned, but all extremes are shown.",
       trial.index, label_of(reported, trial.point),
-      replayed.result.outcome.moves.size() == 1 ? settled : "the first move " + settled, ending_of(outcome));
+      course_of(question_of(reported), replayed.result.outcome.moves));
   using Sample = const trial::SampleRecord&;
   return figure_of(
       "trace", "trace-" + trial.name, trial.title, caption,

@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 
 #include "analysis/goal/goal_text.hpp"
+#include "analysis/goal/success_bounds.hpp"
 #include "analysis/report/html.hpp"
 #include "analysis/report/report_sections.hpp"
 #include "analysis/statistics/sample_size.hpp"
 #include "analysis/statistics/tolerance.hpp"
-#include "analysis/summary/best_point.hpp"
 #include "analysis/summary/judged_point.hpp"
 #include "analysis/summary/shown_points.hpp"
 #include "analysis/summary/summary_parts.hpp"
@@ -29,16 +29,22 @@ std::size_t chosen_from(const ReportedStudy& reported, std::int64_t point) {
                                         : reported.summary.points.size();
 }
 
-/// " (95 % bounds a to b)" of the chosen or the worst point, which account for its choice among all points;
-/// empty if the trials are not independent.
-std::string bounds_text(const ReportedStudy& reported, std::int64_t point) {
+/// " (95 % bounds a to b)" of the rate of the chosen or the worst point, which account for its choice among
+/// all points; empty if the trials are not independent.
+std::string bounds_text(const ReportedStudy& reported, const goal::Question& question, std::int64_t point) {
   if (reported.summary.features.dependent_trials) return "";
   const std::size_t points = chosen_from(reported, point);
-  const statistics::ConfidenceInterval bounds = summary::bounds_of_chosen(
-      point_of(reported, point), points, reported.study.stop.has_value(), statistics::summary_confidence);
-  return fmt::format(" (95 % bounds {} to {}{})", text::percent_at_least(bounds.low),
-                     text::percent_at_most(bounds.high),
+  const statistics::ConfidenceInterval bounds =
+      goal::rate_of(question, point_of(reported, point), points).bounds;
+  return fmt::format(" ({}{} bounds {} to {}{})", question.claim() ? "one-sided " : "",
+                     text::percent(goal::confidence_of(question, statistics::summary_confidence)),
+                     text::percent_at_least(bounds.low), text::percent_at_most(bounds.high),
                      points == 1 ? "" : fmt::format(", corrected for the choice among {} points", points));
+}
+
+/// Success, which is a question of its own where the study has a goal.
+goal::Question success_of(const ReportedStudy& reported) {
+  return goal::success(question_of(reported));
 }
 
 std::string of_all(std::int64_t successes, std::int64_t trials) {
@@ -62,8 +68,8 @@ std::string flawless_text(const ReportedStudy& reported, const statistics::Succe
 
 /// The claim of the best point, with bounds that account for its choice among all points.
 statistics::SuccessClaim claim_of_best(const ReportedStudy& reported, std::int64_t best) {
-  return summary::claim_of_chosen(point_of(reported, best), chosen_from(reported, best),
-                                  reported.study.stop.has_value());
+  return goal::claim_of_chosen(point_of(reported, best), chosen_from(reported, best),
+                               question_of(reported).stopped);
 }
 
 /// Statement about all axes; for dependent trials only the observed rate.
@@ -90,7 +96,7 @@ std::string of_chosen(const ReportedStudy& reported, const std::string& claim) {
 
 std::string headline(const ReportedStudy& reported, const std::optional<summary::JudgedPoint>& judged) {
   if (judged) return of_chosen(reported, std::string(summary::verdict_words(judged->verdict.status)));
-  return of_chosen(reported, (reported.summary.worlds > 0 ? "on average over the worlds " : "") +
+  return of_chosen(reported, (reported.summary.question.worlds > 0 ? "on average over the worlds " : "") +
                                  claim_text(reported, reported.chosen.point));
 }
 
@@ -108,13 +114,14 @@ void add_sentences(std::vector<std::string>& lines, const std::string& text) {
 
 void add_goal(std::vector<std::string>& lines, const ReportedStudy& reported,
               const summary::JudgedPoint& judged) {
-  const study::Goal& goal = *reported.summary.goal;
+  const study::Goal& goal = *reported.summary.question.claim();
   lines.push_back(fmt::format("The goal: {}.", goal::goal_sentence(goal)));
   add_sentences(lines,
                 goal::readings_text(goal, *point_of(reported, judged.chosen.point).goal, judged.verdict));
   if (const auto worlds = summary::worlds_of_point(reported.summary, judged.chosen.point))
     add_sentences(lines, summary::bad_worlds_sentence(
-                             *worlds, summary::world_inputs_of(reported.summary, judged.chosen.point), true));
+                             *worlds, summary::world_inputs_of(reported.summary, judged.chosen.point),
+                             reported.summary.question));
   if (judged.needs)
     lines.push_back(goal::needs_sentence(goal, *judged.needs, reported.summary.features.rigs) + ".");
 }
@@ -122,8 +129,8 @@ void add_goal(std::vector<std::string>& lines, const ReportedStudy& reported,
 void add_success(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
   const measures::PointSummary& point = point_of(reported, best);
   lines.push_back(fmt::format("{} ended at zero counts{}{}.", of_all(point.outcomes.zero_count, point.trials),
-                              bounds_text(reported, best),
-                              reported.summary.worlds > 0 ? ", on average over the worlds" : ""));
+                              bounds_text(reported, success_of(reported), best),
+                              reported.summary.question.worlds > 0 ? ", on average over the worlds" : ""));
   if (point.outcomes.zero_count == point.trials)
     lines.push_back(flawless_text(reported, claim_of_best(reported, best)));
   const measures::OutcomeCounts& outcomes = point.outcomes;
@@ -176,24 +183,25 @@ void add_rigs(std::vector<std::string>& lines, const ReportedStudy& reported, st
 void add_spread(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
   const std::vector<measures::PointSummary>& points = reported.summary.points;
   if (points.size() == 1) return;
-  const auto flawless = std::count_if(points.begin(), points.end(), [](const measures::PointSummary& p) {
-    return p.outcomes.zero_count == p.trials;
-  });
-  const auto worst = std::min_element(points.begin(), points.end(),
-                                      [](const measures::PointSummary& a, const measures::PointSummary& b) {
-                                        return a.success_rate().value < b.success_rate().value;
-                                      });
+  const goal::QuestionWords& words = words_of(question_of(reported));
+  std::vector<goal::QuestionRate> rates;
+  for (std::int64_t point = 0; point < std::ssize(points); ++point)
+    rates.push_back(shown_rate(reported, point));
+  const auto flawless =
+      std::ranges::count_if(rates, [](const goal::QuestionRate& rate) { return rate.hits == rate.events; });
+  const auto worst = std::ranges::min_element(rates, {}, &goal::QuestionRate::value);
   const std::string proportion = flawless == 0 ? fmt::format("None of the {} points is", points.size())
                                                : fmt::format("{} of the {} points {}", flawless,
                                                              points.size(), flawless == 1 ? "is" : "are");
-  if (worst->success_rate().value == points[static_cast<std::size_t>(best)].success_rate().value) {
-    lines.push_back(fmt::format("{} without a failure; no other succeeded less often.", proportion));
+  if (worst->value == rates[static_cast<std::size_t>(best)].value) {
+    lines.push_back(
+        fmt::format("{} without a {}; no other {} less often.", proportion, words.failure, words.succeeded));
     return;
   }
-  lines.push_back(fmt::format("{} without a failure. The worst, {}, succeeded in {}{}.", proportion,
-                              label_of(reported, worst - points.begin()),
-                              of_all(worst->outcomes.zero_count, worst->trials),
-                              bounds_text(reported, worst - points.begin())));
+  const std::int64_t at = worst - rates.begin();
+  lines.push_back(fmt::format("{} without a {}. The worst, {}, {} in {} of {} {}{}.", proportion,
+                              words.failure, label_of(reported, at), words.succeeded, worst->hits,
+                              worst->events, words.events, bounds_text(reported, question_of(reported), at)));
 }
 
 /// Examples: "half of all moves within 0.05 s", "95 % of them not within the hold".
@@ -211,6 +219,18 @@ std::string median_bounds_text(const ReportedStudy& reported, const statistics::
     return "";
   return fmt::format(" (95 % bounds {} to {} s)", text::short_number(median.low),
                      text::short_number(median.high));
+}
+
+/// The quantiles of the settling time in the goal's band.
+void add_goal_times(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
+  const measures::PointSummary& point = point_of(reported, best);
+  const measures::MeasureStatistics& settling = settling_of(question_of(reported), point);
+  const std::int64_t band = question_of(reported).claim()->band;
+  lines.push_back(fmt::format("Within ±{} count{} for good{}: {}, {}{}.", band, band == 1 ? "" : "s",
+                              at_point(reported, best),
+                              within_text(point, "half of all moves", settling.median.value),
+                              within_text(point, "95 % of them", settling.p95.value),
+                              question_of(reported).worlds > 0 ? ", on average over the worlds" : ""));
 }
 
 void add_times(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
@@ -288,6 +308,14 @@ std::string open_loop_verdict(const ReportedStudy& reported) {
               broke_away, trials, lost))});
 }
 
+/// What there is to say of zero counts beside their rate.
+void add_of_zero_counts(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
+  add_undecided(lines, reported, best);
+  add_rigs(lines, reported, best);
+  add_times(lines, reported, best);
+  add_theory(lines, reported);
+}
+
 }  // namespace
 
 std::string verdict_html(const ReportedStudy& reported) {
@@ -295,21 +323,31 @@ std::string verdict_html(const ReportedStudy& reported) {
   const std::int64_t best = reported.chosen.point;
   std::vector<std::string> lines;
   std::optional<summary::JudgedPoint> judged;
-  if (reported.summary.goal) judged = summary::judge_point(reported.summary, reported.chosen);
-  if (judged) add_goal(lines, reported, *judged);
+  if (question_of(reported).claim()) judged = summary::judge_point(reported.summary, reported.chosen);
   if (reported.summary.features.dependent_trials) {
     lines.push_back(
         fmt::format("{} Statements about all axes, with bounds, need a study with `design: monte_carlo`.",
                     dependence_sentence));
   }
-  add_success(lines, reported, best);
+  if (judged) {
+    add_goal(lines, reported, *judged);
+    add_goal_times(lines, reported, best);
+  } else {
+    add_success(lines, reported, best);
+  }
   add_sentences(lines, summary::competition_text(reported.summary, reported.chosen));
-  add_undecided(lines, reported, best);
-  add_rigs(lines, reported, best);
-  add_times(lines, reported, best);
   add_spread(lines, reported, best);
-  add_theory(lines, reported);
+  if (!judged) add_of_zero_counts(lines, reported, best);
   return html_verdict(headline(reported, judged), lines);
+}
+
+std::string zero_counts_html(const ReportedStudy& reported) {
+  std::vector<std::string> lines;
+  add_success(lines, reported, reported.chosen.point);
+  add_of_zero_counts(lines, reported, reported.chosen.point);
+  std::string html;
+  for (const std::string& line : lines) html += fmt::format("<p>{}</p>\n", html_prose(line));
+  return html;
 }
 
 }  // namespace zerocount::report

@@ -63,7 +63,7 @@ std::optional<Figure> curves_figure(const ReportedStudy& reported, const worlds:
   if (bands.count == 0) return std::nullopt;
   const std::vector<worlds::WorldInput>& inputs =
       summary::world_inputs_of(reported.summary, reported.chosen.point);
-  const std::size_t slot = reported.study.goal ? measures::counted_goal(reported.study)->slot : 0;
+  const std::size_t slot = reported.summary.question.counted().slot.value_or(0);
   const std::vector<statistics::Histogram<double>> times = times_of_worlds(reported, slot);
   double end = 0.0;
   for (const statistics::Histogram<double>& one : times) {
@@ -91,7 +91,7 @@ std::optional<Figure> curves_figure(const ReportedStudy& reported, const worlds:
           "Proportion of the moves of each world, at {}, whose error stays within ±{} counts from a time "
           "on. {}. Bad worlds are coloured by {}{}.",
           label_of(reported, reported.chosen.point), bands.values()[slot],
-          summary::bad_worlds_sentence(point, inputs, reported.summary.goal.has_value()), parameter,
+          summary::bad_worlds_sentence(point, inputs, reported.summary.question), parameter,
           times.size() > max_world_curves ? fmt::format("; shown are the first {}", max_world_curves) : ""),
       {std::move(data)});
   figure.specification["layer"][1]["encoding"]["color"]["title"] =
@@ -112,10 +112,7 @@ Figure rate_figure(const ReportedStudy& reported, const worlds::PointWorlds& poi
                    {"high", "upper bound", "1"},
                    {"kind", "kind", ""}}};
   for (std::size_t world = 0; world < point.bad.size(); ++world) {
-    const bool machines = reported.summary.goal && reported.summary.goal->machines;
-    const goal::BoundedProportion& rate = !point.goal ? point.success.worlds[world]
-                                          : machines  ? point.goal->worlds[world].machines
-                                                      : point.goal->worlds[world].moves;
+    const goal::BoundedProportion& rate = point.asked.worlds[world];
     data.rows.push_back(
         ordered_json::array({world, datum(parameter.values[world]), datum(rate.value), datum(rate.low),
                              datum(rate.high), point.bad[world] ? "bad world" : "other world"}));
@@ -123,9 +120,7 @@ Figure rate_figure(const ReportedStudy& reported, const worlds::PointWorlds& poi
   Figure figure = figure_of(
       "world-rate", fmt::format("world-rate-{}", input + 1), fmt::format("Rate over {}", parameter.name),
       fmt::format("Proportion of the {} in each world, at {}, with one-sided bounds {}.",
-                  reported.summary.goal && reported.summary.goal->machines ? "machines that meet the goal"
-                                                                           : rate_meaning(reported),
-                  label_of(reported, reported.chosen.point),
+                  goal::judged_meeting(reported.summary.question), label_of(reported, reported.chosen.point),
                   point.goal ? "which all hold together with the confidence of the goal"
                              : "each world alone, with 95 % confidence"),
       {std::move(data)});

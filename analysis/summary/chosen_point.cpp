@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/goal/success_bounds.hpp"
 #include "analysis/statistics/clustered_proportion.hpp"
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/moments.hpp"
@@ -26,16 +27,12 @@ const measures::PointSummary& point_of(const StudySummary& summary, std::int64_t
 }
 
 /// [rig] what the rig adds to the rate that points are compared by; empty without rigs.
-std::vector<double> rates_of_rigs(const StudySummary& summary, const measures::PointSummary& point) {
+std::vector<double> rates_of_rigs(const goal::Question& question, const measures::MoveCounts& counts) {
   std::vector<double> rates;
-  if (!summary.goal) {
-    for (const std::int64_t successes : point.rigs.successes_of_rigs)
-      rates.push_back(statistics::rate(successes, point.rigs.trials_of_rig));
-    return rates;
-  }
-  for (const statistics::RigMoves& rig : point.goal->rigs) {
+  for (const statistics::RigMoves& rig : counts.rigs) {
     const double met = statistics::rate(rig.met, rig.moves);
-    rates.push_back(!summary.goal->machines ? met : met >= summary.goal->moves ? 1.0 : 0.0);
+    const bool of_machines = question.claim() && question.claim()->machines;
+    rates.push_back(!of_machines ? met : met >= question.claim()->moves ? 1.0 : 0.0);
   }
   return rates;
 }
@@ -62,34 +59,23 @@ struct AdjustedRate {
   }
 };
 
-statistics::ClusterSums sums_of(const StudySummary& summary, const measures::PointSummary& point) {
-  if (summary.goal) return measures::clusters_of(*point.goal);
-  const auto successes = static_cast<double>(point.outcomes.zero_count);
-  return {.clusters = point.judged,
-          .hits = point.outcomes.zero_count,
-          .events = point.judged,
-          .hits_squared = successes,
-          .hits_by_events = successes,
-          .events_squared = static_cast<double>(point.judged)};
-}
-
 /// Whether the worst world of `other` is shown to be worse than that of `best`, by the bounds of both.
-bool has_worse_world(const StudySummary& summary, const measures::PointSummary& best,
-                     const measures::PointSummary& other) {
-  const goal::Verdict of_best = goal::judge_goal(*summary.goal, *best.goal, 1);
-  const goal::Verdict of_other = goal::judge_goal(*summary.goal, *other.goal, 1);
-  return summary.goal->machines ? of_other.machines.high < of_best.machines.low
-                                : of_other.moves.high < of_best.moves.low;
+bool has_worse_world(const study::Goal& goal, const measures::MoveCounts& best,
+                     const measures::MoveCounts& other) {
+  const goal::Verdict of_best = goal::judge_goal(goal, best, 1);
+  const goal::Verdict of_other = goal::judge_goal(goal, other, 1);
+  return goal.machines ? of_other.machines.high < of_best.machines.low
+                       : of_other.moves.high < of_best.moves.low;
 }
 
 /// Whether the trials show that `other` is worse than `best`.
-bool is_shown_worse(const StudySummary& summary, const measures::PointSummary& best,
-                    const measures::PointSummary& other) {
-  if (summary.worlds > 0 && summary.goal) return has_worse_world(summary, best, other);
-  const std::vector<double> of_best = rates_of_rigs(summary, best);
-  const std::vector<double> of_other = rates_of_rigs(summary, other);
+bool is_shown_worse(const goal::Question& question, const measures::MoveCounts& best,
+                    const measures::MoveCounts& other) {
+  if (best.worlds > 0) return has_worse_world(*question.claim(), best, other);
+  const std::vector<double> of_best = rates_of_rigs(question, best);
+  const std::vector<double> of_other = rates_of_rigs(question, other);
   if (!of_best.empty() && of_best.size() == of_other.size()) return differ(of_best, of_other);
-  const AdjustedRate a(sums_of(summary, best)), b(sums_of(summary, other));
+  const AdjustedRate a(measures::clusters_of(best)), b(measures::clusters_of(other));
   return a.value - b.value >
          statistics::normal_quantile(confidence_of_worse) * std::sqrt(a.variance + b.variance);
 }
@@ -124,11 +110,14 @@ ChosenPoint choose_point(const StudySummary& summary, std::optional<std::int64_t
   chosen.point = point ? *point : order.empty() ? 0 : order.front();
   if (!point) chosen.chosen_from = std::max<std::int64_t>(1, std::ssize(order));
   if (summary.features.open_loop) return chosen;
+  const auto counts = [&](std::int64_t one) {
+    return goal::counts_of(summary.question, point_of(summary, one));
+  };
+  const measures::MoveCounts of_chosen = counts(chosen.point);
   for (const std::int64_t other : order) {
     if (other == chosen.point) continue;
     if (!chosen.runner_up) chosen.runner_up = other;
-    if (!is_shown_worse(summary, point_of(summary, chosen.point), point_of(summary, other)))
-      chosen.as_good.push_back(other);
+    if (!is_shown_worse(summary.question, of_chosen, counts(other))) chosen.as_good.push_back(other);
   }
   std::ranges::sort(chosen.as_good);
   if (!order.empty() && chosen.point == order.front()) chosen.ends = ends_at(summary, chosen.point);
@@ -141,18 +130,16 @@ std::string name_of_chosen(const StudySummary& summary, const ChosenPoint& chose
 }
 
 std::string verdict_text(const StudySummary& summary, const ChosenPoint& chosen) {
-  if (summary.goal) return judgement_text(summary, judge_point(summary, chosen));
+  if (summary.question.claim()) return judgement_text(summary, judge_point(summary, chosen));
   const measures::PointSummary& point = point_of(summary, chosen.point);
   std::string text = name_of_chosen(summary, chosen) + ": ";
   if (summary.features.dependent_trials) {
     return text + fmt::format("{} of {} trials succeeded; dependent trials give no bounds\n",
                               point.outcomes.zero_count, point.trials);
   }
-  const bool stopped = std::ranges::any_of(
-      summary.sections, [](const measures::SummarySection& section) { return section.key == stopping_key; });
   const auto points = static_cast<std::size_t>(chosen.chosen_from);
-  if (summary.worlds > 0) text += "on average over the worlds: ";
-  text += statistics::claim_sentence(claim_of_chosen(point, points, stopped)) + "\n";
+  if (summary.question.worlds > 0) text += "on average over the worlds: ";
+  text += statistics::claim_sentence(goal::claim_of_chosen(point, points, summary.question.stopped)) + "\n";
   if (points > 1) text += "  the bound allows for the choice of the point by these trials\n";
   return text + competition_text(summary, chosen);
 }

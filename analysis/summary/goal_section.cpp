@@ -39,7 +39,7 @@ std::vector<std::optional<goal::Verdict>> goal_verdicts(const StudySummary& summ
   for (const std::int64_t index : complete_points(summary)) {
     const measures::PointSummary& point = summary.points[static_cast<std::size_t>(index)];
     verdicts.emplace_back();
-    if (point.trials > 0) verdicts.back() = goal::judge_goal(*summary.goal, *point.goal, 1);
+    if (point.trials > 0) verdicts.back() = goal::judge_goal(*summary.question.claim(), *point.goal, 1);
   }
   return verdicts;
 }
@@ -56,14 +56,14 @@ measures::SummarySection goal_section(const StudySummary& summary) {
   const std::vector<std::optional<goal::Verdict>> verdicts = goal_verdicts(summary);
   measures::SummarySection section{.key = "goal", .json = {}, .columns = {}};
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
-    section.json.push_back(
-        verdicts[i] ? verdict_json(*summary.goal, *verdicts[i], !summary.points[i].goal->rigs.empty())
-                    : Json());
+    section.json.push_back(verdicts[i] ? verdict_json(*summary.question.claim(), *verdicts[i],
+                                                      !summary.points[i].goal->rigs.empty())
+                                       : Json());
   }
-  const std::string where = summary.worlds > 0 ? " in the worst world" : "";
+  const std::string where = summary.question.worlds > 0 ? " in the worst world" : "";
   add_columns(section.columns, "goal_rate", "proportion of moves that meet the goal" + where, verdicts,
               &goal::Verdict::moves);
-  if (summary.goal->machines) {
+  if (summary.question.claim()->machines) {
     add_columns(section.columns, "goal_machines", "proportion of machines that meet the goal" + where,
                 verdicts, &goal::Verdict::machines);
   }

@@ -34,9 +34,9 @@ JudgedPoint judge_point(const StudySummary& summary, const ChosenPoint& chosen) 
   JudgedPoint judged{chosen, {}, {}};
   const std::size_t points = points_of(chosen);
   const measures::MoveCounts& counts = counts_of(summary, chosen.point);
-  judged.verdict = goal::judge_goal(*summary.goal, counts, points);
+  judged.verdict = goal::judge_goal(*summary.question.claim(), counts, points);
   if (judged.verdict.status == goal::Status::undecided)
-    judged.needs = goal::needs_of(*summary.goal, counts, points);
+    judged.needs = goal::needs_of(*summary.question.claim(), counts, points);
   return judged;
 }
 
@@ -46,17 +46,19 @@ std::string judgement_headline(const StudySummary& summary, const JudgedPoint& j
 
 std::string judgement_details(const StudySummary& summary, const JudgedPoint& judged) {
   const ChosenPoint& chosen = judged.chosen;
-  std::string text = goal::readings_text(*summary.goal, counts_of(summary, chosen.point), judged.verdict);
+  const study::Goal& goal = *summary.question.claim();
+  std::string text = goal::readings_text(goal, counts_of(summary, chosen.point), judged.verdict);
   if (chosen.chosen_from > 1) text += "  the bounds allow for the choice of the point by these trials\n";
   if (const auto worlds = worlds_of_point(summary, chosen.point, points_of(chosen)))
-    text += fmt::format("  {}\n", bad_worlds_sentence(*worlds, world_inputs_of(summary, chosen.point), true));
+    text += fmt::format(
+        "  {}\n", bad_worlds_sentence(*worlds, world_inputs_of(summary, chosen.point), summary.question));
   if (judged.needs)
-    text += fmt::format("  {}\n", goal::needs_sentence(*summary.goal, *judged.needs, summary.features.rigs));
+    text += fmt::format("  {}\n", goal::needs_sentence(goal, *judged.needs, summary.features.rigs));
   return text + competition_text(summary, chosen);
 }
 
 std::string judgement_text(const StudySummary& summary, const JudgedPoint& judged) {
-  return fmt::format("goal: {}\n{}\n{}", goal::goal_sentence(*summary.goal),
+  return fmt::format("goal: {}\n{}\n{}", goal::goal_sentence(*summary.question.claim()),
                      judgement_headline(summary, judged), judgement_details(summary, judged));
 }
 

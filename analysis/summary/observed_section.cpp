@@ -173,6 +173,7 @@ measures::SummarySection observed_section(std::span<const measures::PointSummary
                                           double confidence) {
   const std::vector<std::optional<Comparison>> compared = comparisons(points, labels, counts);
   measures::SummarySection section{.key = observed_key, .json = {}, .columns = columns_of(compared)};
+  section.of_success = true;
   add_text(section, points, labels, compared, confidence);
   for (std::size_t i = 0; i < points.size(); ++i)
     section.json.push_back(json_of(points[i], compared[i], confidence));

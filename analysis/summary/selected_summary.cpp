@@ -52,12 +52,11 @@ std::optional<std::vector<double>> stored_statistic(const reading::StudyFile& fi
   return values;
 }
 
-/// The only measure by which points are compared: the time until arrival, or until the goal.
+/// The only measure by which points are compared.
 std::shared_ptr<const layout::MeasureTable> measures_of_merit(const reading::StudyFile& file,
-                                                              const std::optional<study::Goal>& goal) {
+                                                              const goal::Question& question) {
   auto table = std::make_shared<layout::MeasureTable>();
-  const std::string name =
-      goal ? layout::name_of_band("band_settling_time", goal->band) : std::string("settling_time");
+  const std::string name = goal::settling_measure(question);
   for (const layout::Measure& measure : file.table()) {
     if (measure.field.column.name == name) table->push_back(measure);
   }
@@ -195,8 +194,9 @@ std::optional<SelectedSummary> summarise_selected(const std::filesystem::path& p
   const reading::StudyFile file(path);
   const study::Study study = layout::recorded_study(file.header(), file.path());
   if (!is_summarised_by_point(study) || file.moves() != study.moves) return std::nullopt;
-  SelectedSummary selected{
-      summary_without_points(study, statistics::summary_confidence), {}, measures_of_merit(file, study.goal)};
+  SelectedSummary selected{summary_without_points(study, statistics::summary_confidence),
+                           {},
+                           measures_of_merit(file, goal::question_of(study))};
   StudySummary& summary = selected.summary;
   summary.name = file.header().name;
   summary.labels = file.point_labels();

@@ -71,7 +71,8 @@ measures::SummarySection stopping_section(std::span<const measures::PointSummary
   };
   const std::int64_t rigs = points.empty() ? 0 : points.front().rigs.n;
   measures::SummarySection section{
-      .key = stopping_key, .json = {}, .columns = {column("low", "lower"), column("high", "upper")}};
+      .key = "stopped", .json = {}, .columns = {column("low", "lower"), column("high", "upper")}};
+  section.of_success = true;
   add_text(section, bounds, judged, labels, rule, rigs, confidence);
   for (std::size_t i = 0; i < bounds.size(); ++i) {
     section.columns[0].values.push_back(bounds[i].low);

@@ -228,8 +228,7 @@ StudySummary summary_without_points(const study::Study& study, double confidence
   summary.observed = study.observed;
   summary.confidence = confidence;
   summary.features = study.features;
-  summary.goal = study.goal;
-  summary.worlds = study.worlds;
+  summary.question = goal::question_of(study);
   summary.seed = study.seed;
   summary.design = manifest::design_labels[static_cast<std::size_t>(study.design)];
   return summary;
@@ -254,8 +253,9 @@ void describe_points(StudySummary& summary, const study::Study& study,
 }
 
 void add_claims(StudySummary& summary) {
-  if (summary.goal) summary.sections.push_back(goal_section(summary));
-  if (summary.worlds > 0 && !summary.features.open_loop) summary.sections.push_back(worlds_section(summary));
+  if (summary.question.claim()) summary.sections.push_back(goal_section(summary));
+  if (summary.question.worlds > 0 && !summary.features.open_loop)
+    summary.sections.push_back(worlds_section(summary));
   if (summary.features.open_loop || summary.features.dependent_trials) return;
   summary.sections.push_back(
       tolerance_section(summary.points, short_labels(summary.labels, summary.axes), summary.features));

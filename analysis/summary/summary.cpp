@@ -33,6 +33,17 @@ std::string nonfinite_notes(const StudySummary& summary, std::span<const std::in
   return notes;
 }
 
+/// The sections about the question of the study, or the others.
+std::string sections_text(const StudySummary& summary, std::span<const std::int64_t> points,
+                          bool of_question) {
+  std::string text;
+  for (const measures::SummarySection& section : summary.sections) {
+    const std::string section_text = measures::text_of(section, points);
+    if (is_of_question(summary, section) == of_question && !section_text.empty()) text += "\n" + section_text;
+  }
+  return text;
+}
+
 }  // namespace
 
 void require_consistent(const StudySummary& summary) {
@@ -71,6 +82,10 @@ std::string observed_at(const StudySummary& summary, std::int64_t point) {
   return entry != summary.observed.end() ? entry->second : std::string{};
 }
 
+bool is_of_question(const StudySummary& summary, const measures::SummarySection& section) {
+  return !(section.of_success && summary.question.claim());
+}
+
 std::string bounds_head(const StudySummary& summary) {
   return text::percent(summary.confidence) + " bounds";
 }
@@ -104,7 +119,7 @@ std::string summary_table(const StudySummary& summary, const SummaryForm& form) 
   const std::string unfinished = unfinished_sentence(summary);
   const text::PointTable table =
       levels ? level_table(summary)
-             : text::PointTable{loop_columns(summary, chosen.point), complete_points(summary)};
+             : text::PointTable{question_columns(summary, chosen.point), complete_points(summary)};
   std::string text = fmt::format("{}: {}\n{}{}\n\n{}{}", text::printable(summary.name), size_line(summary),
                                  unfinished.empty() ? "" : unfinished + "\n", design_line(summary),
                                  text::aligned_table(table, points), nonfinite_notes(summary, points));
@@ -112,10 +127,13 @@ std::string summary_table(const StudySummary& summary, const SummaryForm& form) 
     text += fmt::format("({} of {} points)\n", points.size(), summary.points.size());
   text += form.legend ? "" : "(zerocount summary --legend explains the columns)\n";
   if (form.legend) text += "\n" + (levels ? level_legend(summary.features.axis) : loop_legend(summary));
-  for (const measures::SummarySection& section : summary.sections) {
-    const std::string section_text = measures::text_of(section, points);
-    if (!section_text.empty()) text += "\n" + section_text;
+  text += sections_text(summary, points, true);
+  if (summary.question.claim()) {
+    text +=
+        "\nzero counts\n\n" +
+        text::aligned_table({zero_count_columns(summary, chosen.point), complete_points(summary)}, points);
   }
+  text += sections_text(summary, points, false);
   return levels ? text : text + "\n" + verdict_text(summary, chosen);
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/goal/question.hpp"
 #include "analysis/measures/point_columns.hpp"
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/measures/summary_section.hpp"
@@ -37,8 +38,7 @@ struct StudySummary {
   std::vector<measures::PointSummary> points;          ///< [point]
   std::vector<theory::PointPrediction> predictions{};  ///< [point], or empty where not computed
   study::StudyFeatures features{};                     ///< what the table has columns for
-  std::optional<study::Goal> goal{};                   ///< of the study
-  std::int64_t worlds{0};                              ///< number of worlds of the study; 0: none
+  goal::Question question{};                           ///< what the study is judged by
   std::vector<std::vector<worlds::WorldInput>> world_inputs{};  ///< [point] unknown and derived
   std::uint64_t seed{0};                                        ///< of the study
   std::optional<UnfinishedStudy> unfinished{};                  ///< where the run has not ended
@@ -56,9 +56,6 @@ struct StudySummary {
 
 /// The numbers of the points with all statistics.
 std::vector<std::int64_t> complete_points(const StudySummary& summary);
-
-/// Key of the section of a study that decided itself how many trials it took (`stop`).
-inline constexpr const char* stopping_key = "stopped";
 
 /// @throws Failure (bad_data) where labels, axes, statistics and predictions are not of the same points. The
 /// functions below call it.

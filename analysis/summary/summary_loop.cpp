@@ -19,10 +19,6 @@ std::string interval_in_percent(const statistics::ConfidenceInterval& interval) 
   return fmt::format("[{}]", text::percent_bounds(interval.low, interval.high));
 }
 
-std::int64_t rigs_without_failure(const measures::PointSummary& point) {
-  return std::llround(point.rigs.without_failure * static_cast<double>(point.rigs.n));
-}
-
 /// Whether some point of the table `is` so.
 template <typename Is>
 bool any_point(const StudySummary& summary, Is is) {
@@ -98,17 +94,26 @@ void add_proportion(std::vector<text::TextColumn>& columns, const std::string& h
 }
 
 void add_goal(std::vector<text::TextColumn>& columns, const StudySummary& summary) {
-  if (!summary.goal) return;
   const std::vector<std::optional<goal::Verdict>> verdicts = goal_verdicts(summary);
+  const std::string where = goal::is_of_worst_world(summary.question) ? " (worst world)" : "";
   text::TextColumn status{"goal", false, {}};
   for (const std::optional<goal::Verdict>& verdict : verdicts)
     status.cells.emplace_back(verdict ? goal::text_of(verdict->status) : "–");
   columns.push_back(std::move(status));
-  if (summary.goal->machines)
-    add_proportion(columns, summary.worlds > 0 ? "machines in goal (worst world)" : "machines in goal",
-                   verdicts, &goal::Verdict::machines);
-  add_proportion(columns, summary.worlds > 0 ? "moves in goal (worst world)" : "moves in goal", verdicts,
-                 &goal::Verdict::moves);
+  if (summary.question.claim()->machines)
+    add_proportion(columns, "machines in goal" + where, verdicts, &goal::Verdict::machines);
+  add_proportion(columns, "moves in goal" + where, verdicts, &goal::Verdict::moves);
+}
+
+/// Rigs without a failure by the question.
+void add_rigs(std::vector<text::TextColumn>& columns, const StudySummary& summary,
+              const goal::Question& question) {
+  if (!has_several_trials_of_rigs(summary)) return;
+  columns.push_back(
+      by_point(summary, std::string(words_of(question).rig_head), [&](const measures::PointSummary& point) {
+        const goal::RigsWithoutFailure rigs = rigs_without_failure(question, point);
+        return text::percentage(rigs.rigs, rigs.of);
+      }));
 }
 
 void add_success(std::vector<text::TextColumn>& columns, const StudySummary& summary) {
@@ -135,11 +140,7 @@ void add_outcomes(std::vector<text::TextColumn>& columns, const StudySummary& su
       return text::percentage(reason.trials(p), p.judged);
     }));
   }
-  if (has_several_trials_of_rigs(summary)) {
-    columns.push_back(by_point(summary, "rigs w/o failure", [](const measures::PointSummary& p) {
-      return text::percentage(rigs_without_failure(p), p.rigs.n);
-    }));
-  }
+  add_rigs(columns, summary, goal::success(summary.question));
 }
 
 /// Only where points differ in it.
@@ -186,18 +187,21 @@ std::string bounds_text(const layout::SummaryColumn& column, const measures::Mea
   return fmt::format(" [{}, {}]", text::short_number(low), text::short_number(high));
 }
 
-void add_measures(std::vector<text::TextColumn>& columns, const StudySummary& summary) {
-  for (const layout::Measure* measure : shown_measures(summary)) {
-    for (const layout::SummaryColumn& column : measure->summary.columns) {
-      columns.push_back(by_point(summary, parameters::text_on(summary.features.axis, column.head),
-                                 [&](const measures::PointSummary& point) {
-                                   const measures::MeasureStatistics& of = point.of(*measure);
-                                   return cell_text(column.text, point,
-                                                    measures::value_of(column.statistic, of)) +
-                                          bounds_text(column, of);
-                                 }));
-    }
+void add_measure(std::vector<text::TextColumn>& columns, const StudySummary& summary,
+                 const layout::Measure& measure) {
+  for (const layout::SummaryColumn& column : measure.summary.columns) {
+    columns.push_back(by_point(summary, parameters::text_on(summary.features.axis, column.head),
+                               [&](const measures::PointSummary& point) {
+                                 const measures::MeasureStatistics& of = point.of(measure);
+                                 return cell_text(column.text, point,
+                                                  measures::value_of(column.statistic, of)) +
+                                        bounds_text(column, of);
+                               }));
   }
+}
+
+void add_measures(std::vector<text::TextColumn>& columns, const StudySummary& summary) {
+  for (const layout::Measure* measure : shown_measures(summary)) add_measure(columns, summary, *measure);
 }
 
 /// The meaning of the columns of the measures that `belongs` picks.
@@ -234,9 +238,8 @@ std::string settling_text(const measures::PointSummary& point, double time) {
   return std::isnan(point.hold) ? "> hold" : fmt::format("> {} s", text::short_number(point.hold));
 }
 
-std::vector<text::TextColumn> loop_columns(const StudySummary& summary, std::int64_t chosen) {
+std::vector<text::TextColumn> zero_count_columns(const StudySummary& summary, std::int64_t chosen) {
   std::vector<text::TextColumn> columns = sweep_columns(summary, chosen);
-  add_goal(columns, summary);
   add_success(columns, summary);
   add_trials(columns, summary);
   add_measures(columns, summary);
@@ -247,6 +250,19 @@ std::vector<text::TextColumn> loop_columns(const StudySummary& summary, std::int
     for (const std::string& text : observed) column.cells.push_back(text::printable(text));
     columns.push_back(std::move(column));
   }
+  return columns;
+}
+
+std::vector<text::TextColumn> question_columns(const StudySummary& summary, std::int64_t chosen) {
+  if (!summary.question.claim()) return zero_count_columns(summary, chosen);
+  std::vector<text::TextColumn> columns = sweep_columns(summary, chosen);
+  add_goal(columns, summary);
+  add_trials(columns, summary);
+  for (const layout::Measure* measure : shown_measures(summary)) {
+    if (measure->field.column.name == goal::settling_measure(summary.question))
+      add_measure(columns, summary, *measure);
+  }
+  add_rigs(columns, summary, summary.question);
   return columns;
 }
 
@@ -287,14 +303,15 @@ std::string design_line(const StudySummary& summary) {
         "narrow them only so far",
         rigs_of(summary));
   }
-  if (summary.worlds > 0) {
-    line += fmt::format(", {} worlds: rates over all trials are averages over the worlds{}", summary.worlds,
-                        summary.goal ? "; those of the goal are of the worst world" : "");
+  if (summary.question.worlds > 0) {
+    line += fmt::format(", {} worlds: rates over all trials are averages over the worlds{}",
+                        summary.question.worlds,
+                        summary.question.claim() ? "; those of the goal are of the worst world" : "");
   }
   if (features.spread_trials) {
     line += fmt::format(
         "{} bounds are conservative: made for trials by chance, which vary more than those of this design",
-        features.rigs || summary.worlds > 0 ? ";" : ":");
+        features.rigs || summary.question.worlds > 0 ? ";" : ":");
   }
   return line;
 }
@@ -303,19 +320,25 @@ std::string loop_legend(const StudySummary& summary) {
   const study::StudyFeatures& features = summary.features;
   std::string legend;
   if (summary.points.size() > 1) legend += "*: the chosen point, of which the last lines speak\n";
-  if (summary.goal) {
-    legend += fmt::format("in goal: {}{}; one-sided {} bounds of each point alone, in %\n",
-                          goal::goal_sentence(*summary.goal),
-                          summary.worlds > 0 ? ", in the worst world; bounds of the worst of all worlds" : "",
-                          text::percent(summary.goal->confidence));
+  if (summary.question.claim()) {
+    legend += fmt::format(
+        "in goal: {}{}; one-sided {} bounds of each point alone, in %\n",
+        goal::goal_sentence(*summary.question.claim()),
+        summary.question.worlds > 0 ? ", in the worst world; bounds of the worst of all worlds" : "",
+        text::percent(summary.question.claim()->confidence));
   }
   legend += "zero-count: proportion of trials whose moves all ended at zero error; bounds of it after " +
             std::string(features.rigs ? "Korn and Graubard" : "Clopper and Pearson") +
             ", in %\n"
             "stable: proportion of trials whose moves all arrived and stayed within one count\n" +
             legend_of(summary, [](const layout::Measure& m) { return m.summary.use == nullptr; });
-  if (has_several_trials_of_rigs(summary))
-    legend += "rigs w/o failure: proportion of rigs all of whose trials ended at zero error\n";
+  if (has_several_trials_of_rigs(summary)) {
+    for (const goal::QuestionWords* words :
+         {&words_of(goal::success(summary.question)), &words_of(summary.question)}) {
+      const std::string line = fmt::format("{}: {}\n", words->rig_head, words->rig_meaning);
+      if (!legend.ends_with(line)) legend += line;
+    }
+  }
   if (any_undecided(summary)) {
     legend +=
         "undecided: proportion of trials whose worst move ended off target, stalled or still on its way: "

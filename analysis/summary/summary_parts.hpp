@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/goal/goal_verdict.hpp"
+#include "analysis/goal/question.hpp"
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/summary/summary.hpp"
 #include "analysis/text/text.hpp"
@@ -28,6 +29,9 @@ void describe_points(StudySummary& summary, const study::Study& study,
 /// Adds the claims about all axes. They count independent trials.
 void add_claims(StudySummary& summary);
 
+/// Whether the section is about what the study is judged by, and not beside its goal.
+bool is_of_question(const StudySummary& summary, const measures::SummarySection& section);
+
 /// "95 % bounds", with the confidence of the summary: the head of a column of them.
 std::string bounds_head(const StudySummary& summary);
 
@@ -46,9 +50,12 @@ std::string short_name(std::span<const study::SweepAxis> axes, const study::Swee
 /// point takes the place of the label. A star marks the chosen point among several.
 std::vector<text::TextColumn> sweep_columns(const StudySummary& summary, std::int64_t chosen);
 
-/// The table of a study with targets, the most important columns first, and what its columns mean.
-/// @param chosen the point that is marked
-std::vector<text::TextColumn> loop_columns(const StudySummary& summary, std::int64_t chosen);
+/// The table of a study with targets by its question, the most important columns first; without a goal that
+/// of zero counts. @param chosen the point that is marked
+std::vector<text::TextColumn> question_columns(const StudySummary& summary, std::int64_t chosen);
+/// The table of zero counts, arrival, jerks, outcomes and criteria.
+std::vector<text::TextColumn> zero_count_columns(const StudySummary& summary, std::int64_t chosen);
+/// The meaning of the columns of both.
 std::string loop_legend(const StudySummary& summary);
 
 /// The number of trials of every point; nothing where points differ in it.
@@ -140,7 +147,8 @@ inline const std::vector<worlds::WorldInput>& world_inputs_of(const StudySummary
 /// 25; by chance with probability 0.0025); what separates them need not be the cause", with the other
 /// quantities that separate the same worlds, and what derived ones mean.
 std::string bad_worlds_sentence(const worlds::PointWorlds& point,
-                                const std::vector<worlds::WorldInput>& inputs, bool has_goal);
+                                const std::vector<worlds::WorldInput>& inputs,
+                                const goal::Question& question);
 
 /// The section "worlds" of a summary of a study with worlds. Its JSON is that of worlds_description(); its
 /// columns are worlds_success_worst, …; its text is a table and a sentence a point on what bad worlds have in

@@ -139,6 +139,7 @@ measures::SummarySection tolerance_section(std::span<const measures::PointSummar
                                            const study::StudyFeatures& features) {
   measures::SummarySection section{
       .key = "assurance", .json = {}, .columns = columns_of(points, features), .title = title_of(points)};
+  section.of_success = true;
   section.tables.push_back(table_of(points, labels));
   section.note = fmt::format(
       "bounds of one side each (Wilks; {}). success: of trials{}; arrive by: all moves of a trial; a "

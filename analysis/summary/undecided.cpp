@@ -124,6 +124,7 @@ std::vector<measures::UndecidedMoves> UndecidedAccumulator::moves() const {
 measures::SummarySection undecided_section(std::span<const measures::PointSummary> points,
                                            const std::vector<std::string>& labels) {
   measures::SummarySection section{.key = "undecided", .json = {}, .columns = {}};
+  section.of_success = true;
   text::PointTable table{{{"point", false, {}}, {"undecided moves", false, {}}}, {}};
   for (const measures::UndecidedCount& each : measures::undecided_counts)
     section.columns.push_back({each.column, "1", each.long_name, {}});

@@ -63,7 +63,7 @@ void add_cells(std::vector<text::TextColumn>& columns, std::string head, const s
 }
 
 text::PointTable table_of(const std::vector<Worlds>& points, const std::vector<std::string>& labels,
-                          bool has_goal) {
+                          const goal::Question& question) {
   using Point = const worlds::PointWorlds&;
   text::PointTable table{{{"point", false, {}}}, {}};
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -72,15 +72,15 @@ text::PointTable table_of(const std::vector<Worlds>& points, const std::vector<s
     table.points.push_back(static_cast<std::int64_t>(i));
   }
   std::vector<text::TextColumn>& columns = table.columns;
-  add_cells(columns, "zero-count worst", points,
-            [](Point p) { return text::percent_near(p.success.lowest.value); });
+  add_cells(columns, fmt::format("{} worst", goal::judged_head(question)), points,
+            [](Point p) { return text::percent_near(p.asked.lowest.value); });
   add_cells(columns, "bounds", points, [](Point p) {
-    return fmt::format("[{}]", text::percent_bounds(p.success.lowest.low, p.success.lowest.high));
+    return fmt::format("[{}]", text::percent_bounds(p.asked.lowest.low, p.asked.lowest.high));
   });
-  add_cells(columns, "median", points, [](Point p) { return text::percent_near(p.success.median); });
+  add_cells(columns, "median", points, [](Point p) { return text::percent_near(p.asked.median); });
   add_cells(columns, "best", points,
-            [](Point p) { return text::percent_near(p.success.worlds[p.success.best].value); });
-  if (!has_goal) return table;
+            [](Point p) { return text::percent_near(p.asked.worlds[p.asked.best].value); });
+  if (!question.claim()) return table;
   for (const goal::Status status : {goal::Status::met, goal::Status::missed, goal::Status::undecided}) {
     add_cells(columns, fmt::format("goal {}", goal::text_of(status)), points,
               [status](Point p) { return fmt::format("{}", worlds_with(status, p)); });
@@ -116,16 +116,16 @@ Worlds worlds_of_point(const StudySummary& summary, std::int64_t point, std::siz
   for (const measures::MoveCounts& world : measures::in_worlds(one.worlds->succeeded)) {
     if (world.moves == 0) return std::nullopt;  // of an unfinished run
   }
-  return worlds::point_worlds(one, summary.goal, summary.world_inputs[static_cast<std::size_t>(point)],
+  return worlds::point_worlds(one, summary.question, summary.world_inputs[static_cast<std::size_t>(point)],
                               summary.seed, summary.confidence, chosen_from);
 }
 
 std::string bad_worlds_sentence(const worlds::PointWorlds& point,
-                                const std::vector<worlds::WorldInput>& inputs, bool has_goal) {
+                                const std::vector<worlds::WorldInput>& inputs,
+                                const goal::Question& question) {
   const auto bad = std::count(point.bad.begin(), point.bad.end(), true);
   const std::int64_t all = std::ssize(point.bad);
-  const std::string what = has_goal ? "fall short of the goal by their observed rates"
-                                    : "are shown to succeed less often than the median world";
+  const std::string_view what = goal::words_of(question).falls_short;
   if (bad == 0 || bad == all) return fmt::format("{} of {} worlds {}", bad == 0 ? "none" : "all", all, what);
   if (!point.rule) {
     return fmt::format(
@@ -146,14 +146,14 @@ measures::SummarySection worlds_section(const StudySummary& summary) {
   std::vector<Worlds> points;
   for (std::int64_t point = 0; point < std::ssize(summary.points); ++point)
     points.push_back(worlds_of_point(summary, point));
-  const bool has_goal = summary.goal.has_value();
   const std::vector<std::string> labels = short_labels(summary.labels, summary.axes);
   measures::SummarySection section{
       .key = "worlds",
       .json = {},
-      .columns = columns_of(points, has_goal),
-      .title = fmt::format("by world: the lowest, median and highest rate of {} worlds", summary.worlds)};
-  section.tables.push_back(table_of(points, labels, has_goal));
+      .columns = columns_of(points, summary.question.claim().has_value()),
+      .title =
+          fmt::format("by world: the lowest, median and highest rate of {} worlds", summary.question.worlds)};
+  section.tables.push_back(table_of(points, labels, summary.question));
   constexpr std::size_t max_sentences = 12;
   std::size_t sentences = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -161,7 +161,7 @@ measures::SummarySection worlds_section(const StudySummary& summary) {
         points[i] ? document::json(worlds_description(), {*points[i], summary.world_inputs[i]}) : Json());
     if (points[i] && ++sentences <= max_sentences) {
       section.note += fmt::format("{}: {}\n", text::printable(labels[i]),
-                                  bad_worlds_sentence(*points[i], summary.world_inputs[i], has_goal));
+                                  bad_worlds_sentence(*points[i], summary.world_inputs[i], summary.question));
     }
   }
   if (sentences > max_sentences)
@@ -169,7 +169,7 @@ measures::SummarySection worlds_section(const StudySummary& summary) {
         fmt::format("and {} more points (--format json has their rules)\n", sentences - max_sentences);
   section.note +=
       fmt::format("bounds of one side each, of the lowest rate of all worlds, with {} confidence\n",
-                  text::percent(summary.confidence));
+                  text::percent(goal::confidence_of(summary.question, summary.confidence)));
   section.open = true;
   return section;
 }

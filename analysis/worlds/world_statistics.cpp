@@ -15,15 +15,44 @@ double median_of(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
-bool is_bad(const study::Goal& goal, const goal::WorldVerdict& world) {
-  return goal.machines ? world.machines.value < *goal.machines : world.moves.value < goal.moves;
+/// Finds the worst, the median and the best of the rates of the worlds.
+void sort_out(RatesOfWorlds& rates) {
+  std::vector<double> values;
+  for (const goal::BoundedProportion& world : rates.worlds) values.push_back(world.value);
+  rates.worst = static_cast<std::size_t>(std::ranges::min_element(values) - values.begin());
+  rates.best = static_cast<std::size_t>(std::ranges::max_element(values) - values.begin());
+  rates.median = median_of(std::move(values));
+}
+
+/// The rates of the worlds by which the goal is judged.
+RatesOfWorlds judged_rates(const goal::Question& question, const goal::Verdict& verdict) {
+  RatesOfWorlds rates;
+  for (const goal::WorldVerdict& world : verdict.worlds) rates.worlds.push_back(judged_rate(question, world));
+  rates.lowest = question.claim()->machines ? verdict.machines : verdict.moves;
+  sort_out(rates);
+  return rates;
+}
+
+/// [world] whether it falls short of the goal, as observed; without one, whether it is shown to succeed less
+/// often than the median world.
+std::vector<bool> bad_worlds(const goal::Question& question, const PointWorlds& point,
+                             const measures::MoveCounts& succeeded, double confidence) {
+  std::vector<bool> bad;
+  if (point.goal) {
+    const double wanted = question.claim()->machines.value_or(question.claim()->moves);
+    for (const goal::BoundedProportion& world : point.asked.worlds) bad.push_back(world.value < wanted);
+    return bad;
+  }
+  const double each = statistics::confidence_of_each(confidence, static_cast<std::size_t>(succeeded.worlds));
+  for (const measures::MoveCounts& world : measures::in_worlds(succeeded))
+    bad.push_back(statistics::clustered_at_most(measures::clusters_of(world), each) < point.success.median);
+  return bad;
 }
 
 }  // namespace
 
 RatesOfWorlds rates_of_worlds(const measures::MoveCounts& counts, double confidence) {
   RatesOfWorlds rates;
-  std::vector<double> values;
   const double each = statistics::confidence_of_each(confidence, static_cast<std::size_t>(counts.worlds));
   for (const measures::MoveCounts& world : measures::in_worlds(counts)) {
     const statistics::ClusterSums sums = measures::clusters_of(world);
@@ -31,38 +60,25 @@ RatesOfWorlds rates_of_worlds(const measures::MoveCounts& counts, double confide
     const double low = statistics::clustered_at_least(sums, each);
     const double high = statistics::clustered_at_most(sums, each);
     const goal::BoundedProportion one{value, low, high};
-    rates.lowest = values.empty() ? one : goal::lowest(rates.lowest, one);
-    values.push_back(value);
+    rates.lowest = rates.worlds.empty() ? one : goal::lowest(rates.lowest, one);
     rates.worlds.push_back({value, statistics::clustered_at_least(sums, confidence),
                             statistics::clustered_at_most(sums, confidence)});
   }
-  rates.worst = static_cast<std::size_t>(std::ranges::min_element(values) - values.begin());
-  rates.best = static_cast<std::size_t>(std::ranges::max_element(values) - values.begin());
-  rates.median = median_of(std::move(values));
+  sort_out(rates);
   return rates;
 }
 
-PointWorlds point_worlds(const measures::PointSummary& point, const std::optional<study::Goal>& goal,
+PointWorlds point_worlds(const measures::PointSummary& point, const goal::Question& question,
                          std::span<const WorldInput> inputs, std::uint64_t seed, double confidence,
                          std::size_t points) {
   PointWorlds result;
   const measures::MoveCounts& succeeded = point.worlds.value().succeeded;
   result.success = rates_of_worlds(succeeded, confidence);
-  if (goal && point.goal) result.goal = goal::judge_goal(*goal, *point.goal, points);
-  const double each = statistics::confidence_of_each(confidence, static_cast<std::size_t>(succeeded.worlds));
-  const std::vector<measures::MoveCounts> counts = measures::in_worlds(succeeded);
-  for (std::size_t world = 0; world < counts.size(); ++world) {
-    result.bad.push_back(result.goal ? is_bad(*goal, result.goal->worlds[world])
-                                     : statistics::clustered_at_most(measures::clusters_of(counts[world]),
-                                                                     each) < result.success.median);
-  }
+  if (question.claim()) result.goal = goal::judge_goal(*question.claim(), *point.goal, points);
+  result.asked = result.goal ? judged_rates(question, *result.goal) : result.success;
+  result.bad = bad_worlds(question, result, succeeded, confidence);
   std::vector<double> rates;
-  for (std::size_t world = 0; world < counts.size(); ++world) {
-    const goal::BoundedProportion& rate = !result.goal     ? result.success.worlds[world]
-                                          : goal->machines ? result.goal->worlds[world].machines
-                                                           : result.goal->worlds[world].moves;
-    rates.push_back(rate.value);
-  }
+  for (const goal::BoundedProportion& world : result.asked.worlds) rates.push_back(world.value);
   result.rule = find_rule({inputs.begin(), inputs.end()}, rates, result.bad, seed);
   return result;
 }

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "analysis/goal/goal_verdict.hpp"
+#include "analysis/goal/question.hpp"
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/worlds/world_rule.hpp"
 #include "experiments/study/study.hpp"
@@ -19,7 +20,7 @@ struct RatesOfWorlds {
   std::size_t worst{0};                         ///< world of the lowest rate
   std::size_t best{0};
   double median{0.0};  ///< of the rates
-  /// Bounds of the lowest rate of all worlds: the lowest of the bounds of each world (Bonferroni).
+  /// The lowest rate of all worlds; its bounds are the lowest of the bounds of each world (Bonferroni).
   goal::BoundedProportion lowest{};
 };
 
@@ -28,7 +29,8 @@ RatesOfWorlds rates_of_worlds(const measures::MoveCounts& counts, double confide
 
 /// A design point by world.
 struct PointWorlds {
-  RatesOfWorlds success;              ///< trials all of whose moves ended at zero error
+  RatesOfWorlds success;  ///< trials all of whose moves ended at zero error
+  RatesOfWorlds asked;    ///< by the question: of machines, moves or trials; without a goal success
   std::optional<goal::Verdict> goal;  ///< of a study with a goal
   std::vector<bool> bad;              ///< [world]
   std::optional<WorldRule> rule;      ///< what the bad worlds have in common
@@ -38,7 +40,7 @@ struct PointWorlds {
 /// bad if its rate of success is shown to be below the median.
 /// @param point of a study with worlds @param inputs what differs between them there @param seed of the study
 /// @param points that the point was chosen from, as of goal::judge_goal()
-PointWorlds point_worlds(const measures::PointSummary& point, const std::optional<study::Goal>& goal,
+PointWorlds point_worlds(const measures::PointSummary& point, const goal::Question& question,
                          std::span<const WorldInput> inputs, std::uint64_t seed, double confidence,
                          std::size_t points = 1);
 

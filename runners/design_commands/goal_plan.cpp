@@ -69,11 +69,11 @@ void print_plan_of_study(const study::Study& study, bool json) {
 
 void print_plan_of_pilot(const std::string& path, bool json) {
   const summary::StudySummary summary = summary::summarise_file(path);
-  if (!summary.goal) refuse_without_goal(path);
+  if (!summary.question.claim()) refuse_without_goal(path);
   const summary::JudgedPoint judged = summary::judge_point(summary, summary::choose_point(summary));
   if (json) {
     const bool known = judged.needs && judged.needs->trials > 0;
-    standard_output::write(text::json_text({{"goal", goal::goal_sentence(*summary.goal)},
+    standard_output::write(text::json_text({{"goal", goal::goal_sentence(*summary.question.claim())},
                                             {"status", goal::text_of(judged.verdict.status)},
                                             {"needed", known ? needs_json(*judged.needs) : Json()},
                                             {"probability", goal::probability_of_needs}}));

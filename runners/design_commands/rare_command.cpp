@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/goal/question.hpp"
 #include "analysis/parallel/parallel.hpp"
 #include "core/failure/failure.hpp"
 #include "results/storage/durable_file.hpp"
@@ -36,6 +37,7 @@ constexpr const char* rare_help =
     "any case. The upper bound assumes that no failures hide where neither a plain trial nor a score\n"
     "leads. If nothing leads to a failure, plain trials go on to the end of the budget.\n"
     "\n"
+    "Without a goal the event is a move that does not end at zero counts.\n"
     "--event asks for another event: MEASURE > x, such as 'settling_time > 0.5' or\n"
     "'band_settling_time[1] > 0.05', with a column of moves.csv of 'zerocount export'. Each trial is\n"
     "on a machine of its own. Of several points --point chooses one, of several worlds --world.\n"
@@ -76,11 +78,8 @@ std::optional<std::int64_t> world_to_ask(const command_line::Arguments& argument
 measures::MoveEvent event_to_ask(const command_line::Arguments& arguments, const study::Study& study) {
   if (const std::optional<std::string> text = arguments.value("event"))
     return measures::parse_event(study, *text);
-  if (const std::optional<measures::MoveEvent> event = measures::missed_goal(study)) return *event;
-  throw Failure(ExitCode::bad_input,
-                fmt::format("{}: its manifest has no goal; expected one such as goal: {{band: 1, within: "
-                            "0.05, moves: 0.99}}, or an event with --event 'MEASURE > x'",
-                            arguments.operands()[0]));
+  goal::require_targets(study, arguments.operands()[0]);
+  return measures::missed_question(study);
 }
 
 rare::RareSettings settings_of(const command_line::Arguments& arguments) {

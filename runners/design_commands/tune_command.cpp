@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/goal/question.hpp"
 #include "analysis/parallel/parallel.hpp"
 #include "analysis/report/embedded_files.hpp"
 #include "analysis/report/page.hpp"
@@ -64,7 +65,8 @@ constexpr const char* limits_help =
     "failures switched off alone, and with the best pair of causes: creep, the converter (16 times\n"
     "finer), the encoder (4 times finer), the sample rate (twice), delay and amplifier lag, noise,\n"
     "disturbance, missed and late samples. The gains are not tuned again. All are simulated with\n"
-    "the same random numbers. Of several points --point chooses one.\n"
+    "the same random numbers. Without a goal the rate is that of moves that end at zero counts. Of\n"
+    "several points --point chooses one.\n"
     "\n"
     "Example: zerocount limits my-axis.yaml\n";
 
@@ -74,7 +76,8 @@ constexpr const char* worst_help =
     "worst of the study, from the corners, and from points between them; then among the likely\n"
     "machines, whose normal scores have a sum of squares within the 99.9 % quantile. Each is judged\n"
     "by 256 trials of its own. -o writes the manifest of the worst machine of the box: its values\n"
-    "are fixed, and `run` repeats these trials. Of several points --point chooses one.\n"
+    "are fixed, and `run` repeats these trials. Without a goal moves are to end at zero counts. Of\n"
+    "several points --point chooses one.\n"
     "\n"
     "Example: zerocount worst my-axis.yaml -o worst.yaml\n";
 
@@ -122,7 +125,7 @@ ExitCode tune(const command_line::Arguments& arguments) {
   return commands::exit_code_of(answer.status);
 }
 
-/// A study with a goal, and the point of it that is asked for.
+/// A study, and the point of it that is asked for.
 struct PointToExamine {
   study::Study study;
   std::int64_t point{0};
@@ -146,11 +149,7 @@ PointToExamine point_to_examine(const command_line::Arguments& arguments) {
     examined.study = commands::load_study(path, arguments);
   }
   const study::Study& study = examined.study;
-  if (!study.goal)
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: its manifest has no goal; expected one such as goal: {{band: 1, within: "
-                              "0.05, moves: 0.99}}",
-                              path));
+  goal::require_targets(study, path);
   const std::optional<std::int64_t> point = command_line::point_option(arguments, study.point_labels);
   if (!point && study::point_count(study) > 1)
     throw Failure(ExitCode::bad_input, fmt::format("{}: it has {} design points; expected one with --point",
@@ -179,8 +178,7 @@ ExitCode limits(const command_line::Arguments& arguments) {
   if (arguments.choice("format") == "json") {
     standard_output::write(tuning::limits_json(limits));
   } else {
-    standard_output::write_fitted(
-        tuning::limits_text(limits, study.goal->machines.has_value(), study.worlds > 0));
+    standard_output::write_fitted(tuning::limits_text(limits, goal::question_of(study)));
   }
   return ExitCode::success;
 }
@@ -204,7 +202,7 @@ ExitCode worst(const command_line::Arguments& arguments) {
   if (arguments.choice("format") == "json") {
     standard_output::write(tuning::worst_json(worst));
   } else {
-    standard_output::write_fitted(tuning::worst_text(worst, study.rigs > 0));
+    standard_output::write_fitted(tuning::worst_text(worst, study));
   }
   if (!output) return ExitCode::success;
   if (worst.in_box.manifest.empty())

@@ -230,13 +230,12 @@ bool is_rare_file(const std::filesystem::path& path) {
 Question recorded_question(const RareRecord& record, const std::filesystem::path& path,
                            std::shared_ptr<const plugin::ControllerPlugin> plugin) {
   study::Study study = layout::recorded_study(record.header, path, std::move(plugin));
-  std::optional<measures::MoveEvent> event =
-      record.event.empty() ? measures::missed_goal(study) : measures::parse_event(study, record.event);
-  if (!event || record.point < 0 || record.point >= study::point_count(study))
-    throw Failure(
-        ExitCode::bad_data,
-        fmt::format("{}: damaged: its manifest does not have the event or the point", path.string()));
-  return question_of(std::move(study), record.point, record.world, std::move(*event));
+  if (record.point < 0 || record.point >= study::point_count(study))
+    throw Failure(ExitCode::bad_data,
+                  fmt::format("{}: damaged: its manifest does not have the point", path.string()));
+  measures::MoveEvent event =
+      record.event.empty() ? measures::missed_question(study) : measures::parse_event(study, record.event);
+  return question_of(std::move(study), record.point, record.world, std::move(event));
 }
 
 }  // namespace zerocount::rare

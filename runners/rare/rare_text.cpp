@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/goal/goal_text.hpp"
+#include "analysis/goal/question.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/report_json.hpp"
 #include "analysis/text/text.hpp"
@@ -38,9 +40,7 @@ std::int64_t failures_drawn(const EstimatorState& state) {
 
 std::string event_text(const Question& question) {
   if (!question.event.text.empty()) return fmt::format("of a move with {}", question.event.text);
-  const study::Goal& goal = *question.study.goal;
-  return fmt::format("that a move misses the goal: |error| ≤ {} count{} for good after {} s", goal.band,
-                     goal.band == 1 ? "" : "s", goal.within);
+  return "that a move " + goal::missing_text(goal::question_of(question.study));
 }
 
 std::string_view reason_of(EstimateStatus status) {
@@ -272,34 +272,36 @@ std::string json_of(const RareAnswer& answer, const Question& question) {
                       {"shift", input.shift},
                       {"failures", range_json(input.failures)},
                       {"usual", range_json(input.usual)}});
-  return text::json_text({{"probability", has_probability(answer) ? Json(estimate.probability) : Json()},
-                          {"low", estimate.bounds.low},
-                          {"high", estimate.bounds.high},
-                          {"trials", answer.state.trials},
-                          {"status", is_estimated(answer) ? "estimated" : "undecided"},
-                          {"reason", reason_of(estimate.status)},
-                          {"premise", is_estimated(answer) && !answer.state.proposal.is_natural()
-                                          ? Json("high: " + premise_of(question))
-                                          : Json()},
-                          {"budget",
-                           {{"trials", answer.max_trials ? Json(*answer.max_trials) : Json()},
-                            {"seconds", answer.max_seconds ? Json(*answer.max_seconds) : Json()}}},
-                          {"confidence", answer.confidence},
-                          {"event", question.event.text.empty() ? Json("goal") : Json(question.event.text)},
-                          {"point", question.point},
-                          {"label", question.study.point_labels[static_cast<std::size_t>(question.point)]},
-                          {"world", question.world ? Json(*question.world) : Json()},
-                          {"plain",
-                           {{"trials", answer.state.plain_trials},
-                            {"failures", answer.state.plain_failures},
-                            {"high", estimate.plain_high}}},
-                          {"scores", scores_json(answer, question)},
-                          {"drawn", answer.state.drawn.size()},
-                          {"failures_drawn", failures_drawn(answer.state)},
-                          {"values", values_json(answer, question)},
-                          {"inputs", std::move(inputs)},
-                          {"machines", machines_json(answer)},
-                          {"seconds", answer.seconds}});
+  return text::json_text(
+      {{"probability", has_probability(answer) ? Json(estimate.probability) : Json()},
+       {"low", estimate.bounds.low},
+       {"high", estimate.bounds.high},
+       {"trials", answer.state.trials},
+       {"status", is_estimated(answer) ? "estimated" : "undecided"},
+       {"reason", reason_of(estimate.status)},
+       {"premise", is_estimated(answer) && !answer.state.proposal.is_natural()
+                       ? Json("high: " + premise_of(question))
+                       : Json()},
+       {"budget",
+        {{"trials", answer.max_trials ? Json(*answer.max_trials) : Json()},
+         {"seconds", answer.max_seconds ? Json(*answer.max_seconds) : Json()}}},
+       {"confidence", answer.confidence},
+       {"event", question.event.text.empty() ? Json(goal::words_of(goal::question_of(question.study)).subject)
+                                             : Json(question.event.text)},
+       {"point", question.point},
+       {"label", question.study.point_labels[static_cast<std::size_t>(question.point)]},
+       {"world", question.world ? Json(*question.world) : Json()},
+       {"plain",
+        {{"trials", answer.state.plain_trials},
+         {"failures", answer.state.plain_failures},
+         {"high", estimate.plain_high}}},
+       {"scores", scores_json(answer, question)},
+       {"drawn", answer.state.drawn.size()},
+       {"failures_drawn", failures_drawn(answer.state)},
+       {"values", values_json(answer, question)},
+       {"inputs", std::move(inputs)},
+       {"machines", machines_json(answer)},
+       {"seconds", answer.seconds}});
 }
 
 std::string text_of(const RareAnswer& answer, const Question& question, const std::string& output) {

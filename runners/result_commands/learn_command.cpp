@@ -181,9 +181,9 @@ std::string headline_of(const Outcome& outcome) {
 /// The paragraph of `judge`; without a goal the worlds that fall short.
 std::string verdict_text(const Outcome& outcome) {
   if (outcome.judged) return summary::judgement_text(outcome.summary, *outcome.judged);
-  return fmt::format("{}: {}",
-                     summary::point_names(outcome.summary)[static_cast<std::size_t>(outcome.chosen.point)],
-                     summary::bad_worlds_sentence(outcome.worlds, outcome.inputs(), false));
+  return fmt::format(
+      "{}: {}", summary::point_names(outcome.summary)[static_cast<std::size_t>(outcome.chosen.point)],
+      summary::bad_worlds_sentence(outcome.worlds, outcome.inputs(), outcome.summary.question));
 }
 
 std::optional<std::string_view> record_of(const Measurement& measurement) {
@@ -288,7 +288,7 @@ Outcome outcome_of(const command_line::Arguments& arguments, const summary::Stud
       .precision = command_line::probability_option(arguments, "precision").value_or(usual_precision),
       .worlds =
           *summary::worlds_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from))};
-  if (summary.goal) outcome.judged = summary::judge_point(summary, chosen);
+  if (summary.question.claim()) outcome.judged = summary::judge_point(summary, chosen);
   if (outcome.worlds_differ())
     outcome.learned =
         worlds::what_to_learn(outcome.inputs(), outcome.worlds.bad, outcome.precision, summary.seed);

@@ -117,7 +117,7 @@ std::string confirmation_text(const summary::StudySummary& summary,
       confirmed.rigs == 0                  ? ""
       : confirmed.rigs == confirmed.trials ? ", each on a rig of its own,"
                                            : fmt::format(" on {} rigs", confirmed.rigs),
-      summary.worlds > 0 ? " on average over new worlds" : "",
+      summary.question.worlds > 0 ? " on average over new worlds" : "",
       text::percentage(confirmed.successes, confirmed.trials));
   if (const auto bounds = bounds_of(confirmed, summary.confidence)) {
     text += fmt::format(", {} bounds [{}] % (Clopper and Pearson)", text::percent(summary.confidence),
@@ -125,9 +125,9 @@ std::string confirmation_text(const summary::StudySummary& summary,
   }
   text += "\n";
   if (!confirmed.goal) return text;
-  const goal::Verdict verdict = goal::judge_goal(*summary.goal, *confirmed.goal, 1);
+  const goal::Verdict verdict = goal::judge_goal(*summary.question.claim(), *confirmed.goal, 1);
   return text + fmt::format("  goal: {}\n{}", goal::text_of(verdict.status),
-                            goal::readings_text(*summary.goal, *confirmed.goal, verdict));
+                            goal::readings_text(*summary.question.claim(), *confirmed.goal, verdict));
 }
 
 nlohmann::ordered_json confirmation_json(const summary::StudySummary& summary,
@@ -143,7 +143,8 @@ nlohmann::ordered_json confirmation_json(const summary::StudySummary& summary,
       {"success_rate_high", bounds ? nlohmann::ordered_json(bounds->high) : nlohmann::ordered_json()},
       {"one_trial_per_rig", confirmed.rigs == confirmed.trials}};
   if (confirmed.goal) {
-    json["goal"] = summary::verdict_json(*summary.goal, goal::judge_goal(*summary.goal, *confirmed.goal, 1),
+    json["goal"] = summary::verdict_json(*summary.question.claim(),
+                                         goal::judge_goal(*summary.question.claim(), *confirmed.goal, 1),
                                          confirmed.rigs > 0);
   }
   return json;

@@ -39,7 +39,7 @@ std::optional<double> delay_lost(const TunedStudy& tuned, double delay) {
 }
 
 double rate_in_wider_band(const TunedStudy& tuned) {
-  const std::size_t slot = measures::counted_goal(tuned.study).value().slot;
+  const std::size_t slot = measures::asked_of_moves(tuned.study).slot.value();
   const Change wider = [slot](trial::TrialParameters& p) {
     for (std::size_t b = slot; b < p.verdict.bands.count; ++b) ++p.verdict.bands.limits[b];
   };

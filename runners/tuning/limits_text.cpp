@@ -24,11 +24,11 @@ std::string limits_json(const std::vector<Limit>& limits) {
   return text::json_text({{"limits", limits_array(limits)}});
 }
 
-std::string limits_text(const std::vector<Limit>& limits, bool of_machines, bool in_worlds) {
+std::string limits_text(const std::vector<Limit>& limits, const goal::Question& question) {
   std::vector<text::TextColumn> columns{
       {"idealisation", false, {}},
-      {fmt::format("{} that meet the goal{}", of_machines ? "machines" : "moves",
-                   in_worlds ? " (worst world)" : ""),
+      {fmt::format("{} that {}{}", is_of_machines(question) ? "machines" : "moves", words_of(question).meet,
+                   question.worlds > 0 ? " (worst world)" : ""),
        true,
        {}},
       {"of the failures", true, {}},

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "analysis/goal/question.hpp"
 #include "runners/tuning/limits.hpp"
 
 namespace zerocount::tuning {
@@ -16,6 +17,6 @@ std::string limits_json(const std::vector<Limit>& limits);
 
 /// A table: each cause, the rate without it, and the part of the failures that it causes; below it those that
 /// are not simulated.
-std::string limits_text(const std::vector<Limit>& limits, bool of_machines, bool in_worlds);
+std::string limits_text(const std::vector<Limit>& limits, const goal::Question& question);
 
 }  // namespace zerocount::tuning

@@ -374,7 +374,7 @@ std::string proven_text(const TuneAnswer& answer, const study::Study& study, con
   if (answer.status != goal::Status::met && study.tuning->minimise.starts_with("band_settling_time"))
     text += late_sentence(answer, study);
   for (const std::string& edge : answer.at_edges) text += edge + ": values beyond may be better\n";
-  if (answer.worst) text += worst_text(*answer.worst, study.rigs > 0);
+  if (answer.worst) text += worst_text(*answer.worst, study);
   return text + fmt::format("wrote {}: the proof, with the tuned manifest\n", output);
 }
 
@@ -396,7 +396,7 @@ std::string rest_text(const TuneAnswer& answer, const study::Study& study) {
   text += room_table(answer) + alternatives_text(answer);
   if (!answer.limits.empty())
     text += "\nwhat limits it, each by simulation on the machines of the search:\n\n" +
-            limits_text(answer.limits, study.goal->machines.has_value(), study.worlds > 0);
+            limits_text(answer.limits, goal::question_of(study));
   return text + frontier_text(answer) + "\n" + effort_text(answer);
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "analysis/comparison/gate_rules.hpp"
+#include "analysis/goal/question.hpp"
 #include "analysis/measures/goal_counts.hpp"
 #include "analysis/measures/trial_value.hpp"
 #include "core/batch/batch.hpp"
@@ -37,7 +38,7 @@ double value_of(const Criterion& criterion, const trial::MoveOutcome& move) {
 class TrialCounter {
  public:
   explicit TrialCounter(const study::Study& study)
-      : goal_(measures::counted_goal(study).value()), criterion_(criterion_of(study)) {}
+      : goal_(measures::asked_of_moves(study)), criterion_(criterion_of(study)) {}
 
   void add(std::span<const trial::MoveOutcome> moves, UnitResult& result) const {
     for (const trial::MoveOutcome& move : moves) {
@@ -131,7 +132,8 @@ std::optional<Criterion> motion_criterion(const study::Study& study, std::string
 }  // namespace
 
 Criterion criterion_of(const study::Study& study) {
-  const std::string text = study.tuning ? study.tuning->minimise : study::Tuning{}.minimise;
+  const std::string text =
+      study.tuning ? study.tuning->minimise : goal::settling_measure(goal::question_of(study)) + ".p95";
   if (const std::optional<Criterion> criterion = motion_criterion(study, text)) return *criterion;
   const auto dot = text.rfind('.');
   const std::string name = text.substr(0, dot);
@@ -158,7 +160,8 @@ Criterion criterion_of(const study::Study& study) {
 }
 
 Aim aim_of(const study::Study& study) {
-  return {study.goal->moves, study.goal->machines, criterion_of(study).quantile, study.worlds};
+  const study::Goal claim = study.goal.value_or(study::Goal{.moves = 1.0});
+  return {claim.moves, claim.machines, criterion_of(study).quantile, study.worlds};
 }
 
 void run_units(std::span<const UnitsToRun> entries, const Units& units, const std::stop_token& stop) {

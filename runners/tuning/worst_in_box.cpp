@@ -41,6 +41,12 @@ struct BoxPoint {
   UnitResult result{};
 };
 
+/// A time beyond any that matters, s: ten times that of the goal, or the hold of a move.
+double late_time(const study::Study& study, std::int64_t point) {
+  if (study.goal) return study.goal->within * 10.0;
+  return study::study_trial(study, point, 0).parameters.command.hold;
+}
+
 /// Mean of the criterion's values, where one that is never reached counts as `late`.
 double lateness(const UnitResult& unit, double late) {
   double sum = 0.0;
@@ -82,7 +88,8 @@ class MachineSearch {
         inputs_(study::machine_inputs(study, units.point)),
         study_(searched_study(study, inputs_)),
         numbers_{designs::random_key(study.seed, "worst machine"), 0},
-        event_(measures::missed_goal(study_).value()),
+        event_(measures::missed_question(study_)),
+        late_(late_time(study, units.point)),
         stop_(stop) {
     if (inputs_.empty())
       throw Failure(ExitCode::bad_input,
@@ -128,9 +135,8 @@ class MachineSearch {
   std::vector<std::int64_t> worst_units(std::span<const UnitResult> results) const {
     std::vector<std::int64_t> order(results.size());
     std::iota(order.begin(), order.end(), std::int64_t{0});
-    const double late = given_.goal->within * 10.0;
     std::ranges::stable_sort(order, [&](std::int64_t a, std::int64_t b) {
-      return is_worse(results[static_cast<std::size_t>(a)], results[static_cast<std::size_t>(b)], late);
+      return is_worse(results[static_cast<std::size_t>(a)], results[static_cast<std::size_t>(b)], late_);
     });
     return order;
   }
@@ -271,9 +277,8 @@ class MachineSearch {
   }
 
   void keep_worst(std::vector<BoxPoint>& points) const {
-    const double late = study_.goal->within * 10.0;
     std::ranges::stable_sort(
-        points, [&](const BoxPoint& a, const BoxPoint& b) { return is_worse(a.result, b.result, late); });
+        points, [&](const BoxPoint& a, const BoxPoint& b) { return is_worse(a.result, b.result, late_); });
     if (points.size() > survivors) points.resize(survivors);
   }
 
@@ -359,6 +364,7 @@ class MachineSearch {
   study::Study study_;
   random::NumberSource numbers_;
   measures::MoveEvent event_;
+  double late_;  ///< a time that counts for one that is never reached, s
   std::stop_token stop_;
   bool has_profile_{false};
   bool has_profile_per_rig_{false};

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/goal/question.hpp"
 #include "analysis/text/report_json.hpp"
 #include "analysis/text/text.hpp"
 
@@ -27,8 +28,8 @@ OrderedJson machine_json(const JudgedMachine& machine) {
   return json;
 }
 
-std::string judgement_text(const JudgedMachine& machine) {
-  return fmt::format("{:.4g} % of {} moves meet the goal", 100.0 * machine.met, machine.moves);
+std::string judgement_text(const JudgedMachine& machine, std::string_view meet) {
+  return fmt::format("{:.4g} % of {} moves {}", 100.0 * machine.met, machine.moves, meet);
 }
 
 std::string inputs_table(const WorstMachines& worst) {
@@ -63,10 +64,10 @@ OrderedJson worst_object(const WorstMachine& worst) {
       {"rig", worst.rig}, {"trial", worst.trial}, {"met", worst.met}, {"inputs", values_json(worst.inputs)}};
 }
 
-std::string worst_text(const WorstMachine& worst, bool on_rigs) {
-  return fmt::format("worst machine: {}, {:.4g} % of its moves meet the goal{}{}\n",
-                     unit_text(worst, on_rigs), 100.0 * worst.met, worst.inputs.empty() ? "" : "; ",
-                     values_text(worst.inputs));
+std::string worst_text(const WorstMachine& worst, const study::Study& study) {
+  return fmt::format("worst machine: {}, {:.4g} % of its moves {}{}{}\n", unit_text(worst, study.rigs > 0),
+                     100.0 * worst.met, words_of(goal::question_of(study)).meet,
+                     worst.inputs.empty() ? "" : "; ", values_text(worst.inputs));
 }
 
 std::string worst_json(const WorstMachines& worst) {
@@ -79,18 +80,19 @@ std::string worst_json(const WorstMachines& worst) {
   return text::json_text(json);
 }
 
-std::string worst_text(const WorstMachines& worst, bool on_rigs) {
-  std::string text = worst_text(worst.of_study, on_rigs);
-  text += fmt::format("  in new trials {}\n", judgement_text(worst.again));
+std::string worst_text(const WorstMachines& worst, const study::Study& study) {
+  const std::string_view meet = words_of(goal::question_of(study)).meet;
+  std::string text = worst_text(worst.of_study, study);
+  text += fmt::format("  in new trials {}\n", judgement_text(worst.again, meet));
   text += worst.in_box_is_of_study
               ? fmt::format(
                     "worst in the box of the central 99.9 % of each input: none is worse than {} of "
                     "the study\n",
-                    unit_text(worst.of_study, on_rigs))
+                    unit_text(worst.of_study, study.rigs > 0))
               : fmt::format("worst in the box of the central 99.9 % of each input: {}\n",
-                            judgement_text(worst.in_box));
+                            judgement_text(worst.in_box, meet));
   text += fmt::format("worst of the likely machines: {}\n",
-                      worst.likely_is_in_box ? "the same machine" : judgement_text(worst.likely));
+                      worst.likely_is_in_box ? "the same machine" : judgement_text(worst.likely, meet));
   text += inputs_table(worst);
   if (worst.with_profiles)
     text += worst.likely_is_in_box ? fmt::format("with the profiles of rig {}\n", worst.in_box.rig)

@@ -17,10 +17,10 @@ std::string values_text(const NamedValues& values);
 nlohmann::ordered_json values_json(const NamedValues& values);
 
 nlohmann::ordered_json worst_object(const WorstMachine& worst);
-std::string worst_text(const WorstMachine& worst, bool on_rigs);
+std::string worst_text(const WorstMachine& worst, const study::Study& study);
 
 std::string worst_json(const WorstMachines& worst);
 /// The worst machine of the study, and a table: the worst of the box, and of the likely ones.
-std::string worst_text(const WorstMachines& worst, bool on_rigs);
+std::string worst_text(const WorstMachines& worst, const study::Study& study);
 
 }  // namespace zerocount::tuning

@@ -34,7 +34,7 @@ trial::MoveOutcome move_with(double settling_time) {
 }
 
 TEST(MoveEvent, AGoalIsMissedAfterItsTimeOrNeverReached) {
-  const MoveEvent event = missed_goal(study_with_goal()).value();
+  const MoveEvent event = missed_question(study_with_goal());
   EXPECT_FALSE(happens(event, move_with(0.0999)));
   EXPECT_FALSE(happens(event, move_with(0.1)));
   EXPECT_TRUE(happens(event, move_with(0.1001)));
@@ -63,8 +63,8 @@ TEST(MoveEvent, TheScoreGrowsTowardsTheEvent) {
   };
   EXPECT_LT(score("settling_time > 0.2", 0.1), score("settling_time > 0.2", 0.15));
   EXPECT_GT(score("settling_time < 0.2", 0.25), score("settling_time < 0.2", 0.3));
-  EXPECT_LT(score_of(MoveScore::event, missed_goal(study).value(), move_with(0.05)),
-            score_of(MoveScore::event, missed_goal(study).value(), move_with(0.09)));
+  EXPECT_LT(score_of(MoveScore::event, missed_question(study), move_with(0.05)),
+            score_of(MoveScore::event, missed_question(study), move_with(0.09)));
 }
 
 TEST(MoveEvent, SaysWhatIsWrongWithAText) {

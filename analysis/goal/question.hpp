@@ -1,0 +1,131 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "analysis/goal/goal_verdict.hpp"
+#include "analysis/measures/goal_counts.hpp"
+#include "analysis/measures/point_statistics.hpp"
+#include "analysis/statistics/proportion.hpp"
+#include "experiments/study/study.hpp"
+
+/// The question of a study: the goal of its manifest, or success where it has none. All that judges trials,
+/// rigs, worlds and design points takes from here what they are judged by, and what it is called.
+namespace zerocount::goal {
+
+/// One thing that is asked of every move.
+struct JudgedPart {
+  std::optional<study::Goal> claim{};  ///< what the manifest claims of all axes; nothing: success, unclaimed
+  measures::CountedGoal counted{};     ///< the moves that meet it
+};
+
+/// What a study is judged by. All parts must be met: a study has one of them.
+struct Question {
+  std::vector<JudgedPart> parts{JudgedPart{}};
+  std::int64_t worlds{0};  ///< in each of which it is asked; 0: the study has no worlds
+  bool stopped{false};     ///< the outcomes decided the number of trials (`stop`)
+
+  /// The claim that is judged; nothing where success is not claimed.
+  const std::optional<study::Goal>& claim() const { return parts.front().claim; }
+  const measures::CountedGoal& counted() const { return parts.front().counted; }
+};
+
+Question question_of(const study::Study& study);
+/// @throws Failure (bad_input) for a study of torque levels, of which nothing is asked. @param path its name
+void require_targets(const study::Study& study, std::string_view path);
+/// Success in place of the goal.
+inline Question success(const Question& question) {
+  return {.worlds = question.worlds, .stopped = question.stopped};
+}
+
+/// How answers speak of the question. With a claim they count moves, else trials: success is of a whole
+/// trial.
+struct QuestionWords {
+  std::string_view subject;      ///< "goal", "success"
+  std::string_view title;        ///< of figures: "Moves in the goal", "Success"
+  std::string_view events;       ///< what is counted: "moves", "trials"
+  std::string_view meeting;      ///< "moves that meet the goal", "trials that end at zero counts"
+  std::string_view meet;         ///< of moves: "meet the goal", "end at zero counts"
+  std::string_view head;         ///< of a column of their rate: "moves in goal", "zero-count"
+  std::string_view rate;         ///< "rate of moves in goal", "success rate"
+  std::string_view hits;         ///< "moves in goal", "successes"
+  std::string_view settles;      ///< of a move: "settles in the goal's band", "arrives"
+  std::string_view failed;       ///< of a trial: "missed the goal", "failed"
+  std::string_view succeeded;    ///< of a point: "met it", "succeeded"
+  std::string_view failure;      ///< "miss", "failure"
+  std::string_view failing;      ///< trials: "trials that miss the goal", "failed trials"
+  std::string_view trial_rate;   ///< "rate of trials in goal", "success rate"
+  std::string_view rig_head;     ///< of a column of rigs: "rigs w/o miss", "rigs w/o failure"
+  std::string_view rig_meaning;  ///< "proportion of rigs all of whose moves meet the goal" …
+  std::string_view falls_short;  ///< of worlds: "fall short of the goal by their observed rates" …
+};
+const QuestionWords& words_of(const Question& question);
+
+/// Whether a trial with these moves meets the question: all of them do.
+bool meets(const Question& question, std::span<const trial::MoveOutcome> moves);
+
+/// When the slowest of the moves is within the goal's band for good, or has arrived, s; infinite if never.
+double settling_time(const Question& question, std::span<const trial::MoveOutcome> moves);
+
+/// How badly a trial does: of two trials the one with the larger value (in order of the array) does worse.
+/// With a claim: moves that miss it, settling_time(), severity of the outcome, |final error| in counts;
+/// without one: severity, |final error|, settling_time().
+using Badness = std::array<double, 4>;
+Badness badness_of(const Question& question, std::span<const trial::MoveOutcome> moves);
+
+/// The moves of a point (without a claim its trials, each as one move) that meet the question.
+measures::MoveCounts counts_of(const Question& question, const measures::PointSummary& point);
+
+/// The statistics of the settling time by which points are compared: of the goal's band, or of the arrival.
+const measures::MeasureStatistics& settling_of(const Question& question, const measures::PointSummary& point);
+
+/// The name of that measure: "band_settling_time[2]", "settling_time".
+std::string settling_measure(const Question& question);
+
+/// What a design point is compared by, the most important number first; larger is better.
+std::vector<double> merits_of(const Question& question, const measures::PointSummary& point);
+
+/// A rate of a design point: of moves with a claim, otherwise of trials. With worlds and a claim that of the
+/// worst world, with bounds of the lowest of all.
+struct QuestionRate {
+  double value{statistics::unknown};
+  statistics::ConfidenceInterval bounds{0.0, 1.0};  ///< with a claim one-sided, with its confidence
+  std::int64_t hits{0}, events{0};
+};
+/// @param points that the point was chosen from @param confidence of the two-sided bounds without a claim
+QuestionRate rate_of(const Question& question, const measures::PointSummary& point, std::size_t points = 1,
+                     double confidence = statistics::summary_confidence);
+
+/// Rigs of a point all of whose moves meet the question.
+struct RigsWithoutFailure {
+  std::int64_t rigs{0};  ///< those
+  std::int64_t of{0};    ///< all rigs; 0 without rigs
+};
+RigsWithoutFailure rigs_without_failure(const Question& question, const measures::PointSummary& point);
+
+/// The rate of a world by which a claim is judged: of machines, or of moves.
+const BoundedProportion& judged_rate(const Question& question, const WorldVerdict& world);
+/// What it is of, in a head and in a sentence: "machines in goal", "machines that meet the goal", or
+/// QuestionWords::head and ::meeting.
+std::string_view judged_head(const Question& question);
+std::string_view judged_meeting(const Question& question);
+/// Whether a claim is of machines.
+inline bool is_of_machines(const Question& question) {
+  return question.claim() && question.claim()->machines;
+}
+
+/// Whether rates are those of the worst world.
+inline bool is_of_worst_world(const Question& question) {
+  return question.worlds > 0 && question.claim();
+}
+
+/// The confidence of its bounds: of the claim, or that of all others.
+double confidence_of(const Question& question, double others);
+
+}  // namespace zerocount::goal

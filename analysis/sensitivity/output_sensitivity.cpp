@@ -145,8 +145,8 @@ void add_log_odds(const Varying& varying, const std::vector<double>& y, double c
   }
 }
 
-void add_notes(const PointInputs& point, const TrialOutputs& trials, const UsedTrials& used,
-               OutputSensitivity& result) {
+void add_notes(const PointInputs& point, const SensitivityOutput& output, const TrialOutputs& trials,
+               const UsedTrials& used, OutputSensitivity& result) {
   const std::size_t all = trials.values.size();
   if (used.left_out > 0) {
     result.notes.push_back(
@@ -168,11 +168,9 @@ void add_notes(const PointInputs& point, const TrialOutputs& trials, const UsedT
     result.notes.push_back(fmt::format(
         "of each of the {} rigs the first trial is used: the others are not independent of it", point.rigs));
   }
-  if (trials.never_arrived > 0) {
-    result.notes.push_back(
-        fmt::format("{} of {} trials have a move that never arrived; it counts with its "
-                    "duration",
-                    trials.never_arrived, all));
+  if (trials.late > 0) {
+    result.notes.push_back(fmt::format("{} of {} trials have a move that {}; it counts with its duration",
+                                       trials.late, all, output.never));
   }
   if (point.design == study::Design::latin_hypercube || point.design == study::Design::sobol) {
     result.notes.emplace_back(
@@ -229,12 +227,12 @@ OutputSensitivity output_sensitivity(const PointInputs& inputs, const Sensitivit
   const std::vector<double> y = picked(trials.values, used.independent);
   result.trials = static_cast<std::int64_t>(trials.values.size()) - used.left_out - used.of_rigs;
   describe_sample(y, result);
-  add_notes(inputs, trials, used, result);
+  add_notes(inputs, output, trials, used, result);
   if (!y.empty() && !is_constant(y)) {
     const Varying varying = varying_inputs(inputs, used, result);
     if (from_saltelli) add_design_indices(inputs, trials.values, used, confidence, bootstrap, result);
     add_correlations(varying, y, !from_saltelli, confidence, result);
-    if (output.yes_or_no() && inputs.subject != Subject::worlds) add_log_odds(varying, y, confidence, result);
+    if (output.yes_or_no && inputs.subject != Subject::worlds) add_log_odds(varying, y, confidence, result);
     rank_factors(from_saltelli, result);
   }
   result.conclusion = sensitivity_conclusion(result, from_saltelli, confidence, inputs.subject);

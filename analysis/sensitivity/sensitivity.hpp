@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "analysis/document/answer.hpp"
+#include "analysis/goal/question.hpp"
 #include "analysis/sensitivity/bounded_number.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/unknown.hpp"
@@ -79,24 +81,29 @@ struct StudySensitivity {
   std::vector<PointSensitivity> points;
 };
 
-/// An output whose sensitivity can be estimated.
+/// An output of a trial whose sensitivity can be estimated.
 struct SensitivityOutput {
-  std::string_view name;
-  std::string_view unit;
-  std::string_view meaning;
-  const layout::Measure* measure;  ///< that it is made of
-
-  bool yes_or_no() const { return layout::is_quality(*measure); }
+  std::string name;
+  std::string unit;
+  std::string meaning;
+  bool yes_or_no{false};
+  bool of_every_trial{false};  ///< also known where the motion was lost, or the trial was stopped
+  std::string_view never{};    ///< of a time: what a move did that counts with its duration, "never arrived"
+  /// The value of the trial with these moves; NaN where it has none.
+  /// @param duration of a move of the trial, s: for a time that was not reached
+  std::function<double(std::span<const trial::MoveOutcome> moves, const std::function<double()>& duration)>
+      value{};
 };
 
-/// All of them, in the order of the help. The first two are asked about unless told otherwise.
+/// All of them, in the order of the help. The first two are asked about unless told otherwise: `goal` and
+/// `goal_settling_time` of a study with a goal, `success` and `settling_time` without one.
 std::vector<SensitivityOutput> sensitivity_outputs(
-    const layout::MeasureTable& measures = layout::measure_table());
+    const layout::MeasureTable& measures = layout::measure_table(), const goal::Question& question = {});
 
 /// The request for a file.
 struct SensitivityQuestion {
-  std::vector<std::int64_t> points{};  ///< empty: all
-  std::vector<std::string> outputs{};  ///< of sensitivity_outputs(); empty: success and settling_time
+  std::vector<std::int64_t> points{};                 ///< empty: all
+  std::vector<std::string> outputs{};                 ///< of sensitivity_outputs(); empty: the first two
   double confidence{statistics::summary_confidence};  ///< in (0, 0.999]
   /// The first so many trials of a point are used, of a saltelli design all: more need more time and memory,
   /// and with these the bounds of a correlation are less than ± 0.01 wide.

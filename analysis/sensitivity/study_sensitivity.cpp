@@ -32,11 +32,13 @@ std::vector<std::int64_t> points_asked(const reading::StudyFile& file, const Sen
 }
 
 std::vector<SensitivityOutput> outputs_asked(const SensitivityQuestion& question,
-                                             const layout::MeasureTable& measures) {
+                                             const layout::MeasureTable& measures,
+                                             const goal::Question& of_study) {
   std::vector<SensitivityOutput> outputs;
-  for (const std::string& name : question.outputs) outputs.push_back(find_sensitivity_output(name, measures));
+  for (const std::string& name : question.outputs)
+    outputs.push_back(find_sensitivity_output(name, measures, of_study));
   if (outputs.empty()) {
-    outputs = sensitivity_outputs(measures);
+    outputs = sensitivity_outputs(measures, of_study);
     outputs.resize(2);
   }
   return outputs;
@@ -153,7 +155,8 @@ StudySensitivity study_sensitivity(const reading::StudyFile& file, const Sensiti
   check_confidence(question.confidence);
   const layout::FileHeader& header = file.header();
   const study::Study study = layout::recorded_study(header, file.path());
-  const std::vector<SensitivityOutput> outputs = outputs_asked(question, file.table());
+  const std::vector<SensitivityOutput> outputs =
+      outputs_asked(question, file.table(), goal::question_of(study));
   const std::vector<std::string> labels = file.point_labels();
   // The resampling is the same for all outputs and points, as the trials are.
   const random::RandomStream bootstrap{designs::random_key(header.seed, "sensitivity/bootstrap"), 0};

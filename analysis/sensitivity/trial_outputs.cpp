@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <span>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,6 +24,44 @@ bool is_whole(std::span<const trial::MoveOutcome> moves) {
   });
 }
 
+SensitivityOutput output_of(const layout::Measure& measure) {
+  return {.name = measure.output->name,
+          .unit = measure.field.column.unit,
+          .meaning = std::string(measure.output->meaning),
+          .yes_or_no = layout::is_quality(measure),
+          .of_every_trial = layout::is_quality(measure) || measure.values.nan_is_late,
+          .never = measure.band ? "ended outside the band" : "never arrived",
+          .value = [&measure](std::span<const trial::MoveOutcome> moves,
+                              const std::function<double()>& duration) {
+            return measures::has_targets(measure, moves) ? measures::value_of_trial(measure, moves, duration)
+                                                         : statistics::unknown;
+          }};
+}
+
+/// What a study with a goal is judged by.
+std::vector<SensitivityOutput> goal_outputs(const goal::Question& question) {
+  return {
+      {.name = "goal",
+       .unit = "1",
+       .meaning = "all moves met the goal",
+       .yes_or_no = true,
+       .of_every_trial = true,
+       .value = [question](std::span<const trial::MoveOutcome> moves,
+                           const std::function<double()>&) { return meets(question, moves) ? 1.0 : 0.0; }},
+      {.name = "goal_settling_time",
+       .unit = "s",
+       .meaning =
+           "time until the error is within the goal's band for good, the longest of the trial's moves; a "
+           "move that ends outside counts with its duration",
+       .of_every_trial = true,
+       .never = "ended outside the goal's band",
+       .value = [question](std::span<const trial::MoveOutcome> moves,
+                           const std::function<double()>& duration) {
+         const double time = settling_time(question, moves);
+         return std::isfinite(time) ? time : duration();
+       }}};
+}
+
 }  // namespace
 
 double move_duration(const trial::TrialParameters& trial) {
@@ -29,21 +69,23 @@ double move_duration(const trial::TrialParameters& trial) {
   return std::round(trial.command.hold * rate) / rate;
 }
 
-std::vector<SensitivityOutput> sensitivity_outputs(const layout::MeasureTable& measures) {
+std::vector<SensitivityOutput> sensitivity_outputs(const layout::MeasureTable& measures,
+                                                   const goal::Question& question) {
   std::vector<SensitivityOutput> outputs;
+  if (question.claim()) outputs = goal_outputs(question);
   for (const layout::Measure* measure :
        layout::measures_of(measures, layout::ReportOrder::outputs,
-                           [](const layout::Measure& m) { return m.output.has_value(); })) {
-    outputs.push_back({measure->output->name, measure->field.column.unit, measure->output->meaning, measure});
-  }
+                           [](const layout::Measure& m) { return m.output.has_value(); }))
+    outputs.push_back(output_of(*measure));
   return outputs;
 }
 
-SensitivityOutput find_sensitivity_output(std::string_view name, const layout::MeasureTable& measures) {
-  std::vector<std::string_view> names;
-  for (const SensitivityOutput& output : sensitivity_outputs(measures)) {
-    if (output.name == name) return output;
-    names.push_back(output.name);
+SensitivityOutput find_sensitivity_output(std::string_view name, const layout::MeasureTable& measures,
+                                          const goal::Question& question) {
+  std::vector<std::string> names;
+  for (SensitivityOutput& output : sensitivity_outputs(measures, question)) {
+    if (output.name == name) return std::move(output);
+    names.push_back(std::move(output.name));
   }
   throw Failure(ExitCode::bad_input, fmt::format("there is no output '{}' of a trial; expected one of {}",
                                                  name, fmt::join(names, ", ")));
@@ -51,22 +93,19 @@ SensitivityOutput find_sensitivity_output(std::string_view name, const layout::M
 
 TrialOutputs trial_outputs(const reading::StudyFile& file, const study::Study& study, std::int64_t point,
                            std::int64_t trials, const SensitivityOutput& output) {
-  const layout::Measure& measure = *output.measure;
-  const bool of_any_trial = layout::is_quality(measure) || measure.values.nan_is_late;
   const layout::RowRange rows{point * file.header().trials, trials};
   TrialOutputs outputs;
   measures::visit_trials(file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
     double duration = statistics::unknown;
     // Only if a move never arrived are the parameters of its trial needed.
-    const auto late = [&] {
+    const auto of_move = [&] {
       if (std::isnan(duration))
         duration = move_duration(study::study_trial(study, point, row - rows.first).parameters);
       return duration;
     };
-    const bool has_value = measures::has_targets(measure, moves) && (of_any_trial || is_whole(moves));
-    outputs.values.push_back(has_value ? measures::value_of_trial(measure, moves, late)
-                                       : statistics::unknown);
-    outputs.never_arrived += !std::isnan(duration);
+    const bool has_value = output.of_every_trial || is_whole(moves);
+    outputs.values.push_back(has_value ? output.value(moves, of_move) : statistics::unknown);
+    outputs.late += !std::isnan(duration);
   });
   return outputs;
 }

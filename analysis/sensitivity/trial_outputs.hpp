@@ -12,13 +12,14 @@ namespace zerocount::sensitivity {
 
 /// One output of the trials of a design point.
 struct TrialOutputs {
-  std::vector<double> values;     ///< [trial of the point], in the output's unit; NaN where there is none
-  std::int64_t never_arrived{0};  ///< of settling_time: trials with a move that counts with its duration
+  std::vector<double> values;  ///< [trial of the point], in the output's unit; NaN where there is none
+  std::int64_t late{0};        ///< of a time: trials with a move that counts with its duration
 };
 
 /// The output with this name.
 /// @throws Failure (bad_input) where there is none; the message lists them.
-SensitivityOutput find_sensitivity_output(std::string_view name, const layout::MeasureTable& measures);
+SensitivityOutput find_sensitivity_output(std::string_view name, const layout::MeasureTable& measures,
+                                          const goal::Question& question = {});
 
 /// @param study of the file. @param trials the first so many of the point. @param output of
 /// sensitivity_outputs().

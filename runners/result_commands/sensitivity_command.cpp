@@ -20,7 +20,7 @@ constexpr const char* sensitivity_help =
     "partial rank correlations, and for binary outputs also by a logistic fit. Parameters that\n"
     "do not vary are only listed.\n"
     "\n"
-    "Outputs of a trial:\n";
+    "Outputs of a trial (the first two of a study with a goal):\n";
 
 constexpr const char* examples =
     "\n"
@@ -30,7 +30,9 @@ constexpr const char* examples =
 
 std::string full_help() {
   std::string text = sensitivity_help;
-  for (const sensitivity::SensitivityOutput& output : sensitivity::sensitivity_outputs()) {
+  const goal::Question with_goal{.parts = {{.claim = study::Goal{}}}};
+  for (const sensitivity::SensitivityOutput& output :
+       sensitivity::sensitivity_outputs(layout::measure_table(), with_goal)) {
     text += fmt::format("  {:<15} {}{}\n", output.name,
                         parameters::text_on(parameters::AxisKind::rotary, output.meaning),
                         output.unit == "1" ? "" : fmt::format(", {}", output.unit));
@@ -63,7 +65,7 @@ commands::Command sensitivity_command() {
       {"sensitivity",
        "FILE",
        {{"point,p", "P", "design point, by label or number; may be repeated (default: all)", true},
-        {"output", "NAME", "output of the trials; may be repeated (default: success, settling_time)", true},
+        {"output", "NAME", "output of the trials; may be repeated (default: the first two)", true},
         {"confidence", "C", "confidence of the bounds, above 0 and up to 0.999 (default 0.95)"},
         {"max-trials", "N",
          "use the first N trials of each point (default 100000; of a saltelli design all are used)"},

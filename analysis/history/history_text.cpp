@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/comparison/comparison_report.hpp"
 #include "analysis/history/series.hpp"
@@ -72,7 +73,11 @@ std::string changes_text(const History& history) {
 std::string history_text(const History& history) {
   std::string text = table_of_series(history);
   if (history.series.size() == 1) text += "\n" + table_of_runs(history.series.front());
-  return fmt::format("{}\n{}{}\n", text, changes_text(history), false_alarm_sentence(history));
+  const std::string others =
+      history.others.empty() ? ""
+                             : fmt::format("Studies with a goal are judged by it; with --measure also: {}\n",
+                                           fmt::join(history.others, ", "));
+  return fmt::format("{}\n{}{}\n{}", text, changes_text(history), false_alarm_sentence(history), others);
 }
 
 }  // namespace zerocount::history

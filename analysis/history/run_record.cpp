@@ -7,7 +7,7 @@
 
 #include "analysis/comparison/gate_rules.hpp"
 #include "analysis/comparison/manifest_differences.hpp"
-#include "analysis/statistics/clustered_proportion.hpp"
+#include "analysis/goal/question.hpp"
 #include "analysis/summary/summary.hpp"
 #include "core/failure/failure.hpp"
 #include "core/hash/sha256.hpp"
@@ -44,36 +44,47 @@ RunValue value_of(const comparison::GateMeasure& measure, const measures::PointS
   return value;
 }
 
-/// The proportion of moves that meet the goal, with two-sided bounds as those of other proportions; with
-/// worlds that of the worst, with bounds of the lowest of all.
-RunValue goal_value(const measures::MoveCounts& goal, const std::string& label, double confidence) {
-  RunValue value{label, "goal_rate", "1"};
+RunValue proportion_value(const std::string& label, const char* measure, const goal::BoundedProportion& found,
+                          std::int64_t n) {
+  RunValue value{label, measure, "1"};
   value.kind = statistics::MeasurementKind::proportion;
-  const std::vector<measures::MoveCounts> worlds =
-      goal.worlds > 0 ? measures::in_worlds(goal) : std::vector<measures::MoveCounts>{goal};
-  const double each =
-      goal.worlds > 0 ? statistics::confidence_of_each(confidence, worlds.size()) : confidence;
-  for (const measures::MoveCounts& world : worlds) {
-    const auto found = statistics::clustered_proportion(measures::clusters_of(world), each);
-    const bool first = value.n == 0;
-    value.bounds.low = first ? found.korn_graubard.low : std::min(value.bounds.low, found.korn_graubard.low);
-    value.bounds.high =
-        first ? found.korn_graubard.high : std::min(value.bounds.high, found.korn_graubard.high);
-    if (!first && !(found.value < value.value)) continue;
-    value.value = found.value;
-    value.n = world.moves;
-  }
+  value.value = found.value;
+  value.bounds = {found.low, found.high};
+  value.n = n;
   return value;
+}
+
+/// What the study is judged by, with two-sided bounds as those of other values; with worlds in the worst,
+/// with bounds of the lowest of all. Empty without a goal: success is one of the gate measures.
+std::vector<RunValue> goal_values(const summary::StudySummary& summary, const measures::PointSummary& point,
+                                  const std::string& label) {
+  const goal::Question& question = summary.question;
+  if (!question.claim()) return {};
+  study::Goal both_sides = *question.claim();
+  both_sides.confidence = 0.5 * (1.0 + summary.confidence);
+  const goal::Verdict verdict = goal::judge_goal(both_sides, *point.goal, 1);
+  std::vector<RunValue> values{
+      proportion_value(label, "goal_rate", verdict.moves, rate_of(question, point).events)};
+  if (goal::is_of_machines(question)) {
+    const std::int64_t worlds = std::max<std::int64_t>(question.worlds, 1);
+    values.push_back(proportion_value(label, "goal_machines", verdict.machines, point.rigs.n / worlds));
+  }
+  const statistics::Quantile& p95 = settling_of(question, point).p95;
+  RunValue& time = values.emplace_back(label, "goal_settling_time", "s");
+  time.value = p95.value;
+  time.bounds = {p95.low, p95.high};
+  time.n = point.moves;
+  return values;
 }
 
 std::vector<RunValue> values_of(const summary::StudySummary& summary) {
   std::vector<RunValue> values;
-  for (std::size_t point = 0; point < summary.points.size(); ++point) {
-    if (summary.points[point].goal) {
-      values.push_back(goal_value(*summary.points[point].goal, summary.labels[point], summary.confidence));
-    }
-    for (const comparison::GateMeasure& measure : comparison::gate_measures(summary.table())) {
-      RunValue value = value_of(measure, summary.points[point], summary.labels[point]);
+  for (std::size_t i = 0; i < summary.points.size(); ++i) {
+    const std::string& label = summary.labels[i];
+    std::vector<RunValue> of_point = goal_values(summary, summary.points[i], label);
+    for (const comparison::GateMeasure& measure : comparison::gate_measures(summary.table()))
+      of_point.push_back(value_of(measure, summary.points[i], label));
+    for (RunValue& value : of_point) {
       if (std::isfinite(value.value)) values.push_back(std::move(value));
     }
   }

@@ -36,7 +36,7 @@ struct ValueComparison {
 /// The value of one measure at one point of a run.
 struct RunValue {
   std::string point;
-  std::string measure;  ///< name of a gate measure, or goal_rate
+  std::string measure;  ///< name of a gate measure, or of one of the goal
   std::string unit;
   statistics::MeasurementKind kind{statistics::MeasurementKind::mean};
   double value{statistics::unknown};
@@ -67,8 +67,8 @@ struct RunRecord {
 /// where something is drawn once per study: another seed is then another axis.
 std::string series_sha256(const reading::StudyFile& file);
 
-/// The values of the gate measures of a complete results file, and the proportion of moves that meet its goal
-/// if it has one, with the bounds of its summary.
+/// The values of a complete results file, with the bounds of its summary: the measures of its goal if it has
+/// one (comparison::goal_measures), then the gate measures.
 /// @throws Failure: inconclusive where there is no value, bad_input where the trials are not independent,
 /// and as summarise().
 RunRecord record_of(const reading::StudyFile& file);

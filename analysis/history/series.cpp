@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "analysis/comparison/comparison_report.hpp"
+#include "analysis/comparison/gate_rules.hpp"
 #include "analysis/statistics/change_point.hpp"
 #include "core/failure/failure.hpp"
 
@@ -26,13 +27,25 @@ RunRecord without_values(const RunRecord& run) {
   return copy;
 }
 
-std::vector<Series> sorted_into_series(const std::vector<RunRecord>& runs, const SeriesFilter& filter) {
+bool is_of_goal(const RunValue& value) {
+  return std::ranges::any_of(comparison::goal_measures(), [&](const comparison::GateMeasure& measure) {
+    return measure.name == value.measure;
+  });
+}
+
+std::vector<Series> sorted_into_series(const std::vector<RunRecord>& runs, const SeriesFilter& filter,
+                                       std::set<std::string>& others) {
   std::vector<Series> all;
   std::map<std::tuple<std::string, std::string, std::string>, std::size_t> places;
   for (const RunRecord& run : runs) {
     if (!matches(filter.study, run.study) || !matches(filter.series_sha256, run.series_sha256)) continue;
+    const bool by_goal = !filter.measure && std::ranges::any_of(run.values, is_of_goal);
     for (const RunValue& value : run.values) {
       if (!matches(filter.point, value.point) || !matches(filter.measure, value.measure)) continue;
+      if (by_goal && !is_of_goal(value)) {
+        others.insert(value.measure);
+        continue;
+      }
       const auto [place, is_new] =
           places.try_emplace({run.series_sha256, value.point, value.measure}, all.size());
       if (is_new)
@@ -170,7 +183,8 @@ std::string place_before(const Series& series, const SeriesChange& change) {
 }  // namespace
 
 History history_of(const std::vector<RunRecord>& runs, const SeriesFilter& filter) {
-  History history{sorted_into_series(runs, filter)};
+  History history;
+  history.series = sorted_into_series(runs, filter, history.others);
   if (history.series.empty()) fail_empty(runs);
   const double per_run =
       false_alarm_probability / (false_alarm_runs * static_cast<double>(history.series.size()));

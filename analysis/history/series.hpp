@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,8 @@ namespace zerocount::history {
 inline constexpr double false_alarm_probability = 0.05;
 inline constexpr double false_alarm_runs = 100.0;
 
-/// Which series are looked at; what is missing is not restricted.
+/// Which series are looked at; what is missing is not restricted, but of a study with a goal only the
+/// measures of the goal are looked at unless one is named.
 struct SeriesFilter {
   std::optional<std::string> study{};
   std::optional<std::string> point{};
@@ -61,6 +63,7 @@ struct History {
   std::vector<Series> series;
   double threshold{statistics::unknown};  ///< of |z|, of SeriesTest::levels
   double max_p{statistics::unknown};      ///< of SeriesTest::baseline
+  std::set<std::string> others{};         ///< measures beside a goal that were not asked for
 };
 
 /// Sorts runs into series and finds their changes. With m series, each is tested so that it gives a false

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "analysis/goal/success_bounds.hpp"
 #include "analysis/measures/point_accumulator.hpp"
 #include "tests/analysis/summary/swept_study.hpp"
 
@@ -40,8 +41,8 @@ TEST(BestPoint, LeavesOutPointsWithoutTrials) {
 
 TEST(BestPoint, OfOnePointIsJudgedAsThatPoint) {
   const measures::PointSummary point = point_with(27, 30);
-  EXPECT_EQ(claim_of_chosen(point, 1, false).success_at_least, point.claim.success_at_least);
-  const statistics::ConfidenceInterval bounds = bounds_of_chosen(point, 1, false, 0.95);
+  EXPECT_EQ(goal::claim_of_chosen(point, 1, false).success_at_least, point.claim.success_at_least);
+  const statistics::ConfidenceInterval bounds = goal::bounds_of_chosen(point, 1, false, 0.95);
   EXPECT_EQ(bounds.low, point.success_rate().clopper_pearson.low);
   EXPECT_EQ(bounds.high, point.success_rate().clopper_pearson.high);
 }
@@ -57,9 +58,9 @@ TEST(BestPoint, TheBoundsAllowForTheChoice) {
     std::vector<measures::PointSummary> points;
     for (int i = 0; i < 20; ++i) points.push_back(point_with(successes(random), trials));
     const measures::PointSummary& best = points[static_cast<std::size_t>(best_point(swept_study(points)))];
-    too_high += claim_of_chosen(best, points.size(), false).success_at_least > truth;
+    too_high += goal::claim_of_chosen(best, points.size(), false).success_at_least > truth;
     too_high_alone += best.claim.success_at_least > truth;
-    EXPECT_LE(bounds_of_chosen(best, points.size(), false, 0.95).low,
+    EXPECT_LE(goal::bounds_of_chosen(best, points.size(), false, 0.95).low,
               best.success_rate().clopper_pearson.low);
   }
   EXPECT_LE(too_high, 0.05 * rounds + 3.0 * 3.8);  // three standard errors

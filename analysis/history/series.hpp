@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/document/answer.hpp"
 #include "analysis/history/run_record.hpp"
 
 namespace zerocount::history {
@@ -79,11 +80,7 @@ std::string change_sentence(const Series& series, const SeriesChange& change);
 /// A sentence with the assumptions of the tests and their rate of false alarms.
 std::string false_alarm_sentence(const History& history);
 
-/// For a terminal: a row per series, the changes in words, and of a single series every run.
-std::string history_text(const History& history);
-/// One object with every run; unknown numbers are null.
-std::string history_json(const History& history);
-/// A line per run of every series.
-std::string history_csv(const History& history);
+/// The answer of `history show`: a row per series, the changes in words, and of a single series every run.
+document::AnswerDescription<History> history_answer();
 
 }  // namespace zerocount::history

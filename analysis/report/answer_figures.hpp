@@ -1,9 +1,10 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
+#include <limits>
 
 #include "analysis/document/answer.hpp"
+#include "analysis/history/series.hpp"
 #include "analysis/sensitivity/sensitivity.hpp"
 
 /// Answers with their figures, for pages.
@@ -11,5 +12,10 @@ namespace zerocount::report {
 
 /// sensitivity::sensitivity_answer() with a figure of the Sobol' indices of each output.
 document::AnswerDescription<sensitivity::StudySensitivity> sensitivity_answer();
+
+/// history::history_answer() with a figure of each series, at most
+/// `max_figures`, those that changed first.
+document::AnswerDescription<history::History> history_answer(
+    std::size_t max_figures = std::numeric_limits<std::size_t>::max());
 
 }  // namespace zerocount::report

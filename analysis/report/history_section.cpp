@@ -5,8 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "analysis/document/markup.hpp"
-#include "analysis/report/html.hpp"
+#include "analysis/report/answer_figures.hpp"
 #include "analysis/report/report_sections.hpp"
 
 namespace zerocount::report {
@@ -71,32 +70,33 @@ Figure history_figure(const Series& series, std::size_t number) {
   return figure;
 }
 
-}  // namespace
-
-PageSection history_section(const history::History& history, std::size_t max_figures) {
-  PageSection section{"history", "Over time", "", {}};
-  if (history.series.empty()) {
-    section.html = "<p>The history has fewer than two runs of this study.</p>\n";
-    return section;
-  }
+std::vector<Figure> history_figures(const history::History& history, std::size_t max_figures) {
   std::vector<const Series*> ordered;
   for (const Series& series : history.series) ordered.push_back(&series);
-  std::stable_sort(ordered.begin(), ordered.end(), [](const Series* one, const Series* other) {
-    return !one->changes.empty() && other->changes.empty();
-  });
-  const auto changed =
-      std::count_if(ordered.begin(), ordered.end(), [](const Series* one) { return !one->changes.empty(); });
-  section.html = fmt::format("<p>{} {}</p>\n",
-                             changed == 0 ? "No change is significant."
-                                          : fmt::format("{} of {} series changed.", changed, ordered.size()),
-                             document::prose_markup(false_alarm_sentence(history)));
-  if (ordered.size() > max_figures) {
-    section.html += fmt::format("<p>Shown are {} of {} series, those that changed first.</p>\n", max_figures,
-                                ordered.size());
-    ordered.resize(max_figures);
+  std::ranges::stable_partition(ordered, [](const Series* series) { return !series->changes.empty(); });
+  ordered.resize(std::min(ordered.size(), max_figures));
+  std::vector<Figure> figures;
+  for (const Series* const series : ordered) figures.push_back(history_figure(*series, figures.size() + 1));
+  return figures;
+}
+
+}  // namespace
+
+document::AnswerDescription<history::History> history_answer(std::size_t max_figures) {
+  document::AnswerDescription<history::History> answer = history::history_answer();
+  answer.items.figures(
+      [max_figures](const history::History& history) { return history_figures(history, max_figures); });
+  return answer;
+}
+
+PageSection history_section(const history::History& history, std::size_t max_figures) {
+  if (history.series.empty())
+    return {"history", "Over time", "<p>The history has fewer than two runs of this study.</p>\n", {}};
+  PageSection section = answer_section("history", "Over time", history_answer(max_figures).of(history));
+  if (history.series.size() > max_figures) {
+    section.html += fmt::format("<p>The figures are of {} of {} series, those that changed first.</p>\n",
+                                max_figures, history.series.size());
   }
-  for (const Series* const series : ordered)
-    section.figures.push_back(history_figure(*series, section.figures.size() + 1));
   return section;
 }
 

@@ -153,13 +153,6 @@ StudyReport study_report(const reading::StudyFile& file, const ReportOptions& op
   return report;
 }
 
-ReportPage history_page(const history::History& history) {
-  ReportPage page{
-      "Results over time", "", "This page is self-contained and requests nothing from anywhere.", {}};
-  add(page, history_section(history, history.series.size()));
-  return page;
-}
-
 std::vector<std::string> figure_names(const ReportPage& page) {
   std::vector<std::string> names;
   for (const PageSection& section : page.sections) {

@@ -35,9 +35,6 @@ struct StudyReport {
 /// @throws Failure as StudyFile; bad_input if `point` is not a design point.
 StudyReport study_report(const reading::StudyFile& file, const ReportOptions& options = {});
 
-/// A page on a history alone: a figure for every series.
-ReportPage history_page(const history::History& history);
-
 /// The names of all figures of a report.
 std::vector<std::string> figure_names(const ReportPage& page);
 

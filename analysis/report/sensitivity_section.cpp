@@ -67,7 +67,7 @@ Figure figure_for(const sensitivity::StudySensitivity& study, const sensitivity:
   return figure;
 }
 
-std::vector<Figure> figures_of(const sensitivity::StudySensitivity& study) {
+std::vector<Figure> sensitivity_figures(const sensitivity::StudySensitivity& study) {
   std::vector<Figure> figures;
   for (const sensitivity::PointSensitivity& point : study.points) {
     for (const sensitivity::OutputSensitivity& output : point.outputs) {
@@ -81,7 +81,7 @@ std::vector<Figure> figures_of(const sensitivity::StudySensitivity& study) {
 
 document::AnswerDescription<sensitivity::StudySensitivity> sensitivity_answer() {
   document::AnswerDescription<sensitivity::StudySensitivity> answer = sensitivity::sensitivity_answer();
-  answer.items.figures(figures_of);
+  answer.items.figures(sensitivity_figures);
   return answer;
 }
 

@@ -10,14 +10,14 @@
 
 #include "analysis/history/database.hpp"
 #include "analysis/history/run_record.hpp"
-#include "analysis/history/series.hpp"
-#include "analysis/report/report.hpp"
+#include "analysis/report/answer_figures.hpp"
+#include "analysis/report/answer_page.hpp"
 #include "results/reading/study_file.hpp"
+#include "runners/answers/answer_format.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/figure_picture.hpp"
 #include "runners/result_commands/result_commands.hpp"
-#include "runners/standard_output/standard_output.hpp"
 #include "runners/status/status.hpp"
 
 namespace zerocount::result_commands {
@@ -87,12 +87,7 @@ ExitCode add(const command_line::Arguments& arguments) {
 }
 
 ExitCode show(const command_line::Arguments& arguments) {
-  const std::string format = arguments.choice("format");
-  const history::History shown = history_shown(arguments);
-  if (format == "text") standard_output::write_fitted(history::history_text(shown));
-  if (format == "json") standard_output::write(history::history_json(shown));
-  if (format == "csv") standard_output::write(history::history_csv(shown));
-  return ExitCode::success;
+  return answers::print(arguments, report::history_answer().of(history_shown(arguments)));
 }
 
 ExitCode plot_history(const command_line::Arguments& arguments) {
@@ -107,7 +102,8 @@ ExitCode plot_history(const command_line::Arguments& arguments) {
         fmt::format("a picture shows one series, but {} are selected; choose with --study, --point and "
                     "--measure, or write a page (.html)",
                     shown.series.size()));
-  command_line::write_text(output, commands::drawing(report::history_page(shown), kind));
+  command_line::write_text(output,
+                           commands::drawing(report::answer_page(report::history_answer().of(shown)), kind));
   return ExitCode::success;
 }
 
@@ -140,28 +136,29 @@ ExitCode run_history(const command_line::Arguments& arguments) {
 }  // namespace
 
 commands::Command history_command() {
-  return {{"history",
-           "add FILE | show | plot -o PLOT",
-           {{"database", "DB", "the history (default: history.sqlite)"},
-            command_line::of_operands(
-                {"add"}, {"compare", "FILE",
-                          "add: the output of 'zerocount compare --json FILE' for the results file"}),
-            command_line::of_operands({"show", "plot"}, {"study", "NAME", "only this study"}),
-            command_line::of_operands({"show", "plot"}, {"point", "LABEL", "only this design point"}),
-            command_line::of_operands({"show", "plot"},
-                                      {"measure", "NAME", "only this measure, such as success_rate"}),
-            command_line::of_operands({"show"},
-                                      command_line::format_option({"text", "json", "csv"}, "of 'show'")),
-            command_line::of_operands(
-                {"plot"},
-                {"output,o", "PLOT", "plot: a page of all series (*.html), or one series as *.svg or *.png"}),
-            command_line::of_operands({"plot"}, command_line::force_option())},
-           1,
-           2,
-           names_of(actions())},
-          "results over time, with the runs at which they changed",
-          history_help,
-          run_history};
+  return {
+      {"history",
+       "add FILE | show | plot -o PLOT",
+       {{"database", "DB", "the history (default: history.sqlite)"},
+        command_line::of_operands(
+            {"add"},
+            {"compare", "FILE", "add: the output of 'zerocount compare --json FILE' for the results file"}),
+        command_line::of_operands({"show", "plot"}, {"study", "NAME", "only this study"}),
+        command_line::of_operands({"show", "plot"}, {"point", "LABEL", "only this design point"}),
+        command_line::of_operands({"show", "plot"},
+                                  {"measure", "NAME", "only this measure, such as success_rate"}),
+        command_line::of_operands({"show"}, answers::format_option(report::history_answer().complete_type())),
+        command_line::of_operands(
+            {"plot"},
+            {"output,o", "PLOT", "plot: a page of all series (*.html), or one series as *.svg or *.png"}),
+        command_line::of_operands({"plot"}, command_line::force_option())},
+       1,
+       2,
+       names_of(actions())},
+      "results over time, with the runs at which they changed",
+      history_help,
+      run_history,
+      {report::history_answer().complete_type()}};
 }
 
 }  // namespace zerocount::result_commands

@@ -53,15 +53,15 @@ TEST_F(HistoryCommand, HasTheValuesAndBoundsOfTheSummary) {
       if (point.at("label") != series.at("point")) continue;
       if (series.at("measure") == "success_rate") {
         EXPECT_EQ(value.at("value"), point.at("success_rate"));
-        EXPECT_EQ(value.at("low"), point.at("success_rate_low"));
-        EXPECT_EQ(value.at("high"), point.at("success_rate_high"));
+        EXPECT_EQ(value.at("value_low"), point.at("success_rate_low"));
+        EXPECT_EQ(value.at("value_high"), point.at("success_rate_high"));
         ++compared;
       }
       if (series.at("measure") == "settling_time" || series.at("measure") == "jerk_count") {
         const json& statistics = point.at(series.at("measure").get<std::string>());
         EXPECT_EQ(value.at("value"), statistics.at("mean"));
-        EXPECT_EQ(value.at("low"), statistics.at("mean_low"));
-        EXPECT_EQ(value.at("high"), statistics.at("mean_high"));
+        EXPECT_EQ(value.at("value_low"), statistics.at("mean_low"));
+        EXPECT_EQ(value.at("value_high"), statistics.at("mean_high"));
         ++compared;
       }
     }

@@ -39,6 +39,10 @@ const history::Series& series_of(const History& history, const std::string& poin
   throw std::out_of_range("no such series");
 }
 
+std::string text_of(const History& history) {
+  return document::text(history::history_answer().of(history));
+}
+
 TEST(HistorySeries, NameTheCommitOfAStep) {
   const std::vector<RunRecord> runs = nights_with_step(40);
   const History history = history::history_of(runs);
@@ -53,7 +57,7 @@ TEST(HistorySeries, NameTheCommitOfAStep) {
   EXPECT_NE(sentence.find("rose from"), std::string::npos) << sentence;
   EXPECT_NE(sentence.find(runs[b.changes[0].first].created), std::string::npos) << sentence;
   EXPECT_NE(sentence.find(runs[b.changes[0].first].git_commit.substr(0, 10)), std::string::npos) << sentence;
-  EXPECT_NE(history::history_text(history).find(sentence), std::string::npos);
+  EXPECT_NE(text_of(history).find(sentence), std::string::npos);
 }
 
 TEST(HistorySeries, ShowOnlyWhatIsAskedFor) {
@@ -61,7 +65,7 @@ TEST(HistorySeries, ShowOnlyWhatIsAskedFor) {
   const History one = history::history_of(runs, {"gains", "b", "success_rate"});
   ASSERT_EQ(one.series.size(), 1U);
   EXPECT_LT(one.threshold, history::history_of(runs).threshold) << "fewer series allow a lower threshold";
-  const std::string text = history::history_text(one);
+  const std::string text = text_of(one);
   for (const RunRecord& run : runs) EXPECT_NE(text.find(run.created), std::string::npos);
   try {
     history::history_of(runs, {"gains", "nowhere"});
@@ -154,10 +158,11 @@ TEST(HistorySeries, OfOneSeedAlarmAsOftenAsStated) {
 
 TEST(HistorySeries, AreWrittenForMachines) {
   const History history = history::history_of(nights_with_step(40));
-  const auto json = nlohmann::json::parse(history::history_json(history));
+  const document::Answer answer = history::history_answer().of(history);
+  const auto json = document::json(answer);
   ASSERT_EQ(json.at("series").size(), 3U);
   EXPECT_EQ(json.at("series")[0].at("runs").size(), 60U);
-  const std::string csv = history::history_csv(history);
+  const std::string csv = document::csv(answer);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 3 * 60);
   int changes = 0;
   for (const auto& series : json.at("series")) {

@@ -1,4 +1,4 @@
-"""The blocks of Python in the documentation run, those of a page one after the other.
+"""The blocks of Python in the page of the package run, one after the other.
 
 usage: documentation.py ROOT
 """
@@ -12,26 +12,25 @@ import traceback
 
 from support import first_study
 
-PAGES = ("README.md", "runners/python/README.md")
+PAGE = "runners/python/README.md"
 
 
 def main(root: pathlib.Path) -> int:
-    failed = blocks = 0
-    for page in PAGES:
-        with tempfile.TemporaryDirectory() as folder:
-            os.chdir(folder)
-            first_study(root, pathlib.Path("my-axis.yaml"))
-            names: dict[str, object] = {}
-            for block in re.findall(r"```python\n(.*?)```", (root / page).read_text(encoding="utf-8"), re.DOTALL):
-                blocks += 1
-                try:
-                    exec(block, names)
-                except Exception:
-                    failed += 1
-                    print(f"{page}:\n{block}\n{traceback.format_exc()}")
-            os.chdir("/")
-    print(f"{blocks} blocks, {failed} failed")
-    return failed > 0 or blocks < 7
+    failed = 0
+    blocks = re.findall(r"```python\n(.*?)```", (root / PAGE).read_text(encoding="utf-8"), re.DOTALL)
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        first_study(root, pathlib.Path("my-axis.yaml"))
+        names: dict[str, object] = {}
+        for block in blocks:
+            try:
+                exec(block, names)
+            except Exception:
+                failed += 1
+                print(f"{PAGE}:\n{block}\n{traceback.format_exc()}")
+        os.chdir("/")
+    print(f"{len(blocks)} blocks, {failed} failed")
+    return failed > 0 or len(blocks) < 6
 
 
 if __name__ == "__main__":

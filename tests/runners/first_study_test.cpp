@@ -126,8 +126,8 @@ TEST_F(FirstStudy, ItsTableSaysWhatTheReadmeSays) {
   EXPECT_EQ(points[2]["zero_count"].get<int>() + points[2]["one_count"].get<int>(), 2000);
 }
 
-// The premises that the README names, and that which the answer does not survive.
-TEST_F(FirstStudy, ItsAnswerHoldsUnderThePremisesThatTheReadmeNames) {
+// The premises that docs/reliability.md names, and that which the answer does not survive.
+TEST_F(FirstStudy, ItsAnswerHoldsUnderTheOtherPremisesOfItsPage) {
   const auto judged_with = [this](const std::string& set) {
     EXPECT_EQ(run({"run", "my-axis.yaml", "-o", "other.h5", "--quiet", "--force", "--set", set}).code, 0);
     return nlohmann::json::parse(run({"judge", "other.h5", "--format", "json"}).out);

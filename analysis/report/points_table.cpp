@@ -211,7 +211,7 @@ std::string goal_table(const ReportedStudy& reported, std::size_t rows) {
          fmt::format(
              "<p class=\"note\">Bounds are one-sided, of each point alone. Settled: the error stays "
              "within the goal's band from then to the end of the move. {}</p>\n",
-             html_text(summary::design_line(summary)));
+             document::markup(summary::design_line(summary)));
 }
 
 std::string zero_count_tables(const ReportedStudy& reported, std::size_t rows) {

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/document/markup.hpp"
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/goal/success_bounds.hpp"
 #include "analysis/report/html.hpp"
@@ -346,7 +347,7 @@ std::string zero_counts_html(const ReportedStudy& reported) {
   add_success(lines, reported, reported.chosen.point);
   add_of_zero_counts(lines, reported, reported.chosen.point);
   std::string html;
-  for (const std::string& line : lines) html += fmt::format("<p>{}</p>\n", html_prose(line));
+  for (const std::string& line : lines) html += fmt::format("<p>{}</p>\n", document::prose_markup(line));
   return html;
 }
 

@@ -10,10 +10,10 @@ namespace zerocount::answers {
 namespace {
 
 nlohmann::ordered_json notebook_json(const document::Answer& answer) {
-  nlohmann::ordered_json json = document::json(answer);
-  json["text"] = document::text(answer);
-  json["html"] = document::html(answer);
-  return json;
+  return {{"answer", document::json(answer)},
+          {"schema", document::json_schema(answer.type)},
+          {"text", document::text(answer)},
+          {"html", document::html(answer)}};
 }
 
 }  // namespace

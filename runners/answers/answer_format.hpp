@@ -10,8 +10,8 @@
 namespace zerocount::answers {
 
 /// `--format` of a command whose answers are of the type: text, json, markdown, html, csv where the type has
-/// a table for it, then `more`. `table` is another name of `text`. `notebook` is the JSON with the members
-/// "text" and "html", for the Python package.
+/// a table for it, then `more`. `table` is another name of `text`. `notebook` is for the Python package: JSON
+/// with the members "answer" (the JSON), "schema" (its schema), "text" and "html".
 command_line::OptionSpec format_option(const document::AnswerType& type, std::vector<std::string> more = {});
 
 /// The answer in a format of format_option().

@@ -39,7 +39,7 @@ assert all(np.array_equal(zc.trial(s, 3, 17, law).samples[name], trace.samples[n
 tuned = zc.tune("my-axis.yaml", "tuned.h5", free={"controller.ki": {"log": [5e3, 5e4]}}, margins={"gain": 1, "phase": 10},
                 budget=2000, force=True)
 print(tuned, tuned.room)
-print(zc.compare("first-use.h5", points=(2, 3)).verdict, zc.plan(success=0.99).plans[0])
+print(zc.compare("first-use.h5", points=(2, 3)).verdict, zc.plan(success=0.99)["plans"][0])
 print(zc.sample(s, 2, outcome="settling_time")([90, 600, 1e5, 0.5, 20, 0.5]))
 try:
     zc.study("my-axis.yaml").set({"dac.bits": 99}).labels

@@ -33,7 +33,7 @@ answers = {{
     "trial": zc.trial(s, 1, 3, lambda setup: lambda sample: 0.0).torque.tolist()[:2],
     "sample": f(f.draw(5)).tolist(),
     "compare": zc.compare(r, points=(0, 1)).verdict,
-    "plan": zc.plan(success=0.99).plans[0],
+    "plan": zc.plan(success=0.99)["plans"][0],
     "figures": r.figures,
     "figure": len(r.plot("success").svg) > 0,
     "summary": len(r.summary["points"]),
@@ -54,7 +54,7 @@ for name, ask in {{
     "plot": lambda: r.trace(1, 3).plot(),
     "frame": lambda: r.trace(1, 3).frame,
     "of a comparison": lambda: zc.compare(r, points=(0, 1)).table,
-    "of a plan": lambda: zc.plan(success=0.99).table,
+    "of a plan": lambda: zc.plan(success=0.99).plans,
     "distribution": lambda: f.distribution,
     "function": lambda: f.function,
     "html": r._repr_html_,
@@ -87,7 +87,7 @@ sys.modules["h5py"] = None
 import zerocount as zc
 s = zc.study("my-axis.yaml")
 f = zc.sample(s, 2)
-print(len(zc.trial(s).t), f(f.draw(3)).shape, zc.plan(success=0.9).plans[0]["trials"])
+print(len(zc.trial(s).t), f(f.draw(3)).shape, zc.plan(success=0.9)["plans"][0]["trials"])
 zc.open("my-axis.h5")
 """
     done = subprocess.run([sys.executable, "-c", script], cwd=folder, capture_output=True, text=True, check=False)

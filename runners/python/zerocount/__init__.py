@@ -9,35 +9,34 @@ The package calls the program zerocount and reads its files. Single trials run i
 
 from _zerocount import __version__
 
+from .answers import Answer
+from .asking import ask
 from .comparison import Comparison, compare
 from .errors import DataError, Error, MachineError, ManifestError, Problem, TooLittleDataError
 from .figures import Figure
 from .identification import Identification, identify
-from .judgement import Judgement
 from .laws import ControlLaw, Setup, trial
 from .laws import Sample as LoopSample
-from .planning import Plan, plan
+from .planning import plan
 from .results import Results
 from .results import open_results as open
 from .sampling import Sample, sample
 from .studies import Study, shipped, study
 from .traces import Trace
-from .tuning import Proof, Tuning, tune
+from .tuning import Tuning, tune
 
 __all__ = [
+    "Answer",
     "Comparison",
     "ControlLaw",
     "DataError",
     "Error",
     "Figure",
     "Identification",
-    "Judgement",
     "LoopSample",
     "MachineError",
     "ManifestError",
-    "Plan",
     "Problem",
-    "Proof",
     "Results",
     "Sample",
     "Setup",
@@ -46,6 +45,7 @@ __all__ = [
     "Trace",
     "Tuning",
     "__version__",
+    "ask",
     "compare",
     "identify",
     "open",

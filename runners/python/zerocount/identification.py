@@ -2,63 +2,40 @@
 
 from __future__ import annotations
 
-import dataclasses
-import json
 import os
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import _zerocount
 
-from . import program
+from .answer_types import IdentifyAnswer
+from .asking import ask
 from .optional import required
-from .options import dataclass_of, options
-from .progress import progress_bar
 
 if TYPE_CHECKING:
     import pandas  # type: ignore[import]
 
 
-@dataclasses.dataclass(frozen=True)
-class Identification:
-    """Friction that was identified from records.
+class Identification(IdentifyAnswer):
+    """Friction that was identified from records."""
 
-    Parameters
-    ----------
-    parameters : list of dict
-        ``name``, ``key`` (in a manifest, or None), ``unit``, ``status``, ``value``, ``low`` and ``high`` (95 %) of each.
-    manifest : dict
-        What to put into a manifest: the sections and keys with their distributions.
-    text : str
-        The same as YAML with comments.
-    passed : bool or None
-        Whether encoder and noise explain the residuals; otherwise the result must not be trusted. None where several
-        laws are compared: `answer` has each.
-    residuals : dict
-        The tests of the residuals.
-    records : list of dict
-        What was read.
-    answer : dict
-        The whole JSON of ``zerocount identify``.
-    """
-
-    parameters: list[dict[str, Any]]
-    manifest: dict[str, Any]
-    text: str
-    passed: bool | None
-    residuals: dict[str, Any] = dataclasses.field(default_factory=dict, repr=False)
-    records: list[dict[str, Any]] = dataclasses.field(default_factory=list, repr=False)
-    answer: dict[str, Any] = dataclasses.field(default_factory=dict, repr=False)
+    @property
+    def passed(self) -> bool | None:
+        """Whether encoder and noise explain the residuals; otherwise the result must not be trusted. None where several
+        laws are compared."""
+        return bool(self["residuals"]["passed"]) if "residuals" in self else None
 
     @property
     def settings(self) -> dict[str, Any]:
-        """The same as dotted keys: ``study.set(identified.settings)``."""
-        return {f"{section}.{key}": value for section, keys in self.manifest.items() for key, value in keys.items()}
+        """The manifest as dotted keys: ``study.set(identified.settings)``."""
+        sections = _zerocount.manifest_tree(self["manifest"], "<identified>", []) or {}
+        return {f"{section}.{key}": value for section, keys in sections.items() for key, value in keys.items()}
 
     @property
     def table(self) -> pandas.DataFrame:
-        """The parameters, one row each, by their names."""
-        return required("pandas", "the table of parameters").DataFrame(self.parameters).set_index("name")
+        """The parameters, one row each, by their names; of several laws those of the one with the lowest BIC."""
+        parameters = self["parameters"] if "parameters" in self else _best_law(self["laws"])["parameters"]
+        return required("pandas", "the table of parameters").DataFrame(parameters).set_index("name")
 
 
 def identify(
@@ -160,7 +137,10 @@ def identify(
     >>> found.settings["friction.k1"]["lognormal"]["median"]
     126.476502
     """
-    words = options(
+    answer = ask(
+        "identify",
+        *records,
+        progress=progress,
         axis=axis,
         counts_per_revolution=counts_per_revolution,
         resolution=resolution,
@@ -184,26 +164,11 @@ def identify(
         plot=plot,
         point=point,
         force=force,
-        format="json",
     )
-    with progress_bar("identify", progress) as bar:
-        _, text = program.run(
-            ["identify", *(os.fspath(record) for record in records), *words], accepted=frozenset({0, 3}), progress=bar
-        )
-    answer = json.loads(text)
-    return dataclass_of(
-        Identification,
-        answer,
-        parameters=answer["parameters"] if "parameters" in answer else _best_law(answer)["parameters"],
-        manifest=_zerocount.manifest_tree(answer["manifest"], "<identified>", []) or {},
-        text=answer["manifest"],
-        passed=answer["residuals"]["passed"] if "residuals" in answer else None,
-        answer=answer,
-    )
+    return Identification.of(answer)
 
 
-def _best_law(answer: Mapping[str, Any]) -> Mapping[str, Any]:
+def _best_law(laws: Sequence[Mapping[str, Any]]) -> Mapping[str, Any]:
     """Of the laws that were compared the one with the lowest BIC."""
-    fitted = [law for law in answer["laws"] if law.get("bic_above_least") is not None]
-    best: Mapping[str, Any] = min(fitted, key=lambda law: float(law["bic_above_least"]))
-    return best
+    fitted = [law for law in laws if law.get("bic_above_least") is not None]
+    return min(fitted, key=lambda law: float(law["bic_above_least"]))

@@ -1,22 +1,12 @@
-"""Options of the program, and what it answers in JSON."""
+"""Options of the program."""
 
 from __future__ import annotations
 
-import dataclasses
 import os
 from collections.abc import Mapping, Sequence
-from typing import Any, TypeVar
+from typing import Any
 
 from .manifests import flow_text
-
-T = TypeVar("T")
-
-
-def dataclass_of(cls: type[T], record: Mapping[str, Any], **others: Any) -> T:
-    """A dataclass from an object of JSON that has its fields among others."""
-    names = {field.name for field in dataclasses.fields(cls)}
-    return cls(**{name: value for name, value in record.items() if name in names and name not in others}, **others)
-
 
 def options(**values: Any) -> list[str]:
     """Options of the program.
@@ -25,7 +15,7 @@ def options(**values: Any) -> list[str]:
     ----------
     **values
         By the option's name with ``_`` in place of ``-``. None and False: not given; True: given; a list: given
-        for each of its values; a dict: given as ``KEY=VALUE`` for each.
+        for each of its values; a dict: given as ``KEY=VALUE`` for each. A path is made absolute.
 
     Returns
     -------
@@ -50,5 +40,5 @@ def options(**values: Any) -> list[str]:
             for inner in value:
                 words += [option, str(inner)]
         else:
-            words += [option, os.fspath(value) if isinstance(value, os.PathLike) else str(value)]
+            words += [option, os.path.abspath(value) if isinstance(value, os.PathLike) else str(value)]
     return words

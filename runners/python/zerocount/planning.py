@@ -2,39 +2,11 @@
 
 from __future__ import annotations
 
-import dataclasses
-import json
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from . import program
-from .datasets import path_of
-from .optional import required
-from .options import options
-
-if TYPE_CHECKING:
-    import pandas  # type: ignore[import]
-
-
-@dataclasses.dataclass(frozen=True)
-class Plan:
-    """How many trials a claim needs.
-
-    Parameters
-    ----------
-    plans : list of dict
-        The alternatives.
-    answer : dict
-        The whole JSON of ``zerocount plan``.
-    """
-
-    plans: list[dict[str, Any]]
-    answer: dict[str, Any] = dataclasses.field(default_factory=dict, repr=False)
-
-    @property
-    def table(self) -> pandas.DataFrame:
-        """One row for each alternative; parts of an entry are columns such as ``trials.low``."""
-        return required("pandas", "the table of a plan").json_normalize(self.plans)
+from .answer_types import PlanAnswer
+from .asking import ask
 
 
 def plan(
@@ -49,7 +21,7 @@ def plan(
     rigs_share: float | None = None,
     rig_sd: float | None = None,
     margin: Mapping[str, str | float] | None = None,
-) -> Plan:
+) -> PlanAnswer:
     """How many trials a claim needs.
 
     Parameters
@@ -77,16 +49,17 @@ def plan(
 
     Returns
     -------
-    Plan
+    PlanAnswer
+        Of the kind that fits the question.
 
     Examples
     --------
-    >>> zc.plan(success=0.99).plans[0]
+    >>> zc.plan(success=0.99)["plans"][0]
     {'failures': 0, 'trials': 299}
     """
-    from .studies import Study
-
-    words = options(
+    return ask(
+        "plan",
+        *([] if pilot is None else [pilot]),
         success=success,
         confidence=confidence,
         failures=failures,
@@ -96,12 +69,4 @@ def plan(
         rigs_share=rigs_share,
         rig_sd=rig_sd,
         margin=margin,
-        format="json",
     )
-    if isinstance(pilot, Study):
-        text = pilot.command("plan", *words)
-    else:
-        files = [] if pilot is None else [path_of(pilot)]
-        text = program.run(["plan", *files, *words])[1]
-    answer = json.loads(text)
-    return Plan(answer["plans"] if "plans" in answer else [answer], answer)

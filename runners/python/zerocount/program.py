@@ -88,7 +88,7 @@ def run(
     folder : path, optional
         Where it runs.
     accepted : frozenset of int
-        Exit codes that are no error.
+        Exit codes that are no error where the program has answered.
     progress : callable, optional
         Is given each line of progress.
 
@@ -146,7 +146,7 @@ def run(
     if process.returncode < 0:
         name = signal.Signals(-process.returncode).name
         raise MachineError(f"{path()} was ended by the signal {name}\n{message}".rstrip(), 5)
-    if process.returncode not in accepted:
+    if process.returncode not in accepted or (process.returncode != 0 and not output):
         raise error_of(process.returncode, message or f"{path()} ended with exit code {process.returncode}")
     return process.returncode, output
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import copy
 import dataclasses
 import functools
-import json
 import os
 import pathlib
 from collections.abc import Callable, Mapping
@@ -16,10 +15,11 @@ import numpy as np
 import _zerocount
 
 from . import program
+from .answer_types import JudgeAnswer, SummaryAnswer
+from .asking import ask
 from .datasets import Array, Column, ResultsDatasets, state_of
 from .errors import DataError
 from .figures import Figure, figure, figure_names
-from .judgement import Judgement
 from .optional import required
 from .tables import combined, frame, short_name, succeeded, worst
 from .traces import Trace, replayed
@@ -164,10 +164,9 @@ class Results:
         return program.run([name, str(self.path), *options], accepted=accepted)[1]
 
     @_of_file
-    def summary(self) -> dict[str, Any]:
-        """All statistics, as ``zerocount summary --format json`` gives them."""
-        result: dict[str, Any] = json.loads(self.command("summary", "--format", "json"))
-        return result
+    def summary(self) -> SummaryAnswer:
+        """All statistics."""
+        return ask("summary", self)
 
     @_of_file
     def statistics(self) -> pandas.DataFrame:
@@ -538,7 +537,7 @@ class Results:
         options += ["--plugin", os.fspath(plugin)] if plugin is not None else []
         return replayed(self.command("trace", "--format", "json", *options), self.checked, self.point(point))
 
-    def judge(self, point: int | str | None = None) -> Judgement:
+    def judge(self, point: int | str | None = None) -> JudgeAnswer:
         """Whether the goal of the manifest is met.
 
         Parameters
@@ -548,7 +547,7 @@ class Results:
 
         Returns
         -------
-        Judgement
+        JudgeAnswer
 
         Raises
         ------
@@ -560,8 +559,7 @@ class Results:
         >>> zc.open("my-axis.h5").judge().status
         'met'
         """
-        options = ["--format", "json"] + (["--point", str(self.point(point))] if point is not None else [])
-        return Judgement.of(json.loads(self.command("judge", *options, accepted=program.VERDICTS)))
+        return ask("judge", self, point=None if point is None else self.point(point))
 
     def report(self, output: str | os.PathLike[str]) -> pathlib.Path:
         """Write the report, one HTML page.

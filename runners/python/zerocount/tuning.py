@@ -2,96 +2,38 @@
 
 from __future__ import annotations
 
-import dataclasses
-import json
+import functools
 import math
 import os
+import pathlib
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from . import program
-from .options import dataclass_of, options
-from .progress import progress_bar
+from .answer_types import TuneAnswer
+from .asking import ask
+from .answers import Answer
 
 if TYPE_CHECKING:
     from .results import Results
     from .studies import Study
 
 
-@dataclasses.dataclass(frozen=True)
-class Proof:
-    """What trials on new machines show of tuned gains.
+class Tuning(TuneAnswer):
+    """Tuned gains."""
 
-    Parameters
-    ----------
-    rate : float
-        Proportion of moves that meet the goal.
-    rate_low : float
-        Its lower bound, at the confidence of the goal.
-    machines_low : float or None
-        Lower bound of the proportion of machines, if the goal is about machines.
-    rigs, trials : int
-        Machines and trials.
-    criterion : float
-        The minimised measure.
-    """
+    _output: str
 
-    rate: float
-    rate_low: float
-    machines_low: float | None
-    rigs: int
-    trials: int
-    criterion: float | None = None
+    @functools.cached_property
+    def results(self) -> Results | None:
+        """The results file of the proof; None if the search found nothing to prove."""
+        from .results import Results
 
+        return Results(self._output) if self["proof"] else None
 
-@dataclasses.dataclass(frozen=True)
-class Tuning:
-    """Tuned gains.
-
-    Parameters
-    ----------
-    status : str
-        ``"met"``, ``"undecided"``, or ``"unreachable"`` within the ranges.
-    gains : dict of str to float
-        By dotted key; empty if the search found none.
-    proof : Proof or None
-        On machines that the search never saw; None if the search found nothing to prove.
-    room : dict of str to list of float
-        By dotted key, the range in which the value alone can change with the goal still met.
-    margins : dict
-        Gain (dB), phase (degrees) and delay (samples) margins, the least of the machines.
-    delay_lost : float or None
-        Delay of the loop at which the goal seems lost, samples.
-    manifest : Study or None
-        The study with the tuned gains.
-    results : Results or None
-        The results file of the proof.
-    alternatives, frontier, limits : list of dict
-        With free keys held at the values of ``fixed`` (an empty one: with an observer beside); the best found at
-        each rate; what stands in the way: each with ``cause``, ``rate`` (None where it is not simulated) and ``note``.
-    worst : dict or None
-        The machine that the gains suit worst.
-    searched : dict
-        Points and trials of the search, and whether it converged.
-    answer : dict
-        The whole JSON of ``zerocount tune``; ``left_out`` of it names what the budget was not enough for,
-        ``nearest`` the point that came nearest to the margins where none keeps them.
-    """
-
-    status: str
-    gains: dict[str, float] = dataclasses.field(default_factory=dict)
-    proof: Proof | None = None
-    room: dict[str, list[float]] = dataclasses.field(default_factory=dict, repr=False)
-    margins: dict[str, Any] = dataclasses.field(default_factory=dict, repr=False)
-    delay_lost: float | None = dataclasses.field(default=None, repr=False)
-    manifest: Study | None = dataclasses.field(default=None, repr=False)
-    results: Results | None = dataclasses.field(default=None, repr=False)
-    alternatives: list[dict[str, Any]] = dataclasses.field(default_factory=list, repr=False)
-    frontier: list[dict[str, Any]] = dataclasses.field(default_factory=list, repr=False)
-    limits: list[dict[str, Any]] = dataclasses.field(default_factory=list, repr=False)
-    worst: dict[str, Any] | None = dataclasses.field(default=None, repr=False)
-    searched: dict[str, Any] = dataclasses.field(default_factory=dict, repr=False)
-    answer: dict[str, Any] = dataclasses.field(default_factory=dict, repr=False)
+    @property
+    def manifest(self) -> Study | None:
+        """The study with the tuned gains."""
+        return self.results.study if self.results else None
 
 
 def tune(
@@ -156,37 +98,26 @@ def tune(
     >>> tuned.manifest
     <Study 'my-axis': 1 design point × 4032 trials>
     """
-    from .results import Results
     from .studies import study
 
     subject = _without_sweep(study(manifest), free)
     settings = {"goal": goal, "tune.free": free, "tune.minimise": minimise, "tune.margins": margins}
     subject = subject.set({key: value for key, value in settings.items() if value is not None})
     target = os.path.abspath(output)
-    with progress_bar("tune", progress) as bar:
-        text = subject.command(
+    tuning = Tuning.of(
+        ask(
             "tune",
-            *options(
-                output=target,
-                format="json",
-                budget=budget,
-                threads=threads,
-                report=None if report is None else os.path.abspath(report),
-                force=force,
-            ),
-            accepted=program.VERDICTS,
-            progress=bar,
+            subject,
+            progress=progress,
+            output=target,
+            budget=budget,
+            threads=threads,
+            report=None if report is None else pathlib.Path(report),
+            force=force,
         )
-    answer = json.loads(text)
-    results = Results(target) if answer.get("proof") else None
-    return dataclass_of(
-        Tuning,
-        answer,
-        proof=dataclass_of(Proof, answer["proof"]) if answer.get("proof") else None,
-        results=results,
-        manifest=results.study if results else None,
-        answer=answer,
     )
+    tuning._output = target
+    return tuning
 
 
 def _without_sweep(subject: Study, free: Mapping[str, Any] | None) -> Study:

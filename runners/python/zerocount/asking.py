@@ -1,0 +1,66 @@
+"""Commands of the program, and their answers."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Mapping
+from typing import Any, cast
+
+from . import program
+from .answer_types import DESCRIBED, TYPES, Ask
+from .answers import Answer, undescribed
+from .options import options
+from .progress import progress_bar
+
+
+def _typed(function: Callable[..., Answer]) -> Ask:
+    """The function with the type of the answer for each command."""
+    return cast(Ask, function)
+
+
+@_typed
+def ask(command: str, /, *operands: Any, progress: bool = True, **values: Any) -> Answer:
+    """Ask a command of the program.
+
+    Parameters
+    ----------
+    command : str
+        Such as ``"limits"``.
+    *operands : Study, dict, Results, path or str
+        What the command is asked of: a study, results, files, or other words of its command line.
+    progress : bool
+        Show the progress of a long command in a terminal or a notebook.
+    **values
+        Options of the command, with ``_`` in place of ``-``; a path is seen from the current folder. True gives an
+        option without a value, a list gives it several times, and a dict as ``KEY=VALUE``.
+
+    Returns
+    -------
+    Answer
+        Also where the answer is no, or undecided. Its class, in ``zerocount.answer_types``, has its parts as
+        attributes: ``help(type(answer))`` lists them with their meanings and units.
+
+    Raises
+    ------
+    Error
+        Of the class of the exit code, where there is no answer.
+
+    Examples
+    --------
+    >>> zc.ask("judge", "my-axis.h5", point=2)
+    <JudgeAnswer: 2 (ki=11767.7): the goal is met>
+    """
+    from .studies import Study, study
+
+    format = "notebook" if command in DESCRIBED else "json"
+    words = options(**values, format=format)
+    subject = study(operands[0]) if operands and isinstance(operands[0], (Study, Mapping)) else None
+    others = [os.fspath(getattr(operand, "path", operand)) for operand in operands[subject is not None :]]
+    with progress_bar(command, progress) as bar:
+        if subject is not None:
+            text = subject.command(command, *others, *words, accepted=program.VERDICTS, progress=bar)
+        else:
+            text = program.run([command, *others, *words], accepted=program.VERDICTS, progress=bar)[1]
+    rendered = json.loads(text) if format == "notebook" else undescribed(command, text)
+    return TYPES.get(rendered["answer"]["answer"], Answer)(rendered)

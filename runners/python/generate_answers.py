@@ -164,13 +164,17 @@ def by_command(answers: Mapping[str, Schema]) -> dict[str, list[str]]:
     return result
 
 
-def ask_text(commands: list[str]) -> str:
+def class_name(answer: str) -> str:
+    return f"{camel(answer)}Answer"
+
+
+def ask_text(commands: Mapping[str, list[str]]) -> str:
     """The types of `ask`."""
     lines = ["class Ask(Protocol):", '    """Asks the program, and gives the answer of the command."""', ""]
-    for command in [*commands, ""]:
-        kind, answer = (f'Literal["{command}"]', f"{camel(command)}Answer") if command else ("str", "Answer")
-        arguments = f"self, command: {kind}, /, *operands: Any, progress: bool = ..., **options: Any"
-        lines += ["    @overload", f"    def __call__({arguments}) -> {answer}: ..."]
+    kinds = {f'Literal["{command}"]': " | ".join(map(class_name, answers)) for command, answers in commands.items()}
+    for kind, answer in {**kinds, "str": "Answer"}.items():
+        lines.append("    @overload")
+        lines.append(f"    def __call__(self, command: {kind}, /, *operands: Any, **options: Any) -> {answer}: ...")
     return "\n".join(lines) + "\n"
 
 
@@ -179,22 +183,22 @@ def module_text(answers: Mapping[str, Schema]) -> str:
     for answer, schema in answers.items():
         for path, found in objects(schema, (answer,)):
             classes.setdefault(names.of(path), class_text(names.of(path), "Record", found, path, names))
-        name = f"{camel(answer)}Answer"
-        classes[name] = class_text(name, "Answer", schema, (answer,), names)
+        classes[class_name(answer)] = class_text(class_name(answer), "Answer", schema, (answer,), names)
+    described = f"DESCRIBED = frozenset({{{', '.join(map(json.dumps, commands))}}})\n"
     for command in CALLED:
         if command not in commands:
+            commands[command] = [command]
             text = f'"""Of the command {command}, whose schema the program does not give yet."""'
-            classes[f"{camel(command)}Answer"] = f"class {camel(command)}Answer(Undescribed):\n    {text}\n"
-    parts = [HEAD, *classes.values()]
-    for command, kinds in commands.items():
-        if kinds != [command]:
-            parts.append(f"{camel(command)}Answer = Union[{', '.join(f'{camel(kind)}Answer' for kind in kinds)}]\n")
-    known = [*answers, *(command for command in CALLED if command not in commands)]
-    types = "".join(f'    "{name}": {camel(name)}Answer,\n' for name in known)
-    parts.append(f"TYPES: dict[str, type[Answer]] = {{\n{types}}}\n")
-    parts.append(f"DESCRIBED = frozenset({{{', '.join(map(json.dumps, commands))}}})\n")
-    parts.append(ask_text([*commands, *(command for command in CALLED if command not in commands)]))
-    return "\n\n".join(parts)
+            classes[class_name(command)] = f"class {class_name(command)}(Undescribed):\n    {text}\n"
+    unions = [
+        f"{class_name(command)} = Union[{', '.join(map(class_name, kinds))}]\n"
+        for command, kinds in commands.items()
+        if command not in kinds
+    ]
+    known = [kind for kinds in commands.values() for kind in kinds]
+    types = "".join(f'    "{kind}": {class_name(kind)},\n' for kind in known)
+    parts = [HEAD, *classes.values(), *unions, f"TYPES: dict[str, type[Answer]] = {{\n{types}}}\n", described]
+    return "\n\n".join([*parts, ask_text(commands)])
 
 
 def main() -> int:

@@ -104,8 +104,10 @@ document::AnswerDescription<GuideTables> guides_answer() {
   using Of = const NumberOfGuide&;
   const auto name = [](Of n) { return n.guide.name; };
   const auto mass_unit = [](Of n) { return parameters::unit_on(n.guide.axis, "kg m^2"); };
-  document::AnswerDescription<GuideTables> answer{
-      {.name = "guides", .meaning = "starting values of guides and bearings", .csv_table = "quantities"}, {}};
+  document::AnswerDescription<GuideTables> answer{{.name = "parameters-guides",
+                                                   .meaning = "starting values of guides and bearings",
+                                                   .csv_table = "quantities"},
+                                                  {}};
   answer.items
       .headline([](const GuideTables&) {
         return fmt::format("{} guides and bearings, with what is known of their friction",

@@ -108,6 +108,11 @@ def asked(axis: zc.Study, small: zc.Results, other: zc.Results, results_of: Resu
         "identify": (lambda: zc.identify(records.path, point="steps"), steps),
         "identify laws": (lambda: zc.identify(records.path, point="steps", model=laws), (*steps, "--model", laws[0], "--model", laws[1])),
         "limits": (lambda: zc.ask("limits", axis, point=2), ("limits", manifest, "--point", 2)),
+        "jerks": (lambda: zc.ask("jerks", small, creep_trials=2), ("jerks", small.path, "--creep-trials", 2)),
+        "learn": (lambda: zc.ask("learn", worlds), ("learn", worlds.path)),
+        "verify": (lambda: zc.ask("verify", small, trials=2), ("verify", small.path, "--trials", 2)),
+        "parameters": (lambda: zc.ask("parameters"), ("parameters",)),
+        "guides": (lambda: zc.ask("parameters", guides=True), ("parameters", "--guides")),
         "sensitivity": (
             lambda: zc.ask("sensitivity", small, output=["success", "settling_time"]),
             ("sensitivity", small.path, "--output", "success", "--output", "settling_time"),
@@ -138,16 +143,16 @@ def test_answers_are_those_of_the_program(
 def assert_as_annotated(record: Record, schema: Any) -> None:
     """A record has all attributes of its class, each with its value in the JSON or made of it."""
     names = {key for cls in type(record).__mro__ for key in vars(cls).get("__annotations__", {}) if not key.startswith("_")}
-    assert names == set(schema["properties"]) and names <= set(dir(record))
+    assert {name.rstrip("_") for name in names} == set(schema["properties"])
     for name in names:
-        value = getattr(record, name)
+        key, value = name.rstrip("_"), getattr(record, name)
         if isinstance(value, Record):
-            assert type(value) is type(record)._records[name] and value == record[name]
-            assert_as_annotated(value, schema["properties"][name])
+            assert type(value) is type(record)._records[key] and value == record[key]
+            assert_as_annotated(value, schema["properties"][key])
         elif isinstance(value, pd.DataFrame):
-            assert len(value) == len(record[name]) and set(value) == set(value.attrs["meanings"]) >= set(value.attrs["units"])
+            assert len(value) == len(record[key]) and set(value) == set(value.attrs["meanings"]) >= set(value.attrs["units"])
         else:
-            assert value == record.get(name)
+            assert value == record.get(key)
 
 
 def test_an_answer_is_needed_for_an_exit_code_to_be_a_verdict(small: zc.Results) -> None:
@@ -185,6 +190,25 @@ SCHEMA = {
         "named": {"type": "object", "additionalProperties": {"properties": {"a": {"type": "integer"}}}},
     }
 }
+
+
+def test_tables_in_tables_are_one() -> None:
+    """Inner rows have the values of the outer ones, except those of the same name, and the units of both."""
+    measure = {"properties": {"name": {"type": "string"}, "value": NUMBER, "notes": {"type": "array", "items": ROW}}}
+    point = {"properties": {"point": {"unit": "1"}, "name": {}, "list": {"items": NUMBER}, "measures": {"items": measure}}}
+    schema = {"properties": {"confidence": NUMBER, "points": {"items": point}}}
+    inner = [[{"name": "b", "value": 0.5, "notes": [{"a": 3, "b": {"c": 1.0}, "axes": {}}]}, {"name": "c", "value": None, "notes": []}], None]
+    points = [{"point": number, "name": "a", "list": [1.0], "measures": measures} for number, measures in enumerate(inner)]
+    record = Record({"confidence": 0.95, "points": points}, schema)
+    measures = record.rows_of("points.measures")
+    assert list(measures) == ["point", "name", "value", "notes"] and measures.attrs["units"] == {"point": "1", "value": "s"}
+    assert measures["point"].tolist() == [0, 0] and measures["name"].tolist() == ["b", "c"]
+    notes = record.rows_of("points.measures.notes")
+    assert notes.iloc[0].to_dict() == {"point": 0, "name": "b", "value": 0.5, "a": 3, "b.c": 1.0} and len(notes) == 1
+    assert record.rows_of("points").equals(record.points)
+    for wrong in ("measures", "confidence", "points.list"):
+        with pytest.raises(KeyError, match="is not a table"):
+            record.rows_of(wrong)
 
 
 def test_members_of_a_record_are_attributes() -> None:

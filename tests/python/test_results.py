@@ -151,7 +151,7 @@ def test_a_trial_is_as_its_worst_move(small: zc.Results) -> None:
     recorded = small._file.group("outcome")["outcome"]
     pairs = [(one, other) for one in worse for other in worse]
     codes = np.array([[recorded.words.index(word) for word in pair] for pair in pairs], dtype=np.int8)
-    of_trials = small._of_trials({"outcome": dataclasses.replace(recorded, values=codes)})
+    of_trials = small._columns.of_trials({"outcome": dataclasses.replace(recorded, values=codes)})
     assert of_trials["outcome"].in_words.tolist() == [max(pair, key=worse.index) for pair in pairs]
     assert of_trials["success"].values.tolist() == [pair == ("zero_count", "zero_count") for pair in pairs]
 

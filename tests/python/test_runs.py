@@ -302,7 +302,7 @@ def test_a_run_is_a_command(small: zc.Results, fake: Callable[..., pathlib.Path]
         small.study.run("small.h5", **options)
         arguments = json.loads((folder / "arguments").read_text(encoding="utf-8"))
         settings = [word for key, value in small.study.settings.items() for word in ("--set", f"{key}={value}")]
-        assert arguments == ["run", "-", *settings, "-o", str(small.path.resolve()), *words]
+        assert arguments == ["run", "-", *settings, "--output", str(small.path.resolve()), *words]
 
 
 def test_an_interruption_from_the_terminal_reaches_the_program_once(fake: Callable[..., pathlib.Path]) -> None:

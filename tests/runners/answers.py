@@ -187,17 +187,20 @@ class Answers(unittest.TestCase):
                     checked = check(done.stdout) if check else None
                     if form == "json":
                         answered.add(checked["answer"])
+                        self.assertEqual(checked["answer"].partition("-")[0], question.split()[0])
                 self.assertEqual(len(set(codes.values())), 1, codes)
         self.assertEqual(set(self.schema["$defs"]) - answered, set(), "answers that no question asks for")
 
-    def test_a_notebook_gets_the_json_with_text_and_html(self):
+    def test_a_notebook_gets_the_json_with_schema_text_and_html(self):
         for question in ("judge sweep.h5", "summary sweep.h5", "limits axis.yaml"):
             with self.subTest(question=question):
                 given = json.loads(self.ask(f"{question} --format notebook").stdout)
                 self.assertEqual(given.pop("text"), self.ask(question).stdout)
                 self.check_html(given.pop("html"))
                 plain = json.loads(self.ask(f"{question} --format json").stdout)
-                self.assertEqual(without_times(given), without_times(plain))
+                self.assertEqual(given.pop("schema"), self.schema["$defs"][plain["answer"]])
+                self.assertEqual(without_times(given.pop("answer")), without_times(plain))
+                self.assertEqual(given, {})
 
     def test_table_is_another_name_of_text(self):
         self.assertEqual(self.ask("judge sweep.h5 --format table").stdout, self.ask("judge sweep.h5").stdout)

@@ -10,6 +10,31 @@ if TYPE_CHECKING:
     import pandas  # type: ignore[import]
 
 
+class VerifyAnswer(Answer):
+    """Whether results files hold what their manifests say.
+
+    Attributes
+    ----------
+    ok : bool
+        Whether all checks hold.
+    files : pandas.DataFrame
+        The files, and the folders of shards.
+
+        - ``path``: the file or folder
+        - ``ok``: whether all its checks hold
+        - ``checks``: its checks
+          - ``check``: name of the check
+          - ``ok``: whether it has found no problem
+          - ``skipped``: whether it was left out
+          - ``detail``: what was checked, or why it was left out
+          - ``problems``: what does not hold
+
+    """
+
+    ok: bool
+    files: pandas.DataFrame
+
+
 class Needed(Record):
     """Study that would decide the goal.
 
@@ -186,6 +211,281 @@ class JudgeAnswer(Answer):
     worlds: Worlds | None
 
 
+class LearnAnswer(Answer):
+    """Which unknown to measure next.
+
+    Attributes
+    ----------
+    point : int
+        Number of the design point.
+    label : str
+        Label of the design point.
+    status : Literal["met", "missed", "undecided"] or None
+        Verdict on the goal; null without one.
+    worlds : int
+        Number of worlds.
+    bad : int
+        Worlds that fall short.
+    undecided : int
+        Worlds that are undecided.
+    needed : Needed or None
+        Study that would decide the goal.
+    next : Literal["nothing", "change_axis", "more_trials", "measure", "no_single_measurement"]
+        What to do next.
+    measure : str or None
+        The unknown to measure; null: none.
+    precision : float or None
+        Relative error of the measurement.
+    unknowns : pandas.DataFrame
+        What a measurement of each unknown decides.
+
+        - ``parameter``: dotted path of the unknown, or name of a derived quantity
+        - ``unit``: unit of the unknown
+        - ``derived``: what the derived quantity is
+        - ``decided``: worlds that the measurement decides rightly
+        - ``decided_good``: those of them that meet the goal
+        - ``decided_bad``: those of them that fall short
+        - ``misjudged``: worlds that are unlike all that remain possible
+        - ``open``: worlds that the measurement does not decide
+        - ``p_value``: probability of as many decided if the unknowns did not matter
+        - ``record``: record of identify that tells the unknown; null: none
+
+    """
+
+    _records = {"needed": Needed}
+
+    point: int
+    label: str
+    status: Literal["met", "missed", "undecided"] | None
+    worlds: int
+    bad: int
+    undecided: int
+    needed: Needed | None
+    next: Literal["nothing", "change_axis", "more_trials", "measure", "no_single_measurement"]
+    measure: str | None
+    precision: float | None
+    unknowns: pandas.DataFrame
+
+
+class ParametersAnswer(Answer):
+    """What a manifest can say.
+
+    Attributes
+    ----------
+    parameters : pandas.DataFrame
+        Parameters and their defaults.
+
+        - ``name``: dotted path in a manifest
+        - ``unit``: 1 where it is dimensionless
+        - ``default``: value where a manifest has none, or the range over the guides
+        - ``allowed``: words, or the range of numbers
+        - ``source``: source of the default
+        - ``meaning``: what it is
+
+    distributions : pandas.DataFrame
+        What may stand in place of any number.
+
+        - ``name``: key of the distribution
+        - ``written``: as in a manifest
+        - ``meaning``: what it is
+
+    keys_ : pandas.DataFrame
+        Other keys of a manifest.
+
+        - ``name``: dotted path in a manifest
+        - ``required``: whether every manifest has it
+        - ``meaning``: what it is
+
+    """
+
+    parameters: pandas.DataFrame
+    distributions: pandas.DataFrame
+    keys_: pandas.DataFrame
+
+
+class ParametersGuidesAnswer(Answer):
+    """Starting values of guides and bearings.
+
+    Attributes
+    ----------
+    quantities : pandas.DataFrame
+        Quantities of the guides.
+
+        - ``guide``: name of the guide
+        - ``quantity``: what is between low and high
+        - ``unit``: 1 where it is dimensionless
+        - ``low``: least value to expect, in the unit
+        - ``high``: largest value to expect, in the unit
+        - ``origin``: where the numbers come from
+        - ``source``: publication and place, or reason of an assumption
+
+    parameters : pandas.DataFrame
+        Parameters of the guides with their usual mass and preload.
+
+        - ``guide``: name of the guide
+        - ``mass``: mass or moment of inertia that it moves
+        - ``mass_unit``: unit of the mass
+        - ``preload``: preload; null where friction does not depend on it, N
+        - ``parameter``: what is between low and high
+        - ``unit``: 1 where it is dimensionless
+        - ``low``: least value to expect, in the unit
+        - ``high``: largest value to expect, in the unit
+        - ``origin``: where the numbers come from
+
+    """
+
+    quantities: pandas.DataFrame
+    parameters: pandas.DataFrame
+
+
+class JerksAnswer(Answer):
+    """Rate, intervals and trend of the jerks of each design point.
+
+    Attributes
+    ----------
+    name : str
+        Name of the study.
+    confidence : float or None
+        Confidence of all bounds.
+    points : pandas.DataFrame
+        The design points.
+
+        - ``point``: number of the design point
+        - ``label``: label of the design point
+        - ``trials``: trials of the design point
+        - ``moves``: moves of all trials
+        - ``arrived``: moves that arrived; only these can jerk
+        - ``lost``: moves that became non-finite after arrival; excluded
+        - ``trials_with_jerks``: trials with at least one jerk
+        - ``jerks``: jerks of all trials
+        - ``rates``: rate by time
+          - ``from``: start of the range, since arrival, s
+          - ``to``: end of the range, since arrival; belongs to the next, s
+          - ``moves``: moves in which a jerk could have begun in the range
+          - ``exposure``: time in which a jerk could have begun, summed over all moves, s
+          - ``jerks``: jerks that began in the range
+          - ``rate``: jerks per exposure, with Garwood's bounds, widened by the dispersion, 1/s
+          - ``rate_low``: lower bound, 1/s
+          - ``rate_high``: upper bound, 1/s
+          - ``poisson_low``: lower bound of the rate of independent jerks (Garwood), 1/s
+          - ``poisson_high``: its upper bound, 1/s
+          - ``dispersion``: variance of the jerks of a trial, divided by that of independent ones
+        - ``interval.n``: intervals between the jerks of a move
+        - ``interval.mean``: mean interval, s
+        - ``interval.p05``: quantile of 5 % of the intervals, s
+        - ``interval.p05_low``: lower bound, s
+        - ``interval.p05_high``: upper bound, s
+        - ``interval.p25``: quantile of 25 % of the intervals, s
+        - ``interval.p25_low``: lower bound, s
+        - ``interval.p25_high``: upper bound, s
+        - ``interval.p50``: quantile of 50 % of the intervals, s
+        - ``interval.p50_low``: lower bound, s
+        - ``interval.p50_high``: upper bound, s
+        - ``interval.p75``: quantile of 75 % of the intervals, s
+        - ``interval.p75_low``: lower bound, s
+        - ``interval.p75_high``: upper bound, s
+        - ``interval.p95``: quantile of 95 % of the intervals, s
+        - ``interval.p95_low``: lower bound, s
+        - ``interval.p95_high``: upper bound, s
+        - ``slowing.moves``: moves with two or more intervals that differ
+        - ``slowing.tested``: moves with enough intervals for a test of their own
+        - ``slowing.slowing``: tested moves whose jerks slow down
+        - ``slowing.quickening``: tested moves whose jerks quicken
+        - ``slowing.score``: Laplace's score of all moves; negative if jerks slow down
+        - ``slowing.stouffer``: sum of the scores of the moves over the root of their number
+        - ``slowing.p_value``: probability of such a score without a trend
+        - ``slowing.permutations``: permutations of the p-value; 0: its normal limit
+        - ``agreement.hits``: jerks that have the property
+        - ``agreement.jerks``: all jerks
+        - ``agreement.proportion``: proportion of jerks, with Korn-Graubard bounds
+        - ``agreement.proportion_low``: lower bound
+        - ``agreement.proportion_high``: upper bound
+        - ``agreement.independent``: number of independent jerks that tell as much
+        - ``magnitude.one_count.hits``: jerks that have the property
+        - ``magnitude.one_count.jerks``: all jerks
+        - ``magnitude.one_count.proportion``: proportion of jerks, with Korn-Graubard bounds
+        - ``magnitude.one_count.proportion_low``: lower bound
+        - ``magnitude.one_count.proportion_high``: upper bound
+        - ``magnitude.one_count.independent``: number of independent jerks that tell as much
+        - ``magnitude.counts``: jerks of 1, 2, ... counts; the last: or more
+        - ``magnitude.mean``: mean of the largest |error|, counts
+        - ``magnitude.max``: largest |error|, counts
+        - ``magnitude.median_duration``: median duration of a jerk, s
+        - ``magnitude.longest_duration``: longest duration of a jerk, s
+        - ``creep.trials``: trials simulated again
+        - ``creep.not_applicable``: reason why the closed form does not apply
+        - ``creep.ended``: waits that ended with a jerk
+        - ``creep.predicted``: of these, predicted to within two samples and 1 %
+        - ``creep.lasting``: waits without a jerk
+        - ``creep.lasting_predicted``: of these, predicted to last as long
+        - ``creep.too_short``: excluded waits: not longer than a dwell
+        - ``creep.unsteady``: excluded waits: the torque was not constant, or the hook slid
+        - ``creep.median_deviation``: median deviation of the onset from its prediction, s
+        - ``creep.largest_deviation``: largest deviation of the onset, s
+
+    """
+
+    name: str
+    confidence: float | None
+    points: pandas.DataFrame
+
+
+class SensitivityAnswer(Answer):
+    """Which random parameters influence the outputs of the trials.
+
+    Attributes
+    ----------
+    name : str
+        Name of the study.
+    design_is_saltelli : bool
+        Whether the design is saltelli, and there are total indices.
+    confidence : float or None
+        Confidence of all bounds, each by itself.
+    points : pandas.DataFrame
+        The design points.
+
+        - ``point``: number of the design point
+        - ``label``: label of the design point
+        - ``outputs``: outputs of the trials
+          - ``output``: name of the output
+          - ``unit``: unit of the mean and the standard deviation
+          - ``meaning``: what the output is
+          - ``estimated``: whether the factors could be estimated
+          - ``conclusion``: which factors matter, which do not, and what stays open
+          - ``notes``: what limits these numbers
+          - ``trials``: trials, or worlds, that are used
+          - ``mean``: mean of the output, in its unit
+          - ``standard_deviation``: standard deviation of the output, in its unit
+          - ``factors``: what varies in the trials, strongest first
+            - ``name``: dotted path of the parameter, or what is drawn within trials
+            - ``matters``: whether it is shown to have an influence
+            - ``total``: total Sobol' index
+            - ``total_low``: lower bound
+            - ``total_high``: upper bound
+            - ``first_order``: first-order Sobol' index
+            - ``first_order_low``: lower bound
+            - ``first_order_high``: upper bound
+            - ``rank_correlation``: Spearman's rank correlation
+            - ``rank_correlation_low``: lower bound
+            - ``rank_correlation_high``: upper bound
+            - ``partial_rank_correlation``: rank correlation with the part of the other factors taken out
+            - ``partial_rank_correlation_low``: lower bound
+            - ``partial_rank_correlation_high``: upper bound
+            - ``log_odds``: change of ln(p/(1 - p)) over one standard deviation of the factor, p the proportion of yes
+            - ``log_odds_low``: lower bound
+            - ``log_odds_high``: upper bound
+          - ``left_out``: factors without numbers
+            - ``name``: name of the factor
+            - ``reason``: why it has no numbers
+
+    """
+
+    name: str
+    design_is_saltelli: bool
+    confidence: float | None
+    points: pandas.DataFrame
+
+
 class CompareAnswer(Undescribed):
     """Of the command compare, whose schema the program does not give yet."""
 
@@ -207,7 +507,13 @@ class TuneAnswer(Undescribed):
 
 
 TYPES: dict[str, type[Answer]] = {
+    "verify": VerifyAnswer,
     "judge": JudgeAnswer,
+    "learn": LearnAnswer,
+    "parameters": ParametersAnswer,
+    "parameters-guides": ParametersGuidesAnswer,
+    "jerks": JerksAnswer,
+    "sensitivity": SensitivityAnswer,
     "compare": CompareAnswer,
     "identify": IdentifyAnswer,
     "plan": PlanAnswer,
@@ -216,23 +522,33 @@ TYPES: dict[str, type[Answer]] = {
 }
 
 
-DESCRIBED = frozenset({"judge"})
+DESCRIBED = frozenset({"verify", "judge", "learn", "parameters", "jerks", "sensitivity"})
 
 
 class Ask(Protocol):
     """Asks the program, and gives the answer of the command."""
 
     @overload
-    def __call__(self, command: Literal["judge"], /, *operands: Any, progress: bool = ..., **options: Any) -> JudgeAnswer: ...
+    def __call__(self, command: Literal["verify"], /, *operands: Any, **options: Any) -> VerifyAnswer: ...
     @overload
-    def __call__(self, command: Literal["compare"], /, *operands: Any, progress: bool = ..., **options: Any) -> CompareAnswer: ...
+    def __call__(self, command: Literal["judge"], /, *operands: Any, **options: Any) -> JudgeAnswer: ...
     @overload
-    def __call__(self, command: Literal["identify"], /, *operands: Any, progress: bool = ..., **options: Any) -> IdentifyAnswer: ...
+    def __call__(self, command: Literal["learn"], /, *operands: Any, **options: Any) -> LearnAnswer: ...
     @overload
-    def __call__(self, command: Literal["plan"], /, *operands: Any, progress: bool = ..., **options: Any) -> PlanAnswer: ...
+    def __call__(self, command: Literal["parameters"], /, *operands: Any, **options: Any) -> ParametersAnswer | ParametersGuidesAnswer: ...
     @overload
-    def __call__(self, command: Literal["summary"], /, *operands: Any, progress: bool = ..., **options: Any) -> SummaryAnswer: ...
+    def __call__(self, command: Literal["jerks"], /, *operands: Any, **options: Any) -> JerksAnswer: ...
     @overload
-    def __call__(self, command: Literal["tune"], /, *operands: Any, progress: bool = ..., **options: Any) -> TuneAnswer: ...
+    def __call__(self, command: Literal["sensitivity"], /, *operands: Any, **options: Any) -> SensitivityAnswer: ...
     @overload
-    def __call__(self, command: str, /, *operands: Any, progress: bool = ..., **options: Any) -> Answer: ...
+    def __call__(self, command: Literal["compare"], /, *operands: Any, **options: Any) -> CompareAnswer: ...
+    @overload
+    def __call__(self, command: Literal["identify"], /, *operands: Any, **options: Any) -> IdentifyAnswer: ...
+    @overload
+    def __call__(self, command: Literal["plan"], /, *operands: Any, **options: Any) -> PlanAnswer: ...
+    @overload
+    def __call__(self, command: Literal["summary"], /, *operands: Any, **options: Any) -> SummaryAnswer: ...
+    @overload
+    def __call__(self, command: Literal["tune"], /, *operands: Any, **options: Any) -> TuneAnswer: ...
+    @overload
+    def __call__(self, command: str, /, *operands: Any, **options: Any) -> Answer: ...

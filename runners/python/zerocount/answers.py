@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     import pandas  # type: ignore[import]
 
 A = TypeVar("A", bound="Answer")
+_PARTS = frozenset({"properties", "items", "additionalProperties"})
 
 
 class Record(Mapping[str, Any]):
@@ -69,6 +70,32 @@ class Record(Mapping[str, Any]):
         if value is not None and row_schema(schema) is not None:
             return table(value, row_schema(schema) or {})
         return value
+
+    def rows_of(self, path: str) -> pandas.DataFrame:
+        """A table that the rows of another have, as one.
+
+        Parameters
+        ----------
+        path : str
+            The keys of the tables, such as ``"points.outputs.factors"``.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Before the columns of the inner rows those of the outer ones with other names, without lists and objects.
+        """
+        rows: list[Mapping[str, Any]] = [self._values]
+        columns: Mapping[str, Any] = {}
+        schema = self._schema
+        for key in path.split("."):
+            outer = {name: found for name, found in columns.items() if not _PARTS & found.keys()}
+            inner_schema = row_schema(schema["properties"].get(key, {}))
+            if inner_schema is None:
+                raise KeyError(f"{path}: {key} is not a table of the answer")
+            schema = inner_schema
+            rows = [{**{name: row.get(name) for name in outer}, **inner} for row in rows for inner in row[key] or ()]
+            columns = {**outer, **schema["properties"]}
+        return table(rows, {"properties": columns})
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON, to be changed.

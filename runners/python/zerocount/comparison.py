@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 from .answer_types import CompareAnswer
 from .asking import ask
 from .datasets import path_of
-from .optional import required
 
 if TYPE_CHECKING:
     import pandas  # type: ignore[import]
@@ -20,8 +19,7 @@ class Comparison(CompareAnswer):
     @property
     def table(self) -> pandas.DataFrame:
         """One row for each point and measure: the values of both, the change and its bounds, and the verdict."""
-        rows = [{"label": point["label"], **measure} for point in self["points"] for measure in point["measures"]]
-        return required("pandas", "the table of a comparison").json_normalize(rows)
+        return self.rows_of("points.measures")
 
 
 def compare(

@@ -3,26 +3,24 @@
 from __future__ import annotations
 
 import copy
-import dataclasses
 import functools
 import os
 import pathlib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, TypeVar, cast
-
-import numpy as np
 
 import _zerocount
 
 from . import program
 from .answer_types import JudgeAnswer, SummaryAnswer
 from .asking import ask
-from .datasets import Array, Column, ResultsDatasets, state_of
+from .datasets import Column, ResultsDatasets, state_of
 from .errors import DataError
 from .figures import Figure, figure, figure_names
 from .optional import required
-from .tables import combined, frame, short_name, succeeded, worst
+from .tables import frame, short_name
 from .traces import Trace, replayed
+from .trial_columns import TrialColumns, flat
 from .wording import counted
 
 if TYPE_CHECKING:
@@ -179,7 +177,7 @@ class Results:
             raise DataError(f"{self.path}: a part of a study; expected one that 'zerocount merge' joined", 4)
         columns = self._group("point")
         points = columns.pop("point").values
-        return frame("the table of points", self._by_band(columns), points, "point")
+        return frame("the table of points", self._columns.by_band(columns), points, "point")
 
     @_of_file
     def table(self) -> pandas.DataFrame:
@@ -204,7 +202,7 @@ class Results:
         's'
         """
         everything = self.statistics
-        axes = [short_name(axis, list(everything)) for axis in self._axes()]
+        axes = [short_name(str(axis["name"]), list(everything)) for axis in self.checked.axes]
         wanted = [name for part in _TABLE for name in everything if name.partition("[")[0] == part]
         wanted += [name for name in everything if name == "rigs_without_failure"]
         table = everything[["label", *axes, *wanted]].astype({"trials": int})
@@ -217,24 +215,9 @@ class Results:
                 table.attrs["meanings"][name] = _GOAL[name]
         return table
 
-    def _axes(self) -> list[str]:
-        return [str(axis["name"]) for axis in self.checked.axes]
-
-    def _bands(self) -> list[int]:
-        return [int(band) for band in self.checked.bands]
-
-    def _by_band(self, columns: Mapping[str, Column]) -> dict[str, Column]:
-        """The columns, those with a dimension of error bands as one column for each of them."""
-        result = {}
-        for name, column in columns.items():
-            if column.dimensions[-1] != "band":
-                result[name] = column
-                continue
-            for place, band in enumerate(self._bands()):
-                result[f"{name}[{band}]"] = Column(
-                    column.values[..., place], column.dimensions[:-1], column.unit, column.meaning, column.words
-                )
-        return result
+    @property
+    def _columns(self) -> TrialColumns:
+        return TrialColumns(self._file, self.checked)
 
     def _group(self, name: str, rows: slice | None = None) -> dict[str, Column]:
         """Datasets of a file whose checksum was compared."""
@@ -295,61 +278,12 @@ class Results:
         >>> t[["k1", "rig", "success"]].iloc[0].to_dict()
         {'k1': 129.43261101715342, 'rig': 0, 'success': True}
         """
-        rows = self._rows(point)
-        columns = self._inputs(rows)
+        columns = self._columns.trials(self._rows(point))
         trial = columns.pop("trial").values
-        outcome = self._by_band(self._group("outcome", rows))
-        columns.update(self._of_trials({**outcome, **self._meets(outcome)}))
         table = frame("the table of trials", columns, trial, "trial")
         measures = self.checked.descriptions["outcome"]
         table.attrs["combined"] = {name: measures[name]["of_trial"] for name in table if name in measures}
         return table
-
-    def _inputs(self, rows: slice | None) -> dict[str, Column]:
-        """What is known of trials before they are run: point, index, rig, world and inputs."""
-        columns = self._group("trial", rows)
-        columns.update(self._shared(columns["index"].values))
-        columns.update(self._group("trial/input", rows))
-        return columns
-
-    def _meets(self, outcome: Mapping[str, Column]) -> dict[str, Column]:
-        """Whether each move meets the goal of the manifest, if there is one."""
-        goal = self.checked.goal
-        times = outcome.get(f"band_settling_time[{goal['band']}]") if goal is not None else None
-        if goal is None or times is None:
-            return {}
-        met = times.values <= goal["latest"]  # not where it is NaN
-        return {"goal_met": dataclasses.replace(times, values=met, unit="1", meaning="it meets the goal of the manifest")}
-
-    def _shared(self, index: Array) -> dict[str, Column]:
-        """What a trial shares with others: its rig and its world."""
-        columns = {}
-        for name, count, meaning in (
-            ("rig", self.checked.rigs, "index of the rig, the machine of the trial"),
-            ("world", self.checked.worlds, "index of the world"),
-        ):
-            if count > 0:
-                columns[name] = Column(index % count, ("trial",), "1", meaning)
-        return columns
-
-    def _of_trials(self, columns: Mapping[str, Column]) -> dict[str, Column]:
-        """[trial] from [trial, move]."""
-        outcome = columns["outcome"]
-        codes, words = outcome.values, outcome.words
-        result = {
-            "success": Column(succeeded(codes, words), ("trial",), "1", "all moves ended at zero counts"),
-            "outcome": Column(worst(codes, words), ("trial",), "1", "outcome of the worst move", words),
-        }
-        if "goal_met" in columns:
-            met = columns["goal_met"]
-            result["goal_met"] = dataclasses.replace(met, values=met.values.all(axis=1), dimensions=("trial",))
-        measures = self.checked.descriptions["outcome"]
-        for name, column in columns.items():
-            if column.dimensions != ("trial", "move") or name == "outcome" or name not in measures:
-                continue
-            rule = measures[name]["of_trial"]
-            result[name] = Column(combined(column.values, rule), ("trial",), column.unit, column.meaning)
-        return result
 
     def moves(self, point: int | str | None = None, *, inputs: bool = False) -> pandas.DataFrame:
         """Outcomes, one row a move.
@@ -369,24 +303,11 @@ class Results:
         """
         pandas = required("pandas", "the table of moves")
         rows = self._rows(point)
-        columns = self._by_band(self._group("outcome", rows))
-        trial, move = columns.pop("trial").values, columns.pop("move").values
-        columns.update(self._meets(columns))
-        flat = {
-            name: dataclasses.replace(column, values=column.values.reshape(-1))
-            for name, column in columns.items()
-            if column.dimensions == ("trial", "move")
-        }
+        trial, move, columns = self._columns.moves(rows)
         if inputs:
-            known = self._inputs(rows)
-            known.pop("trial")
-            repeated = {
-                name: dataclasses.replace(column, values=np.repeat(column.values, len(move)))
-                for name, column in known.items()
-            }
-            flat = {**repeated, **flat}
+            columns = {**self._columns.repeated_inputs(rows, len(move)), **columns}
         index = pandas.MultiIndex.from_product([trial, move], names=["trial", "move"])
-        return frame("the table of moves", flat, index, None)
+        return frame("the table of moves", columns, index, None)
 
     def jerks(self, point: int | str | None = None) -> pandas.DataFrame:
         """Jerks, one row each: excursions of the error from zero after arrival.
@@ -462,12 +383,8 @@ class Results:
         pandas = required("pandas", "the table of torque levels")
         columns = self._group("level")
         axes = [columns.pop("point").values, columns.pop("move").values]
-        flat = {
-            name: dataclasses.replace(column, values=column.values.reshape(-1)) for name, column in columns.items()
-        }
-        return frame(
-            "the table of torque levels", flat, pandas.MultiIndex.from_product(axes, names=["point", "move"]), None
-        )
+        index = pandas.MultiIndex.from_product(axes, names=["point", "move"])
+        return frame("the table of torque levels", flat(columns, ("point", "move")), index, None)
 
     @_of_file
     def dataset(self) -> Dataset:
@@ -491,7 +408,7 @@ class Results:
             return column.dimensions, column.in_words, {"units": column.unit, "long_name": column.meaning}
 
         outcome = self._group("outcome")
-        outcome.update(self._meets(self._by_band(outcome)))
+        outcome.update(self._columns.meets(self._columns.by_band(outcome)))
         coordinates = {**self._group("trial"), **self._group("trial/input")}
         names = {name: short_name(name, list(coordinates)) for name in coordinates}
         scales = {name: outcome.pop(name) for name in ("trial", "move")}
@@ -500,7 +417,7 @@ class Results:
             {
                 **{names[name]: variable(column) for name, column in coordinates.items()},
                 **{name: variable(column) for name, column in scales.items()},
-                "band": ("band", self._bands(), {"units": "count"}),
+                "band": ("band", list(self.checked.bands), {"units": "count"}),
             },
             {"name": self.name},
         )

@@ -15,6 +15,7 @@ import _zerocount
 from . import program
 from .errors import MachineError, ManifestError
 from .manifests import flow_text, yaml_text
+from .options import options
 from .progress import progress_bar
 from .results import Results
 from .wording import counted
@@ -413,11 +414,9 @@ class Study:
         >>> r.table.loc[2, "success_rate"]
         0.7225
         """
-        options = ["-o", str(pathlib.Path(output).resolve())]
-        options += ["--threads", str(threads)] if threads is not None else []
-        options += ["--force"] if force else []
+        words = options(output=pathlib.Path(output), threads=threads, force=force)
         with progress_bar(self.name, progress) as bar:
-            self.command("run", *options, progress=bar)
+            self.command("run", *words, progress=bar)
         return Results(output)
 
 

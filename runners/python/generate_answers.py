@@ -105,6 +105,11 @@ def described(schema: Schema) -> str:
     return meaning if unit == "1" else f"{meaning}, {unit}" if meaning else unit
 
 
+def sentence(phrase: str) -> str:
+    """The phrase with a capital, unless it begins with a key, and a full stop."""
+    return (phrase[:1].upper() + phrase[1:] if phrase.split(" ")[0].strip(";,:").isalpha() else phrase) + "."
+
+
 def wrapped(text: str, indent: int, further: int = 0) -> str:
     return textwrap.fill(
         text, WIDTH, initial_indent=" " * indent, subsequent_indent=" " * (indent + further), break_long_words=False,
@@ -123,16 +128,14 @@ def column_lines(rows: Schema, indent: int) -> Iterator[str]:
 
 
 def documentation(schema: Schema, members: Mapping[str, str]) -> Iterator[str]:
-    summary = schema.get("description") or "What the program answers"
-    yield wrapped(f'"""{summary[:1].upper()}{summary[1:]}.', 4)
+    yield wrapped('"""' + sentence(schema.get("description") or "what the program answers"), 4)
     yield ""
     if members:
         yield "    Attributes\n    ----------"
     for key, type_name in members.items():
         found = schema["properties"][key]
         yield f"    {attribute(key)} : {type_name.replace(' | None', ' or None')}"
-        meaning = described(found) or key.replace("_", " ")
-        yield wrapped(f"{meaning[:1].upper()}{meaning[1:]}.", 8)
+        yield wrapped(sentence(described(found) or key.replace("_", " ")), 8)
         rows = row_schema(found)
         if rows is not None:
             yield ""

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -133,8 +134,7 @@ class BlockList {
         blocks_.emplace_back(SentenceBlock{std::get<std::string>(content.value)});
         return;
       case Kind::table:
-        if (const Rows& rows = std::get<Rows>(content.value); !rows.rows.empty())
-          blocks_.emplace_back(table_block(item, rows));
+        add_table(item, std::get<Rows>(content.value));
         return;
       case Kind::sections:
         for (const Members& row : std::get<Rows>(content.value).rows) add(item.members, row);
@@ -154,6 +154,32 @@ class BlockList {
       case Kind::map:
         add_fact(item, content);
     }
+  }
+
+  void add_table(const Item& item, const Rows& rows) {
+    if (rows.rows.empty()) return;
+    TableBlock table = table_block(item, rows);
+    if (item.common_above) add_common_columns(table);
+    if (!table.columns.empty()) blocks_.emplace_back(std::move(table));
+  }
+
+  /// Moves the columns whose cells are all equal, of a single row all, out of the table into facts below its
+  /// title.
+  void add_common_columns(TableBlock& table) {
+    FactsBlock common;
+    std::vector<BlockColumn> others;
+    for (BlockColumn& column : table.columns) {
+      const std::string& cell = column.cells.front();
+      if (std::ranges::count(column.cells, cell) == std::ssize(column.cells)) {
+        common.facts.push_back({column.head, column.unit.empty() ? cell : cell + " " + column.unit});
+      } else {
+        others.push_back(std::move(column));
+      }
+    }
+    table.columns = std::move(others);
+    if (common.facts.empty()) return;
+    if (!table.title.empty()) blocks_.emplace_back(SectionBlock{std::exchange(table.title, "")});
+    blocks_.emplace_back(std::move(common));
   }
 
   void add_fact(const Item& item, const Content& content) {

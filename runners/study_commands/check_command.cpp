@@ -1,21 +1,22 @@
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "analysis/statistics/sample_size.hpp"
 #include "analysis/summary/shown_points.hpp"
-#include "analysis/text/percent.hpp"
+#include "analysis/theory/point_theory_description.hpp"
 #include "core/loop/encoder.hpp"
 #include "experiments/study/study.hpp"
+#include "runners/answers/answer_format.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/plugins/hidden_state.hpp"
-#include "runners/standard_output/standard_output.hpp"
 #include "runners/status/status.hpp"
-#include "runners/study_commands/point_theory_text.hpp"
 #include "runners/study_commands/study_commands.hpp"
 #include "runners/study_run/cost.hpp"
 #include "runners/study_run/engine_use.hpp"
@@ -45,143 +46,274 @@ constexpr const char* check_help =
 
 constexpr std::int64_t points_shown = 20;
 
-/// Prints the input columns that are drawn as often as one of `drawn`, after `title`; nothing if there are
-/// none.
-void print_columns(const study::Study& study, std::string_view title,
-                   std::initializer_list<study::Per> drawn) {
-  std::string names;
-  for (const study::InputColumn& column : study.input_columns) {
-    if (std::find(drawn.begin(), drawn.end(), column.per) != drawn.end()) names += " " + column.name;
+/// A design point, its theory, and the targets of its trial 0 in counts, if they are in SI units.
+struct PointReading {
+  std::int64_t point;
+  std::string label;
+  std::optional<std::string> name;  ///< a short label; none in a study of one point
+  theory::PointTheory theory;
+  std::optional<std::string> targets;
+};
+
+/// A loop of a point, for the table of loops.
+struct PointLoop {
+  std::optional<std::string> point;  ///< its name
+  const theory::LoopRanges* loop;
+};
+
+struct Plan {
+  const study::Study& study;
+  study_run::StudyCost cost;
+  study_run::StudySize size;
+  std::vector<PointReading> points;  ///< the first ones
+
+  std::int64_t all_points() const { return study::point_count(study); }
+  std::int64_t points_left_out() const { return all_points() - std::ssize(points); }
+  double disk_bytes() const { return size.file_bytes + size.shard_bytes; }
+  std::vector<PointLoop> loops() const {
+    std::vector<PointLoop> all;
+    for (const PointReading& point : points) {
+      for (const theory::LoopRanges& loop : point.theory.loops) all.push_back({point.name, &loop});
+    }
+    return all;
   }
-  if (!names.empty()) standard_output::print("  {}:{}\n", title, names);
+};
+
+/// "1 core", "3 cores".
+std::string counted(std::int64_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+std::string plan_headline(const Plan& plan) {
+  const study::Study& study = plan.study;
+  return fmt::format("{}: {} × {} trials = {} trials, {} each, in about {}", study.name,
+                     counted(plan.all_points(), "design point"), study.trials, study::trial_count(study),
+                     counted(study.moves, "move"), study_run::duration_text(plan.cost.seconds()));
+}
+
+/// How the trials of a point belong to rigs and worlds, and what may end them, a line each.
+std::string trials_text(const Plan& plan) {
+  const study::Study& study = plan.study;
+  std::string text;
+  if (study.rigs > 0)
+    text += fmt::format("at each point {} rigs × {} trials of each\n", study.rigs, study.trials / study.rigs);
+  if (study.worlds > 0) {
+    text += fmt::format("in {} worlds, {} in each\n", study.worlds,
+                        study.rigs > 0 ? counted(study.rigs / study.worlds, "rig")
+                                       : fmt::format("about {} trials", study.trials / study.worlds));
+  }
+  if (!study.stop) return text;
+  text += fmt::format(
+      "or fewer: after every {} at each point it ends if all success rates are known to ± {:.4g}; its "
+      "bounds hold at whatever number of trials it ends, which takes more than a fixed number\n",
+      study.stop->block, study.stop->success_rate_halfwidth);
+  if (study.rigs > 0) {
+    text += fmt::format(
+        "(of these {} rigs; more trials do not show how other rigs differ; see 'zerocount plan --rig-sd')\n",
+        study.rigs);
+  }
+  return text;
+}
+
+std::string cost_text(const Plan& plan) {
+  const std::string engine = study_run::engine_text(study_run::points_on_reference(plan.study));
+  return fmt::format(
+      "{:.4g} samples at {:.0f} ns: about {} on {}\n{}{}results file about {}; while it runs up to {} on the "
+      "disk and {} of memory",
+      plan.cost.samples, 1e9 * plan.cost.seconds_per_sample, study_run::duration_text(plan.cost.seconds()),
+      counted(plan.cost.cores, "core"), engine, engine.empty() ? "" : "\n",
+      study_run::bytes_text(plan.size.file_bytes), study_run::bytes_text(plan.disk_bytes()),
+      study_run::bytes_text(plan.size.memory_bytes));
+}
+
+/// Over what the theory is.
+std::string theory_text(const Plan& plan) {
+  const std::string which = plan.points_left_out() == 0
+                                ? "each point"
+                                : fmt::format("each of the first {} of {} points (--all-points shows all)",
+                                              plan.points.size(), plan.all_points());
+  std::string text =
+      fmt::format("The theory is of the first {} trials of {}, each with the friction it starts on",
+                  std::min(plan.study.trials, theory::max_trials_examined), which);
+  if (plan.study.trials > theory::max_trials_examined_closely) {
+    text += fmt::format(
+        "; the sampled loop, time constants and margins over the first {}, and the trials with the lowest "
+        "and the highest k1",
+        theory::max_trials_examined_closely);
+  }
+  return text;
 }
 
 /// Trials that the rule takes against a number fixed beforehand, at three success rates.
-void print_cost_of_stopping(const study::StoppingRule& rule) {
-  standard_output::print(
-      "  its bounds hold at whatever number of trials it ends, which takes more than a fixed number:\n");
-  for (const double rate : {0.5, 0.9, 0.99}) {
-    const statistics::SequentialCost cost =
-        statistics::sequential_cost(rule.success_rate_halfwidth, rule.confidence, rate, rule.block);
-    standard_output::print(
-        "    success rate {}: about {} trials at each point, {:.1f} times the {} of a fixed number{}\n",
-        text::percent(rate), cost.sequential, cost.ratio(), cost.fixed,
-        cost.sequential > rule.max_trials ? fmt::format("; max_trials ends it before, at {}", rule.max_trials)
-                                          : "");
-  }
+std::vector<statistics::SequentialCost> stopping_costs(const Plan& plan) {
+  std::vector<statistics::SequentialCost> costs;
+  if (!plan.study.stop) return costs;
+  const study::StoppingRule& rule = *plan.study.stop;
+  for (const double rate : {0.5, 0.9, 0.99})
+    costs.push_back(
+        statistics::sequential_cost(rule.success_rate_halfwidth, rule.confidence, rate, rule.block));
+  return costs;
 }
 
-void print_what_differs(const study::Study& study) {
-  if (study.input_columns.empty()) standard_output::print("  differing between trials: nothing\n");
-  print_columns(study, "differing between trials", {study::Per::trial, study::Per::contact});
-  print_columns(study, "of these, drawn anew at each contact", {study::Per::contact});
-  print_columns(study, "differing between rigs", {study::Per::rig});
-  print_columns(study, "differing between worlds", {study::Per::world});
-  print_columns(study, "the same in all trials of a point", {study::Per::study});
-  if (study.samples) standard_output::print("  sampled together: {}\n", study::samples_text(*study.samples));
-  if (!study.correlations.empty())
-    standard_output::print("  correlated: {}\n", study::correlations_text(study.correlations));
+document::Description<statistics::SequentialCost> stopping_description() {
+  using statistics::SequentialCost;
+  return document::Description<SequentialCost>()
+      .value({.key = "success_rate",
+              .heading = "success rate",
+              .meaning = "success rate of the trials",
+              .unit = "1",
+              .notation = document::Notation::given_percent},
+             &SequentialCost::rate)
+      .value({"trials", "trials at each point", "trials that the stopping rule takes, about"},
+             &SequentialCost::sequential)
+      .value({"fixed", "if fixed beforehand", "trials for the same bounds, if fixed beforehand"},
+             &SequentialCost::fixed)
+      .value({"ratio", "ratio", "ratio of both", "1", document::Notation::two_digits},
+             &SequentialCost::ratio);
 }
 
-void print_plan(const study::Study& study) {
-  const study_run::StudyCost cost = study_run::measure_cost(study);
-  standard_output::print("{}: {}\n", study.name,
-                         study.description.empty() ? "(no description)" : study.description);
-  standard_output::print("  {} × {} trials = {} trials, {} each\n",
-                         counted(study::point_count(study), "design point"), study.trials,
-                         study::trial_count(study), counted(study.moves, "move"));
-  if (study.rigs > 0) {
-    standard_output::print("  at each point {} rigs × {} trials of each\n", study.rigs,
-                           study.trials / study.rigs);
-  }
-  if (study.worlds > 0) {
-    standard_output::print("  in {} worlds, {} in each\n", study.worlds,
-                           study.rigs > 0 ? counted(study.rigs / study.worlds, "rig")
-                                          : fmt::format("about {} trials", study.trials / study.worlds));
-  }
-  if (study.stop) {
-    standard_output::print(
-        "  or fewer: after every {} at each point it ends if all success rates are known to ± {:.4g}\n",
-        study.stop->block, study.stop->success_rate_halfwidth);
-    print_cost_of_stopping(*study.stop);
-    if (study.rigs > 0) {
-      standard_output::print(
-          "  (of these {} rigs; more trials do not show how other rigs differ; see 'zerocount plan "
-          "--rig-sd')\n",
-          study.rigs);
+/// The names of the inputs that are drawn as often as this.
+void add_inputs(document::Description<Plan>& description, document::Item item,
+                std::vector<study::Per> drawn) {
+  description.value(std::move(item), [drawn = std::move(drawn)](const Plan& plan) {
+    std::vector<std::string> names;
+    for (const study::InputColumn& column : plan.study.input_columns) {
+      if (std::ranges::find(drawn, column.per) != drawn.end()) names.push_back(column.name);
     }
-  }
-  standard_output::print("  {:.4g} samples at {:.0f} ns: about {} on {}\n", cost.samples,
-                         1e9 * cost.seconds_per_sample, study_run::duration_text(cost.seconds()),
-                         counted(cost.cores, "core"));
-  const std::string engine = study_run::engine_text(study_run::points_on_reference(study));
-  if (!engine.empty()) standard_output::print("  {}\n", engine);
-  const study_run::StudySize size = study_run::measure_size(study);
-  standard_output::print("  results file about {}; while it runs up to {} on the disk and {} of memory\n",
-                         study_run::bytes_text(size.file_bytes),
-                         study_run::bytes_text(size.file_bytes + size.shard_bytes),
-                         study_run::bytes_text(size.memory_bytes));
-  print_what_differs(study);
+    return names;
+  });
 }
 
-void print_theory_heading(const study::Study& study) {
-  standard_output::print(
-      "\nTheory, over the first {} trials of each point, each with the friction it starts on:\n",
-      std::min(study.trials, theory::max_trials_examined));
-  if (study.trials > theory::max_trials_examined_closely) {
-    standard_output::print(
-        "(sampled loop, time constants and margins over the first {}, and the trials with the lowest and the "
-        "highest k1)\n",
-        theory::max_trials_examined_closely);
-  }
+document::Description<PointReading> point_description() {
+  using document::in_data;
+  return document::Description<PointReading>()
+      .value(in_data("point", "number of the design point"), &PointReading::point)
+      .value(in_data("label", "label of the design point"), &PointReading::label)
+      .value({.key = "name", .heading = "point", .shown = document::Shown::to_people}, &PointReading::name)
+      .include(theory::point_theory_description(), &PointReading::theory)
+      .value({"targets", "targets of trial 0", "targets of trial 0 in SI units, and their counts"},
+             &PointReading::targets);
 }
 
-/// Adds the targets of trial 0 in SI units, and the counts that they become; nothing for targets in counts.
-void add_targets(std::vector<TheoryItem>& items, const study::Study& study, std::int64_t point) {
+document::Description<Plan> plan_description() {
+  using document::in_data;
+  using study_run::StudyCost;
+  using Of = const Plan&;
+  document::Description<Plan> plan;
+  plan.headline(plan_headline)
+      .sentence([](Of p) { return p.study.description; })
+      .value(in_data("name", "name of the study"), [](Of p) { return p.study.name; })
+      .value(in_data("points", "design points"), &Plan::all_points)
+      .value(in_data("trials", "trials of each point, or the most of them"),
+             [](Of p) { return p.study.trials; })
+      .value(in_data("moves", "moves of a trial"), [](Of p) { return p.study.moves; })
+      .value(in_data("rigs", "rigs at each point; 0: none"), [](Of p) { return p.study.rigs; })
+      .value(in_data("worlds", "worlds; 0: none"), [](Of p) { return p.study.worlds; })
+      .sentence(trials_text)
+      .table({"stopping", "Trials that the stopping rule takes", "trials that the stopping rule takes"},
+             stopping_description(), stopping_costs)
+      .sentence(cost_text)
+      .object(in_data("cost", "computing time"),
+              document::Description<StudyCost>()
+                  .value(in_data("samples", "samples of all trials"), &StudyCost::samples)
+                  .value(in_data("seconds_per_sample", "on one core", "s"), &StudyCost::seconds_per_sample)
+                  .value(in_data("cores", "cores of this machine"), &StudyCost::cores)
+                  .value(in_data("seconds", "with all cores", "s"), &StudyCost::seconds),
+              &Plan::cost)
+      .value(in_data("file_bytes", "size of the results file", "byte"),
+             [](Of p) { return p.size.file_bytes; })
+      .value(in_data("disk_bytes", "most space on the disk while it runs", "byte"), &Plan::disk_bytes)
+      .value(in_data("memory_bytes", "most memory", "byte"), [](Of p) { return p.size.memory_bytes; })
+      .sentence([](Of p) {
+        return p.study.input_columns.empty() ? std::string("differing between trials: nothing") : "";
+      });
+  using study::Per;
+  add_inputs(plan, {"differ_in_trials", "differing between trials", "inputs that differ between trials"},
+             {Per::trial, Per::contact});
+  add_inputs(
+      plan, {"differ_in_contacts", "of these, drawn anew at each contact", "of these, drawn at each contact"},
+      {Per::contact});
+  add_inputs(plan, {"differ_in_rigs", "differing between rigs", "inputs that differ between rigs"},
+             {Per::rig});
+  add_inputs(plan, {"differ_in_worlds", "differing between worlds", "inputs that differ between worlds"},
+             {Per::world});
+  add_inputs(
+      plan, {"same_in_points", "the same in all trials of a point", "inputs that differ between points only"},
+      {Per::study});
+  return plan
+      .value({"sampled_together", "sampled together", "inputs of a table of samples"},
+             [](Of p) {
+               return p.study.samples ? study::samples_text(*p.study.samples) : std::optional<std::string>();
+             })
+      .value({"correlated", "correlated", "correlated inputs"},
+             [](Of p) {
+               return p.study.correlations.empty() ? std::optional<std::string>()
+                                                   : study::correlations_text(p.study.correlations);
+             })
+      .sentence(theory_text)
+      .value(in_data("points_left_out", "points without their theory here"), &Plan::points_left_out)
+      .table({.key = "theory",
+              .heading = "Theory",
+              .meaning = "theory of the first points",
+              .common_above = true},
+             point_description(), &Plan::points)
+      .table({.key = "loops", .heading = "Loops", .shown = document::Shown::to_people},
+             document::Description<PointLoop>()
+                 .value({.key = "point", .heading = "point"}, &PointLoop::point)
+                 .include(theory::loop_description(), &PointLoop::loop),
+             &Plan::loops);
+}
+
+document::AnswerDescription<Plan> check_answer() {
+  return {{.name = "check",
+           .meaning = "the plan of a study, and the theory of its points",
+           .csv_table = "theory"},
+          plan_description()};
+}
+
+/// "to the nearest of 3.9e-06 rad: 0.0001 rad = 26 counts"; nothing for targets in counts.
+std::optional<std::string> targets_text(const study::Study& study, std::int64_t point) {
   constexpr std::size_t shown = 5;
   const study::StudyTrial trial = study::study_trial(study, point, 0);
   const std::size_t moves = trial.target_positions.size();
-  if (moves == 0) return;
+  if (moves == 0) return {};
   const std::string unit = parameters::unit_on(study.units.axis, "rad");
   std::string text;
   for (std::size_t i = 0; i < std::min(moves, shown); ++i) {
     text += fmt::format("{}{:.6g} {} = {}", i == 0 ? "" : ", ", trial.target_positions[i], unit,
                         counted(trial.parameters.command.targets[i], "count"));
   }
-  items.push_back({"targets of trial 0", fmt::format("to the nearest of {:.4g} {}: {}{}",
-                                                     loop::fine_resolution(trial.parameters.encoder), unit,
-                                                     text, moves > shown ? ", …" : "")});
+  return fmt::format("to the nearest of {:.4g} {}: {}{}", loop::fine_resolution(trial.parameters.encoder),
+                     unit, text, moves > shown ? ", …" : "");
+}
+
+std::vector<PointReading> examined_points(const study::Study& study, std::int64_t count) {
+  const std::vector<std::string> names = summary::short_labels(study.point_labels, study.axes);
+  std::vector<PointReading> points;
+  for (std::int64_t point = 0; point < count; ++point) {
+    const auto index = static_cast<std::size_t>(point);
+    points.push_back({point, study.point_labels[index],
+                      names.size() == 1 ? std::nullopt : std::optional(names[index]),
+                      theory::examine(study, point), targets_text(study, point)});
+    const theory::Approach& approach = points.back().theory.approach;
+    if (!approach.exceeds_hold()) continue;
+    status::tell(
+        "warning: point {} ({}): the loop's slowest time constant{}: moves may end before they arrive\n",
+        point, points.back().label, theory::slowness_text(approach));
+  }
+  return points;
 }
 
 ExitCode check(const command_line::Arguments& arguments) {
-  const std::string& manifest = arguments.operands()[0];
-  const study::Study study = commands::load_study(manifest, arguments);
+  const study::Study study = commands::load_study(arguments.operands()[0], arguments);
   plugins::require_no_hidden_state(study);
   if (study.tuning && study.goal) tuning::criterion_of(study);  // a wrong one is an error
   commands::print_warnings(study);
-  print_plan(study);
-  print_theory_heading(study);
-  const std::int64_t shown = arguments.has("all-points") ? study::point_count(study)
-                                                         : std::min(study::point_count(study), points_shown);
-  std::vector<std::vector<TheoryItem>> items;
-  for (std::int64_t point = 0; point < shown; ++point) {
-    const theory::PointTheory theory = theory::examine(study, point);
-    items.push_back(theory_items(theory));
-    add_targets(items.back(), study, point);
-    const std::string& label = study.point_labels[static_cast<std::size_t>(point)];
-    if (!theory.approach.exceeds_hold()) continue;
-    status::tell(
-        "warning: point {} ({}): the loop's slowest time constant{}: moves may end before they arrive\n",
-        point, label, slowness_text(theory.approach));
-  }
-  std::vector<std::string> labels = summary::short_labels(study.point_labels, study.axes);
-  labels.resize(static_cast<std::size_t>(shown));
-  standard_output::write_fitted(theory_text(labels, items, study::point_count(study)));
-  if (shown < study::point_count(study)) {
-    standard_output::print("  … and {} more points (--all-points shows them)\n",
-                           study::point_count(study) - shown);
-  }
-  return ExitCode::success;
+  const std::int64_t all = study::point_count(study);
+  const std::int64_t shown = arguments.has("all-points") ? all : std::min(all, points_shown);
+  return answers::print(
+      arguments, check_answer().of({study, study_run::measure_cost(study), study_run::measure_size(study),
+                                    examined_points(study, shown)}));
 }
 
 }  // namespace
@@ -189,11 +321,13 @@ ExitCode check(const command_line::Arguments& arguments) {
 commands::Command check_command() {
   return {{"check",
            "MANIFEST",
-           {{"set", "KEY=VALUE", "override a manifest key; may be repeated", true},
+           {answers::format_option(check_answer().complete_type()),
+            {"set", "KEY=VALUE", "override a manifest key; may be repeated", true},
             {"all-points", "", "print the theory of every design point, not only of the first 20"}}},
           "validate a manifest; print its plan and the theory of its points",
           check_help,
-          check};
+          check,
+          {check_answer().complete_type()}};
 }
 
 }  // namespace zerocount::study_commands

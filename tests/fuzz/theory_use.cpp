@@ -4,7 +4,8 @@
 #include <set>
 #include <string>
 
-#include "runners/study_commands/point_theory_text.hpp"
+#include "analysis/document/answer.hpp"
+#include "analysis/theory/point_theory_description.hpp"
 #include "tests/fuzz/expectation.hpp"
 
 namespace zerocount::fuzz {
@@ -15,10 +16,10 @@ void use_theory(const study::Study& study) {
   study::Study first = study;
   first.trials = 1;
   first.rigs = std::min<std::int64_t>(study.rigs, 1);
+  const document::AnswerDescription<theory::PointTheory> answer{{.name = "theory", .meaning = "theory"},
+                                                                theory::point_theory_description()};
   for (const std::int64_t point : std::set<std::int64_t>{0, study::point_count(study) - 1}) {
-    const std::vector<study_commands::TheoryItem> items =
-        study_commands::theory_items(theory::examine(first, point));
-    const std::string text = study_commands::theory_text({}, {{items}}, 1);
+    const std::string text = document::text(answer.of(theory::examine(first, point)));
     if (!text.empty()) require_text(text);
   }
 }

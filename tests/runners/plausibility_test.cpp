@@ -44,7 +44,7 @@ TEST_F(Hints, CheckSaysInHowManyTrialsARuleHolds) {
         run({"check", "study.yaml", "--set", "trials=40", "--set", "friction.k1={uniform: [100, 200]}",
              "--set", "dac.resolution=" + resolution})
             .out;
-    const std::size_t start = out.find("  DAC resolution");
+    const std::size_t start = out.find("DAC resolution:");
     return out.substr(start, out.find('\n', start) - start);
   };
   // k1·Δx lies between 3.9e-4 and 7.8e-4 N m.

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/friction/profile.hpp"
 #include "experiments/manifest/load_study.hpp"
@@ -53,14 +54,14 @@ class RigStudy : public ::testing::Test {
 TEST_F(RigStudy, CheckSaysHowManyTrialsARigHasAndWhatItIsThatDiffers) {
   const ProgramResult result = program({"check", "m.yaml"});
   EXPECT_EQ(result.code, 0) << result.err;
-  for (const char* line :
-       {"at each point 8 rigs × 5 trials of each\n",
-        "differing between rigs: friction.k1.profile.mean friction.k2\n",
-        "differing between trials: friction.k1 friction.breakaway command.targets.0 initial.position\n",
-        "of these, drawn anew at each contact: friction.breakaway\n",
-        "the same in all trials of a point: controller.ki\n"}) {
-    EXPECT_NE(result.out.find(line), std::string::npos) << line << result.out;
-  }
+  EXPECT_NE(result.out.find("at each point 8 rigs × 5 trials of each\n"), std::string::npos) << result.out;
+  const auto plan = nlohmann::json::parse(program({"check", "m.yaml", "--format", "json"}).out);
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(plan["differ_in_rigs"], (Names{"friction.k1.profile.mean", "friction.k2"}));
+  EXPECT_EQ(plan["differ_in_trials"],
+            (Names{"friction.k1", "friction.breakaway", "command.targets.0", "initial.position"}));
+  EXPECT_EQ(plan["differ_in_contacts"], Names{"friction.breakaway"});
+  EXPECT_EQ(plan["same_in_points"], Names{"controller.ki"});
 }
 
 // Of 200 rigs the softest is none of the first 20.
@@ -86,8 +87,8 @@ TEST_F(RigStudy, CheckGivesTheBoundsAtTheSoftestRotorOfAllRigs) {
   const double bound = 0.2 * lowest / 5.54e-4 * (study.period / 1'620'000) * 0.25e-3;
   const std::string out = program({"check", "m.yaml"}).out;
   for (const std::string& expected :
-       {fmt::format("  {:.3g}, the lowest along the profiles of 200 rigs\n", lowest),
-        fmt::format("at the lowest k1: (6) stable below    {:.3g} ", bound)})
+       {fmt::format(" {:.3g}, the lowest along the profiles of 200 rigs\n", lowest),
+        fmt::format("at the lowest k1: (6) stable below:   {:.3g} ", bound)})
     EXPECT_NE(out.find(expected), std::string::npos) << expected << "\n" << out;
 }
 

@@ -1,0 +1,59 @@
+// What `check` says of the theory of points.
+#include "analysis/theory/point_theory_description.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "analysis/document/answer.hpp"
+#include "experiments/manifest/load_study.hpp"
+
+namespace zerocount::theory {
+namespace {
+
+document::Answer theory_with(const std::string& friction) {
+  const study::Study study = manifest::parse_study(
+      "zerocount: 1\nname: axis\nseed: 1\ntrials: 1\nplant: {inertia: 2.0e-3, sliding_damping: 2.0e-3}\n"
+      "dac: {bits: 24, resolution: 1.0e-6}\nencoder: {fine: 2000000}\n"
+      "controller: {units: si, sample_rate: 2000, kp: 2, ki: 4, kd: 0.1}\n"
+      "command: {targets: [100000], hold: 50}\nfriction: {" +
+          friction + "}\n",
+      "m.yaml", {});
+  const document::AnswerDescription<PointTheory> answer{{.name = "theory", .meaning = "theory of a point"},
+                                                        point_theory_description()};
+  return answer.of(examine(study, 0));
+}
+
+// A stiff bristle with a static level sticks and slides as Coulomb friction does.
+TEST(PointTheoryDescription, PredictsStickSlipWithABristleToo) {
+  const std::string levels = "breakaway: 0.1, coulomb_ratio: 0.6, stribeck_velocity: 1.0e-3";
+  const auto coulomb = document::json(theory_with("model: coulomb, " + levels));
+  EXPECT_EQ(coulomb["hunting_by_stick_slip"].size(), 1U);
+  const document::Answer bristle = theory_with("model: lugre, sigma0: 3.0e+4, sigma1: 15, " + levels);
+  EXPECT_EQ(document::json(bristle)["hunting_by_stick_slip"].size(), 1U);
+  EXPECT_EQ(document::json(bristle)["hunting_by_stick_slip"][0]["rough"], true);
+  const std::string text = document::text(bristle);
+  EXPECT_NE(text.find("within a third (before it slides, the bristle yields"), std::string::npos) << text;
+  EXPECT_EQ(text.find("by describing function"), std::string::npos) << "which leaves this cycle out\n"
+                                                                    << text;
+  const std::string dahl = document::text(theory_with("model: dahl, sigma0: 3.0e+4, breakaway: 0.1"));
+  EXPECT_NE(dahl.find("hunting of trial 0, by stick-slip: "), std::string::npos) << dahl;
+  EXPECT_NE(dahl.find(" no lasting cycle\n"), std::string::npos) << dahl;
+}
+
+TEST(PointTheoryDescription, HasTheNumbersOfEachStatement) {
+  const document::Answer answer = theory_with("k1: 110");
+  const auto theory = document::json(answer);
+  EXPECT_TRUE(theory["outside"].is_null());
+  EXPECT_LT(theory["stable_below"]["low"], theory["unstable_above"]["low"]);
+  EXPECT_EQ(theory["lowest_k1"], 110.0);
+  EXPECT_EQ(theory["loops"].size(), 3U);
+  const std::string text = document::text(answer);
+  for (const char* key : {"stable_below", "sampled_below", "unstable_above", "gain", "dac_bound"}) {
+    const std::string number = fmt::format("{:.3g} ", theory[key]["low"].get<double>());
+    EXPECT_NE(text.find(number), std::string::npos) << key << ": " << number << "\n" << text;
+  }
+}
+
+}  // namespace
+}  // namespace zerocount::theory

@@ -71,6 +71,11 @@ std::string goal_sentence(const study::Goal& goal) {
                      goal.within, text::percent(goal.moves), machines, text::percent(goal.confidence));
 }
 
+std::string question_sentence(const Question& question) {
+  return question.claim() ? "the goal: " + goal_sentence(*question.claim())
+                          : std::string("success: all moves of a trial end at zero counts");
+}
+
 std::string missing_text(const Question& question) {
   if (!question.claim()) return "does not end at zero counts";
   return fmt::format("misses the goal: {} for good after {} s", band_text(*question.claim()),

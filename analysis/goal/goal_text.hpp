@@ -12,6 +12,9 @@ namespace zerocount::goal {
 /// 95 % confidence".
 std::string goal_sentence(const study::Goal& goal);
 
+/// "the goal: |error| ≤ 1 count …", "success: all moves of a trial end at zero counts".
+std::string question_sentence(const Question& question);
+
 /// The readings of the proportions, a line each: of all moves of all machines; with rigs, of machines that
 /// meet the goal in Goal::moves of their moves, and of rigs without a miss.
 std::string readings_text(const study::Goal& goal, const measures::MoveCounts& counts,

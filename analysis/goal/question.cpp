@@ -82,6 +82,14 @@ Question question_of(const study::Study& study) {
           .stopped = study.stop.has_value()};
 }
 
+void require_claim(const std::optional<study::Goal>& claim, std::string_view path) {
+  if (claim) return;
+  throw Failure(ExitCode::bad_input,
+                fmt::format("{}: its manifest has no goal; expected one such as goal: {{band: 1, within: "
+                            "0.05, moves: 0.99}}",
+                            path));
+}
+
 void require_targets(const study::Study& study, std::string_view path) {
   if (!study.open_loop) return;
   throw Failure(ExitCode::bad_input,
@@ -124,6 +132,10 @@ Badness badness_of(const Question& question, std::span<const trial::MoveOutcome>
   return {static_cast<double>(missed), time, severity, error};
 }
 
+Verdict verdict_on(const Question& question, const measures::MoveCounts& counts, std::size_t points) {
+  return judge_goal(question.claim().value(), counts, points);
+}
+
 measures::MoveCounts counts_of(const Question& question, const measures::PointSummary& point) {
   return question.claim() ? point.goal.value() : successes_of(point);
 }
@@ -139,16 +151,25 @@ std::string settling_measure(const Question& question) {
                           : "settling_time";
 }
 
+statistics::Quantile measures::MeasureStatistics::*settling_quantile(const Question& question) {
+  return question.claim() ? &measures::MeasureStatistics::p95 : &measures::MeasureStatistics::median;
+}
+
+std::string settling_statistic(const Question& question) {
+  return question.claim() ? layout::name_of_band("band_settling_time_p95", question.claim()->band)
+                          : "settling_time_median";
+}
+
 std::vector<double> merits_of(const Question& question, const measures::PointSummary& point) {
-  if (!question.claim()) {
-    return {statistics::rate(point.outcomes.zero_count, point.trials),
-            -lateness(settling_of(question, point).median.value)};
-  }
-  const Verdict verdict = judge_goal(*question.claim(), *point.goal, 1);
   std::vector<double> merits;
-  if (question.claim()->machines) merits.push_back(verdict.machines.value);
-  merits.push_back(verdict.moves.value);
-  merits.push_back(-lateness(settling_of(question, point).p95.value));
+  if (question.claim()) {
+    const Verdict verdict = verdict_on(question, *point.goal);
+    if (is_of_machines(question)) merits.push_back(verdict.machines.value);
+    merits.push_back(verdict.moves.value);
+  } else {
+    merits.push_back(statistics::rate(point.outcomes.zero_count, point.trials));
+  }
+  merits.push_back(-lateness((settling_of(question, point).*settling_quantile(question)).value));
   return merits;
 }
 
@@ -158,7 +179,7 @@ QuestionRate rate_of(const Question& question, const measures::PointSummary& poi
     return {point.success_rate().value, bounds_of_chosen(point, points, question.stopped, confidence),
             point.outcomes.zero_count, point.trials};
   }
-  const Verdict verdict = judge_goal(*question.claim(), *point.goal, points);
+  const Verdict verdict = verdict_on(question, *point.goal, points);
   const measures::MoveCounts shown =
       point.goal->worlds > 0
           ? measures::in_worlds(*point.goal)[worst_worlds_first(*question.claim(), verdict).front()]

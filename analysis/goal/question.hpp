@@ -37,6 +37,8 @@ struct Question {
 };
 
 Question question_of(const study::Study& study);
+/// @throws Failure (bad_input) without a claim. @param path of the manifest or file
+void require_claim(const std::optional<study::Goal>& claim, std::string_view path);
 /// @throws Failure (bad_input) for a study of torque levels, of which nothing is asked. @param path its name
 void require_targets(const study::Study& study, std::string_view path);
 /// Success in place of the goal.
@@ -79,6 +81,9 @@ double settling_time(const Question& question, std::span<const trial::MoveOutcom
 using Badness = std::array<double, 4>;
 Badness badness_of(const Question& question, std::span<const trial::MoveOutcome> moves);
 
+/// The verdict on the claim. @param counts of the moves that meet it @param points as of judge_goal()
+Verdict verdict_on(const Question& question, const measures::MoveCounts& counts, std::size_t points = 1);
+
 /// The moves of a point (without a claim its trials, each as one move) that meet the question.
 measures::MoveCounts counts_of(const Question& question, const measures::PointSummary& point);
 
@@ -87,6 +92,11 @@ const measures::MeasureStatistics& settling_of(const Question& question, const m
 
 /// The name of that measure: "band_settling_time[2]", "settling_time".
 std::string settling_measure(const Question& question);
+
+/// Its quantile by which points are compared: the 95 % quantile, of the arrival the median.
+statistics::Quantile measures::MeasureStatistics::*settling_quantile(const Question& question);
+/// The name of this quantile in files: "band_settling_time_p95[2]", "settling_time_median".
+std::string settling_statistic(const Question& question);
 
 /// What a design point is compared by, the most important number first; larger is better.
 std::vector<double> merits_of(const Question& question, const measures::PointSummary& point);

@@ -31,8 +31,7 @@ std::vector<double> rates_of_rigs(const goal::Question& question, const measures
   std::vector<double> rates;
   for (const statistics::RigMoves& rig : counts.rigs) {
     const double met = statistics::rate(rig.met, rig.moves);
-    const bool of_machines = question.claim() && question.claim()->machines;
-    rates.push_back(!of_machines ? met : met >= question.claim()->moves ? 1.0 : 0.0);
+    rates.push_back(!is_of_machines(question) ? met : met >= question.claim()->moves ? 1.0 : 0.0);
   }
   return rates;
 }
@@ -60,18 +59,18 @@ struct AdjustedRate {
 };
 
 /// Whether the worst world of `other` is shown to be worse than that of `best`, by the bounds of both.
-bool has_worse_world(const study::Goal& goal, const measures::MoveCounts& best,
+bool has_worse_world(const goal::Question& question, const measures::MoveCounts& best,
                      const measures::MoveCounts& other) {
-  const goal::Verdict of_best = goal::judge_goal(goal, best, 1);
-  const goal::Verdict of_other = goal::judge_goal(goal, other, 1);
-  return goal.machines ? of_other.machines.high < of_best.machines.low
-                       : of_other.moves.high < of_best.moves.low;
+  const goal::Verdict of_best = verdict_on(question, best);
+  const goal::Verdict of_other = verdict_on(question, other);
+  return is_of_machines(question) ? of_other.machines.high < of_best.machines.low
+                                  : of_other.moves.high < of_best.moves.low;
 }
 
 /// Whether the trials show that `other` is worse than `best`.
 bool is_shown_worse(const goal::Question& question, const measures::MoveCounts& best,
                     const measures::MoveCounts& other) {
-  if (best.worlds > 0) return has_worse_world(*question.claim(), best, other);
+  if (best.worlds > 0) return has_worse_world(question, best, other);
   const std::vector<double> of_best = rates_of_rigs(question, best);
   const std::vector<double> of_other = rates_of_rigs(question, other);
   if (!of_best.empty() && of_best.size() == of_other.size()) return differ(of_best, of_other);

@@ -39,7 +39,7 @@ std::vector<std::optional<goal::Verdict>> goal_verdicts(const StudySummary& summ
   for (const std::int64_t index : complete_points(summary)) {
     const measures::PointSummary& point = summary.points[static_cast<std::size_t>(index)];
     verdicts.emplace_back();
-    if (point.trials > 0) verdicts.back() = goal::judge_goal(*summary.question.claim(), *point.goal, 1);
+    if (point.trials > 0) verdicts.back() = verdict_on(summary.question, *point.goal);
   }
   return verdicts;
 }

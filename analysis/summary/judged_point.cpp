@@ -34,7 +34,7 @@ JudgedPoint judge_point(const StudySummary& summary, const ChosenPoint& chosen) 
   JudgedPoint judged{chosen, {}, {}};
   const std::size_t points = points_of(chosen);
   const measures::MoveCounts& counts = counts_of(summary, chosen.point);
-  judged.verdict = goal::judge_goal(*summary.question.claim(), counts, points);
+  judged.verdict = verdict_on(summary.question, counts, points);
   if (judged.verdict.status == goal::Status::undecided)
     judged.needs = goal::needs_of(*summary.question.claim(), counts, points);
   return judged;

@@ -65,9 +65,9 @@ std::shared_ptr<const layout::MeasureTable> measures_of_merit(const reading::Stu
 
 /// Counts the moves of every point that meet the goal.
 void count_goal(StudySummary& summary, const reading::StudyFile& file, const study::Study& study) {
-  const measures::CountedGoal counted = *measures::counted_goal(study);
+  const measures::CountedGoal counted = summary.question.counted();
   const auto moves = static_cast<std::size_t>(file.moves());
-  const std::string name = layout::name_of_band("band_settling_time", study.goal->band);
+  const std::string name = goal::settling_measure(summary.question);
   const std::int64_t block = layout::chunk_rows(file.moves());
   for (std::int64_t first = 0; first < file.rows().count; first += block) {
     const std::int64_t count = std::min(block, file.rows().count - first);
@@ -86,24 +86,22 @@ void count_goal(StudySummary& summary, const reading::StudyFile& file, const stu
 bool outline_points(StudySummary& summary, const reading::StudyFile& file, const study::Study& study,
                     const layout::MeasureTable& table) {
   const std::optional<std::vector<double>> successes = stored_statistic(file, "zero_count");
-  const std::string time = study.goal ? layout::name_of_band("band_settling_time_p95", study.goal->band)
-                                      : std::string("settling_time_median");
-  const std::optional<std::vector<double>> times = stored_statistic(file, time);
+  const std::optional<std::vector<double>> times =
+      stored_statistic(file, goal::settling_statistic(summary.question));
   if (!successes || !times) return false;
   measures::PointSummary outline;
   outline.table = &table;
   outline.measures.assign(table.size(), {});
   outline.measures.shrink_to_fit();
   outline.trials = outline.judged = study.trials;
-  if (study.goal) outline.goal.emplace();
+  if (summary.question.claim()) outline.goal.emplace();
   summary.points.assign(summary.labels.size(), outline);
   for (std::size_t i = 0; i < summary.points.size(); ++i) {
     measures::PointSummary& point = summary.points[i];
     point.outcomes.zero_count = static_cast<std::int64_t>((*successes)[i]);
-    measures::MeasureStatistics& of_time = point.measures.back();
-    (study.goal ? of_time.p95.value : of_time.median.value) = (*times)[i];
+    (point.measures.back().*goal::settling_quantile(summary.question)).value = (*times)[i];
   }
-  if (study.goal) count_goal(summary, file, study);
+  if (summary.question.claim()) count_goal(summary, file, study);
   if (study.rigs == 0) return true;
   const std::optional<reading::StoredGroups> rigs = file.rigs();
   if (!rigs || rigs->success.empty()) return false;

@@ -74,7 +74,7 @@ PointWorlds point_worlds(const measures::PointSummary& point, const goal::Questi
   PointWorlds result;
   const measures::MoveCounts& succeeded = point.worlds.value().succeeded;
   result.success = rates_of_worlds(succeeded, confidence);
-  if (question.claim()) result.goal = goal::judge_goal(*question.claim(), *point.goal, points);
+  if (question.claim()) result.goal = verdict_on(question, *point.goal, points);
   result.asked = result.goal ? judged_rates(question, *result.goal) : result.success;
   result.bad = bad_worlds(question, result, succeeded, confidence);
   std::vector<double> rates;

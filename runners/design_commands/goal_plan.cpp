@@ -8,6 +8,7 @@
 
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/goal/goal_verdict.hpp"
+#include "analysis/goal/question.hpp"
 #include "analysis/summary/judged_point.hpp"
 #include "analysis/text/report_json.hpp"
 #include "analysis/text/text.hpp"
@@ -18,13 +19,6 @@ namespace zerocount::design_commands {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-[[noreturn]] void refuse_without_goal(const std::string& path) {
-  throw Failure(ExitCode::bad_input,
-                fmt::format("{}: its manifest has no goal; expected one such as goal: {{band: 1, within: "
-                            "0.05, moves: 0.99}}, or --success, --halfwidth or --margin",
-                            path));
-}
 
 Json needs_json(const goal::Needs& needs) {
   return {{"rigs", needs.rigs}, {"trials", needs.trials}};
@@ -69,7 +63,7 @@ void print_plan_of_study(const study::Study& study, bool json) {
 
 void print_plan_of_pilot(const std::string& path, bool json) {
   const summary::StudySummary summary = summary::summarise_file(path);
-  if (!summary.question.claim()) refuse_without_goal(path);
+  goal::require_claim(summary.question.claim(), path);
   const summary::JudgedPoint judged = summary::judge_point(summary, summary::choose_point(summary));
   if (json) {
     const bool known = judged.needs && judged.needs->trials > 0;
@@ -94,7 +88,7 @@ ExitCode print_goal_plan(const command_line::Arguments& arguments) {
     return ExitCode::success;
   }
   const study::Study study = commands::load_study(path, arguments);
-  if (!study.goal) refuse_without_goal(path);
+  goal::require_claim(study.goal, path);
   print_plan_of_study(study, json);
   return ExitCode::success;
 }

@@ -101,11 +101,7 @@ void require_judgeable(const command_line::Arguments& arguments) {
   }
   const study::Study study = commands::described_study(path);
   command_line::point_option(arguments, study.point_labels);
-  if (study.goal) return;
-  throw Failure(ExitCode::bad_input,
-                fmt::format("{}: its manifest has no goal; expected one such as goal: {{band: 1, within: "
-                            "0.05, moves: 0.99}}",
-                            path.string()));
+  goal::require_claim(study.goal, path.string());
 }
 
 ExitCode judge(const command_line::Arguments& arguments) {

@@ -61,19 +61,18 @@ ExitCode print_sensitivity(const command_line::Arguments& arguments) {
 }  // namespace
 
 commands::Command sensitivity_command() {
-  return {
-      {"sensitivity",
-       "FILE",
-       {{"point,p", "P", "design point, by label or number; may be repeated (default: all)", true},
-        {"output", "NAME", "output of the trials; may be repeated (default: the first two)", true},
-        {"confidence", "C", "confidence of the bounds, above 0 and up to 0.999 (default 0.95)"},
-        {"max-trials", "N",
-         "use the first N trials of each point (default 100000; of a saltelli design all are used)"},
-        answers::format_option(report::sensitivity_answer().complete_type())}},
-      "print which random parameters influence the outputs of the trials",
-      full_help(),
-      print_sensitivity,
-      {report::sensitivity_answer().complete_type()}};
+  return {{"sensitivity",
+           "FILE",
+           {{"point,p", "P", "design point, by label or number; may be repeated (default: all)", true},
+            {"output", "NAME", "output of the trials; may be repeated (default: the first two)", true},
+            {"confidence", "C", "confidence of the bounds, above 0 and up to 0.999 (default 0.95)"},
+            {"max-trials", "N",
+             "use the first N trials of each point (default 100000; of a saltelli design all are used)"},
+            answers::format_option(report::sensitivity_answer().complete_type())}},
+          "print which random parameters influence the outputs of the trials",
+          full_help(),
+          print_sensitivity,
+          {report::sensitivity_answer().complete_type()}};
 }
 
 }  // namespace zerocount::result_commands

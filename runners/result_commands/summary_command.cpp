@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "analysis/goal/goal_text.hpp"
-#include "analysis/goal/goal_verdict.hpp"
+#include "analysis/goal/question.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/summary/chosen_point.hpp"
 #include "analysis/summary/selected_summary.hpp"
@@ -112,22 +112,24 @@ std::string confirmation_text(const summary::StudySummary& summary,
                               const study_run::Confirmation& confirmed) {
   std::string text = fmt::format(
       "\nrun anew with seed {}, everything drawn anew, chosen beforehand so that no bound needs a "
-      "correction:\n  {} of {} trials{} succeeded{}, {}",
-      confirmed.seed, confirmed.successes, confirmed.trials,
-      confirmed.rigs == 0                  ? ""
-      : confirmed.rigs == confirmed.trials ? ", each on a rig of its own,"
-                                           : fmt::format(" on {} rigs", confirmed.rigs),
-      summary.question.worlds > 0 ? " on average over new worlds" : "",
-      text::percentage(confirmed.successes, confirmed.trials));
+      "correction:\n",
+      confirmed.seed);
+  if (confirmed.goal) {
+    const goal::Verdict verdict = verdict_on(summary.question, *confirmed.goal);
+    text += fmt::format("  goal: {}\n{}", goal::text_of(verdict.status),
+                        goal::readings_text(*summary.question.claim(), *confirmed.goal, verdict));
+  }
+  text += fmt::format("  {} of {} trials{} succeeded{}, {}", confirmed.successes, confirmed.trials,
+                      confirmed.rigs == 0                  ? ""
+                      : confirmed.rigs == confirmed.trials ? ", each on a rig of its own,"
+                                                           : fmt::format(" on {} rigs", confirmed.rigs),
+                      summary.question.worlds > 0 ? " on average over new worlds" : "",
+                      text::percentage(confirmed.successes, confirmed.trials));
   if (const auto bounds = bounds_of(confirmed, summary.confidence)) {
     text += fmt::format(", {} bounds [{}] % (Clopper and Pearson)", text::percent(summary.confidence),
                         text::percent_bounds(bounds->low, bounds->high));
   }
-  text += "\n";
-  if (!confirmed.goal) return text;
-  const goal::Verdict verdict = goal::judge_goal(*summary.question.claim(), *confirmed.goal, 1);
-  return text + fmt::format("  goal: {}\n{}", goal::text_of(verdict.status),
-                            goal::readings_text(*summary.question.claim(), *confirmed.goal, verdict));
+  return text + "\n";
 }
 
 nlohmann::ordered_json confirmation_json(const summary::StudySummary& summary,
@@ -144,8 +146,7 @@ nlohmann::ordered_json confirmation_json(const summary::StudySummary& summary,
       {"one_trial_per_rig", confirmed.rigs == confirmed.trials}};
   if (confirmed.goal) {
     json["goal"] = summary::verdict_json(*summary.question.claim(),
-                                         goal::judge_goal(*summary.question.claim(), *confirmed.goal, 1),
-                                         confirmed.rigs > 0);
+                                         verdict_on(summary.question, *confirmed.goal), confirmed.rigs > 0);
   }
   return json;
 }

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/goal/goal_text.hpp"
 #include "analysis/statistics/sample_size.hpp"
 #include "analysis/summary/shown_points.hpp"
 #include "analysis/theory/point_theory_description.hpp"
@@ -210,6 +211,11 @@ document::Description<Plan> plan_description() {
       .value(in_data("rigs", "rigs at each point; 0: none"), [](Of p) { return p.study.rigs; })
       .value(in_data("worlds", "worlds; 0: none"), [](Of p) { return p.study.worlds; })
       .sentence(trials_text)
+      .value({"judged_by", "judged by", "what the moves are judged by"},
+             [](Of p) {
+               return p.study.open_loop ? std::nullopt
+                                        : std::optional(goal::question_sentence(goal::question_of(p.study)));
+             })
       .table({"stopping", "Trials that the stopping rule takes", "trials that the stopping rule takes"},
              stopping_description(), stopping_costs)
       .sentence(cost_text)

@@ -224,8 +224,6 @@ TEST_F(Rare, SaysWhatIsMissing) {
                 "goal: {band: 0, within: 0.1, moves: 0.9}\n");
   expect_refused({"rare", "fixed.yaml", "-o", "out.h5"}, "it draws nothing for each trial");
   const std::string text = spring(1e-4);
-  folder_.write("aimless.yaml", text.substr(0, text.find("goal:")));
-  expect_refused({"rare", "aimless.yaml", "-o", "out.h5"}, "its manifest has no goal");
   folder_.write("swept.yaml", text + "sweep: {grid: {controller.kp: [0, 1.0e-5]}}\n");
   expect_refused({"rare", "swept.yaml", "-o", "out.h5"}, "expected one with --point");
   folder_.write("worlds.yaml", text + "worlds: 4\n");

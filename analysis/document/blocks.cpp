@@ -59,6 +59,7 @@ struct ValueText {
   std::string operator()(std::monostate) const { return unknown_text; }
   std::string operator()(bool value) const { return value ? "yes" : "no"; }
   std::string operator()(std::int64_t value) const { return std::to_string(value); }
+  std::string operator()(std::uint64_t value) const { return std::to_string(value); }
   std::string operator()(double value) const { return number_text(value, item.notation); }
   std::string operator()(const Bounded& value) const { return bounded_text(value, item.notation); }
   std::string operator()(const std::string& value) const { return value; }

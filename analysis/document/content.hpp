@@ -42,8 +42,8 @@ struct Rows {
 
 /// What an answer says of one item; std::monostate where it says nothing.
 struct Content {
-  std::variant<std::monostate, bool, std::int64_t, double, Bounded, std::string, Members, List, Named, Rows,
-               std::shared_ptr<const Figure>>
+  std::variant<std::monostate, bool, std::int64_t, std::uint64_t, double, Bounded, std::string, Members, List,
+               Named, Rows, std::shared_ptr<const Figure>>
       value{};
 
   bool is_empty() const { return value.index() == 0; }

@@ -34,7 +34,10 @@ struct ValueType<bool> {
 template <std::integral T>
 struct ValueType<T> {
   static void describe(Item& item) { item.kind = Kind::whole; }
-  static Content content(T value) { return {static_cast<std::int64_t>(value)}; }
+  static Content content(T value) {
+    using Whole = std::conditional_t<std::is_signed_v<T>, std::int64_t, std::uint64_t>;
+    return {static_cast<Whole>(value)};
+  }
 };
 
 template <std::floating_point T>

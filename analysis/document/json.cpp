@@ -42,6 +42,7 @@ struct ContentJson {
   Json operator()(std::monostate) const { return nullptr; }
   Json operator()(bool value) const { return value; }
   Json operator()(std::int64_t value) const { return value; }
+  Json operator()(std::uint64_t value) const { return value; }
   Json operator()(double value) const { return number_json(value); }
   Json operator()(const Bounded& value) const { return number_json(value.value); }
   Json operator()(const std::string& value) const { return value; }

@@ -1,0 +1,47 @@
+// Values of answers that read back to the same number.
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "analysis/document/answer.hpp"
+
+namespace zerocount::document {
+namespace {
+
+template <class Number>
+struct Holder {
+  Number number;
+};
+
+template <class Number>
+Answer answer_with(Number number) {
+  AnswerDescription<Holder<Number>> description{{.name = "holder", .meaning = "a number"}, {}};
+  description.items.value({.key = "number", .heading = "number"}, &Holder<Number>::number);
+  return description.of({number});
+}
+
+template <class Number>
+void expect_kept(Number number) {
+  const Answer answer = answer_with(number);
+  EXPECT_EQ(json(answer)["number"].get<Number>(), number);
+  EXPECT_NE(text(answer).find(std::to_string(number)), std::string::npos) << text(answer);
+}
+
+// A seed is any of 64 bits.
+TEST(Values, WholeNumbersKeepAllTheirBits) {
+  expect_kept(std::numeric_limits<std::uint64_t>::max());
+  expect_kept(std::numeric_limits<std::int64_t>::min());
+}
+
+TEST(Values, WithoutBoundsAreShownWithoutThem) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(text(answer_with(Bounded{0.5, unknown, unknown})), "number: 0.5\n");
+  EXPECT_EQ(text(answer_with(Bounded{0.5, unknown, 1.0})), "number: 0.5 [–, 1]\n");
+  EXPECT_EQ(text(answer_with(Bounded{unknown, unknown, unknown})), "");
+}
+
+}  // namespace
+}  // namespace zerocount::document

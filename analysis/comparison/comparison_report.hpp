@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/comparison/comparison.hpp"
+#include "analysis/document/answer.hpp"
 
 /// A comparison as text for people and for machines.
 namespace zerocount::comparison {
@@ -55,18 +56,13 @@ double shown_p(const MeasureComparison& measure);
 /// A number of trials to two digits, rounded up.
 std::string trials_text(double trials);
 
-/// For a terminal. A long table shows only the noteworthy rows, with the number of the others.
-std::string comparison_table(const StudyComparison& comparison);
-
-/// The whole comparison as one object; unknown numbers are null.
-std::string comparison_json(const StudyComparison& comparison);
+/// The answer of `compare`. A long table shows only the noteworthy rows to people, with the number of the
+/// others.
+document::AnswerDescription<StudyComparison> comparison_answer();
 
 /// JUnit XML: a test suite with one case per point and measure or requirement. What fails the gate is a
 /// failure, an inconclusive verdict an error, and a measure without values is skipped.
 std::string comparison_junit(const StudyComparison& comparison);
-
-/// A summary for a pull request or a job's page.
-std::string comparison_markdown(const StudyComparison& comparison);
 
 /// One judgement as the cells of a table.
 struct ComparisonRow {
@@ -87,8 +83,5 @@ struct ComparisonRow {
 
 /// The measures and requirements of all points, in order.
 std::vector<ComparisonRow> comparison_rows(const StudyComparison& comparison);
-
-/// Names and values that describe the two compared files.
-std::vector<std::pair<std::string, std::string>> comparison_facts(const StudyComparison& comparison);
 
 }  // namespace zerocount::comparison

@@ -1,12 +1,9 @@
 
 #include <cmath>
-#include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "analysis/comparison/comparison_report.hpp"
-#include "analysis/goal/goal_text.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::comparison {
@@ -105,15 +102,6 @@ ComparisonRow row_of(const PointComparison& point, const RequirementResult& requ
   return row;
 }
 
-std::string file_text(const ComparedFile& file, std::int64_t points) {
-  const layout::FileHeader& header = file.header;
-  const layout::Provenance& build = header.provenance;
-  return text::printable(
-      fmt::format("{}: study {}, seed {}, {} trials at {} points, zerocount {} ({}), {} engine, {}",
-                  file.path, header.name, header.seed, header.trials, points, build.zerocount_version,
-                  build.git_commit, layout::name_of(header.engine), build.created));
-}
-
 }  // namespace
 
 std::vector<ComparisonRow> comparison_rows(const StudyComparison& comparison) {
@@ -125,36 +113,6 @@ std::vector<ComparisonRow> comparison_rows(const StudyComparison& comparison) {
       rows.push_back(row_of(point, requirement));
   }
   return rows;
-}
-
-std::vector<std::pair<std::string, std::string>> comparison_facts(const StudyComparison& comparison) {
-  std::vector<std::pair<std::string, std::string>> facts;
-  const bool within = compares_points(comparison);
-  if (within) {
-    facts.emplace_back("file", file_text(comparison.current, comparison.current.header.points));
-    facts.emplace_back("baseline point", text::printable(comparison.baseline_label));
-    facts.emplace_back("point", text::printable(comparison.points.front().label));
-  } else {
-    facts.emplace_back("baseline", file_text(comparison.baseline, comparison.baseline.header.points));
-    facts.emplace_back("file", file_text(comparison.current, comparison.current.header.points));
-  }
-  facts.emplace_back("compared", fmt::format("{}: {}", to_string(comparison.layer), comparison.layer_reason));
-  if (!comparison.first_difference.empty())
-    facts.emplace_back("first difference", comparison.first_difference);
-  for (const manifest::ManifestDifference& difference : comparison.manifest_differences) {
-    const auto shown = [](const std::string& value) {
-      return value.empty() ? std::string("(absent)") : text::printable(value);
-    };
-    facts.emplace_back(within ? "sweep" : "manifest",
-                       fmt::format("{}: {} → {}", text::printable(difference.key), shown(difference.baseline),
-                                   shown(difference.current)));
-  }
-  if (comparison.goal) facts.emplace_back("goal", goal::goal_sentence(*comparison.goal));
-  if (!comparison.changed_inputs.empty()) {
-    facts.emplace_back("changed inputs", fmt::format("{}", fmt::join(comparison.changed_inputs, ", ")));
-  }
-  for (const std::string& note : comparison.notes) facts.emplace_back("note", note);
-  return facts;
 }
 
 }  // namespace zerocount::comparison

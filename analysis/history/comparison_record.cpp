@@ -20,16 +20,12 @@ double number_of(const ComparisonJson& value) {
   return value.is_null() ? statistics::unknown : value.get<double>();
 }
 
-statistics::ConfidenceInterval interval_of(const ComparisonJson& value) {
-  return {number_of(value.at(0)), number_of(value.at(1))};
-}
-
 ValueComparison value_comparison(const ComparisonJson& measure) {
   ValueComparison found;
   found.verdict = measure.at("verdict").get<std::string>();
   found.baseline = number_of(measure.at("baseline"));
   found.effect = number_of(measure.at("effect"));
-  found.bounds = interval_of(measure.at("effect_bounds"));
+  found.bounds = {number_of(measure.at("effect_low")), number_of(measure.at("effect_high"))};
   found.margin = number_of(measure.at("margin"));
   const double one_sided = std::min(number_of(measure.at("p")), number_of(measure.at("improvement_p")));
   found.p = std::min(1.0, 2.0 * one_sided);

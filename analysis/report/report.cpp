@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/document/markup.hpp"
+#include "analysis/report/answer_figures.hpp"
 #include "analysis/report/embedded_files.hpp"
 #include "analysis/report/html.hpp"
 #include "analysis/report/report_figures.hpp"
@@ -126,7 +127,9 @@ StudyReport study_report(const reading::StudyFile& file, const ReportOptions& op
       "zerocount {} ({}), study of {}. This page is self-contained and requests nothing from anywhere.",
       made.zerocount_version, made.git_commit, made.created);
   add(page, {"verdict", "Verdict", verdict_html(reported), {}});
-  if (options.comparison) add(page, comparison_section(*options.comparison));
+  if (options.comparison)
+    add(page,
+        answer_section("baseline", "Against the baseline", comparison_answer().of(*options.comparison)));
   if (options.history) add(page, history_section(*options.history, max_history_figures));
   add(page, success_section(reported));
   add(page, {"worlds", "Worlds", "", world_figures(reported)});

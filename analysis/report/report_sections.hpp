@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 
-#include "analysis/comparison/comparison.hpp"
 #include "analysis/document/answer.hpp"
 #include "analysis/history/series.hpp"
 #include "analysis/report/page.hpp"
@@ -35,10 +34,6 @@ std::string points_html(const ReportedStudy& reported);
 /// Of a study with a goal: the tables of zero counts, arrival, jerks and criteria, and the sections of the
 /// summary that are about zero counts. Without a goal these are part of points_html().
 std::string zero_count_tables_html(const ReportedStudy& reported);
-
-/// Comparison with a baseline: the verdict, the differences of the manifests, and every measure at every
-/// point, failed ones first.
-PageSection comparison_section(const comparison::StudyComparison& comparison);
 
 /// The series of a history as figures, those that changed first, and their changes in words. At most
 /// `max_figures`; a note states if there are more.

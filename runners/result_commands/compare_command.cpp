@@ -1,19 +1,19 @@
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/comparison/comparison_report.hpp"
+#include "analysis/report/answer_figures.hpp"
 #include "analysis/text/text.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/reading/study_file.hpp"
+#include "runners/answers/answer_format.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/command.hpp"
@@ -57,45 +57,27 @@ ExitCode code_of(comparison::GateVerdict verdict) {
   return comparison::fails(verdict) ? ExitCode::regression : ExitCode::inconclusive;
 }
 
-/// An output format of the comparison, and the option that names a file for it.
-struct ComparisonForm {
-  std::string_view name;
-  std::string (*text)(const comparison::StudyComparison&);
-};
-
-constexpr std::array<ComparisonForm, 4> forms{{{"table", comparison::comparison_table},
-                                               {"json", comparison::comparison_json},
-                                               {"junit", comparison::comparison_junit},
-                                               {"markdown", comparison::comparison_markdown}}};
-
-/// Destination of one output format.
-struct FormPlace {
-  const ComparisonForm& form;
+/// A format, and the file that it is written to.
+struct FormatPlace {
+  std::string format;
   std::filesystem::path place;
 };
 
 /// Destinations of all formats. The format of --format goes to standard output, unless another format does.
-std::vector<FormPlace> places_of(const command_line::Arguments& arguments,
-                                 const std::optional<std::string>& margins) {
-  const std::string format = arguments.choice("format");
+std::vector<FormatPlace> places_of(const command_line::Arguments& arguments,
+                                   const std::optional<std::string>& margins) {
   std::vector<std::filesystem::path> inputs{arguments.operands().begin(), arguments.operands().end()};
   if (margins) inputs.emplace_back(*margins);
   std::vector<std::filesystem::path> outputs;
   if (arguments.has("format")) outputs.emplace_back("-");
-  std::vector<FormPlace> places;
-  for (const ComparisonForm& form : forms) {
-    if (form.name == "table") continue;
-    const std::optional<std::filesystem::path> place = command_line::text_place(arguments, form.name);
+  std::vector<FormatPlace> places;
+  for (const char* const format : {"json", "junit", "markdown"}) {
+    const std::optional<std::filesystem::path> place = command_line::text_place(arguments, format);
     if (!place) continue;
-    places.push_back({form, *place});
+    places.push_back({format, *place});
     outputs.push_back(*place);
   }
   command_line::require_places(arguments, inputs, outputs);
-  const bool taken = std::any_of(places.begin(), places.end(), [](const FormPlace& place) {
-    return yaml::is_standard_stream(place.place);
-  });
-  const ComparisonForm& printed = *std::ranges::find(forms, format, &ComparisonForm::name);
-  if (!taken) places.push_back({printed, "-"});
   return places;
 }
 
@@ -123,20 +105,21 @@ comparison::StudyComparison compared(const command_line::Arguments& arguments,
 
 ExitCode compare(const command_line::Arguments& arguments) {
   const std::optional<std::string> margins = arguments.value("margins");
-  const std::vector<FormPlace> places = places_of(arguments, margins);
+  const std::vector<FormatPlace> places = places_of(arguments, margins);
   comparison::CompareOptions options;
   if (margins) options.margins = *margins;
   options.changed_fails = arguments.has("changed-fails");
   options.max_trials = arguments.whole_number("max-trials", 1, std::int64_t{1} << 53);
   const comparison::StudyComparison result = compared(arguments, options);
-  for (const FormPlace& place : places) {
-    if (place.form.name == "table") {
-      standard_output::write_fitted(place.form.text(result));
-    } else {
-      command_line::write_text(place.place, place.form.text(result));
-    }
-  }
-  return code_of(result.verdict);
+  const document::Answer answer = report::comparison_answer().of(result, code_of(result.verdict));
+  const auto text_in = [&](const std::string& format) {
+    return format == "junit" ? comparison::comparison_junit(result) : answers::rendered(answer, format);
+  };
+  for (const FormatPlace& one : places) command_line::write_text(one.place, text_in(one.format));
+  if (std::ranges::any_of(places, yaml::is_standard_stream, &FormatPlace::place)) return answer.exit_code;
+  if (arguments.choice("format") != "junit") return answers::print(arguments, answer);
+  standard_output::write(text_in("junit"));
+  return answer.exit_code;
 }
 
 }  // namespace
@@ -149,7 +132,7 @@ commands::Command compare_command() {
             {"changed-fails", "", "a change for the better fails too, not only one for the worse"},
             {"max-trials", "N",
              "judge the first N trials of each point, at least one of every rig (default: a million moves)"},
-            command_line::format_option({"table", "json", "junit", "markdown"}, "of standard output"),
+            answers::format_option(report::comparison_answer().complete_type(), {"junit"}),
             {"json", "FILE", "write the JSON there too"},
             {"junit", "FILE", "write JUnit XML there too"},
             {"markdown", "FILE", "write the Markdown summary there too"},
@@ -158,7 +141,8 @@ commands::Command compare_command() {
            2},
           "compare a results file with a baseline: the regression gate",
           compare_help,
-          compare};
+          compare,
+          {report::comparison_answer().complete_type()}};
 }
 
 }  // namespace zerocount::result_commands

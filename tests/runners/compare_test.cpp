@@ -82,7 +82,7 @@ TEST_F(Compare, JudgesAStudyWithAGoalByThatAndNothingElse) {
   const ProgramResult junit = run({"compare", "a.h5", "slow.h5", "--format", "junit"});
   EXPECT_NE(junit.out.find("name=\"low: goal_settling_time\"><failure"), std::string::npos) << junit.out;
   const ProgramResult markdown = run({"compare", "a.h5", "slow.h5", "--format", "markdown"});
-  EXPECT_NE(markdown.out.find("**worse**"), std::string::npos) << markdown.out;
+  EXPECT_NE(markdown.out.find("low goal\\_settling\\_time | worse |"), std::string::npos) << markdown.out;
   run({"report", "slow.h5", "-o", "slow.html", "--baseline", "a.h5"});
   EXPECT_NE(folder_.read("slow.html").find("goal_settling_time"), std::string::npos);
 
@@ -221,7 +221,7 @@ TEST_F(Compare, WritesEveryFormatAtOnce) {
   EXPECT_NE(result.out.find("this shows nothing of the program"), std::string::npos);
   EXPECT_EQ(nlohmann::json::parse(folder_.read("r.json"))["verdict"], "passed");
   EXPECT_TRUE(folder_.read("r.xml").starts_with("<?xml"));
-  EXPECT_TRUE(folder_.read("r.md").starts_with("## ✅ gains: passed"));
+  EXPECT_TRUE(folder_.read("r.md").starts_with("**passed: "));
 }
 
 TEST_F(Compare, DamagedOrMissingFilesHaveTheirExitCodes) {

@@ -104,7 +104,7 @@ TEST_F(Nightly, FindsWhatBecameBetterToo) {
   ASSERT_EQ(script("make-baselines", "--reason first"), 0) << said_;
   folder_.write("small.yaml", small_manifest(200));
   EXPECT_EQ(night(), 1) << said_;
-  EXPECT_NE(read_bytes(last_night() / "summary.md").find("**better**"), std::string::npos);
+  EXPECT_NE(read_bytes(last_night() / "summary.md").find("| better |"), std::string::npos);
 }
 
 TEST_F(Nightly, NeverPassesWithoutABaselineOrAStudy) {

@@ -1,4 +1,4 @@
-// A comparison in words, as JSON, as JUnit XML and as Markdown.
+// The answer of a comparison, and its JUnit XML.
 #include "analysis/comparison/comparison_report.hpp"
 
 #include <cstdlib>
@@ -70,12 +70,16 @@ comparison::StudyComparison sample() {
   return comparison;
 }
 
+document::Answer answer_of(const comparison::StudyComparison& comparison) {
+  return comparison::comparison_answer().of(comparison);
+}
+
 TEST(ComparisonReport, TheTableHoldsAllThatWasJudged) {
-  const std::string table = comparison::comparison_table(sample());
+  const std::string table = document::text(answer_of(sample()));
   for (const char* part :
        {"success_rate", "90 %", "85 %", "[1 %, 9 %]", "< 1e-4", "regression", "1300 trials would decide",
         "these trials decide a margin above", "not measured", "require success_rate",
-        "controller.ki: 1e-5 → (absent)", "regression: 1 of 4 judgements failed"}) {
+        "controller.ki  1e-5      (absent)", "regression: 1 of 4 judgements failed"}) {
     EXPECT_NE(table.find(part), std::string::npos) << part << "\n" << table;
   }
 }
@@ -83,27 +87,26 @@ TEST(ComparisonReport, TheTableHoldsAllThatWasJudged) {
 TEST(ComparisonReport, OfManyRowsOnlyTheNoteworthyAreShown) {
   comparison::StudyComparison comparison = sample();
   comparison.points.assign(30, comparison.points[0]);
-  const std::string table = comparison::comparison_table(comparison);
+  const std::string table = document::text(answer_of(comparison));
   EXPECT_EQ(table.find("stable_rate"), std::string::npos);
   EXPECT_NE(table.find("(60 rows that simply passed are not shown)"), std::string::npos) << table;
 }
 
-TEST(ComparisonReport, EveryFormThatSpeaksOfStabilitySaysHowManyMovesAreUndecided) {
+TEST(ComparisonReport, AnswersThatSpeakOfStabilitySayHowManyMovesAreUndecided) {
   comparison::StudyComparison comparison = sample();
   const std::string remark = "undecided: 12 of 300 moves in the baseline, 4 of 280 in the file";
-  EXPECT_EQ(comparison::comparison_table(comparison).find("undecided: "), std::string::npos);
+  EXPECT_EQ(document::text(answer_of(comparison)).find("undecided: "), std::string::npos);
   comparison.points[0].baseline_undecided = {.moves = 300, .off_target = 12, .still_falling = 9};
   comparison.points[0].current_undecided = {.moves = 280, .off_target = 4, .still_falling = 0};
   comparison.points[0].measures[3].verdict = comparison::GateVerdict::inconclusive;  // the stable rate
   comparison.notes = {"undecided in the file"};
   for (const std::string& text :
-       {comparison::comparison_table(comparison), comparison::comparison_markdown(comparison),
-        comparison::comparison_junit(comparison)}) {
+       {document::text(answer_of(comparison)), comparison::comparison_junit(comparison)}) {
     EXPECT_NE(text.find(remark), std::string::npos) << text;
     EXPECT_EQ(text.find(remark), text.rfind(remark)) << "beside the stable rate alone\n" << text;
   }
-  EXPECT_NE(comparison::comparison_table(comparison).find("undecided in the file"), std::string::npos);
-  const auto json = nlohmann::json::parse(comparison::comparison_json(comparison));
+  EXPECT_NE(document::text(answer_of(comparison)).find("undecided in the file"), std::string::npos);
+  const auto json = document::json(answer_of(comparison));
   EXPECT_EQ(json["points"][0]["baseline_undecided"]["still_falling"], 9);
   EXPECT_EQ(json["points"][0]["current_undecided"]["off_target"], 4);
 }
@@ -113,25 +116,24 @@ TEST(ComparisonReport, AFailedImprovementIsAFailureAndNoRegression) {
   comparison::StudyComparison comparison = sample();
   comparison.points[0].measures = {reported_measure("success_rate", comparison::GateVerdict::changed)};
   comparison.verdict = comparison.points[0].verdict = comparison::GateVerdict::changed;
-  const auto json = nlohmann::json::parse(comparison::comparison_json(comparison));
+  const auto json = document::json(answer_of(comparison));
   EXPECT_EQ(json["verdict"], "changed");
   EXPECT_EQ(json["points"][0]["measures"][0]["verdict"], "better");
   EXPECT_EQ(json["points"][0]["measures"][0]["gate"], "changed");
   EXPECT_EQ(json["counts"]["better"], 1);
   EXPECT_NE(comparison::comparison_junit(comparison).find("failures=\"1\""), std::string::npos);
-  const std::string markdown = comparison::comparison_markdown(comparison);
-  EXPECT_NE(markdown.find("**better**"), std::string::npos) << markdown;
-  EXPECT_TRUE(markdown.starts_with("## ❌")) << markdown;
-  EXPECT_EQ(markdown.find("regression"), std::string::npos) << markdown;
+  const std::string text = document::text(answer_of(comparison));
+  EXPECT_TRUE(text.starts_with("changed: 1 of 2 judgements failed (0 worse")) << text;
+  EXPECT_EQ(text.find("regression"), std::string::npos) << text;
 }
 
 TEST(ComparisonReport, TheJsonReadsBack) {
-  const auto json = nlohmann::json::parse(comparison::comparison_json(sample()));
+  const auto json = document::json(answer_of(sample()));
   EXPECT_EQ(json["verdict"], "regression");
   EXPECT_EQ(json["layer"], "paired");
   EXPECT_EQ(json["counts"]["inconclusive"], 1);
   EXPECT_EQ(json["counts"]["worse"], 1);
-  EXPECT_EQ(json["points"][0]["measures"][0]["effect_bounds"][1], 0.09);
+  EXPECT_EQ(json["points"][0]["measures"][0]["effect_high"], 0.09);
   EXPECT_EQ(json["points"][0]["measures"][1]["trials_to_decide"], 1234);
   EXPECT_TRUE(json["points"][0]["measures"][2]["p"].is_null());
   EXPECT_EQ(json["points"][0]["requirements"][0]["require"], "success_rate ≥ 0.8");
@@ -162,13 +164,6 @@ TEST(ComparisonReport, JUnitIsNotGreenWhereNothingWasMeasured) {
   EXPECT_NE(comparison::comparison_junit(unequal).find("failures=\"1\""), std::string::npos);
   EXPECT_NE(comparison::verdict_sentence(unequal).find("/outcome/creep"), std::string::npos);
   EXPECT_EQ(comparison::verdict_sentence(nothing), "inconclusive: nothing was measured");
-}
-
-TEST(ComparisonReport, TheMarkdownEscapesItsCells) {
-  const std::string markdown = comparison::comparison_markdown(sample());
-  EXPECT_NE(markdown.find("| a \\| \"b\" | success\\_rate | 90 % | 85 % |"), std::string::npos) << markdown;
-  EXPECT_NE(markdown.find("**worse**"), std::string::npos);
-  EXPECT_EQ(markdown.find("stable"), std::string::npos);
 }
 
 // What no number of trials decides is named, with the margin that would be decided.

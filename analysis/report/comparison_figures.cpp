@@ -7,18 +7,14 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/comparison/comparison_report.hpp"
-#include "analysis/document/markup.hpp"
-#include "analysis/goal/goal_text.hpp"
-#include "analysis/report/html.hpp"
-#include "analysis/report/report_sections.hpp"
-#include "analysis/text/text.hpp"
+#include "analysis/report/answer_figures.hpp"
+#include "analysis/report/figure.hpp"
 
 namespace zerocount::report {
 namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::size_t max_measures = 200;
 constexpr std::size_t max_bars = 60;
 
 /// A measure at a point.
@@ -37,59 +33,6 @@ std::vector<ComparedMeasure> worst_first(const comparison::StudyComparison& comp
            std::pair(b.measure->verdict, b.measure->change);
   });
   return all;
-}
-
-std::string table_of(const std::vector<ComparedMeasure>& measures) {
-  std::vector<HtmlColumn> columns{
-      {"point", "", true, {}},     {"measure", "", true, {}}, {"verdict", "", true, {}},
-      {"baseline", "", false, {}}, {"now", "", false, {}},    {"worse by", "", false, {}},
-      {"bounds", "", false, {}},   {"margin", "", false, {}}, {"adjusted p", "", false, {}}};
-  for (std::size_t i = 0; i < std::min(measures.size(), max_measures); ++i) {
-    const comparison::MeasureComparison& one = *measures[i].measure;
-    const auto text = [&](double value) { return comparison::value_text(value, one.measure, one.unit); };
-    add_row(columns, {measures[i].point->label, one.measure, std::string(comparison::to_string(one.change)),
-                      text(one.baseline), text(one.current), text(one.effect),
-                      fmt::format("{} … {}", text(one.bounds.low), text(one.bounds.high)), text(one.margin),
-                      text::short_number(comparison::shown_p(one))});
-  }
-  std::string html = html_table(columns);
-  if (measures.size() > max_measures) {
-    html += fmt::format(
-        "<p class=\"note\">The first {} of {} rows, the failed ones first; all are printed by "
-        "<code>zerocount compare</code>.</p>\n",
-        max_measures, measures.size());
-  }
-  return html;
-}
-
-std::string requirements_table(const comparison::StudyComparison& comparison) {
-  std::vector<HtmlColumn> columns{{"point", "", true, {}},
-                                  {"requirement", "", true, {}},
-                                  {"value", "", false, {}},
-                                  {"verdict", "", true, {}}};
-  for (const comparison::PointComparison& point : comparison.points) {
-    for (const comparison::RequirementResult& one : point.requirements)
-      add_row(columns, {point.label, one.text, comparison::value_text(one.value, one.quantity, one.unit),
-                        std::string(comparison::to_string(one.verdict))});
-  }
-  if (columns.front().cells.empty()) return "";
-  return "<h3>Requirements</h3>\n" + html_table(columns);
-}
-
-std::string differences_table(const comparison::StudyComparison& comparison) {
-  if (comparison.manifest_differences.empty()) return "<p>The manifests are the same.</p>\n";
-  std::vector<HtmlColumn> columns{{"key", "", true, {}}, {"baseline", "", true, {}}, {"now", "", true, {}}};
-  for (const manifest::ManifestDifference& difference : comparison.manifest_differences) {
-    add_row(columns, {difference.key, difference.baseline.empty() ? "–" : difference.baseline,
-                      difference.current.empty() ? "–" : difference.current});
-  }
-  return "<h3>Differences of the manifests</h3>\n" + html_table(columns);
-}
-
-std::string file_text(const comparison::ComparedFile& file) {
-  const layout::Provenance& build = file.header.provenance;
-  return fmt::format("{}: {}, made {} by zerocount {} ({}), {} trials per point", file.path, file.header.name,
-                     build.created, build.zerocount_version, build.git_commit, file.header.trials);
 }
 
 /// Changes of all measures, as multiples of their margins.
@@ -166,30 +109,22 @@ Figure success_change(const comparison::StudyComparison& comparison,
   return figure;
 }
 
+std::vector<Figure> comparison_figures(const comparison::StudyComparison& comparison) {
+  const std::vector<ComparedMeasure> measures = worst_first(comparison);
+  std::vector<Figure> figures;
+  for (const auto make : {margins_figure, success_change}) {
+    Figure figure = make(comparison, measures);
+    if (!figure.data.front().rows.empty()) figures.push_back(std::move(figure));
+  }
+  return figures;
+}
+
 }  // namespace
 
-PageSection comparison_section(const comparison::StudyComparison& comparison) {
-  const std::vector<ComparedMeasure> measures = worst_first(comparison);
-  PageSection section{"baseline", "Against the baseline", "", {}};
-  section.html = fmt::format("<div class=\"verdict\"><p class=\"headline\">{}</p><p>{}</p></div>\n",
-                             document::prose_markup(comparison::verdict_sentence(comparison)),
-                             document::markup(comparison.layer_reason)) +
-                 html_facts({{"Baseline", file_text(comparison.baseline)},
-                             {"This study", file_text(comparison.current)}});
-  if (comparison.goal)
-    section.html += fmt::format("<p>Goal: {}</p>\n", document::markup(goal::goal_sentence(*comparison.goal)));
-  for (const std::string& note : comparison.notes)
-    section.html += fmt::format("<p>{}</p>\n", document::markup(note));
-  section.html += differences_table(comparison);
-  if (!measures.empty()) {
-    section.html += "<h3>Measures</h3>\n" + table_of(measures);
-    for (const auto make : {margins_figure, success_change}) {
-      Figure figure = make(comparison, measures);
-      if (!figure.data.front().rows.empty()) section.figures.push_back(std::move(figure));
-    }
-  }
-  section.html += requirements_table(comparison);
-  return section;
+document::AnswerDescription<comparison::StudyComparison> comparison_answer() {
+  document::AnswerDescription<comparison::StudyComparison> answer = comparison::comparison_answer();
+  answer.items.figures(comparison_figures);
+  return answer;
 }
 
 }  // namespace zerocount::report

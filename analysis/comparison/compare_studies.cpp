@@ -489,9 +489,10 @@ void judge(StudyComparison& result, const GateRules& rules, const ComparedData& 
         "trials on more rigs, in the same proportion");
   }
   if (data.in_worlds) {
-    result.notes.push_back(
-        "means and rates, goal_rate and goal_machines too, are averages over the worlds; the goal itself is "
-        "judged in the worst");
+    result.notes.emplace_back(result.goal
+                                  ? "means and rates, goal_rate and goal_machines too, are averages over the "
+                                    "worlds; the goal itself is judged in the worst"
+                                  : "means and rates are averages over the worlds");
   }
   if (result.equal_to_the_bit) pass_equal_data(result);
   result.verdict = verdict_of(result);

@@ -82,12 +82,12 @@ Question question_of(const study::Study& study) {
           .stopped = study.stop.has_value()};
 }
 
-void require_claim(const std::optional<study::Goal>& claim, std::string_view path) {
+void require_claim(const std::optional<study::Goal>& claim, std::string_view path, std::string_view others) {
   if (claim) return;
   throw Failure(ExitCode::bad_input,
                 fmt::format("{}: its manifest has no goal; expected one such as goal: {{band: 1, within: "
-                            "0.05, moves: 0.99}}",
-                            path));
+                            "0.05, moves: 0.99}}{}",
+                            path, others));
 }
 
 void require_targets(const study::Study& study, std::string_view path) {

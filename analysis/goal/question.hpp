@@ -37,8 +37,10 @@ struct Question {
 };
 
 Question question_of(const study::Study& study);
-/// @throws Failure (bad_input) without a claim. @param path of the manifest or file
-void require_claim(const std::optional<study::Goal>& claim, std::string_view path);
+/// @throws Failure (bad_input) without a claim. @param path of the manifest or file @param others what may be
+/// given in its place: ", or --success"
+void require_claim(const std::optional<study::Goal>& claim, std::string_view path,
+                   std::string_view others = "");
 /// @throws Failure (bad_input) for a study of torque levels, of which nothing is asked. @param path its name
 void require_targets(const study::Study& study, std::string_view path);
 /// Success in place of the goal.

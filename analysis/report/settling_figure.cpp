@@ -167,7 +167,8 @@ statistics::Histogram<double> times_in_band(const ReportedStudy& reported, std::
 }
 
 /// The time of the goal and its proportion of moves, as rules across the figure.
-void add_goal(Figure& figure, const study::Goal& goal) {
+void add_goal(Figure& figure, const goal::Question& question) {
+  const study::Goal& goal = *question.claim();
   figure.data.push_back({"goal",
                          {{"within", "within", "s"}, {"moves", "proportion of moves", "1"}},
                          {ordered_json::array({goal.within, goal.moves})}});
@@ -181,8 +182,10 @@ void add_goal(Figure& figure, const study::Goal& goal) {
   };
   add({{"x", {{"field", "within"}, {"type", "quantitative"}}}, {"y", start}, {"y2", {{"value", "height"}}}});
   add({{"x", start}, {"x2", {{"value", "width"}}}, {"y", {{"field", "moves"}, {"type", "quantitative"}}}});
-  figure.caption += fmt::format("The dashed lines are the goal: ±{} counts after {} s, in {} of the moves. ",
-                                goal.band, text::short_number(goal.within), text::percent(goal.moves));
+  figure.caption +=
+      fmt::format("The dashed lines are the goal: ±{} counts after {} s, in {} of the moves{}. ", goal.band,
+                  text::short_number(goal.within), text::percent(goal.moves),
+                  question.worlds > 0 ? " of each world" : "");
 }
 
 /// Nothing for a file without bands.
@@ -217,9 +220,8 @@ std::optional<Figure> band_figure(const ReportedStudy& reported) {
   ordered_json& encoding = figure.specification["encoding"];
   encoding["x"]["title"] = "within the band for good from (s)";
   figure.specification["layer"][0]["encoding"]["y"]["title"] = "proportion of moves";
-  if (reported.study.worlds > 0)
-    figure.caption += "It is an average over the worlds, and a goal must be met in each. ";
-  if (question_of(reported).claim()) add_goal(figure, *question_of(reported).claim());
+  if (reported.study.worlds > 0) figure.caption += "It is an average over the worlds. ";
+  if (question_of(reported).claim()) add_goal(figure, question_of(reported));
   return figure;
 }
 

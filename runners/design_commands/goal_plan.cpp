@@ -20,6 +20,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::string_view other_plans = ", or --success, --halfwidth or --margin";
+
 Json needs_json(const goal::Needs& needs) {
   return {{"rigs", needs.rigs}, {"trials", needs.trials}};
 }
@@ -63,7 +65,7 @@ void print_plan_of_study(const study::Study& study, bool json) {
 
 void print_plan_of_pilot(const std::string& path, bool json) {
   const summary::StudySummary summary = summary::summarise_file(path);
-  goal::require_claim(summary.question.claim(), path);
+  goal::require_claim(summary.question.claim(), path, other_plans);
   const summary::JudgedPoint judged = summary::judge_point(summary, summary::choose_point(summary));
   if (json) {
     const bool known = judged.needs && judged.needs->trials > 0;
@@ -88,7 +90,7 @@ ExitCode print_goal_plan(const command_line::Arguments& arguments) {
     return ExitCode::success;
   }
   const study::Study study = commands::load_study(path, arguments);
-  goal::require_claim(study.goal, path);
+  goal::require_claim(study.goal, path, other_plans);
   print_plan_of_study(study, json);
   return ExitCode::success;
 }

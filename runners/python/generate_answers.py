@@ -27,7 +27,7 @@ TARGET = HERE / "answer_types.py"
 WIDTH = 120
 PYTHON = {"boolean": "bool", "integer": "int", "number": "float", "string": "str"}
 OF_ALL = ("answer", "version", "headline")
-CALLED = ("compare", "identify", "judge", "plan", "summary", "tune")
+CALLED = ("check", "compare", "identify", "judge", "plan", "summary", "tune")
 """Commands that functions of the package call."""
 RESERVED = frozenset({"Answer", "Record", "Any", "Ask", "Literal", "Protocol", "Union", "Undescribed"})
 HEAD = '''"""The answers of the program, written by generate_answers.py from ``zerocount schema --answers``: do not edit."""

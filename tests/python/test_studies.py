@@ -239,7 +239,7 @@ def test_a_file_that_a_manifest_names_is_found_from_its_folder(
     monkeypatch.chdir(tmp_path)
     for study in (joint, joint.set(seed=4), joint.without("goal"), joint.sweep("controller.delay", [0, 1])):
         assert zc.trial(study).inputs["friction.k1"] in (108, 112, 95, 130)
-        assert "joint" in study.check()
+        assert "joint" in str(study.check())
         assert study.run("joint.h5", force=True).path == pathlib.Path("joint.h5")
 
 

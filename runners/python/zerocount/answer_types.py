@@ -10,6 +10,177 @@ if TYPE_CHECKING:
     import pandas  # type: ignore[import]
 
 
+class Cost(Record):
+    """Computing time.
+
+    Attributes
+    ----------
+    samples : float or None
+        Samples of all trials.
+    seconds_per_sample : float or None
+        On one core, s.
+    cores : int
+        Cores of this machine.
+    seconds : float or None
+        With all cores, s.
+    """
+
+    samples: float | None
+    seconds_per_sample: float | None
+    cores: int
+    seconds: float | None
+
+
+class CheckAnswer(Answer):
+    """The plan of a study, and the theory of its points.
+
+    Attributes
+    ----------
+    name : str
+        Name of the study.
+    points : int
+        Design points.
+    trials : int
+        Trials of each point, or the most of them.
+    moves : int
+        Moves of a trial.
+    rigs : int
+        Rigs at each point; 0: none.
+    worlds : int
+        Worlds; 0: none.
+    judged_by : str or None
+        What the moves are judged by.
+    stopping : pandas.DataFrame
+        Trials that the stopping rule takes.
+
+        - ``success_rate``: success rate of the trials
+        - ``trials``: trials that the stopping rule takes, about
+        - ``fixed``: trials for the same bounds, if fixed beforehand
+        - ``ratio``: ratio of both
+
+    cost : Cost
+        Computing time.
+    file_bytes : float or None
+        Size of the results file, byte.
+    disk_bytes : float or None
+        Most space on the disk while it runs, byte.
+    memory_bytes : float or None
+        Most memory, byte.
+    differ_in_trials : list[str]
+        Inputs that differ between trials.
+    differ_in_contacts : list[str]
+        Of these, drawn at each contact.
+    differ_in_rigs : list[str]
+        Inputs that differ between rigs.
+    differ_in_worlds : list[str]
+        Inputs that differ between worlds.
+    same_in_points : list[str]
+        Inputs that differ between points only.
+    sampled_together : str or None
+        Inputs of a table of samples.
+    correlated : str or None
+        Correlated inputs.
+    points_left_out : int
+        Points without their theory here.
+    theory : pandas.DataFrame
+        Theory of the first points.
+
+        - ``point``: number of the design point
+        - ``label``: label of the design point
+        - ``outside``: why (6) and (7) do not apply; null: they do
+        - ``hunting_left_out``: part of the loop that the predictions leave out
+        - ``hunting_by_function``: cycles of trial 0 by describing function
+          - ``amplitude``: half of its range, count
+          - ``period``: its period, s
+          - ``rough``: within a third of trials, not a twentieth
+        - ``hunting_by_stick_slip``: cycles of trial 0 by stick-slip
+          - ``amplitude``: half of its range, count
+          - ``period``: its period, s
+          - ``rough``: within a third of trials, not a twentieth
+        - ``gain_name``: name of the integral gain
+        - ``gain_unit``: unit of the gain and its bounds
+        - ``gain.low``: smallest
+        - ``gain.high``: largest
+        - ``integral``: why there is no integral; null: there is one
+        - ``criteria``: verdict of the paper's criteria (6) and (7)
+        - ``criteria_trials``: trials that the criteria were tried in
+        - ``criteria_stable``: trials in which (6) holds
+        - ``criteria_unstable``: trials in which (7) is exceeded
+        - ``sampled``: verdict of the sampled loop at k1, or without a spring
+        - ``stable_below.low``: smallest
+        - ``stable_below.high``: largest
+        - ``sampled_below.low``: smallest
+        - ``sampled_below.high``: largest
+        - ``unstable_above.low``: smallest
+        - ``unstable_above.high``: largest
+        - ``dac_resolution.low``: smallest
+        - ``dac_resolution.high``: largest
+        - ``dac_bound.low``: smallest
+        - ``dac_bound.high``: largest
+        - ``torque_unit``: unit of both
+        - ``coarse_feedback``: whether the bound is of the coarse encoder
+        - ``rule_trials``: trials that the rules were tried in
+        - ``fine_enough``: trials in which the DAC satisfies its rule
+        - ``fast_enough``: trials in which the sample rate satisfies its rule
+        - ``natural_frequency.low``: smallest, Hz
+        - ``natural_frequency.high``: largest, Hz
+        - ``sample_rate.low``: smallest, Hz
+        - ``sample_rate.high``: largest, Hz
+        - ``lowest_k1``: lowest stiffness k1 of the study
+        - ``lowest_k1_source``: where it is from
+        - ``lowest_stable_below``: bound of criterion (6) there, in the unit of the gain
+        - ``lowest_sampled_below``: bound of the sampled loop there, in the unit of the gain
+        - ``time_constant.low``: smallest, s
+        - ``time_constant.high``: largest, s
+        - ``hold``: time that the shortest move is held, s
+        - ``longest_step``: length of the slowest move; 0: no step, count
+        - ``longest_time``: time that it needs, with the dwell, s
+        - ``exceeds_hold``: whether moves may end before they arrive
+        - ``loops``: the loop at k1, at k1 + k2 and while the rotor slides
+          - ``loop``: where the rotor is
+          - ``slides``: whether the rotor slides
+          - ``stability``: stable, marginal or unstable: all that occur in the trials
+          - ``slow.low``: smallest, s
+          - ``slow.high``: largest, s
+          - ``bandwidth.low``: smallest, Hz
+          - ``bandwidth.high``: largest, Hz
+          - ``gain_margin.low``: smallest, dB
+          - ``gain_margin.high``: largest, dB
+          - ``gain_margin_at.low``: smallest, Hz
+          - ``gain_margin_at.high``: largest, Hz
+          - ``phase_margin.low``: smallest, °
+          - ``phase_margin.high``: largest, °
+          - ``phase_margin_at.low``: smallest, Hz
+          - ``phase_margin_at.high``: largest, Hz
+        - ``targets``: targets of trial 0 in SI units, and their counts
+
+    """
+
+    _records = {"cost": Cost}
+
+    name: str
+    points: int
+    trials: int
+    moves: int
+    rigs: int
+    worlds: int
+    judged_by: str | None
+    stopping: pandas.DataFrame
+    cost: Cost
+    file_bytes: float | None
+    disk_bytes: float | None
+    memory_bytes: float | None
+    differ_in_trials: list[str]
+    differ_in_contacts: list[str]
+    differ_in_rigs: list[str]
+    differ_in_worlds: list[str]
+    same_in_points: list[str]
+    sampled_together: str | None
+    correlated: str | None
+    points_left_out: int
+    theory: pandas.DataFrame
+
+
 class VerifyAnswer(Answer):
     """Whether results files hold what their manifests say.
 
@@ -430,6 +601,73 @@ class JerksAnswer(Answer):
     points: pandas.DataFrame
 
 
+class HistoryAnswer(Answer):
+    """Results over time, and when they changed.
+
+    Attributes
+    ----------
+    false_alarm_probability : float or None
+        Probability of a change in any series without cause.
+    false_alarm_runs : float or None
+        Runs within which it has this probability.
+    threshold : float or None
+        Limit of |z| of the test levels.
+    max_p : float or None
+        Limit of p of the test baseline.
+    series : pandas.DataFrame
+        A measure at a point in all runs.
+
+        - ``study``: name of the study
+        - ``series_sha256``: hash of the question, equal for all runs
+        - ``point``: label of the design point
+        - ``measure``: name of the measure
+        - ``unit``: unit of the values
+        - ``test``: how the series is tested
+        - ``runs``: runs by time
+          - ``created``: time of the run, UTC
+          - ``git_commit``: commit of the program
+          - ``zerocount_version``: version of the program
+          - ``study_sha256``: hash of the study
+          - ``seed``: seed of the study, decimal
+          - ``trials``: trials per design point
+          - ``n``: trials or values that the value is of
+          - ``value``: value of the measure, in its unit, with 95 % bounds
+          - ``value_low``: lower bound
+          - ``value_high``: upper bound
+          - ``comparison.verdict``: verdict on the change
+          - ``comparison.baseline_created``: time of the baseline, UTC
+          - ``comparison.baseline_commit``: commit of the baseline
+          - ``comparison.baseline``: value of the baseline
+          - ``comparison.effect``: change for the worse, with one-sided bounds
+          - ``comparison.effect_low``: lower bound
+          - ``comparison.effect_high``: upper bound
+          - ``comparison.margin``: largest accepted effect
+          - ``comparison.p``: two-sided p-value of no difference
+          - ``changed``: changes after which this is the first run
+          - ``significant``: changes that are significant since this run
+        - ``changes``: changes that are significant
+          - ``before``: level before the change
+          - ``after``: level after the change
+          - ``since_baseline``: whether the change lies between the baseline and the first run
+          - ``last_run_before.created``: time of the run, UTC
+          - ``last_run_before.git_commit``: commit of the program
+          - ``first_run_after.created``: time of the run, UTC
+          - ``first_run_after.git_commit``: commit of the program
+          - ``significant_since.created``: time of the run, UTC
+          - ``significant_since.git_commit``: commit of the program
+          - ``z``: signed root of the likelihood ratio statistic, of the test levels
+          - ``p``: two-sided p-value, of the test baseline
+          - ``sentence``: the change in words
+
+    """
+
+    false_alarm_probability: float | None
+    false_alarm_runs: float | None
+    threshold: float | None
+    max_p: float | None
+    series: pandas.DataFrame
+
+
 class SensitivityAnswer(Answer):
     """Which random parameters influence the outputs of the trials.
 
@@ -507,12 +745,14 @@ class TuneAnswer(Undescribed):
 
 
 TYPES: dict[str, type[Answer]] = {
+    "check": CheckAnswer,
     "verify": VerifyAnswer,
     "judge": JudgeAnswer,
     "learn": LearnAnswer,
     "parameters": ParametersAnswer,
     "parameters-guides": ParametersGuidesAnswer,
     "jerks": JerksAnswer,
+    "history": HistoryAnswer,
     "sensitivity": SensitivityAnswer,
     "compare": CompareAnswer,
     "identify": IdentifyAnswer,
@@ -522,12 +762,14 @@ TYPES: dict[str, type[Answer]] = {
 }
 
 
-DESCRIBED = frozenset({"verify", "judge", "learn", "parameters", "jerks", "sensitivity"})
+DESCRIBED = frozenset({"check", "verify", "judge", "learn", "parameters", "jerks", "history", "sensitivity"})
 
 
 class Ask(Protocol):
     """Asks the program, and gives the answer of the command."""
 
+    @overload
+    def __call__(self, command: Literal["check"], /, *operands: Any, **options: Any) -> CheckAnswer: ...
     @overload
     def __call__(self, command: Literal["verify"], /, *operands: Any, **options: Any) -> VerifyAnswer: ...
     @overload
@@ -538,6 +780,8 @@ class Ask(Protocol):
     def __call__(self, command: Literal["parameters"], /, *operands: Any, **options: Any) -> ParametersAnswer | ParametersGuidesAnswer: ...
     @overload
     def __call__(self, command: Literal["jerks"], /, *operands: Any, **options: Any) -> JerksAnswer: ...
+    @overload
+    def __call__(self, command: Literal["history"], /, *operands: Any, **options: Any) -> HistoryAnswer: ...
     @overload
     def __call__(self, command: Literal["sensitivity"], /, *operands: Any, **options: Any) -> SensitivityAnswer: ...
     @overload

@@ -13,6 +13,8 @@ from typing import Any
 import _zerocount
 
 from . import program
+from .answer_types import CheckAnswer
+from .asking import ask
 from .errors import MachineError, ManifestError
 from .manifests import flow_text, yaml_text
 from .options import options
@@ -367,14 +369,19 @@ class Study:
         self.checked  # errors of the manifest have its places here
         return program.run(words, text=self.text, folder=self._folder, accepted=accepted, progress=progress)[1]
 
-    def check(self) -> str:
-        """The plan of the study and the theory of its points, as ``zerocount check`` prints them.
+    def check(self) -> CheckAnswer:
+        """The plan of the study and the theory of its points.
 
         Returns
         -------
-        str
+        CheckAnswer
+
+        Examples
+        --------
+        >>> zc.study("my-axis.yaml").check().theory.loc[2, "sampled"]
+        'stable'
         """
-        return self.command("check")
+        return ask("check", self)
 
     def run(
         self,

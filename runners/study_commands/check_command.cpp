@@ -85,6 +85,11 @@ std::string counted(std::int64_t count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
+std::optional<std::string> judged_by(const Plan& plan) {
+  if (plan.study.open_loop) return {};
+  return goal::question_sentence(goal::question_of(plan.study));
+}
+
 std::string plan_headline(const Plan& plan) {
   const study::Study& study = plan.study;
   return fmt::format("{}: {} × {} trials = {} trials, {} each, in about {}", study.name,
@@ -211,11 +216,11 @@ document::Description<Plan> plan_description() {
       .value(in_data("rigs", "rigs at each point; 0: none"), [](Of p) { return p.study.rigs; })
       .value(in_data("worlds", "worlds; 0: none"), [](Of p) { return p.study.worlds; })
       .sentence(trials_text)
-      .value({"judged_by", "judged by", "what the moves are judged by"},
-             [](Of p) {
-               return p.study.open_loop ? std::nullopt
-                                        : std::optional(goal::question_sentence(goal::question_of(p.study)));
-             })
+      .value(in_data("judged_by", "what the moves are judged by; null without targets"), judged_by)
+      .sentence([](Of p) {
+        const auto question = judged_by(p);
+        return question ? "judged by " + *question : std::string();
+      })
       .table({"stopping", "Trials that the stopping rule takes", "trials that the stopping rule takes"},
              stopping_description(), stopping_costs)
       .sentence(cost_text)

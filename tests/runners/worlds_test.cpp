@@ -127,7 +127,7 @@ TEST_F(WorldStudy, TellsWhatFollowsFromTheVerdict) {
 TEST_F(WorldStudy, TellsApartWhatMattersWithinAndBetweenWorlds) {
   const Json outputs = json_of({"sensitivity", "out.h5"})["points"][0]["outputs"];
   ASSERT_EQ(outputs.size(), 4U);
-  EXPECT_EQ(outputs[1]["output"], "success_between_worlds");
+  EXPECT_EQ(outputs[1]["output"], "goal_between_worlds");
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     for (const Json& factor : outputs[i]["factors"]) {
       const std::string name = factor["name"];

@@ -12,13 +12,13 @@
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/comparison/forecast.hpp"
 #include "analysis/comparison/gate_rules.hpp"
-#include "analysis/comparison/manifest_differences.hpp"
 #include "analysis/comparison/matching.hpp"
 #include "analysis/comparison/measure_comparison.hpp"
 #include "analysis/comparison/point_trials.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/manifest_keys.hpp"
 #include "results/layout/header.hpp"
+#include "results/layout/recorded_values.hpp"
 #include "results/reading/first_difference.hpp"
 
 namespace zerocount::comparison {
@@ -56,8 +56,9 @@ void find_layer(StudyComparison& result, const reading::StudyFile& baseline,
 }
 
 void require_same_kind(const reading::StudyFile& baseline, const reading::StudyFile& current,
-                       const ManifestValues& old_values, const ManifestValues& new_values) {
-  const auto open_loop = [](const ManifestValues& values) {
+                       const manifest::ManifestValues& old_values,
+                       const manifest::ManifestValues& new_values) {
+  const auto open_loop = [](const manifest::ManifestValues& values) {
     return std::any_of(values.begin(), values.end(),
                        [](const auto& value) { return value.first.starts_with("command.torque."); });
   };
@@ -69,7 +70,7 @@ void require_same_kind(const reading::StudyFile& baseline, const reading::StudyF
 
 /// Every test here takes trials for independent, and those of a saltelli design share most of their
 /// numbers.
-void require_independent_trials(const reading::StudyFile& file, const ManifestValues& values) {
+void require_independent_trials(const reading::StudyFile& file, const manifest::ManifestValues& values) {
   const auto design = values.find("design");
   if (design == values.end() || design->second != "saltelli") return;
   throw Failure(ExitCode::bad_data,
@@ -78,20 +79,20 @@ void require_independent_trials(const reading::StudyFile& file, const ManifestVa
                             file.path().string()));
 }
 
-std::int64_t whole_value(const ManifestValues& values, const std::string& key) {
+std::int64_t whole_value(const manifest::ManifestValues& values, const std::string& key) {
   return std::stoll(manifest::value_or(values, key, "0"));
 }
 
 /// The number of rigs that the trials of a study run on, 0 without. Where two studies have different worlds,
 /// these are the groups of trials that are not independent.
-std::int64_t rigs_of(const ManifestValues& values, bool other_worlds) {
+std::int64_t rigs_of(const manifest::ManifestValues& values, bool other_worlds) {
   const std::int64_t worlds = whole_value(values, "worlds");
   return other_worlds && worlds > 0 ? worlds : whole_value(values, "rigs");
 }
 
 /// Whether studies have worlds, and not the same ones.
-bool have_other_worlds(const reading::StudyFile& baseline, const ManifestValues& old_values,
-                       const reading::StudyFile& current, const ManifestValues& new_values) {
+bool have_other_worlds(const reading::StudyFile& baseline, const manifest::ManifestValues& old_values,
+                       const reading::StudyFile& current, const manifest::ManifestValues& new_values) {
   const std::string before = manifest::value_or(old_values, "worlds", "0");
   const std::string after = manifest::value_or(new_values, "worlds", "0");
   return before != after || (after != "0" && baseline.header().seed != current.header().seed);
@@ -213,7 +214,7 @@ GateMeasure in_file(const reading::StudyFile& file, const GateMeasure& wanted) {
 constexpr const char* expected_goal = "expected one such as goal: {band: 1, within: 0.05, moves: 0.99}";
 
 /// The goal of the manifest.
-std::optional<study::Goal> goal_of(const reading::StudyFile& file, const ManifestValues& values) {
+std::optional<study::Goal> goal_of(const reading::StudyFile& file, const manifest::ManifestValues& values) {
   const bool has_goal = std::any_of(values.begin(), values.end(), [](const auto& value) {
     return manifest::is_within(value.first, "goal");
   });
@@ -259,7 +260,7 @@ std::optional<study::Goal> judged_goal(const GateRules& rules, const reading::St
 
 /// The trials of a file that its judgement by the goal needs.
 AlsoRead read_by(const std::optional<study::Goal>& goal, const reading::StudyFile& file,
-                 const ManifestValues& values, std::int64_t clusters) {
+                 const manifest::ManifestValues& values, std::int64_t clusters) {
   AlsoRead also;
   also.rigs = clusters;
   also.goal_rigs = whole_value(values, "rigs");
@@ -268,8 +269,8 @@ AlsoRead read_by(const std::optional<study::Goal>& goal, const reading::StudyFil
   return also;
 }
 
-ComparedData compared_data(const reading::StudyFile& baseline, const ManifestValues& old_values,
-                           const reading::StudyFile& current, const ManifestValues& new_values,
+ComparedData compared_data(const reading::StudyFile& baseline, const manifest::ManifestValues& old_values,
+                           const reading::StudyFile& current, const manifest::ManifestValues& new_values,
                            std::vector<MatchedPoint> points, const GateRules& rules) {
   const bool other = have_other_worlds(baseline, old_values, current, new_values);
   ComparedData data{baseline, current, std::move(points), rigs_of(old_values, other),
@@ -291,8 +292,8 @@ ComparedData compared_data(const reading::StudyFile& baseline, const ManifestVal
   return data;
 }
 
-DrawComparison compare_draws_of(const ComparedData& data, const ManifestValues& old_values,
-                                const ManifestValues& new_values) {
+DrawComparison compare_draws_of(const ComparedData& data, const manifest::ManifestValues& old_values,
+                                const manifest::ManifestValues& new_values) {
   return compare_draws(data.baseline, data.current, old_values, new_values, data.points,
                        std::min(data.baseline_trials, data.current_trials));
 }
@@ -517,7 +518,7 @@ void pair_trials(StudyComparison& result, const DrawComparison& draws) {
 }
 
 /// The draws of two points of one file.
-DrawComparison compare_draws_within(const ComparedData& data, const ManifestValues& values) {
+DrawComparison compare_draws_within(const ComparedData& data, const manifest::ManifestValues& values) {
   if (manifest::value_or(values, "independent_points", "false") == "true")
     return {false, "the points have random numbers of their own", {}};
   return compare_draws_of(data, values, values);
@@ -541,9 +542,9 @@ std::vector<manifest::ManifestDifference> axis_differences(const reading::StudyF
 StudyComparison compare_studies(const reading::StudyFile& baseline, const reading::StudyFile& current,
                                 const GateRules& rules) {
   std::vector<MatchedPoint> points = match_points(baseline, current);
-  ManifestValues old_values = manifest_values(baseline.header(), baseline.path().string());
-  ManifestValues new_values = manifest_values(current.header(), current.path().string());
-  write_changed_defaults(old_values, baseline.header().version, new_values, current.header().version);
+  manifest::ManifestValues old_values = layout::manifest_values(baseline.header(), baseline.path().string());
+  manifest::ManifestValues new_values = layout::manifest_values(current.header(), current.path().string());
+  layout::write_changed_defaults(old_values, baseline.header().version, new_values, current.header().version);
   require_same_kind(baseline, current, old_values, new_values);
   const ComparedData data =
       compared_data(baseline, old_values, current, new_values, std::move(points), rules);
@@ -564,7 +565,7 @@ StudyComparison compare_points(const reading::StudyFile& file, std::int64_t base
                                const GateRules& rules) {
   const std::vector<std::string> labels = file.point_labels();
   const MatchedPoint point{labels[static_cast<std::size_t>(current)], baseline, current};
-  const ManifestValues values = manifest_values(file.header(), file.path().string());
+  const manifest::ManifestValues values = layout::manifest_values(file.header(), file.path().string());
   require_independent_trials(file, values);
   StudyComparison result = begin(file, file, rules);
   result.baseline_label = labels[static_cast<std::size_t>(baseline)];

@@ -64,7 +64,7 @@ class Simulator {
     FileWeights population;
     FileWeights further;
     for (std::size_t file = 0; file < 2; ++file) {
-      const Continuation& continuation = samples_.continuations()[file];
+      const two_samples::Continuation& continuation = samples_.continuations()[file];
       population[file] = samples_.continuations()[samples_.one_sample() ? 1 : file].population(simulation);
       further[file] = continuation.further_units(population[file], more_units(file, trials), simulation);
     }
@@ -106,17 +106,19 @@ class Simulator {
                       double trials) const {
     const auto stream = 2 * kind + static_cast<std::uint32_t>(file);
     const auto population = 2 * kind + static_cast<std::uint32_t>(samples_.one_sample() ? 1 : file);
-    const double weight =
-        unseen_weight(continuation_bits(simulation, population, point, ContinuationDraw::unseen_kind));
+    const double weight = unseen_weight(two_samples::continuation_bits(
+        simulation, population, point, two_samples::ContinuationDraw::unseen_kind));
     const double mean =
         weight * more_units(file, trials) / static_cast<double>(samples_.continuations()[file].units());
-    return poisson_number(mean, continuation_bits(simulation, stream, point, ContinuationDraw::unseen_units));
+    return two_samples::poisson_number(
+        mean, two_samples::continuation_bits(simulation, stream, point,
+                                             two_samples::ContinuationDraw::unseen_units));
   }
 
   bool is_zero(std::size_t measure, Truth truth, std::uint32_t simulation) const {
     if (truth != Truth::some_zero) return false;
-    const double u =
-        random::open_uniform(continuation_bits(simulation, 0, measure, ContinuationDraw::nil_effect));
+    const double u = random::open_uniform(
+        two_samples::continuation_bits(simulation, 0, measure, two_samples::ContinuationDraw::nil_effect));
     return u < zero_probabilities_[measure];
   }
 
@@ -145,7 +147,7 @@ class Simulator {
       }
     }
     TestedMeasure tested = samples_.measures()[i].found;
-    const QuickResult result = measure.test(sums, options_.confidence, !zero);
+    const two_samples::QuickResult result = measure.test(sums, options_.confidence, !zero);
     tested.effect = result.effect;
     tested.bounds = result.bounds;
     tested.p = result.p;
@@ -315,7 +317,8 @@ std::vector<double> zero_difference_probabilities(const std::vector<double>& z) 
 }
 
 ForecastSamples::ForecastSamples(std::array<std::int64_t, 2> units, bool one_sample)
-    : one_sample_(one_sample), continuations_{Continuation(units[0], 0), Continuation(units[1], 1)} {}
+    : one_sample_(one_sample),
+      continuations_{two_samples::Continuation(units[0], 0), two_samples::Continuation(units[1], 1)} {}
 
 void ForecastSamples::add(ForecastPoint point) {
   trials_ = {std::max(trials_[0], point.baseline_trials), std::max(trials_[1], point.current_trials)};

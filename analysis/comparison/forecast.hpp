@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/comparison/continuation.hpp"
 #include "analysis/comparison/judged_sample.hpp"
 #include "analysis/comparison/measure_comparison.hpp"
+#include "analysis/two_samples/continuation.hpp"
 
 /// How many trials would decide a comparison, by simulation of the comparison with more trials.
 namespace zerocount::comparison {
@@ -48,7 +48,7 @@ class ForecastSamples {
   void add(ForecastPoint point);
 
   bool one_sample() const { return one_sample_; }
-  const std::array<Continuation, 2>& continuations() const { return continuations_; }
+  const std::array<two_samples::Continuation, 2>& continuations() const { return continuations_; }
   const std::vector<ForecastMeasure>& measures() const { return measures_; }
   const std::vector<ForecastRequirement>& requirements() const { return requirements_; }
   /// The most trials of a point of the baseline (0) or the file (1); at least 1.
@@ -58,7 +58,7 @@ class ForecastSamples {
   void require_units(std::int64_t units, std::size_t file) const;
 
   bool one_sample_;
-  std::array<Continuation, 2> continuations_;
+  std::array<two_samples::Continuation, 2> continuations_;
   std::size_t points_{0};
   std::vector<ForecastMeasure> measures_;
   std::vector<ForecastRequirement> requirements_;

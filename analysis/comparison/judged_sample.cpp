@@ -104,13 +104,13 @@ std::int64_t whole(double number) {
   return std::max<std::int64_t>(0, std::llround(number));
 }
 
-FailureCounts counts_of(const FileSums& sums) {
+two_samples::FailureCounts counts_of(const FileSums& sums) {
   const std::int64_t n1 = whole(sums[0][units]);
   const std::int64_t n2 = whole(sums[1][units]);
   return {std::min(n1, whole(sums[0][values])), n1, std::min(n2, whole(sums[1][values])), n2};
 }
 
-ValueSums values_of(const SampleSums& sums) {
+two_samples::ValueSums values_of(const SampleSums& sums) {
   return {sums[units], sums[values], sums[squares]};
 }
 
@@ -129,7 +129,7 @@ void shift(SampleSums& sums, double effect) {
 
 }  // namespace
 
-BlockedSums::BlockedSums(const std::vector<SampleSums>& rows, const Continuation& continuation)
+BlockedSums::BlockedSums(const std::vector<SampleSums>& rows, const two_samples::Continuation& continuation)
     : blocks_(continuation.blocks()) {
   for (std::size_t unit = 0; unit < rows.size(); ++unit) {
     const std::size_t block = continuation.block_of(static_cast<std::int64_t>(unit));
@@ -148,7 +148,8 @@ SampleSums BlockedSums::weighted(const std::vector<double>& weights) const {
   return sums;
 }
 
-JudgedMeasure::JudgedMeasure(const MeasureSample& sample, const std::array<Continuation, 2>& continuations)
+JudgedMeasure::JudgedMeasure(const MeasureSample& sample,
+                             const std::array<two_samples::Continuation, 2>& continuations)
     : proportion_(sample.proportion), paired_(sample.paired), plausible_(sample.plausible) {
   if (paired_) {
     std::vector<SampleSums> rows = rows_of_pairs(sample);
@@ -199,16 +200,18 @@ void JudgedMeasure::add_unseen(SampleSums& sums, double first_kind, double secon
   if (paired_) sums[squares] += second_kind;
 }
 
-QuickResult JudgedMeasure::test(const FileSums& sums, double confidence, bool ranks) const {
+two_samples::QuickResult JudgedMeasure::test(const FileSums& sums, double confidence, bool ranks) const {
   if (!proportion_) return test_means(sums, confidence, ranks);
-  if (!paired_) return quick_proportion(counts_of(sums), confidence);
-  return quick_paired_proportion({whole(sums[0][units]), whole(sums[0][values]), whole(sums[0][squares])},
-                                 confidence);
+  if (!paired_) return two_samples::quick_proportion(counts_of(sums), confidence);
+  return two_samples::quick_paired_proportion(
+      {whole(sums[0][units]), whole(sums[0][values]), whole(sums[0][squares])}, confidence);
 }
 
-QuickResult JudgedMeasure::test_means(const FileSums& sums, double confidence, bool ranks) const {
-  QuickResult result = paired_ ? quick_paired_mean(values_of(sums[0]), plausible_, confidence)
-                               : quick_mean(values_of(sums[0]), values_of(sums[1]), plausible_, confidence);
+two_samples::QuickResult JudgedMeasure::test_means(const FileSums& sums, double confidence,
+                                                   bool ranks) const {
+  two_samples::QuickResult result =
+      paired_ ? two_samples::quick_paired_mean(values_of(sums[0]), plausible_, confidence)
+              : two_samples::quick_mean(values_of(sums[0]), values_of(sums[1]), plausible_, confidence);
   if (!ranks) return result;
   double worse = excess_p(sums[0], sums[1], worse_rank);
   double better = excess_p(sums[1], sums[0], better_rank);

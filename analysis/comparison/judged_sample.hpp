@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "analysis/comparison/continuation.hpp"
 #include "analysis/comparison/measure_comparison.hpp"
-#include "analysis/comparison/quick_tests.hpp"
+#include "analysis/two_samples/continuation.hpp"
+#include "analysis/two_samples/quick_tests.hpp"
 
 /// A sample as the sums that its judgement needs, for samples that go on.
 namespace zerocount::comparison {
@@ -25,7 +25,7 @@ class BlockedSums {
  public:
   BlockedSums() = default;
   /// @param rows [unit]
-  BlockedSums(const std::vector<SampleSums>& rows, const Continuation& continuation);
+  BlockedSums(const std::vector<SampleSums>& rows, const two_samples::Continuation& continuation);
 
   const SampleSums& seen() const { return seen_; }
   /// With so many units like each block.
@@ -39,7 +39,7 @@ class BlockedSums {
 /// The sample of one measure.
 class JudgedMeasure {
  public:
-  JudgedMeasure(const MeasureSample& sample, const std::array<Continuation, 2>& continuations);
+  JudgedMeasure(const MeasureSample& sample, const std::array<two_samples::Continuation, 2>& continuations);
 
   FileSums seen() const { return {files_[0].seen(), files_[1].seen()}; }
   FileSums weighted(const FileWeights& weights) const;
@@ -55,10 +55,10 @@ class JudgedMeasure {
   void add_unseen(SampleSums& sums, double first_kind, double second_kind) const;
 
   /// @param ranks whether the rank test speaks too
-  QuickResult test(const FileSums& sums, double confidence, bool ranks) const;
+  two_samples::QuickResult test(const FileSums& sums, double confidence, bool ranks) const;
 
  private:
-  QuickResult test_means(const FileSums& sums, double confidence, bool ranks) const;
+  two_samples::QuickResult test_means(const FileSums& sums, double confidence, bool ranks) const;
 
   bool proportion_;
   bool paired_;

@@ -145,7 +145,8 @@ std::vector<MatchedPoint> match_points(const reading::StudyFile& baseline,
 }
 
 DrawComparison compare_draws(const reading::StudyFile& baseline, const reading::StudyFile& current,
-                             const ManifestValues& old_values, const ManifestValues& new_values,
+                             const manifest::ManifestValues& old_values,
+                             const manifest::ManifestValues& new_values,
                              const std::vector<MatchedPoint>& points, std::int64_t trials) {
   if (baseline.header().seed != current.header().seed) return {false, "the seeds differ", {}};
   for (const auto& [key, absent] : {std::pair<std::string, std::string>{"design", "monte_carlo"},

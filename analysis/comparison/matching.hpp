@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/comparison/manifest_differences.hpp"
+#include "experiments/manifest/manifest_values.hpp"
 #include "results/reading/study_file.hpp"
 
 namespace zerocount::comparison {
@@ -36,7 +36,8 @@ struct DrawComparison {
 /// has bitwise equal values in the first `trials` trials of the points or, after a change of its
 /// distribution, sorts them in the same order.
 DrawComparison compare_draws(const reading::StudyFile& baseline, const reading::StudyFile& current,
-                             const ManifestValues& old_values, const ManifestValues& new_values,
+                             const manifest::ManifestValues& old_values,
+                             const manifest::ManifestValues& new_values,
                              const std::vector<MatchedPoint>& points, std::int64_t trials);
 
 }  // namespace zerocount::comparison

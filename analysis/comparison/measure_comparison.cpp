@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "analysis/comparison/mean_tests.hpp"
-#include "analysis/comparison/proportion_tests.hpp"
-#include "analysis/comparison/quantile_tests.hpp"
 #include "analysis/statistics/normal.hpp"
+#include "analysis/two_samples/mean_tests.hpp"
+#include "analysis/two_samples/proportion_tests.hpp"
+#include "analysis/two_samples/quantile_tests.hpp"
 
 namespace zerocount::comparison {
 namespace {
@@ -142,8 +142,9 @@ ComparedValues compared_failures(const PointTrials& baseline, const PointTrials&
 }
 
 /// @param baseline, current 1 for each trial that failed, else 0
-PairedFailures paired_failures(const std::vector<double>& baseline, const std::vector<double>& current) {
-  PairedFailures failures;
+two_samples::PairedFailures paired_failures(const std::vector<double>& baseline,
+                                            const std::vector<double>& current) {
+  two_samples::PairedFailures failures;
   failures.pairs = std::ssize(baseline);
   for (std::size_t trial = 0; trial < baseline.size(); ++trial) {
     failures.only_current += baseline[trial] < current[trial];
@@ -152,7 +153,7 @@ PairedFailures paired_failures(const std::vector<double>& baseline, const std::v
   return failures;
 }
 
-void take_p(MeasureComparison& result, const DirectionalP& p) {
+void take_p(MeasureComparison& result, const two_samples::DirectionalP& p) {
   result.p = p.worse;
   result.improvement_p = p.better;
 }
@@ -162,27 +163,28 @@ void compare_proportion(MeasureComparison& result, const GateMeasure& measure,
                         double confidence) {
   const std::vector<double> baseline = failures_of(baseline_trials, measure);
   const std::vector<double> current = failures_of(current_trials, measure);
-  const FailureCounts counts{std::count(baseline.begin(), baseline.end(), 1.0), std::ssize(baseline),
-                             std::count(current.begin(), current.end(), 1.0), std::ssize(current)};
+  const two_samples::FailureCounts counts{
+      std::count(baseline.begin(), baseline.end(), 1.0), std::ssize(baseline),
+      std::count(current.begin(), current.end(), 1.0), std::ssize(current)};
   result.baseline_n = counts.baseline_trials;
   result.current_n = counts.current_trials;
   result.baseline =
       proportion_with(measure, statistics::rate(counts.baseline_failures, counts.baseline_trials));
   result.current = proportion_with(measure, statistics::rate(counts.current_failures, counts.current_trials));
-  take_p(result, p_of_failures(baseline, current, paired));
+  take_p(result, two_samples::p_of_failures(baseline, current, paired));
   if (paired) {
-    const PairedFailures failures = paired_failures(baseline, current);
+    const two_samples::PairedFailures failures = paired_failures(baseline, current);
     result.test = "McNemar, exact";
     result.paired_proportion = true;
     result.effect = static_cast<double>(failures.only_current - failures.only_baseline) /
                     static_cast<double>(failures.pairs);
-    result.bounds = tango(failures, confidence);
+    result.bounds = two_samples::tango(failures, confidence);
     return;
   }
   result.test = "Fisher, exact";
   result.effect = statistics::rate(counts.current_failures, counts.current_trials) -
                   statistics::rate(counts.baseline_failures, counts.baseline_trials);
-  result.bounds = newcombe(counts, confidence);
+  result.bounds = two_samples::newcombe(counts, confidence);
 }
 
 /// Plausible difference of a single trial, the `unit` of cautious_bounds(): 1 for counts; for times the
@@ -202,13 +204,13 @@ std::string test_of_means(bool paired, bool over_rigs) {
 void test_means(MeasureComparison& result, const ComparedValues& values, double unit, bool paired,
                 double confidence) {
   if (paired) {
-    result.effect = mean_difference(values.differences).value;
-    result.bounds = cautious_bounds(values.differences, unit, confidence);
-    take_p(result, p_of_differences(values.differences));
+    result.effect = two_samples::mean_difference(values.differences).value;
+    result.bounds = two_samples::cautious_bounds(values.differences, unit, confidence);
+    take_p(result, two_samples::p_of_differences(values.differences));
   } else {
-    result.effect = mean_difference(values.baseline, values.current).value;
-    result.bounds = cautious_bounds(values.baseline, values.current, unit, confidence);
-    take_p(result, p_of_means(values.baseline, values.current));
+    result.effect = two_samples::mean_difference(values.baseline, values.current).value;
+    result.bounds = two_samples::cautious_bounds(values.baseline, values.current, unit, confidence);
+    take_p(result, two_samples::p_of_means(values.baseline, values.current));
   }
 }
 
@@ -278,7 +280,7 @@ MeasureSample sample_of_proportion(const GateMeasure& measure, const PointTrials
 /// Probability of the quantile of the goal's settling time that is compared.
 constexpr double judged_quantile = 0.95;
 
-ClusteredValues clustered_times(const PointTrials& trials, const GateMeasure& measure) {
+two_samples::ClusteredValues clustered_times(const PointTrials& trials, const GateMeasure& measure) {
   return {trials.of(measure), trials.moves, trials.rigs};
 }
 
@@ -297,9 +299,9 @@ void compare_quantile(MeasureComparison& result, const GateMeasure& measure, con
     result.note = fmt::format("fewer than {} {}", least_values, over_rigs ? "rigs" : "trials");
     return;
   }
-  const QuantileDifference found =
-      quantile_difference(clustered_times(baseline, measure), clustered_times(current, measure), paired,
-                          judged_quantile, confidence);
+  const two_samples::QuantileDifference found =
+      two_samples::quantile_difference(clustered_times(baseline, measure), clustered_times(current, measure),
+                                       paired, judged_quantile, confidence);
   result.baseline = found.baseline;
   result.current = found.current;
   if (std::isnan(found.effect)) {
@@ -317,18 +319,19 @@ void compare_quantile(MeasureComparison& result, const GateMeasure& measure, con
 MeasureSample sample_of_quantile(const MeasureComparison& found, const GateMeasure& measure,
                                  const PointTrials& baseline, const PointTrials& current, bool paired,
                                  double confidence) {
-  const ClusteredValues before = clustered_times(baseline, measure);
-  const ClusteredValues after = clustered_times(current, measure);
-  const double x = pooled_quantile(before, after, judged_quantile);
+  const two_samples::ClusteredValues before = clustered_times(baseline, measure);
+  const two_samples::ClusteredValues after = clustered_times(current, measure);
+  const double x = two_samples::pooled_quantile(before, after, judged_quantile);
   MeasureSample sample;
   sample.paired = paired;
-  sample.baseline = proportions_from(before, x);
-  sample.current = proportions_from(after, x);
+  sample.baseline = two_samples::proportions_from(before, x);
+  sample.current = two_samples::proportions_from(after, x);
   std::vector<double> differences;
   for (std::size_t i = 0; paired && i < sample.current.size(); ++i)
     differences.push_back(sample.current[i] - sample.baseline[i]);
-  const MeanDifference mean =
-      paired ? mean_difference(differences) : mean_difference(sample.baseline, sample.current);
+  const two_samples::MeanDifference mean =
+      paired ? two_samples::mean_difference(differences)
+             : two_samples::mean_difference(sample.baseline, sample.current);
   const double error = 0.5 * (found.bounds.high - found.bounds.low) / statistics::normal_quantile(confidence);
   const double scale = mean.standard_error > 0.0 ? error / mean.standard_error : error;
   const double rest = found.effect - scale * mean.value;

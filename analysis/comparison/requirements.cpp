@@ -2,12 +2,12 @@
 #include <cmath>
 #include <cstddef>
 
-#include "analysis/comparison/mean_tests.hpp"
 #include "analysis/comparison/measure_comparison.hpp"
-#include "analysis/comparison/quick_tests.hpp"
 #include "analysis/goal/goal_verdict.hpp"
 #include "analysis/statistics/clustered_proportion.hpp"
 #include "analysis/statistics/quantile.hpp"
+#include "analysis/two_samples/mean_tests.hpp"
+#include "analysis/two_samples/quick_tests.hpp"
 
 namespace zerocount::comparison {
 namespace {
@@ -96,9 +96,10 @@ void judge_mean(RequirementResult& result, const std::vector<double>& values, do
                 double failing) {
   result.n = std::ssize(values);
   if (result.n < 2) return;
-  const MeanDifference mean = mean_difference(values);
+  const two_samples::MeanDifference mean = two_samples::mean_difference(values);
   result.value = mean.value;
-  result.bounds = {cautious_bounds(values, 1.0, failing).low, cautious_bounds(values, 1.0, confidence).high};
+  result.bounds = {two_samples::cautious_bounds(values, 1.0, failing).low,
+                   two_samples::cautious_bounds(values, 1.0, confidence).high};
   result.verdict = verdict_of(result.bounds, result.limit, result.at_least);
 }
 
@@ -193,8 +194,8 @@ GateVerdict requirement_verdict(const RequirementSample& sample, const Requireme
   const double low = sample.at_least ? confidence : failing_confidence;
   const double high = sample.at_least ? failing_confidence : confidence;
   if (sample.kind == RequirementKind::mean) {
-    const ValueSums values{sums.units, sums.hits, sums.hits_squared};
-    return verdict_of(quick_mean_bounds(values, 1.0, low, high), sample.limit, sample.at_least);
+    const two_samples::ValueSums values{sums.units, sums.hits, sums.hits_squared};
+    return verdict_of(two_samples::quick_mean_bounds(values, 1.0, low, high), sample.limit, sample.at_least);
   }
   ProportionClaim claim{std::llround(sums.hits), std::llround(sums.events), sample.limit, sample.at_least};
   if (sample.clustered) {

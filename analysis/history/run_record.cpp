@@ -6,19 +6,19 @@
 #include <fmt/format.h>
 
 #include "analysis/comparison/gate_rules.hpp"
-#include "analysis/comparison/manifest_differences.hpp"
 #include "analysis/goal/question.hpp"
 #include "analysis/summary/summary.hpp"
 #include "core/failure/failure.hpp"
 #include "core/hash/sha256.hpp"
 #include "experiments/parameters/earlier_defaults.hpp"
 #include "results/layout/header.hpp"
+#include "results/layout/recorded_values.hpp"
 #include "results/storage/checksum_trailer.hpp"
 
 namespace zerocount::history {
 namespace {
 
-bool drawn_per_study(const comparison::ManifestValues& values, const study::Study& study) {
+bool drawn_per_study(const manifest::ManifestValues& values, const study::Study& study) {
   return study.worlds > 0 ||  // another seed draws other worlds
          std::any_of(
              values.begin(), values.end(),
@@ -103,7 +103,7 @@ std::vector<RunValue> values_of(const summary::StudySummary& summary) {
 
 std::string series_sha256(const reading::StudyFile& file) {
   const layout::FileHeader& header = file.header();
-  comparison::ManifestValues values = comparison::manifest_values(header, file.path().string());
+  manifest::ManifestValues values = layout::manifest_values(header, file.path().string());
   for (const char* const key : {"description", "trials"}) values.erase(key);
   std::erase_if(values, [](const auto& entry) { return entry.first.ends_with(manifest::order_of_keys); });
   if (!drawn_per_study(values, layout::recorded_study(header, file.path()))) values.erase("seed");

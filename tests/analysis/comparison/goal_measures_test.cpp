@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/comparison/measure_comparison.hpp"
-#include "analysis/comparison/quantile_tests.hpp"
+#include "analysis/two_samples/quantile_tests.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/comparison/mean_tests.hpp"
 #include "analysis/comparison/measure_comparison.hpp"
-#include "analysis/comparison/proportion_tests.hpp"
-#include "analysis/comparison/rank_tests.hpp"
+#include "analysis/two_samples/mean_tests.hpp"
+#include "analysis/two_samples/proportion_tests.hpp"
+#include "analysis/two_samples/rank_tests.hpp"
 
 namespace zerocount::testing {
 namespace {
@@ -16,21 +16,21 @@ namespace {
 constexpr double z95 = 1.6448536269514722;
 
 TEST(ShareTests, NothingThatDiffersIsNoEvidence) {
-  EXPECT_EQ(comparison::mcnemar({500, 0, 0}), 1.0);
-  EXPECT_EQ(comparison::fisher({0, 300, 0, 200}), 1.0);
-  EXPECT_EQ(comparison::fisher({300, 300, 200, 200}), 1.0);
-  EXPECT_EQ(comparison::mcnemar({500, 0, 7}), 1.0);
+  EXPECT_EQ(two_samples::mcnemar({500, 0, 0}), 1.0);
+  EXPECT_EQ(two_samples::fisher({0, 300, 0, 200}), 1.0);
+  EXPECT_EQ(two_samples::fisher({300, 300, 200, 200}), 1.0);
+  EXPECT_EQ(two_samples::mcnemar({500, 0, 7}), 1.0);
 }
 
 TEST(ShareTests, SevenOfSevenIsOneInTwoToTheSeventh) {
-  EXPECT_NEAR(comparison::mcnemar({500, 7, 0}), 1.0 / 128.0, 1e-15);
-  EXPECT_NEAR(comparison::fisher({0, 7, 7, 7}), 1.0 / 3432.0, 1e-15);  // 14 choose 7
+  EXPECT_NEAR(two_samples::mcnemar({500, 7, 0}), 1.0 / 128.0, 1e-15);
+  EXPECT_NEAR(two_samples::fisher({0, 7, 7, 7}), 1.0 / 3432.0, 1e-15);  // 14 choose 7
 }
 
 // With no pair that differs, Tango's bound solves n·λ/√(nλ(1 − λ)) = z.
 TEST(ShareTests, BoundsWithoutAnyDifferingPair) {
   for (const std::int64_t n : {1, 20, 200, 5000}) {
-    const statistics::ConfidenceInterval bounds = comparison::tango({n, 0, 0}, 0.95);
+    const statistics::ConfidenceInterval bounds = two_samples::tango({n, 0, 0}, 0.95);
     const double expected = z95 * z95 / (static_cast<double>(n) + z95 * z95);
     EXPECT_NEAR(bounds.high, expected, 1e-12) << n;
     EXPECT_NEAR(bounds.low, -expected, 1e-12) << n;
@@ -43,8 +43,8 @@ TEST(ShareTests, TheBoundsOfTheOppositeAreOpposite) {
     const auto n = static_cast<std::int64_t>(1 + random() % 300);
     const auto b = static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(n + 1));
     const auto c = static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(n - b + 1));
-    const statistics::ConfidenceInterval one = comparison::tango({n, b, c}, 0.95);
-    const statistics::ConfidenceInterval other = comparison::tango({n, c, b}, 0.95);
+    const statistics::ConfidenceInterval one = two_samples::tango({n, b, c}, 0.95);
+    const statistics::ConfidenceInterval other = two_samples::tango({n, c, b}, 0.95);
     EXPECT_NEAR(one.high, -other.low, 1e-11);
     EXPECT_LE(one.low, static_cast<double>(b - c) / static_cast<double>(n) + 1e-12);
     EXPECT_GE(one.high, static_cast<double>(b - c) / static_cast<double>(n) - 1e-12);
@@ -67,7 +67,7 @@ TEST(ShareTests, BoundsOfPairsHoldAsOftenAsTheySay) {
               std::lgamma(static_cast<double>(n) + 1.0) - std::lgamma(worse + 1.0) -
               std::lgamma(better + 1.0) - std::lgamma(same + 1.0) + worse * std::log(p10) +
               better * std::log(proportion) + same * std::log(1.0 - p10 - proportion);
-          if (comparison::tango({n, b, c}, 0.95).high < difference) missed += std::exp(log_probability);
+          if (two_samples::tango({n, b, c}, 0.95).high < difference) missed += std::exp(log_probability);
         }
       }
       EXPECT_LE(missed, 0.06) << proportion << " " << difference;
@@ -78,16 +78,17 @@ TEST(ShareTests, BoundsOfPairsHoldAsOftenAsTheySay) {
 
 TEST(RankTests, EqualSamplesAreNoEvidence) {
   const std::vector<double> values{1.0, 2.0, 2.0, 3.0};
-  EXPECT_EQ(comparison::smirnov(values, values), 1.0);
-  EXPECT_EQ(comparison::smirnov(values, {}), 1.0);
-  EXPECT_EQ(comparison::signed_rank(std::vector<double>{0.0, 0.0}), 1.0);
+  EXPECT_EQ(two_samples::smirnov(values, values), 1.0);
+  EXPECT_EQ(two_samples::smirnov(values, {}), 1.0);
+  EXPECT_EQ(two_samples::signed_rank(std::vector<double>{0.0, 0.0}), 1.0);
 }
 
 TEST(RankTests, AllOnOneSideIsTheRarestOfAll) {
-  EXPECT_NEAR(comparison::signed_rank(std::vector<double>{1.0, 1.0, 2.0, 3.0, 3.0}), 1.0 / 32.0, 1e-16);
-  EXPECT_NEAR(comparison::smirnov(std::vector<double>{1.0, 2.0, 3.0}, std::vector<double>{4.0, 5.0, 6.0}),
+  EXPECT_NEAR(two_samples::signed_rank(std::vector<double>{1.0, 1.0, 2.0, 3.0, 3.0}), 1.0 / 32.0, 1e-16);
+  EXPECT_NEAR(two_samples::smirnov(std::vector<double>{1.0, 2.0, 3.0}, std::vector<double>{4.0, 5.0, 6.0}),
               1.0 / 20.0, 1e-16);
-  EXPECT_EQ(comparison::smirnov(std::vector<double>{4.0, 5.0, 6.0}, std::vector<double>{1.0, 2.0, 3.0}), 1.0);
+  EXPECT_EQ(two_samples::smirnov(std::vector<double>{4.0, 5.0, 6.0}, std::vector<double>{1.0, 2.0, 3.0}),
+            1.0);
 }
 
 // Where a sample is too large for the exact law, its limit takes over without a step.
@@ -96,9 +97,9 @@ TEST(RankTests, TheLimitsJoinTheExactLaws) {
   std::normal_distribution<double> normal;
   std::vector<double> differences;
   while (differences.size() < 201) differences.push_back(normal(random) + 0.12);
-  const double limit = comparison::signed_rank(differences);
+  const double limit = two_samples::signed_rank(differences);
   differences.pop_back();
-  EXPECT_NEAR(std::log(comparison::signed_rank(differences) / limit), 0.0, 0.25);
+  EXPECT_NEAR(std::log(two_samples::signed_rank(differences) / limit), 0.0, 0.25);
 
   std::vector<double> one;
   std::vector<double> two;
@@ -106,15 +107,15 @@ TEST(RankTests, TheLimitsJoinTheExactLaws) {
     one.push_back(normal(random));
     two.push_back(normal(random) + 0.05);
   }
-  const double exact = comparison::smirnov(one, two);
+  const double exact = two_samples::smirnov(one, two);
   one.push_back(0.0);
-  EXPECT_NEAR(std::log(comparison::smirnov(one, two) / exact), 0.0, 0.1);
+  EXPECT_NEAR(std::log(two_samples::smirnov(one, two) / exact), 0.0, 0.1);
 }
 
 TEST(MeanTests, ManyTrialsThatAgreeBoundTheMeanAsTheRuleOfThree) {
   for (const std::size_t n : {100u, 1000u, 10000u}) {
     const statistics::ConfidenceInterval bounds =
-        comparison::cautious_bounds(std::vector<double>(n, 0.0), 1.0, 0.95);
+        two_samples::cautious_bounds(std::vector<double>(n, 0.0), 1.0, 0.95);
     EXPECT_NEAR(bounds.high * static_cast<double>(n), 1.0 + z95, 0.03) << n;
     EXPECT_EQ(bounds.low, -bounds.high);
   }
@@ -127,17 +128,17 @@ TEST(MeanTests, TheBoundsEncloseTheMean) {
     std::vector<double> differences;
     while (differences.size() < 20 + static_cast<std::size_t>(round))
       differences.push_back(law(random) - 0.5);
-    const comparison::MeanDifference mean = comparison::mean_difference(differences);
-    const statistics::ConfidenceInterval bounds = comparison::cautious_bounds(differences, 0.5, 0.95);
+    const two_samples::MeanDifference mean = two_samples::mean_difference(differences);
+    const statistics::ConfidenceInterval bounds = two_samples::cautious_bounds(differences, 0.5, 0.95);
     EXPECT_LT(bounds.low, mean.value);
     EXPECT_GT(bounds.high, mean.value);
   }
 }
 
 TEST(MeanTests, WithoutSpreadTheMeanItselfDecides) {
-  EXPECT_EQ(comparison::p_of(comparison::mean_difference(std::vector<double>(30, 0.1))), 0.0);
-  EXPECT_EQ(comparison::p_of(comparison::mean_difference(std::vector<double>(30, 0.0))), 0.5);
-  EXPECT_EQ(comparison::p_of(comparison::mean_difference(std::vector<double>(30, -0.1))), 1.0);
+  EXPECT_EQ(two_samples::p_of(two_samples::mean_difference(std::vector<double>(30, 0.1))), 0.0);
+  EXPECT_EQ(two_samples::p_of(two_samples::mean_difference(std::vector<double>(30, 0.0))), 0.5);
+  EXPECT_EQ(two_samples::p_of(two_samples::mean_difference(std::vector<double>(30, -0.1))), 1.0);
 }
 
 /// The procedure itself: the largest i with p_(i) ≤ α·i/(m·H_m), and all below it.

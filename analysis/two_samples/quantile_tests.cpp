@@ -1,4 +1,4 @@
-#include "analysis/comparison/quantile_tests.hpp"
+#include "analysis/two_samples/quantile_tests.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/comparison/mean_tests.hpp"
-#include "analysis/comparison/proportion_tests.hpp"
-#include "analysis/comparison/rank_tests.hpp"
 #include "analysis/statistics/quantile.hpp"
+#include "analysis/two_samples/mean_tests.hpp"
+#include "analysis/two_samples/proportion_tests.hpp"
+#include "analysis/two_samples/rank_tests.hpp"
 
-namespace zerocount::comparison {
+namespace zerocount::two_samples {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -160,4 +160,4 @@ QuantileDifference quantile_difference(const ClusteredValues& baseline, const Cl
   return result;
 }
 
-}  // namespace zerocount::comparison
+}  // namespace zerocount::two_samples

@@ -1,4 +1,4 @@
-#include "analysis/comparison/rank_tests.hpp"
+#include "analysis/two_samples/rank_tests.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "analysis/statistics/normal.hpp"
 
-namespace zerocount::comparison {
+namespace zerocount::two_samples {
 namespace {
 
 constexpr std::size_t max_exact_ranks = 200;
@@ -133,4 +133,4 @@ double smirnov(std::span<const double> baseline, std::span<const double> current
   return std::exp(-2.0 * distance * distance * product / static_cast<double>(n1 + n2));
 }
 
-}  // namespace zerocount::comparison
+}  // namespace zerocount::two_samples

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "analysis/comparison/proportion_tests.hpp"
 #include "analysis/statistics/proportion.hpp"
+#include "analysis/two_samples/proportion_tests.hpp"
 
 /// The tests of the comparison from sums alone, quick enough for simulations. They approximate p-values; the
 /// bounds of proportions are those of the comparison.
-namespace zerocount::comparison {
+namespace zerocount::two_samples {
 
 /// Effect, bounds and the p-values against a change for the worse and for the better.
 struct QuickResult {
@@ -44,4 +44,4 @@ QuickResult quick_mean(const ValueSums& baseline, const ValueSums& current, doub
 statistics::ConfidenceInterval quick_mean_bounds(const ValueSums& values, double plausible,
                                                  double low_confidence, double high_confidence);
 
-}  // namespace zerocount::comparison
+}  // namespace zerocount::two_samples

@@ -5,7 +5,7 @@
 #include "analysis/statistics/proportion.hpp"
 
 /// Tests and bounds of a difference of means by Student's t. A positive difference is for the worse.
-namespace zerocount::comparison {
+namespace zerocount::two_samples {
 
 /// Difference of the means, and what its bounds come from.
 struct MeanDifference {
@@ -37,4 +37,4 @@ statistics::ConfidenceInterval cautious_bounds(std::span<const double> baseline,
                                                std::span<const double> current, double unit,
                                                double confidence);
 
-}  // namespace zerocount::comparison
+}  // namespace zerocount::two_samples

@@ -1,4 +1,4 @@
-#include "analysis/comparison/manifest_differences.hpp"
+#include "results/layout/recorded_values.hpp"
 
 #include <algorithm>
 
@@ -9,18 +9,19 @@
 #include "experiments/manifest/manifest_keys.hpp"
 #include "experiments/parameters/earlier_defaults.hpp"
 
-namespace zerocount::comparison {
+namespace zerocount::layout {
 namespace {
 
 /// Whether the manifest gives the parameter a value, or one to every point of a grid.
-bool gives(const ManifestValues& values, std::string_view parameter) {
+bool gives(const manifest::ManifestValues& values, std::string_view parameter) {
   return std::any_of(values.begin(), values.end(), [&](const auto& entry) {
     return manifest::is_within(entry.first, parameter) ||
            manifest::is_within(entry.first, fmt::format("sweep.grid.{}", parameter));
   });
 }
 
-void write_default(ManifestValues& values, const parameters::Parameter& parameter, std::int64_t version) {
+void write_default(manifest::ManifestValues& values, const parameters::Parameter& parameter,
+                   std::int64_t version) {
   if (gives(values, parameter.name)) return;
   values[std::string(parameter.name)] =
       parameters::number_text(parameter, parameters::default_value_in(parameter, version));
@@ -28,8 +29,8 @@ void write_default(ManifestValues& values, const parameters::Parameter& paramete
 
 }  // namespace
 
-ManifestValues manifest_values(const layout::FileHeader& header, const std::string& source) {
-  ManifestValues values;
+manifest::ManifestValues manifest_values(const FileHeader& header, const std::string& source) {
+  manifest::ManifestValues values;
   try {
     values = manifest::values_of(header.manifest, source + ":/manifest", header.overrides);
   } catch (const Failure& failure) {
@@ -40,8 +41,8 @@ ManifestValues manifest_values(const layout::FileHeader& header, const std::stri
   return values;
 }
 
-void write_changed_defaults(ManifestValues& baseline, std::int64_t baseline_version, ManifestValues& current,
-                            std::int64_t current_version) {
+void write_changed_defaults(manifest::ManifestValues& baseline, std::int64_t baseline_version,
+                            manifest::ManifestValues& current, std::int64_t current_version) {
   for (const parameters::EarlierDefault& earlier : parameters::earlier_defaults()) {
     const parameters::Parameter& parameter =
         parameters::parameter_table()[parameters::find_parameter(earlier.name).value()];
@@ -53,4 +54,4 @@ void write_changed_defaults(ManifestValues& baseline, std::int64_t baseline_vers
   }
 }
 
-}  // namespace zerocount::comparison
+}  // namespace zerocount::layout

@@ -1,4 +1,4 @@
-#include "analysis/comparison/proportion_tests.hpp"
+#include "analysis/two_samples/proportion_tests.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -6,7 +6,7 @@
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/normal.hpp"
 
-namespace zerocount::comparison {
+namespace zerocount::two_samples {
 namespace {
 
 /// Tango's statistic Z(λ).
@@ -75,4 +75,4 @@ statistics::ConfidenceInterval newcombe(const FailureCounts& failures, double co
           p2 - p1 + std::hypot(two.high - p2, p1 - one.low)};
 }
 
-}  // namespace zerocount::comparison
+}  // namespace zerocount::two_samples

@@ -1,4 +1,4 @@
-#include "analysis/comparison/continuation.hpp"
+#include "analysis/two_samples/continuation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include "core/random/random_numbers.hpp"
 #include "core/random/variates.hpp"
 
-namespace zerocount::comparison {
+namespace zerocount::two_samples {
 namespace {
 
 constexpr std::int64_t max_blocks = 1000;
@@ -70,4 +70,4 @@ std::vector<double> Continuation::further_units(const std::vector<double>& popul
   return numbers;
 }
 
-}  // namespace zerocount::comparison
+}  // namespace zerocount::two_samples

@@ -1,4 +1,4 @@
-#include "analysis/comparison/mean_tests.hpp"
+#include "analysis/two_samples/mean_tests.hpp"
 
 #include <cmath>
 #include <numeric>
@@ -6,7 +6,7 @@
 
 #include "analysis/statistics/distributions.hpp"
 
-namespace zerocount::comparison {
+namespace zerocount::two_samples {
 namespace {
 
 struct SampleMoments {
@@ -77,4 +77,4 @@ statistics::ConfidenceInterval cautious_bounds(std::span<const double> baseline,
   return {lower.value - half_width(lower, confidence), upper.value + half_width(upper, confidence)};
 }
 
-}  // namespace zerocount::comparison
+}  // namespace zerocount::two_samples

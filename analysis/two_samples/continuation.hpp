@@ -5,7 +5,7 @@
 #include <vector>
 
 /// How a sample might go on: simulated further units from what the seen ones say of their population.
-namespace zerocount::comparison {
+namespace zerocount::two_samples {
 
 /// Purpose of a random number of a continuation.
 enum class ContinuationDraw : std::uint32_t {
@@ -54,4 +54,4 @@ class Continuation {
   std::size_t blocks_;
 };
 
-}  // namespace zerocount::comparison
+}  // namespace zerocount::two_samples

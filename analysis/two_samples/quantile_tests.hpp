@@ -14,7 +14,7 @@
 /// proportions and means hold for these proportions as they do for any other. Values that are later than any
 /// other are infinite and need no treatment of their own. Source: Mood's median test for another
 /// probability; Conover, Practical Nonparametric Statistics (1999), section 4.3.
-namespace zerocount::comparison {
+namespace zerocount::two_samples {
 
 /// One-sided p-values of no difference.
 struct DirectionalP {
@@ -60,4 +60,4 @@ std::vector<double> proportions_from(const ClusteredValues& values, double x);
 /// The sample quantile of both together.
 double pooled_quantile(const ClusteredValues& baseline, const ClusteredValues& current, double probability);
 
-}  // namespace zerocount::comparison
+}  // namespace zerocount::two_samples

@@ -3,7 +3,7 @@
 #include <span>
 
 /// Rank tests of numbers, against the alternative that the current ones are larger.
-namespace zerocount::comparison {
+namespace zerocount::two_samples {
 
 /// Wilcoxon's signed-rank test: the probability of a sum of the ranks of the positive differences as large or
 /// larger, where each difference is as likely to have the other sign. Differences of 0 are left out; those of
@@ -26,4 +26,4 @@ double signed_rank(std::span<const double> differences);
 /// Computational Statistics & Data Analysis 20 (1995), 185.
 double smirnov(std::span<const double> baseline, std::span<const double> current);
 
-}  // namespace zerocount::comparison
+}  // namespace zerocount::two_samples

@@ -6,7 +6,7 @@
 
 /// Tests of a proportion of trials that fail something, in a baseline and in what is compared with it.
 /// Effects and alternatives are for the worse: more failures than in the baseline.
-namespace zerocount::comparison {
+namespace zerocount::two_samples {
 
 /// Failures of both, trial by trial.
 struct PairedFailures {
@@ -50,4 +50,4 @@ double fisher(const FailureCounts& failures);
 /// Source: Newcombe, Statistics in Medicine 17 (1998), 873, method 10.
 statistics::ConfidenceInterval newcombe(const FailureCounts& failures, double confidence);
 
-}  // namespace zerocount::comparison
+}  // namespace zerocount::two_samples

@@ -1,6 +1,6 @@
 """The tests and bounds of a comparison, against SciPy and against the definitions taken literally.
 
-usage: judge_comparison.py CASES    (a JSON object a line: kind, arguments, value)
+usage: judge_two_samples.py CASES    (a JSON object a line: kind, arguments, value)
 """
 
 import itertools

@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "analysis/comparison/mean_tests.hpp"
-#include "analysis/comparison/proportion_tests.hpp"
-#include "analysis/comparison/rank_tests.hpp"
+#include "analysis/two_samples/mean_tests.hpp"
+#include "analysis/two_samples/proportion_tests.hpp"
+#include "analysis/two_samples/rank_tests.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace zerocount::testing {
@@ -62,15 +62,15 @@ void add_shares(JudgedCases& cases, Draws& draws) {
     const std::int64_t pairs = draws.whole(1, 400);
     const std::int64_t worse = draws.whole(0, pairs);
     const std::int64_t better = draws.whole(0, pairs - worse);
-    cases.add("mcnemar", {pairs, worse, better}, comparison::mcnemar({pairs, worse, better}));
-    cases.add("tango", {pairs, worse, better, 0.95}, both(comparison::tango({pairs, worse, better}, 0.95)));
+    cases.add("mcnemar", {pairs, worse, better}, two_samples::mcnemar({pairs, worse, better}));
+    cases.add("tango", {pairs, worse, better, 0.95}, both(two_samples::tango({pairs, worse, better}, 0.95)));
 
     const std::int64_t n1 = draws.whole(1, 3000);
     const std::int64_t n2 = draws.whole(1, 3000);
     const std::int64_t k1 = draws.whole(0, n1);
     const std::int64_t k2 = std::min(n2, draws.whole(0, 2 * k1));
-    cases.add("fisher", {k1, n1, k2, n2}, comparison::fisher({k1, n1, k2, n2}));
-    cases.add("newcombe", {k1, n1, k2, n2, 0.9}, both(comparison::newcombe({k1, n1, k2, n2}, 0.9)));
+    cases.add("fisher", {k1, n1, k2, n2}, two_samples::fisher({k1, n1, k2, n2}));
+    cases.add("newcombe", {k1, n1, k2, n2, 0.9}, both(two_samples::newcombe({k1, n1, k2, n2}, 0.9)));
   }
 }
 
@@ -81,19 +81,19 @@ void add_numbers(JudgedCases& cases, Draws& draws) {
     const std::vector<double> plain = draws.normals(draws.whole(5, 150), shift);
     const std::vector<double> many = draws.halves(draws.whole(400, 600), 0.2 * shift);
     for (const auto& differences : {small, plain, many}) {
-      cases.add("signed_rank", differences, comparison::signed_rank(differences));
+      cases.add("signed_rank", differences, two_samples::signed_rank(differences));
     }
     const std::vector<double> one = draws.normals(draws.whole(3, 90), 0.0);
     const std::vector<double> two = draws.normals(draws.whole(3, 90), shift);
-    cases.add("smirnov", {one, two}, comparison::smirnov(one, two));
+    cases.add("smirnov", {one, two}, two_samples::smirnov(one, two));
     const std::vector<double> few = draws.halves(draws.whole(2, 5), 0.0);
     const std::vector<double> others = draws.halves(draws.whole(2, 5), 3.0 * shift);
-    cases.add("smirnov", {few, others}, comparison::smirnov(few, others));
-    cases.add("paired_t", plain, comparison::p_of(comparison::mean_difference(plain)));
-    cases.add("welch", {one, two}, comparison::p_of(comparison::mean_difference(one, two)));
-    cases.add("paired_bounds", {plain, 2.0, 0.95}, both(comparison::cautious_bounds(plain, 2.0, 0.95)));
+    cases.add("smirnov", {few, others}, two_samples::smirnov(few, others));
+    cases.add("paired_t", plain, two_samples::p_of(two_samples::mean_difference(plain)));
+    cases.add("welch", {one, two}, two_samples::p_of(two_samples::mean_difference(one, two)));
+    cases.add("paired_bounds", {plain, 2.0, 0.95}, both(two_samples::cautious_bounds(plain, 2.0, 0.95)));
     cases.add("two_sample_bounds", {one, two, 2.0, 0.95},
-              both(comparison::cautious_bounds(one, two, 2.0, 0.95)));
+              both(two_samples::cautious_bounds(one, two, 2.0, 0.95)));
   }
 }
 

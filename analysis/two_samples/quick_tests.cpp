@@ -1,11 +1,11 @@
-#include "analysis/comparison/quick_tests.hpp"
+#include "analysis/two_samples/quick_tests.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "analysis/statistics/normal.hpp"
 
-namespace zerocount::comparison {
+namespace zerocount::two_samples {
 namespace {
 
 /// P(count ≥ seen) of a count with this mean and variance, by the normal distribution.
@@ -107,4 +107,4 @@ statistics::ConfidenceInterval quick_mean_bounds(const ValueSums& values, double
   return {low.value - reach(low, low_confidence), high.value + reach(high, high_confidence)};
 }
 
-}  // namespace zerocount::comparison
+}  // namespace zerocount::two_samples

@@ -12,6 +12,7 @@ import collections
 import json
 import keyword
 import pathlib
+import re
 import subprocess
 import sys
 import textwrap
@@ -20,7 +21,7 @@ from typing import Any
 
 HERE = pathlib.Path(__file__).parent / "zerocount"
 sys.path.insert(0, str(HERE))
-from answer_schema import columns_of, row_schema  # noqa: E402  (the package itself needs the file)
+from answer_schema import row_schema  # noqa: E402  (the package itself needs the file)
 
 Schema = Mapping[str, Any]
 TARGET = HERE / "answer_types.py"
@@ -118,10 +119,11 @@ def wrapped(text: str, indent: int, further: int = 0) -> str:
 
 
 def column_lines(rows: Schema, indent: int) -> Iterator[str]:
-    """A line of documentation for each column of a table."""
-    for name, found in columns_of(rows):
+    """What is said of each member of a row: of an object also the parts, each of which is a column or several."""
+    for key, found in rows["properties"].items():
+        parts = f".* ({', '.join(found['properties'])})" if "properties" in found else ""
         meaning = described(found)
-        yield wrapped(f"- ``{name}``" + (f": {meaning}" if meaning else ""), indent, 2)
+        yield wrapped(f"- ``{key}``{parts}" + (f": {meaning}" if meaning else ""), indent, 2)
         inner = row_schema(found)
         if inner is not None:
             yield from column_lines(inner, indent + 2)
@@ -163,7 +165,7 @@ def by_command(answers: Mapping[str, Schema]) -> dict[str, list[str]]:
     """Names of the answers of each command."""
     result: dict[str, list[str]] = {}
     for name in answers:
-        result.setdefault(name.partition("-")[0], []).append(name)
+        result.setdefault(re.split("[-_]", name)[0], []).append(name)
     return result
 
 

@@ -136,7 +136,7 @@ def test_answers_are_those_of_the_program(
     axis: zc.Study, small: zc.Results, other: zc.Results, results_of: ResultsOf, folder: pathlib.Path, schema: Any
 ) -> None:
     """Functions and commands answer with the JSON and the text of the program, and the attributes that its schema tells."""
-    codes = set()
+    codes, texts = set(), {}
     for name, (ask, words) in asked(axis, small, other, results_of, folder).items():
         answer, done = ask(), program(*words, "--format", "json")
         record, values = timeless(json.loads(done.stdout)), timeless(answer.to_dict())
@@ -144,7 +144,10 @@ def test_answers_are_those_of_the_program(
         codes.add((words[0], done.returncode))
         if words[0] not in DESCRIBED:
             continue
-        assert record == values and timeless(str(answer)) == timeless(program(*words).stdout.rstrip("\n")), name
+        assert record == values, name
+        if words[0] not in texts:
+            texts[words[0]] = str(answer)
+            assert timeless(str(answer)) == timeless(program(*words).stdout.rstrip("\n")), name
         jsonschema.validate(answer.to_dict(), {**schema, "oneOf": [{"$ref": f"#/$defs/{answer.answer}"}]})
         assert answer.headline in repr(answer) and answer._repr_html_().startswith("<"), name
         assert_as_annotated(answer, schema["$defs"][answer.answer])

@@ -15,6 +15,13 @@ if TYPE_CHECKING:
     import pandas  # type: ignore[import]
 
 A = TypeVar("A", bound="Answer")
+_STYLE = """<style>
+.zerocount .headline{font-weight:600}
+.zerocount .headline::first-letter{text-transform:uppercase}
+.zerocount .lines{white-space:pre-line}
+.zerocount .unit{display:block;font-weight:400;font-size:.75rem}
+.zerocount .text{text-align:left}
+</style>"""  # of a fragment, which a notebook shows without the style of pages
 _PARTS = frozenset({"properties", "items", "additionalProperties"})
 
 
@@ -155,7 +162,7 @@ class Answer(Record):
         return str(self._rendered["text"]).rstrip("\n")
 
     def _repr_html_(self) -> str:
-        return str(self._rendered["html"])
+        return f'<div class="zerocount">{_STYLE}{self._rendered["html"]}</div>'
 
 
 def table(rows: Any, schema: Mapping[str, Any]) -> pandas.DataFrame:

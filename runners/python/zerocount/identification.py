@@ -17,13 +17,15 @@ if TYPE_CHECKING:
 
 
 class Identification(IdentifyAnswer):
-    """Friction that was identified from records."""
+    """Friction that was identified from records. Of several laws, and of sliding, it has the attributes of
+    ``IdentifyLawsAnswer`` and ``IdentifySlidingAnswer``."""
 
     @property
     def passed(self) -> bool | None:
         """Whether encoder and noise explain the residuals; otherwise the result must not be trusted. None where several
         laws are compared."""
-        return bool(self["residuals"]["passed"]) if "residuals" in self else None
+        residuals = self.get("residuals")
+        return bool(residuals["passed"]) if residuals else None
 
     @property
     def settings(self) -> dict[str, Any]:

@@ -99,39 +99,30 @@ class CheckAnswer(Answer):
           - ``rough``: within a third of trials, not a twentieth
         - ``gain_name``: name of the integral gain
         - ``gain_unit``: unit of the gain and its bounds
-        - ``gain.low``: smallest
-        - ``gain.high``: largest
+        - ``gain``.* (low, high): integral gain, over the trials
         - ``integral``: why there is no integral; null: there is one
         - ``criteria``: verdict of the paper's criteria (6) and (7)
         - ``criteria_trials``: trials that the criteria were tried in
         - ``criteria_stable``: trials in which (6) holds
         - ``criteria_unstable``: trials in which (7) is exceeded
         - ``sampled``: verdict of the sampled loop at k1, or without a spring
-        - ``stable_below.low``: smallest
-        - ``stable_below.high``: largest
-        - ``sampled_below.low``: smallest
-        - ``sampled_below.high``: largest
-        - ``unstable_above.low``: smallest
-        - ``unstable_above.high``: largest
-        - ``dac_resolution.low``: smallest
-        - ``dac_resolution.high``: largest
-        - ``dac_bound.low``: smallest
-        - ``dac_bound.high``: largest
+        - ``stable_below``.* (low, high): bound of criterion (6), over the trials
+        - ``sampled_below``.* (low, high): bound of the sampled loop, over the trials
+        - ``unstable_above``.* (low, high): bound of criterion (7), over the trials
+        - ``dac_resolution``.* (low, high): torque of a code of the DAC, over the trials
+        - ``dac_bound``.* (low, high): bound of the rule for the DAC, over the trials
         - ``torque_unit``: unit of both
         - ``coarse_feedback``: whether the bound is of the coarse encoder
         - ``rule_trials``: trials that the rules were tried in
         - ``fine_enough``: trials in which the DAC satisfies its rule
         - ``fast_enough``: trials in which the sample rate satisfies its rule
-        - ``natural_frequency.low``: smallest, Hz
-        - ``natural_frequency.high``: largest, Hz
-        - ``sample_rate.low``: smallest, Hz
-        - ``sample_rate.high``: largest, Hz
+        - ``natural_frequency``.* (low, high): natural frequency on k1 + k2, over the trials, Hz
+        - ``sample_rate``.* (low, high): sample rate, over the trials, Hz
         - ``lowest_k1``: lowest stiffness k1 of the study
         - ``lowest_k1_source``: where it is from
         - ``lowest_stable_below``: bound of criterion (6) there, in the unit of the gain
         - ``lowest_sampled_below``: bound of the sampled loop there, in the unit of the gain
-        - ``time_constant.low``: smallest, s
-        - ``time_constant.high``: largest, s
+        - ``time_constant``.* (low, high): slowest time constant of the loop, over the trials, s
         - ``hold``: time that the shortest move is held, s
         - ``longest_step``: length of the slowest move; 0: no step, count
         - ``longest_time``: time that it needs, with the dwell, s
@@ -140,18 +131,12 @@ class CheckAnswer(Answer):
           - ``loop``: where the rotor is
           - ``slides``: whether the rotor slides
           - ``stability``: stable, marginal or unstable: all that occur in the trials
-          - ``slow.low``: smallest, s
-          - ``slow.high``: largest, s
-          - ``bandwidth.low``: smallest, Hz
-          - ``bandwidth.high``: largest, Hz
-          - ``gain_margin.low``: smallest, dB
-          - ``gain_margin.high``: largest, dB
-          - ``gain_margin_at.low``: smallest, Hz
-          - ``gain_margin_at.high``: largest, Hz
-          - ``phase_margin.low``: smallest, °
-          - ``phase_margin.high``: largest, °
-          - ``phase_margin_at.low``: smallest, Hz
-          - ``phase_margin_at.high``: largest, Hz
+          - ``slow``.* (low, high): slowest time constants longer than the hold, over the trials, s
+          - ``bandwidth``.* (low, high): bandwidth while it slides, over the trials, Hz
+          - ``gain_margin``.* (low, high): gain margin, over the trials, dB
+          - ``gain_margin_at``.* (low, high): frequency of the gain margin, over the trials, Hz
+          - ``phase_margin``.* (low, high): phase margin, over the trials, °
+          - ``phase_margin_at``.* (low, high): frequency of the phase margin, over the trials, Hz
         - ``targets``: targets of trial 0 in SI units, and their counts
 
     """
@@ -541,63 +526,251 @@ class JerksAnswer(Answer):
           - ``poisson_low``: lower bound of the rate of independent jerks (Garwood), 1/s
           - ``poisson_high``: its upper bound, 1/s
           - ``dispersion``: variance of the jerks of a trial, divided by that of independent ones
-        - ``interval.n``: intervals between the jerks of a move
-        - ``interval.mean``: mean interval, s
-        - ``interval.p05``: quantile of 5 % of the intervals, s
-        - ``interval.p05_low``: lower bound, s
-        - ``interval.p05_high``: upper bound, s
-        - ``interval.p25``: quantile of 25 % of the intervals, s
-        - ``interval.p25_low``: lower bound, s
-        - ``interval.p25_high``: upper bound, s
-        - ``interval.p50``: quantile of 50 % of the intervals, s
-        - ``interval.p50_low``: lower bound, s
-        - ``interval.p50_high``: upper bound, s
-        - ``interval.p75``: quantile of 75 % of the intervals, s
-        - ``interval.p75_low``: lower bound, s
-        - ``interval.p75_high``: upper bound, s
-        - ``interval.p95``: quantile of 95 % of the intervals, s
-        - ``interval.p95_low``: lower bound, s
-        - ``interval.p95_high``: upper bound, s
-        - ``slowing.moves``: moves with two or more intervals that differ
-        - ``slowing.tested``: moves with enough intervals for a test of their own
-        - ``slowing.slowing``: tested moves whose jerks slow down
-        - ``slowing.quickening``: tested moves whose jerks quicken
-        - ``slowing.score``: Laplace's score of all moves; negative if jerks slow down
-        - ``slowing.stouffer``: sum of the scores of the moves over the root of their number
-        - ``slowing.p_value``: probability of such a score without a trend
-        - ``slowing.permutations``: permutations of the p-value; 0: its normal limit
-        - ``agreement.hits``: jerks that have the property
-        - ``agreement.jerks``: all jerks
-        - ``agreement.proportion``: proportion of jerks, with Korn-Graubard bounds
-        - ``agreement.proportion_low``: lower bound
-        - ``agreement.proportion_high``: upper bound
-        - ``agreement.independent``: number of independent jerks that tell as much
-        - ``magnitude.one_count.hits``: jerks that have the property
-        - ``magnitude.one_count.jerks``: all jerks
-        - ``magnitude.one_count.proportion``: proportion of jerks, with Korn-Graubard bounds
-        - ``magnitude.one_count.proportion_low``: lower bound
-        - ``magnitude.one_count.proportion_high``: upper bound
-        - ``magnitude.one_count.independent``: number of independent jerks that tell as much
-        - ``magnitude.counts``: jerks of 1, 2, ... counts; the last: or more
-        - ``magnitude.mean``: mean of the largest |error|, counts
-        - ``magnitude.max``: largest |error|, counts
-        - ``magnitude.median_duration``: median duration of a jerk, s
-        - ``magnitude.longest_duration``: longest duration of a jerk, s
-        - ``creep.trials``: trials simulated again
-        - ``creep.not_applicable``: reason why the closed form does not apply
-        - ``creep.ended``: waits that ended with a jerk
-        - ``creep.predicted``: of these, predicted to within two samples and 1 %
-        - ``creep.lasting``: waits without a jerk
-        - ``creep.lasting_predicted``: of these, predicted to last as long
-        - ``creep.too_short``: excluded waits: not longer than a dwell
-        - ``creep.unsteady``: excluded waits: the torque was not constant, or the hook slid
-        - ``creep.median_deviation``: median deviation of the onset from its prediction, s
-        - ``creep.largest_deviation``: largest deviation of the onset, s
+        - ``interval``.* (n, mean, p05, p05_low, p05_high, p25, p25_low, p25_high, p50, p50_low, p50_high, p75, p75_low,
+          p75_high, p95, p95_low, p95_high): times between the onsets of successive jerks of a move
+        - ``slowing``.* (moves, tested, slowing, quickening, score, stouffer, p_value, permutations): trend of the
+          intervals between the jerks of a move
+        - ``agreement``.* (hits, jerks, proportion, proportion_low, proportion_high, independent): jerks in the
+          direction of their holding torque
+        - ``magnitude``.* (one_count, counts, mean, max, median_duration, longest_duration): largest |error| of the
+          jerks
+        - ``creep``.* (trials, not_applicable, ended, predicted, lasting, lasting_predicted, too_short, unsteady,
+          median_deviation, largest_deviation): comparison with the closed form of creep at constant torque
 
     """
 
     name: str
     confidence: float | None
+    points: pandas.DataFrame
+
+
+class Baseline(Record):
+    """The file of the baseline.
+
+    Attributes
+    ----------
+    path : str
+        Path of the file.
+    name : str
+        Name of the study.
+    zerocount_version : str
+        Version of the program.
+    git_commit : str
+        Commit of the program.
+    engine : str
+        Engine that simulated the trials.
+    created : str
+        Time of the run, UTC.
+    seed : int
+        Seed of the study.
+    trials : int
+        Trials per design point.
+    """
+
+    path: str
+    name: str
+    zerocount_version: str
+    git_commit: str
+    engine: str
+    created: str
+    seed: int
+    trials: int
+
+
+class Current(Record):
+    """The file that is compared with it.
+
+    Attributes
+    ----------
+    path : str
+        Path of the file.
+    name : str
+        Name of the study.
+    zerocount_version : str
+        Version of the program.
+    git_commit : str
+        Commit of the program.
+    engine : str
+        Engine that simulated the trials.
+    created : str
+        Time of the run, UTC.
+    seed : int
+        Seed of the study.
+    trials : int
+        Trials per design point.
+    """
+
+    path: str
+    name: str
+    zerocount_version: str
+    git_commit: str
+    engine: str
+    created: str
+    seed: int
+    trials: int
+
+
+class Counts(Record):
+    """Number of verdicts.
+
+    Attributes
+    ----------
+    passed : int
+        Judgements that passed.
+    regression : int
+        Worse, or a requirement that is not met.
+    changed : int
+        Better, where every change fails.
+    inconclusive : int
+        Judgements that are open.
+    not_measured : int
+        Judgements without enough values.
+    worse : int
+        Measures that are worse.
+    better : int
+        Measures that are better.
+    equivalent : int
+        Measures that are equivalent.
+    not_worse : int
+        Measures that are better or equivalent.
+    undecided : int
+        Measures whose change is open.
+    """
+
+    passed: int
+    regression: int
+    changed: int
+    inconclusive: int
+    not_measured: int
+    worse: int
+    better: int
+    equivalent: int
+    not_worse: int
+    undecided: int
+
+
+class CompareAnswer(Answer):
+    """Whether a study is as good as its baseline.
+
+    Attributes
+    ----------
+    verdict : Literal["regression", "changed", "inconclusive", "passed", "not measured"]
+        Verdict of the gate.
+    baseline : Baseline
+        The file of the baseline.
+    current : Current
+        The file that is compared with it.
+    baseline_label : str or None
+        Label of the baseline's point, where two points of one file are compared.
+    layer : Literal["bits", "paired", "two_samples"]
+        What the files have in common.
+    layer_reason : str
+        Why they are compared so.
+    equal_to_the_bit : bool
+        Whether every dataset is equal to the bit.
+    first_difference : str
+        First dataset that differs, with the place; empty if not searched for.
+    goal : str or None
+        The goal by which the points are judged.
+    changed_inputs : list[str]
+        Drawn parameters whose values differ on the same draws.
+    notes : list[str]
+        What else the reader should know.
+    manifest_differences : pandas.DataFrame
+        Keys whose values differ; a value is empty where its key is absent.
+
+        - ``key``: dotted path
+        - ``baseline``: value in the baseline
+        - ``current``: value in the file
+
+    confidence : float or None
+        Confidence of each bound.
+    false_discovery_rate : float or None
+        Accepted proportion of false discoveries.
+    tests : int
+        Tests over which the false discoveries are controlled.
+    counts : Counts
+        Number of verdicts.
+    trials_to_decide : int or None
+        Trials per design point that decide the whole.
+    decision_probability : float or None
+        Probability with which these decide.
+    max_trials_to_decide : float or None
+        Trials per design point, the most that were tried.
+    points : pandas.DataFrame
+        The design points.
+
+        - ``label``: label of the design point
+        - ``verdict``: verdict of the gate
+        - ``baseline_point``: number of the point in the baseline
+        - ``current_point``: number of the point in the file
+        - ``baseline_trials``: trials of the baseline
+        - ``current_trials``: trials of the file
+        - ``pairs``: trials that were compared one by one
+        - ``baseline_undecided``.* (moves, off_target, still_falling, falling_with_ripple, about_to_arrive): undecided
+          moves of the baseline
+        - ``current_undecided``.* (moves, off_target, still_falling, falling_with_ripple, about_to_arrive): undecided
+          moves of the file
+        - ``measures``: comparison of each measure
+          - ``measure``: name of the measure
+          - ``unit``: unit of all values
+          - ``verdict``: change that the data show
+          - ``gate``: verdict of the gate
+          - ``baseline``: proportion or mean in the baseline
+          - ``current``: proportion or mean in the file
+          - ``baseline_n``: trials with a value in the baseline
+          - ``current_n``: trials with a value in the file
+          - ``effect``: change for the worse, with one-sided bounds
+          - ``effect_low``: lower bound
+          - ``effect_high``: upper bound
+          - ``margin``: largest accepted effect
+          - ``changed_fails``: whether a change for the better beyond the margin fails too
+          - ``detectable_change``: smallest change for the worse that these trials find
+          - ``test``: test that p is of
+          - ``p``: p-value against a change for the worse
+          - ``adjusted_p``: p after control of the false discoveries
+          - ``improvement_p``: p-value against a change for the better
+          - ``adjusted_improvement_p``: improvement_p after control of the false discoveries
+          - ``trials_to_decide``: trials per design point that decide an inconclusive measure
+          - ``decided_margin``: any larger margin is decided by these trials
+          - ``max_trials_margin``: smallest margin that max_trials_to_decide trials decide
+          - ``note``: reason or remark
+        - ``requirements``: absolute requirements
+          - ``require``: the requirement as it was given
+          - ``quantity``: quantity that is required
+          - ``unit``: unit of the limit and the value
+          - ``verdict``: verdict of the gate
+          - ``limit``: limit of the value
+          - ``value``: value in the file
+          - ``n``: trials or moves that the value is of
+          - ``bounds``: one-sided bounds, low and high: of the value, or of the proportion within the limit of a
+            quantile
+          - ``trials_to_decide``: trials per design point that decide the requirement
+        - ``goal``.* (baseline, current): verdicts on the goal, where the points are judged by one
+
+    """
+
+    _records = {"baseline": Baseline, "current": Current, "counts": Counts}
+
+    verdict: Literal["regression", "changed", "inconclusive", "passed", "not measured"]
+    baseline: Baseline
+    current: Current
+    baseline_label: str | None
+    layer: Literal["bits", "paired", "two_samples"]
+    layer_reason: str
+    equal_to_the_bit: bool
+    first_difference: str
+    goal: str | None
+    changed_inputs: list[str]
+    notes: list[str]
+    manifest_differences: pandas.DataFrame
+    confidence: float | None
+    false_discovery_rate: float | None
+    tests: int
+    counts: Counts
+    trials_to_decide: int | None
+    decision_probability: float | None
+    max_trials_to_decide: float | None
     points: pandas.DataFrame
 
 
@@ -634,27 +807,17 @@ class HistoryAnswer(Answer):
           - ``value``: value of the measure, in its unit, with 95 % bounds
           - ``value_low``: lower bound
           - ``value_high``: upper bound
-          - ``comparison.verdict``: verdict on the change
-          - ``comparison.baseline_created``: time of the baseline, UTC
-          - ``comparison.baseline_commit``: commit of the baseline
-          - ``comparison.baseline``: value of the baseline
-          - ``comparison.effect``: change for the worse, with one-sided bounds
-          - ``comparison.effect_low``: lower bound
-          - ``comparison.effect_high``: upper bound
-          - ``comparison.margin``: largest accepted effect
-          - ``comparison.p``: two-sided p-value of no difference
+          - ``comparison``.* (verdict, baseline_created, baseline_commit, baseline, effect, effect_low, effect_high,
+            margin, p): comparison with the baseline
           - ``changed``: changes after which this is the first run
           - ``significant``: changes that are significant since this run
         - ``changes``: changes that are significant
           - ``before``: level before the change
           - ``after``: level after the change
           - ``since_baseline``: whether the change lies between the baseline and the first run
-          - ``last_run_before.created``: time of the run, UTC
-          - ``last_run_before.git_commit``: commit of the program
-          - ``first_run_after.created``: time of the run, UTC
-          - ``first_run_after.git_commit``: commit of the program
-          - ``significant_since.created``: time of the run, UTC
-          - ``significant_since.git_commit``: commit of the program
+          - ``last_run_before``.* (created, git_commit): last run, or the baseline, before the change
+          - ``first_run_after``.* (created, git_commit): first run after the change
+          - ``significant_since``.* (created, git_commit): run at which the change was significant
           - ``z``: signed root of the likelihood ratio statistic, of the test levels
           - ``p``: two-sided p-value, of the test baseline
           - ``sentence``: the change in words
@@ -724,10 +887,6 @@ class SensitivityAnswer(Answer):
     points: pandas.DataFrame
 
 
-class CompareAnswer(Undescribed):
-    """Of the command compare, whose schema the program does not give yet."""
-
-
 class IdentifyAnswer(Undescribed):
     """Of the command identify, whose schema the program does not give yet."""
 
@@ -752,9 +911,9 @@ TYPES: dict[str, type[Answer]] = {
     "parameters": ParametersAnswer,
     "parameters-guides": ParametersGuidesAnswer,
     "jerks": JerksAnswer,
+    "compare": CompareAnswer,
     "history": HistoryAnswer,
     "sensitivity": SensitivityAnswer,
-    "compare": CompareAnswer,
     "identify": IdentifyAnswer,
     "plan": PlanAnswer,
     "summary": SummaryAnswer,
@@ -762,7 +921,7 @@ TYPES: dict[str, type[Answer]] = {
 }
 
 
-DESCRIBED = frozenset({"check", "verify", "judge", "learn", "parameters", "jerks", "history", "sensitivity"})
+DESCRIBED = frozenset({"check", "verify", "judge", "learn", "parameters", "jerks", "compare", "history", "sensitivity"})
 
 
 class Ask(Protocol):
@@ -781,11 +940,11 @@ class Ask(Protocol):
     @overload
     def __call__(self, command: Literal["jerks"], /, *operands: Any, **options: Any) -> JerksAnswer: ...
     @overload
+    def __call__(self, command: Literal["compare"], /, *operands: Any, **options: Any) -> CompareAnswer: ...
+    @overload
     def __call__(self, command: Literal["history"], /, *operands: Any, **options: Any) -> HistoryAnswer: ...
     @overload
     def __call__(self, command: Literal["sensitivity"], /, *operands: Any, **options: Any) -> SensitivityAnswer: ...
-    @overload
-    def __call__(self, command: Literal["compare"], /, *operands: Any, **options: Any) -> CompareAnswer: ...
     @overload
     def __call__(self, command: Literal["identify"], /, *operands: Any, **options: Any) -> IdentifyAnswer: ...
     @overload

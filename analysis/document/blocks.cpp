@@ -146,10 +146,13 @@ class BlockList {
         return;
       case Kind::figure:
         return;
+      case Kind::text:
+        if (!item.verbatim) return add_fact(item, content);
+        blocks_.emplace_back(VerbatimBlock{item.heading, std::get<std::string>(content.value)});
+        return;
       case Kind::flag:
       case Kind::whole:
       case Kind::number:
-      case Kind::text:
       case Kind::scalar:
       case Kind::list:
       case Kind::map:

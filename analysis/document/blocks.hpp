@@ -38,9 +38,14 @@ struct SentenceBlock {
 struct SectionBlock {
   std::string title;
 };
+/// Lines that are shown as they are, such as a part of a manifest.
+struct VerbatimBlock {
+  std::string title;  ///< may be empty
+  std::string lines;
+};
 
 /// A part of an answer for people, in plain text. A section is followed by its blocks.
-using Block = std::variant<HeadlineBlock, SentenceBlock, FactsBlock, TableBlock, SectionBlock>;
+using Block = std::variant<HeadlineBlock, SentenceBlock, FactsBlock, TableBlock, SectionBlock, VerbatimBlock>;
 
 /// The parts of an answer for people, in their order, without figures: empty ones, columns without any
 /// content and what is shown in data only are left out.

@@ -45,6 +45,11 @@ struct BlockHtml {
   std::string operator()(const SectionBlock& block) const {
     return fmt::format("<h3>{}</h3>\n", prose_markup(block.title));
   }
+  std::string operator()(const VerbatimBlock& block) const {
+    const std::string title =
+        block.title.empty() ? "" : fmt::format("<h3>{}</h3>\n", prose_markup(block.title));
+    return fmt::format("{}<pre>{}</pre>\n", title, markup(block.lines));
+  }
 };
 
 }  // namespace

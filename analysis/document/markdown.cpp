@@ -71,6 +71,10 @@ struct BlockMarkdown {
   std::string operator()(const SectionBlock& block) const {
     return fmt::format("### {}\n\n", escaped(block.title));
   }
+  std::string operator()(const VerbatimBlock& block) const {
+    const std::string title = block.title.empty() ? "" : fmt::format("{}:\n\n", escaped(block.title));
+    return fmt::format("{}```\n{}{}```\n\n", title, block.lines, block.lines.ends_with('\n') ? "" : "\n");
+  }
 };
 
 }  // namespace

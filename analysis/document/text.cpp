@@ -45,12 +45,17 @@ struct BlockText {
   std::string operator()(const FactsBlock& block) const { return facts_text(block.facts); }
   std::string operator()(const TableBlock& block) const { return table_text(block); }
   std::string operator()(const SectionBlock& block) const { return with_line_end(block.title + ":"); }
+  std::string operator()(const VerbatimBlock& block) const {
+    return (block.title.empty() ? "" : fmt::format("{}:\n\n", block.title)) + with_line_end(block.lines);
+  }
 };
 
 /// Whether a blank line stands between these blocks.
 bool apart(const Block& above, const Block& below) {
-  return std::holds_alternative<TableBlock>(above) || std::holds_alternative<TableBlock>(below) ||
-         std::holds_alternative<SectionBlock>(below);
+  const auto stands_alone = [](const Block& block) {
+    return std::holds_alternative<TableBlock>(block) || std::holds_alternative<VerbatimBlock>(block);
+  };
+  return stands_alone(above) || stands_alone(below) || std::holds_alternative<SectionBlock>(below);
 }
 
 }  // namespace

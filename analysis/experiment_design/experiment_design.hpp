@@ -56,9 +56,6 @@ struct ExperimentDesign {
 /// the simulated record.
 ExperimentDesign design_experiment(const study::Study& study, const DesignSettings& settings);
 
-/// The answer for people.
-std::string design_text(const ExperimentDesign& design);
-
 /// The commanded torque as a table for the axis' controller: time, torque and DAC code. `identify` reads it
 /// once it has a column of counts.
 std::string protocol_table(const ExperimentDesign& design);

@@ -33,6 +33,10 @@ struct ParameterEstimate : record_fit::QuantityEstimate {
   std::string reason{};  ///< why it is not identifiable, or kept
 };
 
+inline bool is_estimated(const ParameterEstimate& parameter) {
+  return parameter.status == EstimateStatus::estimated;
+}
+
 /// The detected parts of a record, and the quality of the fit.
 struct RecordSummary {
   std::string name;
@@ -106,12 +110,6 @@ Identification identify(std::vector<TestRecord> records, const IdentificationOpt
 /// there is none.
 std::string second_mass_text(const Identification& identification);
 
-/// The parameters, the parts of the records, the checks and the manifest fragment as text.
-std::string identification_text(const Identification& identification);
-
-/// The report as one JSON object. Numbers read back to the same double; missing values are null.
-std::string identification_json(const Identification& identification);
-
 /// The identified parameters as a fragment of a manifest, the maps `plant` and `friction` (before them
 /// `axis`, of a linear one): for each estimated parameter a distribution whose central 95 % are its
 /// confidence interval, for a given parameter its value, for a parameter that is not identifiable a comment.
@@ -122,13 +120,6 @@ std::string manifest_fragment(const Identification& identification);
 
 /// `value` with one digit more than the half-width of the parameter's interval justifies.
 std::string with_digits(double value, const ParameterEstimate& parameter);
-
-/// Cells of a table for people: name, value, unit, 95 % interval, relative half-width (of the time offset the
-/// half-width in samples), status.
-std::vector<std::string> estimate_row(const ParameterEstimate& parameter);
-
-/// Heads of the columns of estimate_row().
-std::vector<std::string> estimate_heads();
 
 /// The line `name`: of a parameter in its map of a manifest, a comment if it is not identifiable. Ends with a
 /// newline.

@@ -8,7 +8,7 @@
 
 #include "analysis/identification/confidence_interval.hpp"
 #include "analysis/law_identification/law_fit.hpp"
-#include "analysis/law_identification/law_report.hpp"
+#include "analysis/law_identification/law_fragment.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "core/failure/failure.hpp"
 #include "core/friction/law.hpp"

@@ -70,10 +70,4 @@ struct LawChoice {
 LawComparison compare_laws(std::vector<record_fit::TestRecord> records, const LawChoice& choice,
                            const identification::StageReport& report = {});
 
-/// The comparison, the parameters of the best law and its fragment of a manifest as text.
-std::string comparison_text(const LawComparison& comparison);
-
-/// The comparison and the parameters of every law as one JSON object. Missing values are null.
-std::string comparison_json(const LawComparison& comparison);
-
 }  // namespace zerocount::law_identification

@@ -33,10 +33,6 @@ struct SlidingIdentification {
 /// fit leaves more than a third of the torque unexplained.
 SlidingIdentification identify_sliding(std::vector<SlidingRecord> records);
 
-/// The parameters, what was used of the records, and the manifest fragment as text.
-std::string sliding_text(const SlidingIdentification& identification);
-/// The report as one JSON object.
-std::string sliding_json(const SlidingIdentification& identification);
 /// The parameters as a fragment of a manifest.
 std::string sliding_fragment(const SlidingIdentification& identification);
 

@@ -8,11 +8,13 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
+#include "analysis/experiment_design/design_description.hpp"
 #include "analysis/experiment_design/experiment_design.hpp"
-#include "analysis/report/experiment_page.hpp"
+#include "analysis/report/answer_page.hpp"
+#include "analysis/report/experiment_figure.hpp"
 #include "core/text/number_text.hpp"
+#include "runners/answers/answer_format.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/command.hpp"
@@ -20,7 +22,6 @@
 #include "runners/commands/stage_progress.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/identification_commands/identification_commands.hpp"
-#include "runners/standard_output/standard_output.hpp"
 
 namespace zerocount::identification_commands {
 namespace {
@@ -109,44 +110,15 @@ study::Study experiment_study(const command_line::Arguments& arguments, const Ex
   return commands::load_study(arguments.operands()[0], arguments, places);
 }
 
-std::string_view label(identification::EstimateStatus status) {
-  return status == identification::EstimateStatus::estimated ? "estimated" : "not_identifiable";
-}
-
-std::string design_json(const experiment_design::ExperimentDesign& design) {
-  using nlohmann::ordered_json;
-  const auto number = [](double value) {
-    return std::isfinite(value) ? ordered_json(value) : ordered_json();
-  };
-  ordered_json json{{"name", design.study},
-                    {"axis", parameters::axis_labels.at(static_cast<std::size_t>(design.frame.axis))},
-                    {"sample_time", design.frame.sample_time},
-                    {"samples", design.frame.samples},
-                    {"max_torque", design.frame.max_torque},
-                    {"least_breakaway", design.least_breakaway},
-                    {"travel", design.travel},
-                    {"machines", design.machines},
-                    {"protocols", design.search.protocols},
-                    {"converged", design.search.converged},
-                    {"residuals_passed", design.identification.checks.passed},
-                    {"segments", ordered_json::array()},
-                    {"parameters", ordered_json::array()}};
-  for (const experiment_design::ProtocolSegment& segment : design.segments)
-    json["segments"].push_back({{"to", segment.to}, {"samples", segment.samples}});
-  for (const experiment_design::ExpectedParameter& parameter : design.parameters) {
-    const bool told = parameter.told > 0;
-    json["parameters"].push_back({{"key", parameter.key},
-                                  {"unit", parameter.unit},
-                                  {"guess", parameter.guess},
-                                  {"status", label(parameter.found.status)},
-                                  {"low", number(parameter.found.low)},
-                                  {"high", number(parameter.found.high)},
-                                  {"told", parameter.told},
-                                  {"narrowest", told ? number(parameter.narrowest) : ordered_json()},
-                                  {"widest", told ? number(parameter.widest) : ordered_json()},
-                                  {"reason", parameter.found.reason}});
-  }
-  return json.dump(2) + "\n";
+document::AnswerDescription<experiment_design::ExperimentDesign> experiment_answer() {
+  document::AnswerDescription<experiment_design::ExperimentDesign> answer{
+      {.name = "experiment",
+       .meaning = "the record from which identify tells the friction",
+       .csv_table = "parameters"},
+      experiment_design::design_description()};
+  answer.items.figures(
+      [](const auto& design) { return std::vector<document::Figure>{report::experiment_figure(design)}; });
+  return answer;
 }
 
 ExitCode experiment(const command_line::Arguments& arguments) {
@@ -173,18 +145,14 @@ ExitCode experiment(const command_line::Arguments& arguments) {
   if (outputs.streamer)
     command_line::write_text(*outputs.streamer, experiment_design::streamer_file(design.protocol));
   if (outputs.record) command_line::write_text(*outputs.record, experiment_design::record_table(design));
+  const bool any = std::ranges::any_of(design.parameters,
+                                       [](const auto& parameter) { return is_estimated(parameter.found); });
+  const document::Answer answer = experiment_answer().of(
+      design, any && design.identification.checks.passed ? ExitCode::success : ExitCode::inconclusive);
   if (outputs.plot)
     command_line::write_text(*outputs.plot,
-                             commands::drawing(report::experiment_page(design), outputs.plot_kind));
-  if (arguments.choice("format") == "json") {
-    standard_output::write(design_json(design));
-  } else {
-    standard_output::write_fitted(experiment_design::design_text(design));
-  }
-  const bool any = std::ranges::any_of(design.parameters, [](const auto& parameter) {
-    return parameter.found.status == identification::EstimateStatus::estimated;
-  });
-  return any && design.identification.checks.passed ? ExitCode::success : ExitCode::inconclusive;
+                             commands::drawing(report::answer_page(answer), outputs.plot_kind));
+  return answers::print(arguments, answer);
 }
 
 }  // namespace
@@ -203,12 +171,13 @@ commands::Command experiment_command() {
             {"budget", "B", "protocols to try (default 80), or a time such as 30s"},
             {"point", "P", "design point, by label or number from 0 (default 0)"},
             {"set", "KEY=VALUE", "override a manifest key; may be repeated", true},
-            command_line::format_option({"text", "json"}),
+            answers::format_option(experiment_answer().complete_type()),
             {"quiet,q", "", "print no progress"},
             command_line::needing({"output", "streamer", "record", "plot"}, command_line::force_option())}},
           "design the torque over time from which identify tells the friction",
           experiment_help,
-          experiment};
+          experiment,
+          {experiment_answer().complete_type()}};
 }
 
 }  // namespace zerocount::identification_commands

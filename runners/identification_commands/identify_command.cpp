@@ -12,10 +12,16 @@
 
 #include "analysis/identification/checked_record.hpp"
 #include "analysis/identification/identification.hpp"
+#include "analysis/identification/identification_description.hpp"
+#include "analysis/law_identification/law_description.hpp"
 #include "analysis/records/raw_series.hpp"
-#include "analysis/report/identification_page.hpp"
+#include "analysis/report/answer_page.hpp"
+#include "analysis/report/identification_figures.hpp"
+#include "analysis/sliding_identification/sliding_description.hpp"
 #include "analysis/sliding_identification/sliding_identification.hpp"
+#include "experiments/yaml/text_file.hpp"
 #include "results/reading/study_file.hpp"
+#include "runners/answers/answer_format.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/command.hpp"
@@ -277,7 +283,8 @@ void refuse_fractional_delay(const command_line::Arguments& arguments) {
   }
 }
 
-std::string identify_sliding_axis(const command_line::Arguments& arguments, const std::string& format) {
+sliding_identification::SlidingIdentification identify_sliding_axis(
+    const command_line::Arguments& arguments) {
   std::vector<sliding_identification::SlidingRecord> found;
   for (const records::RawSeries& series : read_all_series(arguments)) {
     found.push_back(sliding_identification::sliding_record(series));
@@ -285,10 +292,7 @@ std::string identify_sliding_axis(const command_line::Arguments& arguments, cons
       arguments.refuse("the records are of a linear and of a rotary axis; expected one axis");
     }
   }
-  const auto result = sliding_identification::identify_sliding(std::move(found));
-  return format == "json"   ? sliding_identification::sliding_json(result)
-         : format == "yaml" ? sliding_identification::sliding_fragment(result)
-                            : sliding_identification::sliding_text(result);
+  return sliding_identification::identify_sliding(std::move(found));
 }
 
 std::vector<identification::TestRecord> read_records(const command_line::Arguments& arguments) {
@@ -348,41 +352,58 @@ void write_draws(const identification::Identification& found, std::size_t wanted
   command_line::write_text(place, identification::posterior_table(found));
 }
 
-/// Writes the result, with a message if it must not be trusted.
-ExitCode write_identification(const identification::Identification& found, const std::string& format,
-                              const IdentifyOutputs& outputs, std::size_t wanted_draws) {
-  command_line::write_text(outputs.report, format == "json"   ? identification::identification_json(found)
-                                           : format == "yaml" ? identification::manifest_fragment(found)
-                                                              : identification::identification_text(found));
+document::AnswerDescription<identification::Identification> answer_with_figures() {
+  document::AnswerDescription<identification::Identification> answer =
+      identification::identification_answer();
+  answer.items.figures(report::identification_figures);
+  return answer;
+}
+
+/// Writes the answer, or as YAML its fragment of a manifest. @returns its exit code
+ExitCode write_answer(const command_line::Arguments& arguments, const IdentifyOutputs& outputs,
+                      const document::Answer& answer, const std::string& fragment) {
+  const std::string format = arguments.choice("format");
+  if (format != "yaml" && yaml::is_standard_stream(outputs.report)) return answers::print(arguments, answer);
+  command_line::write_text(outputs.report, format == "yaml" ? fragment : answers::rendered(answer, format));
+  return answer.exit_code;
+}
+
+ExitCode write_identification(const command_line::Arguments& arguments, const IdentifyOutputs& outputs,
+                              const identification::Identification& found, std::size_t wanted_draws) {
+  const document::Answer answer =
+      answer_with_figures().of(found, identification_verdict(found.parameters, found.checks));
   if (outputs.posterior) write_draws(found, wanted_draws, *outputs.posterior);
-  if (outputs.plot) {
+  if (outputs.plot)
     command_line::write_text(*outputs.plot,
-                             commands::drawing(report::identification_page(found), outputs.plot_kind));
-  }
-  return identification_verdict(found.parameters, found.checks);
+                             commands::drawing(report::answer_page(answer), outputs.plot_kind));
+  return write_answer(arguments, outputs, answer, manifest_fragment(found));
 }
 
 ExitCode identify_records(const command_line::Arguments& arguments) {
-  const std::string format = arguments.choice("format");
   identification::IdentificationOptions options = identification_options(arguments);
   const IdentifyOutputs outputs = identify_outputs(arguments);
   if (arguments.has("sliding")) {
     refuse_fractional_delay(arguments);
-    command_line::write_text(outputs.report, identify_sliding_axis(arguments, format));
-    return ExitCode::success;
+    const auto found = identify_sliding_axis(arguments);
+    return write_answer(arguments, outputs, sliding_identification::sliding_answer().of(found),
+                        sliding_identification::sliding_fragment(found));
   }
   const law_identification::LawChoice choice = chosen_laws(arguments);
   if (!choice.laws.empty()) {
     refuse_options_beside_laws(arguments);
-    const LawsReport compared = identify_laws(arguments, choice, read_records(arguments), format);
-    command_line::write_text(outputs.report, compared.text);
-    return compared.code;
+    const auto compared = identify_laws(arguments, choice, read_records(arguments));
+    const law_identification::IdentifiedLaw& best = compared.laws.front();
+    return write_answer(
+        arguments, outputs,
+        law_identification::laws_answer().of(compared, identification_verdict(best.parameters, best.checks)),
+        best.fragment);
   }
   const std::size_t wanted_draws = options.draws;
   std::vector<identification::TestRecord> records = read_records(arguments);
   refuse_picture_of_several(arguments, outputs, records.size());
-  return write_identification(identify_with_progress(arguments, std::move(records), std::move(options)),
-                              format, outputs, wanted_draws);
+  return write_identification(arguments, outputs,
+                              identify_with_progress(arguments, std::move(records), std::move(options)),
+                              wanted_draws);
 }
 
 /// An option of material tests.
@@ -427,7 +448,7 @@ std::vector<command_line::OptionSpec> identify_options() {
         "design point in a results file, by label or number (default: all with a trace); may be repeated",
         true},
        {"trial", "I", "trial of the point (default 0)"},
-       command_line::format_option({"text", "json", "yaml"}),
+       answers::format_option(identification::identification_answer().complete_type(), {"yaml"}),
        {"output,o", "FILE", "write there instead of to standard output"},
        {"quiet,q", "", "print no progress"},
        command_line::needing({"output", "posterior", "plot"}, command_line::force_option())});
@@ -440,7 +461,10 @@ commands::Command identify_command() {
   return {{"identify", "DATA.csv|FILE...", identify_options(), 1, 64},
           "identify friction, damping and inertia from material tests",
           identify_help,
-          identify_records};
+          identify_records,
+          {identification::identification_answer().complete_type(),
+           law_identification::laws_answer().complete_type(),
+           sliding_identification::sliding_answer().complete_type()}};
 }
 
 }  // namespace zerocount::identification_commands

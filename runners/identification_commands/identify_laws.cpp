@@ -61,30 +61,17 @@ ExitCode identification_verdict(std::span<const identification::ParameterEstimat
                  record_fit::reason_of_misfit(checks));
     return ExitCode::inconclusive;
   }
-  const bool any = std::ranges::any_of(parameters, [](const identification::ParameterEstimate& one) {
-    return one.status == identification::EstimateStatus::estimated;
-  });
-  if (any) return ExitCode::success;
+  if (std::ranges::any_of(parameters, identification::is_estimated)) return ExitCode::success;
   status::tell("zerocount identify: no parameter is identifiable from these records\n");
   return ExitCode::inconclusive;
 }
 
-LawsReport identify_laws(const command_line::Arguments& arguments,
-                         const law_identification::LawChoice& choice,
-                         std::vector<identification::TestRecord> records, const std::string& format) {
-  law_identification::LawComparison comparison;
-  {
-    commands::StageProgress progress("zerocount identify", arguments.has("quiet"));
-    comparison = law_identification::compare_laws(std::move(records), choice,
-                                                  [&](std::string_view stage) { progress.enter(stage); });
-  }
-  const law_identification::IdentifiedLaw& best = comparison.laws.front();
-  LawsReport report;
-  report.text = format == "json"   ? law_identification::comparison_json(comparison)
-                : format == "yaml" ? best.fragment
-                                   : law_identification::comparison_text(comparison);
-  report.code = identification_verdict(best.parameters, best.checks);
-  return report;
+law_identification::LawComparison identify_laws(const command_line::Arguments& arguments,
+                                                const law_identification::LawChoice& choice,
+                                                std::vector<identification::TestRecord> records) {
+  commands::StageProgress progress("zerocount identify", arguments.has("quiet"));
+  return law_identification::compare_laws(std::move(records), choice,
+                                          [&](std::string_view stage) { progress.enter(stage); });
 }
 
 }  // namespace zerocount::identification_commands

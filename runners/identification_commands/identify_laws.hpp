@@ -1,7 +1,6 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <vector>
 
 #include "analysis/identification/identification.hpp"
@@ -27,14 +26,9 @@ void refuse_options_beside_laws(const command_line::Arguments& arguments);
 ExitCode identification_verdict(std::span<const identification::ParameterEstimate> parameters,
                                 const record_fit::ResidualChecks& checks);
 
-/// The report of a comparison, and the exit code: inconclusive if the best law does not explain the records.
-struct LawsReport {
-  std::string text;
-  ExitCode code{ExitCode::success};
-};
-
-LawsReport identify_laws(const command_line::Arguments& arguments,
-                         const law_identification::LawChoice& choice,
-                         std::vector<identification::TestRecord> records, const std::string& format);
+/// Compares the laws, with progress on stderr.
+law_identification::LawComparison identify_laws(const command_line::Arguments& arguments,
+                                                const law_identification::LawChoice& choice,
+                                                std::vector<identification::TestRecord> records);
 
 }  // namespace zerocount::identification_commands

@@ -25,7 +25,7 @@ struct Report {
   std::vector<Point> points;
 };
 
-AnswerDescription<Report> description() {
+AnswerDescription<Report> report_description() {
   const auto rates = Description<Rate>()
                          .value({.key = "from", .heading = "from", .unit = "s"}, &Rate::from)
                          .value({.key = "rate", .heading = "rate", .unit = "1/s"}, &Rate::rate);
@@ -45,7 +45,7 @@ const Report two_points{
     {{"low", {{0.5, Bounded{2.0, 1.0, 4.0}}, {1.0, {}}}}, {"b, high", {{0.25, Bounded{3.0, 2.0, 5.0}}}}}};
 
 TEST(Sections, StandOneBelowTheOtherForPeople) {
-  const std::string text = document::text(description().of(two_points));
+  const std::string text = document::text(report_description().of(two_points));
   EXPECT_EQ(text.find("2 points"), 0U);
   EXPECT_LT(text.find("low:"), text.find("2 [1, 4]")) << text;
   EXPECT_LT(text.find("2 [1, 4]"), text.find("b, high:")) << text;
@@ -54,18 +54,18 @@ TEST(Sections, StandOneBelowTheOtherForPeople) {
 }
 
 TEST(Sections, AreAListOfObjectsInJson) {
-  const auto json = document::json(description().of(two_points));
+  const auto json = document::json(report_description().of(two_points));
   ASSERT_EQ(json["points"].size(), 2U);
   EXPECT_EQ(json["points"][1]["label"], "b, high");
   EXPECT_EQ(json["points"][1]["advice"], "more trials");
   EXPECT_EQ(json["points"][0]["rates"][0]["rate_high"], 4.0);
   EXPECT_TRUE(json["points"][0]["rates"][1]["rate"].is_null());
-  const auto schema = json_schema(description().complete_type());
+  const auto schema = json_schema(report_description().complete_type());
   EXPECT_EQ(schema["properties"]["points"]["items"]["properties"]["rates"]["type"], "array");
 }
 
 TEST(Sections, GiveTheLinesOfATableInThemTheirValues) {
-  EXPECT_EQ(csv(description().of(two_points)),
+  EXPECT_EQ(csv(report_description().of(two_points)),
             "label,from,rate,rate_low,rate_high\n"
             "low,0.5,2,1,4\n"
             "low,1,nan,nan,nan\n"

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "analysis/document/answer.hpp"
+#include "analysis/experiment_design/design_description.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "tests/analysis/identification/material_tests.hpp"
@@ -133,6 +135,12 @@ TEST(ExperimentDesign, IdentifyReportsTheExpectedWidths) {
   }
 }
 
+std::string text_of(const ExperimentDesign& design) {
+  const document::AnswerDescription<ExperimentDesign> answer{
+      {.name = "experiment", .meaning = "a designed experiment"}, design_description()};
+  return document::text(answer.of(design));
+}
+
 TEST(ExperimentDesign, TellsWhatCannotBeTold) {
   DesignSettings settings = quick_settings();
   settings.search.max_protocols = 4;
@@ -143,9 +151,9 @@ TEST(ExperimentDesign, TellsWhatCannotBeTold) {
             identification::EstimateStatus::not_identifiable);
   EXPECT_EQ(parameter_of(design, "friction.alpha").told, 0);
   EXPECT_EQ(parameter_of(design, "friction.k1").found.status, identification::EstimateStatus::estimated);
-  EXPECT_NE(design_text(design).find("friction.alpha cannot be told from this record, because "),
+  EXPECT_NE(text_of(design).find("friction.alpha cannot be told from this record, because "),
             std::string::npos)
-      << design_text(design);
+      << text_of(design);
 }
 
 // k1 and β are a factor of 3 off their guesses, which the spread of the manifest allows.
@@ -185,7 +193,7 @@ TEST(ExperimentDesign, ALinearAxisIsARotaryOneInOtherUnits) {
   EXPECT_EQ(parameter_of(design, "friction.k1").unit, "N/m");
   EXPECT_EQ(parameter_of(design, "friction.k1").found.status, identification::EstimateStatus::estimated);
   EXPECT_TRUE(protocol_table(design).starts_with("t [s],force [N],code\n"));
-  EXPECT_EQ(design_text(design).find("N m"), std::string::npos) << design_text(design);
+  EXPECT_EQ(text_of(design).find("N m"), std::string::npos) << text_of(design);
 }
 
 TEST(ExperimentDesign, FilesHaveALineForEachSample) {

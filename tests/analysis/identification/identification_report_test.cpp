@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/identification/identification.hpp"
+#include "analysis/identification/identification_description.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/distributions/distribution.hpp"
 #include "experiments/manifest/load_study.hpp"
@@ -129,7 +130,7 @@ TEST(ManifestFragment, GivenValuesStandAsTheyAreAndOpenOnesAsComments) {
 TEST(IdentificationReport, JsonReadsBackToTheSameDoubles) {
   std::mt19937_64 random(63);
   const identification::Identification found = random_identification(random);
-  const auto json = nlohmann::json::parse(identification::identification_json(found));
+  const auto json = document::json(identification::identification_answer().of(found));
   ASSERT_EQ(json["parameters"].size(), found.parameters.size());
   for (std::size_t i = 0; i < found.parameters.size(); ++i) {
     const identification::ParameterEstimate& parameter = found.parameters[i];
@@ -157,7 +158,7 @@ TEST(IdentificationReport, TextSaysWhatIsOpenAndWhatDoesNotFit) {
   found.checks.passed = false;
   found.checks.widening = 2.5;
   found.checks.spread_chance = 0.002;
-  const std::string text = identification::identification_text(found);
+  const std::string text = document::text(identification::identification_answer().of(found));
   EXPECT_NE(text.find("k1 is not identifiable from this, because nothing was seen."), std::string::npos)
       << text;
   EXPECT_NE(text.find("LACK OF FIT"), std::string::npos) << text;

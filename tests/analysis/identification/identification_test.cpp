@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
+#include "analysis/identification/identification_description.hpp"
 #include "core/failure/failure.hpp"
 #include "tests/analysis/identification/material_tests.hpp"
 #include "tests/analysis/identification/quasistatic_judge.hpp"
@@ -444,7 +445,8 @@ TEST(Identification, DependsOnTheRecordAlone) {
     const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
     const identification::Identification found = identification::identify({record}, {{}, 100, 150});
     EXPECT_EQ(found.draws.rows.size(), 150u);
-    return identification::identification_json(found) + identification::posterior_table(found);
+    return document::json(identification::identification_answer().of(found)).dump() +
+           identification::posterior_table(found);
   };
   EXPECT_TRUE(answer_of(1) == answer_of(2));  // with 17 digits
 }

@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "analysis/law_identification/law_description.hpp"
 #include "core/failure/failure.hpp"
 #include "core/friction/law.hpp"
 #include "tests/analysis/identification/material_tests.hpp"
@@ -141,7 +142,8 @@ TEST(LawIdentification, SaysIfNoLawExplainsARecord) {
   const LawComparison found = law_identification::compare_laws({record_of(truth, random)},
                                                                {{FrictionModel::dahl, FrictionModel::lugre}});
   for (const IdentifiedLaw& law : found.laws) EXPECT_FALSE(law.checks.passed);
-  EXPECT_NE(law_identification::comparison_text(found).find("LACK OF FIT"), std::string::npos);
+  EXPECT_NE(document::text(law_identification::laws_answer().of(found)).find("LACK OF FIT"),
+            std::string::npos);
   EXPECT_NE(found.laws.front().fragment.find("# Lack of fit"), std::string::npos);
 }
 
@@ -165,7 +167,8 @@ void expect_fixture_told_from_contact(FrictionModel law) {
   const LawComparison rigid = law_identification::compare_laws({record}, {{law}});
   EXPECT_FALSE(rigid.laws.front().checks.passed);
   const LawComparison found = law_identification::compare_laws({record}, {{law}, true});
-  EXPECT_TRUE(found.laws.front().checks.passed) << law_identification::comparison_text(found);
+  EXPECT_TRUE(found.laws.front().checks.passed)
+      << document::text(law_identification::laws_answer().of(found));
   const Held held = held_by(found.laws.front(), truth);
   EXPECT_GE(held.held, held.estimated - 1);
   EXPECT_EQ(held.estimated, static_cast<int>(found.laws.front().parameters.size()));
@@ -204,7 +207,7 @@ TEST_P(EachLaw, IsToldFromTheNearestWithItsParameters) {
   const IdentifiedLaw& law = found.laws.front();
   ASSERT_EQ(law.law, GetParam());
   EXPECT_GT(found.laws.back().information_criterion, 10.0);
-  EXPECT_TRUE(law.checks.passed) << law_identification::comparison_text(found);
+  EXPECT_TRUE(law.checks.passed) << document::text(law_identification::laws_answer().of(found));
   const Held held = held_by(law, truth, 2.0);
   EXPECT_EQ(held.held, held.estimated);
   EXPECT_GE(held.estimated, 4);
@@ -218,7 +221,8 @@ TEST_P(EachLaw, DISABLED_IsFoundInItsOwnRecordsWithItsParameters) {
     const Truth truth = rotor_of(GetParam(), random);
     const LawComparison found = law_identification::compare_laws({record_of(truth, random)}, {{GetParam()}});
     const IdentifiedLaw& law = found.laws.front();
-    EXPECT_TRUE(law.checks.passed) << "rig " << rig << ": " << law_identification::comparison_text(found);
+    EXPECT_TRUE(law.checks.passed) << "rig " << rig << ": "
+                                   << document::text(law_identification::laws_answer().of(found));
     const Held held = held_by(law, truth);
     all.held += held.held;
     all.estimated += held.estimated;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/sliding_identification/sliding_description.hpp"
 #include "analysis/sliding_identification/sliding_fit.hpp"
 #include "analysis/sliding_identification/sliding_identification.hpp"
 #include "core/failure/failure.hpp"
@@ -149,12 +150,12 @@ TEST(PositioningTwin, IsReported) {
         "friction:\n", "  breakaway: ", "  coulomb_ratio: {truncated_normal: ", "  stribeck_velocity: "}) {
     EXPECT_NE(fragment.find(line), std::string::npos) << line << fragment;
   }
-  const auto json = nlohmann::json::parse(sliding_identification::sliding_json(found));
+  const auto json = document::json(sliding_identification::sliding_answer().of(found));
   EXPECT_EQ(json["kind"], "sliding");
   EXPECT_EQ(json["parameters"][0]["value"].get<double>(), found.parameters[0].value);
   EXPECT_EQ(json["correlation"]["matrix"].size(), 6u);
   EXPECT_NEAR(json["correlation"]["matrix"][2][2].get<double>(), 1.0, 1e-12);
-  EXPECT_NE(sliding_identification::sliding_text(found).find("To paste into a manifest"), std::string::npos);
+  EXPECT_EQ(json["manifest"], fragment);
 
   const SlidingIdentification without = identified(closed_loop_record({}, {}, emps_lap(), 1, random));
   EXPECT_NE(sliding_identification::sliding_fragment(without).find("  coulomb_ratio: 1 "), std::string::npos);

@@ -1,5 +1,5 @@
 // The figures of an identification: what is drawn of a record is what the fit left of it.
-#include "analysis/report/identification_page.hpp"
+#include "analysis/report/identification_figures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "analysis/identification/identification_description.hpp"
+#include "analysis/report/answer_page.hpp"
 #include "analysis/report/thinning.hpp"
 
 namespace zerocount::testing {
@@ -34,6 +36,13 @@ FittedRecord random_record(std::uint64_t seed, std::size_t samples, bool masked)
     record.excluded.push_back(excluded);
   }
   return record;
+}
+
+/// The page of `identify --plot`.
+std::string page_of(const Identification& found) {
+  document::AnswerDescription<Identification> answer = identification::identification_answer();
+  answer.items.figures(report::identification_figures);
+  return report::html_page(report::answer_page(answer.of(found)));
 }
 
 /// An identification with these records of counts, without parameters.
@@ -130,7 +139,7 @@ TEST(DrawnSamples, KeepTheExtremesAndTheMasks) {
 TEST(IdentificationPage, HasTheDataOfEachRecord) {
   const Identification found =
       identification_of({random_record(1, 300, false), random_record(2, 5000, false)});
-  const ordered_json figures = figures_in(report::html_page(report::identification_page(found)));
+  const ordered_json figures = figures_in(page_of(found));
   ASSERT_EQ(figures.size(), 2U);
   for (std::size_t r = 0; r < figures.size(); ++r) {
     const FittedRecord& record = found.fitted[r];
@@ -161,8 +170,7 @@ TEST(IdentificationPage, ShowsWhatIsMasked) {
   for (std::size_t k = 100; k < 150; ++k) record.excluded[k] = true;
   record.reading[120] = 9e9;
   const Identification found = identification_of({record});
-  const report::ReportPage page = report::identification_page(found);
-  const ordered_json figure = figures_in(report::html_page(page))[0];
+  const ordered_json figure = figures_in(page_of(found))[0];
   const auto readings = column_of(figure, 0, "reading");
   const auto masked = column_of(figure, 0, "masked");
   const auto residuals = column_of(figure, 0, "residual");
@@ -177,14 +185,14 @@ TEST(IdentificationPage, ShowsWhatIsMasked) {
   EXPECT_NEAR(figure["data"][1]["rows"][0][0].get<double>(), record.time[100], 1e-9);
   EXPECT_NEAR(figure["data"][1]["rows"][0][1].get<double>(), record.time[150], 1e-9);
   EXPECT_LT(figure["specification"]["vconcat"][0]["encoding"]["y"]["scale"]["domain"][1].get<double>(), 2e6);
-  EXPECT_NE(page.sections[0].figures[0].caption.find("50 masked samples"), std::string::npos);
+  EXPECT_NE(report::identification_figures(found)[0].caption.find("50 masked samples"), std::string::npos);
 }
 
 TEST(IdentificationPage, AnglesAreInMicroradians) {
   Identification found = identification_of({random_record(4, 300, false)});
   found.records[0].counted = false;
   found.records[0].unit = 1e-7;
-  const report::Figure figure = report::identification_page(found).sections[0].figures[0];
+  const report::Figure figure = report::identification_figures(found)[0];
   const double band = report::residual_band(found.records[0], found.fitted[0]);
   EXPECT_NEAR(figure.data[0].rows[0][2].get<double>(), 0.1 * found.fitted[0].reading[0], 1e-3);
   EXPECT_NEAR(figure.data[2].rows[0][1].get<double>() / (0.1 * band), 1.0, 1e-5);
@@ -214,15 +222,14 @@ TEST(ReadingNoise, IsThatOfTheReadingsAlone) {
 
 TEST(IdentificationPage, SaysWhetherTheModelFits) {
   Identification found = identification_of({random_record(5, 300, false)});
-  EXPECT_NE(report::identification_page(found).sections[0].html.find("The model explains the records."),
-            std::string::npos);
+  EXPECT_NE(page_of(found).find("the model explains the records"), std::string::npos);
   found.checks.passed = false;
   found.checks.spread_chance = 0.002;
   found.checks.spread = 3.0;
   found.checks.expected_spread = 1.0;
   found.checks.widening = 4.5;
-  const std::string html = report::identification_page(found).sections[0].html;
-  EXPECT_NE(html.find("Lack of fit: the residuals are 3 times as large"), std::string::npos) << html;
+  const std::string html = page_of(found);
+  EXPECT_NE(html.find("LACK OF FIT: the residuals are 3 times as large"), std::string::npos) << html;
   EXPECT_NE(html.find("factor 4.5"), std::string::npos) << html;
 }
 
@@ -230,11 +237,8 @@ TEST(IdentificationPage, StaysSmall) {
   constexpr std::size_t limit = 5'000'000;  // bytes
   std::vector<FittedRecord> many;
   for (std::uint64_t seed = 1; seed <= 50; ++seed) many.push_back(random_record(seed, 2000, false));
-  EXPECT_LT(report::html_page(report::identification_page(identification_of(many))).size(), limit);
-  EXPECT_LT(
-      report::html_page(report::identification_page(identification_of({random_record(6, 100000, false)})))
-          .size(),
-      limit);
+  EXPECT_LT(page_of(identification_of(many)).size(), limit);
+  EXPECT_LT(page_of(identification_of({random_record(6, 100000, false)})).size(), limit);
 }
 
 }  // namespace

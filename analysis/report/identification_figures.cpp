@@ -1,4 +1,4 @@
-#include "analysis/report/identification_page.hpp"
+#include "analysis/report/identification_figures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "analysis/record_fit/residual_checks.hpp"
 #include "analysis/report/html.hpp"
 #include "analysis/report/thinning.hpp"
 
@@ -165,21 +164,6 @@ Figure fit_figure(const RecordSummary& record, const FittedRecord& fit, std::siz
   return figure;
 }
 
-std::string check_html(const record_fit::ResidualChecks& checks) {
-  if (checks.passed)
-    return html_verdict(
-        "The model explains the records.",
-        {fmt::format(
-            "The residuals of {} observations are as large as the encoder's steps and noise explain, "
-            "and their signs change as often.",
-            checks.observations)});
-  return html_verdict(
-      fmt::format("Lack of fit: {}.", reason_of_misfit(checks)),
-      {fmt::format("The values are not to be trusted. The intervals were widened by the factor {:.3g}, and "
-                   "hold only as far as the model does.",
-                   checks.widening)});
-}
-
 }  // namespace
 
 std::vector<std::size_t> drawn_samples(const FittedRecord& record, std::size_t buckets) {
@@ -217,23 +201,14 @@ double residual_band(const RecordSummary& record, const FittedRecord& fit) {
   return (record.counted ? 0.5 : 0.0) + normal_95 * reading_noise(record, fit);
 }
 
-ReportPage identification_page(const Identification& identification) {
+std::vector<Figure> identification_figures(const Identification& identification) {
   const std::size_t records = identification.records.size();
   const std::size_t buckets =
       std::clamp(all_buckets / std::max<std::size_t>(records, 1), min_buckets, max_buckets);
-  ReportPage page{"Identified friction, damping and inertia",
-                  fmt::format("From {} record{} of material tests", records, records == 1 ? "" : "s"),
-                  "This page is self-contained and requests nothing from anywhere.",
-                  {}};
-  PageSection fit{"fit", "Records and fit", check_html(identification.checks), {}};
+  std::vector<Figure> figures;
   for (std::size_t r = 0; r < records; ++r)
-    fit.figures.push_back(fit_figure(identification.records[r], identification.fitted[r], r + 1, buckets));
-  page.sections.push_back(std::move(fit));
-  page.sections.push_back({"parameters",
-                           "Parameters",
-                           html_preformatted("Report", identification_text(identification), true),
-                           {}});
-  return page;
+    figures.push_back(fit_figure(identification.records[r], identification.fitted[r], r + 1, buckets));
+  return figures;
 }
 
 }  // namespace zerocount::report

@@ -1,4 +1,4 @@
-#include "analysis/report/experiment_page.hpp"
+#include "analysis/report/experiment_figure.hpp"
 
 #include <algorithm>
 
@@ -8,11 +8,9 @@
 #include "analysis/report/thinning.hpp"
 
 namespace zerocount::report {
-namespace {
-
 using experiment_design::ExperimentDesign;
 
-Figure protocol_figure(const ExperimentDesign& design) {
+Figure experiment_figure(const ExperimentDesign& design) {
   constexpr std::size_t buckets = 500;
   const auto torque = [&](std::size_t k) { return design.protocol.torque[k]; };
   const auto count = [&](std::size_t k) { return static_cast<double>(design.record.counts[k]); };
@@ -37,22 +35,6 @@ Figure protocol_figure(const ExperimentDesign& design) {
            {{"count", "reading", "counts"}, [&](std::size_t k) { return datum(count(k), digits); }}})});
   put_on_axis(figure, design.frame.axis);
   return figure;
-}
-
-}  // namespace
-
-ReportPage experiment_page(const ExperimentDesign& design) {
-  ReportPage page{fmt::format("Experiment for {}", design.study),
-                  fmt::format("{} samples of {:g} s", design.frame.samples, design.frame.sample_time),
-                  "This page is self-contained and requests nothing from anywhere.",
-                  {}};
-  page.sections.push_back(
-      {"experiment",
-       "What to record",
-       "",
-       {protocol_figure(design)},
-       html_preformatted("What to expect", experiment_design::design_text(design), true)});
-  return page;
 }
 
 }  // namespace zerocount::report

@@ -1,14 +1,13 @@
 #pragma once
 
 #include "analysis/identification/identification.hpp"
-#include "analysis/report/page.hpp"
+#include "analysis/report/figure.hpp"
 
 namespace zerocount::report {
 
-/// A page on an identification: the residual check in words, a figure for each record, and the report as
-/// text. A figure has the readings and the fit over time, the residuals over time with the band of rounding
-/// and noise, and the torque over both angles.
-ReportPage identification_page(const identification::Identification& identification);
+/// A figure for each record: the readings and the fit over time, the residuals over time with the band of
+/// rounding and noise, and the torque over both angles.
+std::vector<Figure> identification_figures(const identification::Identification& identification);
 
 /// The samples of a record for a figure: of each of at most `buckets` groups of equal length, and of the
 /// parts of a group that are masked or not, the first, the last, and those with the extreme torque, reading,

@@ -1,0 +1,141 @@
+#include "analysis/law_identification/law_description.hpp"
+
+#include <fmt/format.h>
+
+#include "analysis/identification/estimate_description.hpp"
+#include "analysis/text/text.hpp"
+#include "core/friction/law.hpp"
+
+namespace zerocount::law_identification {
+namespace {
+
+using document::in_data;
+
+/// Difference of the information criterion that is strong evidence (Kass & Raftery, J. Am. Stat. Assoc. 90,
+/// 1995, 773: 6 to 10 strong, above 10 very strong).
+constexpr double strong_evidence = 10.0;
+
+std::string_view word_of(const IdentifiedLaw& law) {
+  return friction::traits_of(law.law).word;
+}
+
+/// The law with the least criterion, and its lead over the next; the misfit if it does not explain the
+/// records.
+std::string headline_of(const LawComparison& comparison) {
+  const IdentifiedLaw& best = comparison.laws.front();
+  std::string text = fmt::format("{} explains the records", word_of(best));
+  if (!best.checks.passed)
+    text = fmt::format("LACK OF FIT: {} does not explain the records: {}", word_of(best),
+                       record_fit::reason_of_misfit(best.checks));
+  if (comparison.laws.size() == 1) return text;
+  const IdentifiedLaw& next = comparison.laws[1];
+  if (next.information_criterion > strong_evidence)
+    return fmt::format("{}; it is the nearest of these laws, {} is next, {:.0f} higher in BIC", text,
+                       word_of(next), next.information_criterion);
+  return fmt::format("{}; the BIC of {} and {} differ by {:.1f} only: the records do not distinguish them",
+                     text, word_of(best), word_of(next), next.information_criterion);
+}
+
+/// What was left out of the records, a line each.
+std::string left_out_text(const LawComparison& comparison) {
+  std::string text;
+  for (const ComparedRecord& record : comparison.records) {
+    const std::string name = text::printable(record.name);
+    if (!record.note.empty()) text += fmt::format("{}: {}\n", name, record.note);
+    if (record.excluded > 0)
+      text += fmt::format("{}: {} samples masked by --exclude\n", name, record.excluded);
+  }
+  return text;
+}
+
+std::string missing_text(const LawComparison& comparison) {
+  const IdentifiedLaw& best = comparison.laws.front();
+  return identification::missing_parameters_text(best.parameters) +
+         (best.converged ? "" : "The fit to all readings did not converge within its steps.");
+}
+
+/// A law, and the unit of its residual.
+struct LawReading {
+  const IdentifiedLaw& law;
+  std::string unit;
+};
+
+std::vector<LawReading> readings_of(const LawComparison& comparison) {
+  std::vector<LawReading> readings;
+  for (const IdentifiedLaw& law : comparison.laws)
+    readings.push_back({law, parameters::unit_on(comparison.axis, "rad")});
+  return readings;
+}
+
+document::Description<LawReading> law_description() {
+  using Of = const LawReading&;
+  const auto for_people = [](const char* key, const char* heading) {
+    return document::Item{
+        .key = key, .heading = heading, .shown = document::Shown::to_people, .numeric = true};
+  };
+  return document::Description<LawReading>()
+      .value({"law", "law", "word of the friction law"}, [](Of r) { return word_of(r.law); })
+      .value({"fitted", "fitted", "fitted numbers, with the time offset"}, [](Of r) { return r.law.fitted; })
+      .value(for_people("residual", "residual"),
+             [](Of r) { return fmt::format("{:.3g} {}", r.law.misfit, r.unit); })
+      .value(for_people("of_travel", "of the travel"),
+             [](Of r) { return fmt::format("{:.3g} %", 100.0 * r.law.misfit_over_travel); })
+      .value(in_data("misfit", "root mean square of the residuals, rad or m"),
+             [](Of r) { return r.law.misfit; })
+      .value(in_data("misfit_over_travel", "the same over the travel of the records", "1"),
+             [](Of r) { return r.law.misfit_over_travel; })
+      .value({"bic_above_least", "BIC − least", "Schwarz's criterion above that of the best law"},
+             [](Of r) { return r.law.information_criterion; })
+      .value({"explained", "encoder and noise explain it", "whether they explain the residuals"},
+             [](Of r) { return r.law.checks.passed; })
+      .value(in_data("spread", "root mean square of the residuals over their standard deviations", "1"),
+             [](Of r) { return r.law.checks.spread; })
+      .value(in_data("expected_spread", "its mean over replicates", "1"),
+             [](Of r) { return r.law.checks.expected_spread; })
+      .value(in_data("widening", "factor that widened the intervals", "1"),
+             [](Of r) { return r.law.checks.widening; })
+      .value(in_data("converged", "whether the fit converged"), [](Of r) { return r.law.converged; })
+      .table(in_data("parameters", "its parameters"), identification::estimate_description(),
+             [](Of r) { return r.law.parameters; })
+      .value(in_data("manifest", "the law as a fragment of a manifest"), [](Of r) { return r.law.fragment; });
+}
+
+document::Description<ComparedRecord> record_description() {
+  using Of = const ComparedRecord&;
+  return document::Description<ComparedRecord>()
+      .value(in_data("name", "file, and part of it"), [](Of r) { return text::printable(r.name); })
+      .value(in_data("samples", "samples of the record"), &ComparedRecord::samples)
+      .value(in_data("excluded", "samples masked by --exclude"), &ComparedRecord::excluded)
+      .value(in_data("note", "what was cut out of it"), [](Of r) { return text::printable(r.note); });
+}
+
+}  // namespace
+
+document::AnswerDescription<LawComparison> laws_answer() {
+  using Of = const LawComparison&;
+  document::AnswerDescription<LawComparison> answer{
+      {.name = "identify_laws", .meaning = "friction laws compared on the same records", .csv_table = "laws"},
+      {}};
+  answer.items.headline(headline_of)
+      .value(in_data("kind", "always laws"), [](Of) { return "laws"; })
+      .value(identification::axis_item(),
+             [](Of c) { return parameters::axis_labels.at(static_cast<std::size_t>(c.axis)); })
+      .table({.key = "laws", .meaning = "the laws, the best one first"}, law_description(), readings_of)
+      .value(in_data("readings", "readings of all records"), &LawComparison::readings)
+      .value(in_data("effective_readings", "those that count as independent in BIC"),
+             &LawComparison::effective_readings)
+      .sentence([](Of c) {
+        return fmt::format("{} readings, of which {:.0f} count as independent in BIC", c.readings,
+                           c.effective_readings);
+      })
+      .value(in_data("sample_time", "time between samples", "s"), &LawComparison::sample_time)
+      .table(in_data("records", "the records"), record_description(), &LawComparison::records)
+      .sentence(left_out_text)
+      .table({.key = "best", .heading = "Parameters of the best law", .shown = document::Shown::to_people},
+             identification::estimate_description(), [](Of c) { return c.laws.front().parameters; })
+      .sentence(missing_text)
+      .value(identification::fragment_item(), [](Of c) { return c.laws.front().fragment; });
+  return answer;
+}
+
+}  // namespace zerocount::law_identification

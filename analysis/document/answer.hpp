@@ -79,8 +79,12 @@ nlohmann::ordered_json json(const Description<Row>& description, const Row& row)
 }
 
 /// The rows of the type's csv_table: RFC 4180 with \n, a line with the names of the columns first. A member
-/// of an object has the name "<object>_<member>"; an unknown number is `nan`, a list is written as in JSON.
+/// of an object has the name "<object>_<member>", unless its item has a column; an unknown number is `nan`, a
+/// list is written as in JSON.
 std::string csv(const Answer& answer);
+
+/// Name in CSV and cell of each column of an item.
+std::vector<std::pair<std::string, std::string>> csv_cells(const Item& item, const Content& content);
 
 /// The schema of json() of all answers of the type.
 nlohmann::ordered_json json_schema(const AnswerType& type);

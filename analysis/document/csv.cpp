@@ -31,7 +31,8 @@ class CsvLine {
   void add(const std::vector<Item>& items, const Members* members, const std::string& prefix = "") {
     for (std::size_t i = 0; i < items.size(); ++i) {
       if (!is_data(items[i])) continue;
-      add(items[i], members == nullptr ? Content{} : members->contents[i], prefix + items[i].key);
+      add(items[i], members == nullptr ? Content{} : members->contents[i],
+          items[i].column.empty() ? prefix + items[i].key : items[i].column);
     }
   }
 
@@ -45,6 +46,11 @@ class CsvLine {
 
   std::string names() const { return line(names_); }
   std::string cells() const { return line(cells_); }
+  std::vector<std::pair<std::string, std::string>> named_cells() const {
+    std::vector<std::pair<std::string, std::string>> named;
+    for (std::size_t i = 0; i < names_.size(); ++i) named.emplace_back(names_[i], cells_[i]);
+    return named;
+  }
 
  private:
   static bool is_data(const Item& item) { return is_shown(item.shown, Audience::csv); }
@@ -79,8 +85,10 @@ class CsvLine {
     if (const auto* const number = std::get_if<Bounded>(&content.value)) return csv_number(number->value);
     if (const auto* const text = std::get_if<std::string>(&content.value)) return *text;
     if (content.is_empty()) return item.kind == Kind::number || item.kind == Kind::whole ? "nan" : "";
-    const AnswerType alone{.name = {}, .meaning = {}, .version = 1, .csv_table = {}, .items = {item}};
-    return json({alone, {{content}}, {}})[item.key].dump();
+    if (const auto* const number = std::get_if<std::int64_t>(&content.value)) return std::to_string(*number);
+    Item alone = item;
+    alone.shown = Shown::in_json;
+    return json(std::vector{std::move(alone)}, {{content}})[item.key].dump();
   }
 
   std::vector<std::string> names_;
@@ -110,6 +118,13 @@ void add_lines(std::string& csv, const std::vector<Item>& items, const Members* 
 }
 
 }  // namespace
+
+std::vector<std::pair<std::string, std::string>> csv_cells(const Item& item, const Content& content) {
+  const Members row{{content}};
+  CsvLine line;
+  line.add({item}, &row);
+  return line.named_cells();
+}
 
 std::string csv(const Answer& answer) {
   std::string csv;

@@ -197,12 +197,14 @@ class Description {
         });
   }
 
-  /// The items of `parts` beside the others. Where `get` finds no Part they are empty.
+  /// The items of `parts` beside the others. `get` returns a Part, an optional one, or a pointer to one;
+  /// where there is none they are empty.
   template <class Part, class Get>
   Description& include(const Description<Part>& parts, Get get) {
     for (std::size_t i = 0; i < parts.items().size(); ++i) {
       Item item = parts.items()[i];
-      item.nullable = true;
+      item.nullable =
+          item.nullable || !std::is_same_v<std::remove_cvref_t<std::invoke_result_t<Get, const Row&>>, Part>;
       add(std::move(item),
           [content = parts.content_of(i), get](const Row& row, Audience audience) -> Content {
             auto&& found = std::invoke(get, row);

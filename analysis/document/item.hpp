@@ -76,6 +76,7 @@ struct Item {
   Shown shown{Shown::everywhere};
   bool numeric{false};               ///< a text that stands in tables as numbers do: "> 1 s"
   std::vector<std::string> words{};  ///< that a text can be; empty: any
+  std::string column{};              ///< name in CSV; empty: "<object>_<key>", without an object the key
   bool optional{false};              ///< JSON has no such member where there is no content; else null
   bool verbatim{false};              ///< a text whose lines are shown as they are, below the heading
   bool common_above{false};          ///< of a table: what all its rows say alike is said once, above it

@@ -14,10 +14,6 @@
 #include "analysis/statistics/unknown.hpp"
 #include "analysis/text/report_field.hpp"
 
-namespace zerocount::measures {
-struct SummarySection;
-}
-
 namespace zerocount::iso230 {
 
 /// How a value is distributed over the trials of a design point for which it is defined: n, mean, max, median
@@ -66,21 +62,5 @@ struct RepeatabilitySummary {
   std::vector<PointRepeatability> points;                   ///< [point]
   parameters::AxisKind axis{parameters::AxisKind::rotary};  ///< whose units the deviations have
 };
-
-/// The section "repeatability" of the summary.
-///
-/// Its JSON has the names of point_repeatability_fields(), and for each of deviation_sources() an object of
-/// the unit, "axis" (axis_fields(), of each an object by value_statistic_fields()) and "targets" (an array,
-/// of each target the number, its smallest and largest position in counts, and target_fields() alike). Its
-/// columns have the same numbers by names such as "repeatability_true_accuracy_median" and
-/// "repeatability_encoder_target_0_reversal_p95".
-/// @param labels [point]
-measures::SummarySection repeatability_section(const RepeatabilitySummary& summary,
-                                               const std::vector<std::string>& labels);
-
-/// Adds two tables for people, of the axis and of the targets, and their legend: a row for each point (and
-/// target) and source, each value as its median and 95 % quantile over the trials.
-void add_tables(measures::SummarySection& section, const RepeatabilitySummary& summary,
-                const std::vector<std::string>& labels);
 
 }  // namespace zerocount::iso230

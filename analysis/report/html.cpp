@@ -33,13 +33,9 @@ std::string html_table(const std::vector<HtmlColumn>& columns) {
   text += "</tr></thead><tbody>\n";
   for (std::size_t row = 0; !columns.empty() && row < columns.front().cells.size(); ++row) {
     text += "<tr>";
-    for (const HtmlColumn& column : columns) {
-      text += fmt::format("<td{}>{}", column.text ? " class=\"text wrap\"" : "",
+    for (const HtmlColumn& column : columns)
+      text += fmt::format("<td{}>{}</td>", column.text ? " class=\"text wrap\"" : "",
                           document::markup(column.cells[row]));
-      if (!column.below.empty())
-        text += fmt::format("<span class=\"unit\">{}</span>", document::markup(column.below[row]));
-      text += "</td>";
-    }
     text += "</tr>\n";
   }
   return text + "</tbody></table></div>\n";

@@ -14,7 +14,6 @@ struct HtmlColumn {
   std::string unit;  ///< empty: no unit
   bool text{false};  ///< left-aligned, with line breaks
   std::vector<std::string> cells;
-  std::vector<std::string> below{};  ///< [row] smaller second line of the cell; may be empty
 };
 
 /// Adds a cell to each column.

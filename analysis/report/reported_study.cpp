@@ -8,7 +8,7 @@
 
 #include "analysis/goal/success_bounds.hpp"
 #include "analysis/summary/best_point.hpp"
-#include "analysis/summary/shown_points.hpp"
+#include "analysis/summary/point_names.hpp"
 #include "analysis/summary/summary.hpp"
 #include "analysis/text/percent.hpp"
 #include "core/failure/failure.hpp"

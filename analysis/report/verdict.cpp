@@ -15,9 +15,9 @@
 #include "analysis/statistics/sample_size.hpp"
 #include "analysis/statistics/tolerance.hpp"
 #include "analysis/summary/judged_point.hpp"
-#include "analysis/summary/shown_points.hpp"
-#include "analysis/summary/summary_parts.hpp"
+#include "analysis/summary/point_names.hpp"
 #include "analysis/summary/undecided.hpp"
+#include "analysis/summary/worlds_of_point.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "analysis/report/report_figures.hpp"
 #include "analysis/statistics/histogram.hpp"
-#include "analysis/summary/summary_parts.hpp"
+#include "analysis/summary/worlds_of_point.hpp"
 #include "analysis/text/percent.hpp"
 
 namespace zerocount::report {

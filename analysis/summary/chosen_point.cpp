@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include "analysis/goal/success_bounds.hpp"
 #include "analysis/statistics/clustered_proportion.hpp"
@@ -15,7 +14,7 @@
 #include "analysis/statistics/normal.hpp"
 #include "analysis/summary/best_point.hpp"
 #include "analysis/summary/judged_point.hpp"
-#include "analysis/summary/shown_points.hpp"
+#include "analysis/summary/point_names.hpp"
 
 namespace zerocount::summary {
 namespace {
@@ -97,11 +96,11 @@ std::vector<EndOfRange> ends_at(const StudySummary& summary, std::int64_t point)
   return ends;
 }
 
+}  // namespace
+
 double value_at(const StudySummary& summary, const EndOfRange& end, std::int64_t point) {
   return summary.axes[end.axis].numbers[static_cast<std::size_t>(point)];
 }
-
-}  // namespace
 
 ChosenPoint choose_point(const StudySummary& summary, std::optional<std::int64_t> point) {
   const std::vector<std::int64_t> order = points_by_merit(summary);
@@ -128,19 +127,16 @@ std::string name_of_chosen(const StudySummary& summary, const ChosenPoint& chose
   return chosen.chosen_from > 1 ? fmt::format("best of {} points: {}", chosen.chosen_from, name) : name;
 }
 
-std::string verdict_text(const StudySummary& summary, const ChosenPoint& chosen) {
-  if (summary.question.claim()) return judgement_text(summary, judge_point(summary, chosen));
+std::string claim_of_chosen_point(const StudySummary& summary, const ChosenPoint& chosen) {
   const measures::PointSummary& point = point_of(summary, chosen.point);
-  std::string text = name_of_chosen(summary, chosen) + ": ";
+  const std::string name = name_of_chosen(summary, chosen) + ": ";
   if (summary.features.dependent_trials) {
-    return text + fmt::format("{} of {} trials succeeded; dependent trials give no bounds\n",
+    return name + fmt::format("{} of {} trials succeeded; dependent trials give no bounds",
                               point.outcomes.zero_count, point.trials);
   }
-  const auto points = static_cast<std::size_t>(chosen.chosen_from);
-  if (summary.question.worlds > 0) text += "on average over the worlds: ";
-  text += statistics::claim_sentence(goal::claim_of_chosen(point, points, summary.question.stopped)) + "\n";
-  if (points > 1) text += "  the bound allows for the choice of the point by these trials\n";
-  return text + competition_text(summary, chosen);
+  return name + (summary.question.worlds > 0 ? "on average over the worlds: " : "") +
+         statistics::claim_sentence(goal::claim_of_chosen(point, static_cast<std::size_t>(chosen.chosen_from),
+                                                          summary.question.stopped));
 }
 
 std::string competition_text(const StudySummary& summary, const ChosenPoint& chosen) {
@@ -162,22 +158,6 @@ std::string competition_text(const StudySummary& summary, const ChosenPoint& cho
                         end.lowest ? "lowest" : "highest", end.lowest ? "lower" : "higher");
   }
   return text;
-}
-
-nlohmann::ordered_json chosen_point_json(const StudySummary& summary, const ChosenPoint& chosen) {
-  using Json = nlohmann::ordered_json;
-  Json ends = Json::array();
-  for (const EndOfRange& end : chosen.ends) {
-    ends.push_back({{"parameter", summary.axes[end.axis].name},
-                    {"value", value_at(summary, end, chosen.point)},
-                    {"end", end.lowest ? "lowest" : "highest"}});
-  }
-  return {{"point", chosen.point},
-          {"label", summary.labels[static_cast<std::size_t>(chosen.point)]},
-          {"chosen_from", chosen.chosen_from},
-          {"runner_up", chosen.runner_up ? Json(*chosen.runner_up) : Json()},
-          {"as_good", chosen.as_good},
-          {"ends_of_ranges", std::move(ends)}};
 }
 
 }  // namespace zerocount::summary

@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "analysis/summary/summary.hpp"
 
 /// The design point that all outputs of a study speak of.
@@ -18,6 +16,9 @@ struct EndOfRange {
   std::size_t axis{0};  ///< of StudySummary::axes
   bool lowest{false};   ///< otherwise it is the highest
 };
+
+/// The value of the parameter at the point.
+double value_at(const StudySummary& summary, const EndOfRange& end, std::int64_t point);
 
 /// The chosen point, and its competitors.
 struct ChosenPoint {
@@ -41,16 +42,12 @@ ChosenPoint choose_point(const StudySummary& summary, std::optional<std::int64_t
 /// "best of 8 points: 3 (kp=400)", or only the name of the point.
 std::string name_of_chosen(const StudySummary& summary, const ChosenPoint& chosen);
 
-/// The verdict on the chosen point of a study with targets: by the goal, or what its trials show of all axes.
-/// Whole lines.
-std::string verdict_text(const StudySummary& summary, const ChosenPoint& chosen);
+/// The success of the chosen point, in one sentence: what its trials show of all axes. The bound allows for
+/// the choice of the point by these trials.
+std::string claim_of_chosen_point(const StudySummary& summary, const ChosenPoint& chosen);
 
 /// What stands beside the verdict on the chosen point: points as good, and ends of swept ranges. Whole lines,
 /// or empty.
 std::string competition_text(const StudySummary& summary, const ChosenPoint& chosen);
-
-/// {"point", "label", "chosen_from", "runner_up", "as_good": […], "ends_of_ranges": [{"parameter", "value",
-/// "end": "lowest" | "highest"}]}
-nlohmann::ordered_json chosen_point_json(const StudySummary& summary, const ChosenPoint& chosen);
 
 }  // namespace zerocount::summary

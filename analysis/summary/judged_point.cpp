@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "analysis/goal/goal_text.hpp"
-#include "analysis/summary/summary_parts.hpp"
+#include "analysis/summary/worlds_of_point.hpp"
 
 namespace zerocount::summary {
 namespace {

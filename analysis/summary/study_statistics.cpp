@@ -19,7 +19,7 @@
 #include "analysis/iso230/repeatability_file.hpp"
 #include "analysis/measures/point_columns.hpp"
 #include "analysis/measures/trial_value.hpp"
-#include "analysis/summary/summary_parts.hpp"
+#include "analysis/summary/observed_comparison.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"

@@ -14,10 +14,8 @@
 #include "analysis/iso230/repeatability_statistics.hpp"
 #include "analysis/measures/point_columns.hpp"
 #include "analysis/statistics/unknown.hpp"
-#include "analysis/summary/shown_points.hpp"
 #include "analysis/summary/study_statistics.hpp"
 #include "analysis/summary/summary.hpp"
-#include "analysis/summary/summary_parts.hpp"
 #include "analysis/summary/summed_point.hpp"
 #include "analysis/summary/undecided.hpp"
 #include "analysis/worlds/derived_quantities.hpp"
@@ -108,7 +106,6 @@ class TrialsSoFar {
     describe_points(summary, study_, undecided_.moves(), complete_points(summary));
     predictions_.resize(summary.points.size());
     summary.predictions = predictions_;
-    add_claims(summary);
     summary.unfinished = UnfinishedStudy{count_, study::trial_count(study_), study::point_count(study_)};
     return summary;
   }
@@ -165,7 +162,6 @@ class SumsSoFar {
     shorten(summary, summary.points.size());
     describe_points(summary, study_, summed.undecided, complete_points(summary));
     summary.predictions = std::move(summed.predictions);
-    add_claims(summary);
     summary.unfinished = UnfinishedStudy{count_, study::trial_count(study_), study::point_count(study_)};
     return summary;
   }
@@ -226,6 +222,8 @@ StudySummary summary_without_points(const study::Study& study, double confidence
   summary.labels = study.point_labels;
   summary.axes = study.axes;
   summary.observed = study.observed;
+  // Trials of a saltelli design are not independent: no test applies to them.
+  if (!study.features.dependent_trials) summary.observed_counts = study.observed_counts;
   summary.confidence = confidence;
   summary.features = study.features;
   summary.question = goal::question_of(study);
@@ -243,22 +241,6 @@ void describe_points(StudySummary& summary, const study::Study& study,
     if (study.worlds > 0)
       summary.world_inputs.push_back(inputs_of_worlds(study, numbers[point], summary.points[point]));
   }
-  if (!study.open_loop)
-    summary.sections.push_back(undecided_section(summary.points, short_labels(summary.labels, summary.axes)));
-  // Trials of a saltelli design are not independent: no test applies to them.
-  if (!study.observed_counts.empty() && !study.features.dependent_trials) {
-    summary.sections.push_back(
-        observed_section(summary.points, summary.labels, study.observed_counts, summary.confidence));
-  }
-}
-
-void add_claims(StudySummary& summary) {
-  if (summary.question.claim()) summary.sections.push_back(goal_section(summary));
-  if (summary.question.worlds > 0 && !summary.features.open_loop)
-    summary.sections.push_back(worlds_section(summary));
-  if (summary.features.open_loop || summary.features.dependent_trials) return;
-  summary.sections.push_back(
-      tolerance_section(summary.points, short_labels(summary.labels, summary.axes), summary.features));
 }
 
 StudySummary summarise(const reading::StudyFile& file, double confidence, bool bootstrap) {
@@ -273,15 +255,8 @@ StudySummary summarise(const reading::StudyFile& file, double confidence, bool b
   UndecidedAccumulator undecided(study);
   undecided.add(file, file.rows());
   describe_points(summary, study, undecided.moves(), complete_points(summary));
-  if (!study.sequence.empty()) {
-    summary.sections.push_back(iso230::repeatability_section(
-        iso230::study_repeatability(file, study, confidence), short_labels(summary.labels, summary.axes)));
-  }
-  if (study.stop) {
-    summary.sections.push_back(stopping_section(summary.points, short_labels(summary.labels, summary.axes),
-                                                *study.stop, confidence));
-  }
-  add_claims(summary);
+  if (!study.sequence.empty()) summary.repeatability = iso230::study_repeatability(file, study, confidence);
+  summary.stop = study.stop;
   return summary;
 }
 
@@ -293,7 +268,6 @@ StudySummary summarise(const reading::ResultsFile& file, double confidence, bool
   SummedStudy summed = sums.sum();
   summary.points = std::move(summed.points);
   describe_points(summary, study, summed.undecided, complete_points(summary));
-  add_claims(summary);
   return summary;
 }
 

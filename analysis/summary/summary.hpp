@@ -4,13 +4,13 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "analysis/goal/question.hpp"
-#include "analysis/measures/point_columns.hpp"
+#include "analysis/iso230/repeatability_statistics.hpp"
 #include "analysis/measures/point_statistics.hpp"
-#include "analysis/measures/summary_section.hpp"
 #include "analysis/theory/theory_prediction.hpp"
 #include "analysis/worlds/world_rule.hpp"
 #include "experiments/study/study.hpp"
@@ -39,10 +39,12 @@ struct StudySummary {
   std::vector<theory::PointPrediction> predictions{};  ///< [point], or empty where not computed
   study::StudyFeatures features{};                     ///< what the table has columns for
   goal::Question question{};                           ///< what the study is judged by
-  std::vector<std::vector<worlds::WorldInput>> world_inputs{};  ///< [point] unknown and derived
-  std::uint64_t seed{0};                                        ///< of the study
-  std::optional<UnfinishedStudy> unfinished{};                  ///< where the run has not ended
-  std::vector<measures::SummarySection> sections{};
+  std::vector<std::vector<worlds::WorldInput>> world_inputs{};     ///< [point] unknown and derived
+  std::uint64_t seed{0};                                           ///< of the study
+  std::optional<UnfinishedStudy> unfinished{};                     ///< where the run has not ended
+  std::map<std::string, study::ObservedCounts> observed_counts{};  ///< point label → counts that are tested
+  std::optional<study::StoppingRule> stop{};  ///< of a complete study that decided how many trials it took
+  std::optional<iso230::RepeatabilitySummary> repeatability{};  ///< of a study with a sequence
   /// Points with all statistics, in their order; empty: every point. Of the others only those are known that
   /// points are chosen by (selected_summary.hpp), and they are in no table.
   std::vector<std::int64_t> complete{};
@@ -57,47 +59,20 @@ struct StudySummary {
 /// The numbers of the points with all statistics.
 std::vector<std::int64_t> complete_points(const StudySummary& summary);
 
-/// @throws Failure (bad_data) where labels, axes, statistics and predictions are not of the same points. The
-/// functions below call it.
+/// @throws Failure (bad_data) where labels, axes, statistics and predictions are not of the same points
 void require_consistent(const StudySummary& summary);
-
-/// How a summary is printed.
-struct SummaryForm {
-  std::vector<std::int64_t> points{};    ///< that are shown, in their order; empty: all
-  std::optional<std::int64_t> chosen{};  ///< point that the text speaks of; nothing: the best
-  bool legend{false};                    ///< the table explains its columns
-};
-
-/// The points that the form shows, in their order.
-std::vector<std::int64_t> points_shown(const StudySummary& summary, const SummaryForm& form);
 
 /// The observations on the real rig at `point`; empty where there are none.
 std::string observed_at(const StudySummary& summary, std::int64_t point);
 
-/// "unfinished: of the 12000 of 50000 trials that the run has finished so far; 3 of 5 points have none yet";
-/// empty for a complete study.
-std::string unfinished_sentence(const StudySummary& summary);
+/// The properties of a study as a whole.
+StudySummary summary_without_points(const study::Study& study, double confidence);
 
-/// The table for people: a row per point in aligned columns, of an open-loop study a row per point and level,
-/// then the sections, at last the verdict on the chosen point. UTF-8, one line per row, sentences on one
-/// line each: text::fitted fits it to a terminal.
-std::string summary_table(const StudySummary& summary, const SummaryForm& form = {});
-
-/// {"name", "design", "conservative_bounds", "confidence", "unfinished" (only of an unfinished study:
-/// {"finished", "trials"}), "points": [{"point", "label", "axes": {…}, …}]}
-/// with the names of statistic_fields() and mean_bound_fields(), by group; points of an open-loop study have
-/// "levels": […] with the names of level_fields(); each section has its key; "best": chosen_point_json().
-/// Whole numbers are integers, NaN is null, every other number reads back to the same double.
-nlohmann::ordered_json summary_json(const StudySummary& summary, const SummaryForm& form = {});
-
-/// summary_json as text, indented, ending with a line break.
-std::string summary_json_text(const StudySummary& summary);
-
-/// A line per point: point, label, axes, then statistic_fields() by flat_name, then the criteria's
-/// proportions of trials, the observation and the columns of the sections. Of an open-loop study, a line per
-/// point and level: point, label, axes, level, then level_fields() by flat_name, and the observation. RFC
-/// 4180 with \n; NaN is `nan`; numbers read back to the same double.
-std::string summary_csv(const StudySummary& summary, const SummaryForm& form = {});
+/// Adds to the statistics what the study says of their points.
+/// @param undecided [point] @param numbers [point] its number in the study
+void describe_points(StudySummary& summary, const study::Study& study,
+                     const std::vector<measures::UndecidedMoves>& undecided,
+                     std::span<const std::int64_t> numbers);
 
 /// The summary of a complete results file. What was observed comes from its manifest, what the criteria say
 /// from the columns of its /point: the trials are not drawn again. Every bound is found anew.
@@ -114,7 +89,7 @@ StudySummary summarise_file(const std::filesystem::path& path,
 
 /// The summary of a run that has not ended: of the trials in its shards and parts (shards::finished_pieces).
 /// In a study with rigs, only the trials of a point before the first that is missing count, so that rigs have
-/// equal numbers of them. Points without trials at the end are left out, and so are sections about all
+/// equal numbers of them. Points without trials at the end are left out, and so are statements about all
 /// trials.
 /// @param output the results file that the run makes
 /// @throws Failure (bad_data) where there is no finished trial, a shard is damaged or of another study;

@@ -5,12 +5,9 @@
 #include <cstddef>
 #include <cstdlib>
 
-#include <fmt/format.h>
-
 #include "analysis/measures/trial_value.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "analysis/statistics/unknown.hpp"
-#include "analysis/text/text.hpp"
 #include "core/theory/slow_approach.hpp"
 #include "core/trial/last_half.hpp"
 #include "core/trial/parameters.hpp"
@@ -65,12 +62,6 @@ double needed_hold(const trial::MoveOutcome& move, std::size_t number, std::int6
          std::max(p.verdict.dwell, p.verdict.window);
 }
 
-/// A converter that clips keeps moves from their targets, too.
-std::string clipping_remark(const measures::PointSummary& point) {
-  const std::int64_t clipped = point.of(&trial::MoveOutcome::saturated).trials;
-  return clipped == 0 ? "" : fmt::format("; the converter clipped in {} of {} trials", clipped, point.trials);
-}
-
 }  // namespace
 
 double time_to_zero(std::int64_t midway_error, std::int64_t final_error, std::int64_t samples,
@@ -119,35 +110,6 @@ std::vector<measures::UndecidedMoves> UndecidedAccumulator::moves() const {
   std::vector<measures::UndecidedMoves> moves;
   for (const UndecidedSums& point : points_) moves.push_back(point.moves());
   return moves;
-}
-
-measures::SummarySection undecided_section(std::span<const measures::PointSummary> points,
-                                           const std::vector<std::string>& labels) {
-  measures::SummarySection section{.key = "undecided", .json = {}, .columns = {}};
-  section.of_success = true;
-  text::PointTable table{{{"point", false, {}}, {"undecided moves", false, {}}}, {}};
-  for (const measures::UndecidedCount& each : measures::undecided_counts)
-    section.columns.push_back({each.column, "1", each.long_name, {}});
-  section.columns.push_back({"hold_at_least", "s", "hold that most of these are expected to need", {}});
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const measures::UndecidedMoves& point = points[i].undecided;
-    nlohmann::ordered_json& json = section.json.emplace_back();
-    json["moves"] = point.moves;
-    auto column = section.columns.begin();
-    for (const measures::UndecidedCount& each : measures::undecided_counts) {
-      json[each.name] = point.*each.count;
-      (column++)->values.push_back(static_cast<double>(point.*each.count));
-    }
-    json["hold_at_least"] = point.advised_hold;
-    column->values.push_back(point.advised_hold);
-    if (!measures::any_undecided(point)) continue;
-    table.columns[0].cells.push_back(text::printable(labels[i]));
-    table.columns[1].cells.push_back(measures::undecided_sentence(point) + clipping_remark(points[i]));
-    table.points.push_back(static_cast<std::int64_t>(i));
-  }
-  section.tables.push_back(std::move(table));
-  section.note = fmt::format("{}\n", measures::undecided_meaning);
-  return section;
 }
 
 }  // namespace zerocount::summary

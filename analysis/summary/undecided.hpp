@@ -61,12 +61,4 @@ class UndecidedAccumulator {
   std::vector<UndecidedSums> points_;
 };
 
-/// The section "undecided" of a summary. Its JSON is {"moves", "off_target", "still_falling",
-/// "falling_with_ripple", "about_to_arrive", "hold_at_least"}; its columns are undecided_moves,
-/// still_falling_moves, falling_with_ripple_moves, about_to_arrive_moves and hold_at_least; its text is a
-/// sentence for each point that has undecided moves.
-/// @param labels [point]
-measures::SummarySection undecided_section(std::span<const measures::PointSummary> points,
-                                           const std::vector<std::string>& labels);
-
 }  // namespace zerocount::summary

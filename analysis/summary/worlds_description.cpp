@@ -33,7 +33,7 @@ Description<ConditionReading> condition_description() {
   return Description<ConditionReading>()
       .value({.key = "parameter", .meaning = "dotted path, or name of a derived quantity"},
              [](Reading r) { return r.input.name; })
-      .value({.key = "relation", .words = {">", "<"}},
+      .value({.key = "relation", .meaning = "sign between parameter and value", .words = {">", "<"}},
              [](Reading r) { return r.condition.above ? ">" : "<"; })
       .value({.key = "value", .meaning = "threshold, in the unit of the parameter"},
              [](Reading r) { return r.condition.threshold; });

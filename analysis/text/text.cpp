@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 
 #include <fmt/format.h>
 
@@ -103,23 +102,6 @@ std::string aligned_table(const std::vector<TextColumn>& columns) {
     for (std::size_t row = 0; row < rows; ++row) cells[row + 1].push_back(column.cells[row]);
   }
   return aligned_table(cells, numeric);
-}
-
-std::string aligned_table(const PointTable& table, std::span<const std::int64_t> points) {
-  std::multimap<std::int64_t, std::size_t> rows_of;
-  for (std::size_t row = 0; row < table.points.size(); ++row) rows_of.emplace(table.points[row], row);
-  std::vector<std::size_t> rows;
-  for (const std::int64_t point : points) {
-    const auto [first, last] = rows_of.equal_range(point);
-    for (auto row = first; row != last; ++row) rows.push_back(row->second);
-  }
-  if (rows.empty()) return {};
-  std::vector<TextColumn> columns;
-  for (const TextColumn& column : table.columns) {
-    TextColumn& shown = columns.emplace_back(TextColumn{column.head, column.numeric, {}});
-    for (const std::size_t row : rows) shown.cells.push_back(column.cells[row]);
-  }
-  return aligned_table(columns);
 }
 
 std::string aligned_table(const std::vector<std::vector<std::string>>& cells,

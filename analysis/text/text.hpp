@@ -34,15 +34,6 @@ struct TextColumn {
 /// A table as text: columns of equal length, two spaces apart, with underlined headers.
 std::string aligned_table(const std::vector<TextColumn>& columns);
 
-/// A table whose rows belong to design points.
-struct PointTable {
-  std::vector<TextColumn> columns;
-  std::vector<std::int64_t> points;  ///< [row]
-};
-
-/// The rows of these points, in their order, as text; empty where there are none.
-std::string aligned_table(const PointTable& table, std::span<const std::int64_t> points);
-
 /// A table as text: cells[row][column] in aligned columns two spaces apart, the first row underlined;
 /// `numeric` columns are aligned to the right. All rows must have the length of `numeric`.
 std::string aligned_table(const std::vector<std::vector<std::string>>& cells,

@@ -9,8 +9,8 @@
 
 #include "analysis/goal/goal_description.hpp"
 #include "analysis/summary/judged_point.hpp"
-#include "analysis/summary/shown_points.hpp"
-#include "analysis/summary/summary_parts.hpp"
+#include "analysis/summary/point_names.hpp"
+#include "analysis/summary/worlds_of_point.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/worlds/learning.hpp"
 #include "runners/answers/answer_format.hpp"

@@ -7,27 +7,21 @@
 
 #include <fmt/format.h>
 
-#include "analysis/goal/goal_text.hpp"
-#include "analysis/goal/question.hpp"
 #include "analysis/statistics/proportion.hpp"
-#include "analysis/summary/chosen_point.hpp"
-#include "analysis/summary/selected_summary.hpp"
-#include "analysis/summary/shown_points.hpp"
+#include "analysis/summary/point_names.hpp"
 #include "analysis/summary/summary.hpp"
-#include "analysis/summary/summary_parts.hpp"
-#include "analysis/text/percent.hpp"
-#include "analysis/text/report_json.hpp"
-#include "analysis/text/text.hpp"
+#include "analysis/summary_answer/selected_summary.hpp"
+#include "analysis/summary_answer/summary_answer.hpp"
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/study_file.hpp"
 #include "results/shards/pieces.hpp"
+#include "runners/answers/answer_format.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/plugin_option.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/result_commands/result_commands.hpp"
-#include "runners/standard_output/standard_output.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_run/confirmation.hpp"
 
@@ -42,7 +36,7 @@ constexpr const char* summary_help =
     "and settling times, jerks, the prediction of the paper's criteria (6) and (7), and the\n"
     "observation on the real rig if the manifest has one. --legend explains the columns.\n"
     "For an open-loop study, one row per design point and torque level. A table that is too wide\n"
-    "for the terminal is divided. The last lines are the verdict on the best point, or on that of\n"
+    "for the terminal is divided. The first lines are the verdict on the best point, or on that of\n"
     "--point: what is shown of all axes that the manifest describes, which points are as good,\n"
     "and whether it lies at an end of the sweep.\n"
     "--sort, --where and --top choose rows. They take the names of the columns of --format csv\n"
@@ -84,9 +78,9 @@ summary::StudySummary summary_of(const fs::path& path, double confidence, bool w
 }
 
 /// The run that the option --confirm asks for; nothing without it.
-std::optional<study_run::Confirmation> confirmation_of(const command_line::Arguments& arguments,
-                                                       const summary::StudySummary& summary,
-                                                       std::int64_t point) {
+std::optional<summary_answer::Confirmation> confirmation_of(const command_line::Arguments& arguments,
+                                                            const summary::StudySummary& summary,
+                                                            std::int64_t point) {
   constexpr std::int64_t max_trials = 10'000'000;
   const std::optional<std::int64_t> trials = arguments.whole_number("confirm", 2, max_trials);
   if (!trials) {
@@ -100,59 +94,13 @@ std::optional<study_run::Confirmation> confirmation_of(const command_line::Argum
   return study_run::confirm_point(file, point, *trials, commands::plugin_option(arguments));
 }
 
-/// Clopper–Pearson bounds of the success rate of the new trials, which are independent unless they share rigs
-/// (in a study with a goal).
-std::optional<statistics::ConfidenceInterval> bounds_of(const study_run::Confirmation& confirmed,
-                                                        double confidence) {
-  if (confirmed.rigs > 0 && confirmed.rigs < confirmed.trials) return std::nullopt;
-  return statistics::clopper_pearson(confirmed.successes, confirmed.trials, confidence);
-}
-
-std::string confirmation_text(const summary::StudySummary& summary,
-                              const study_run::Confirmation& confirmed) {
-  std::string text = fmt::format(
-      "\nrun anew with seed {}, everything drawn anew, chosen beforehand so that no bound needs a "
-      "correction:\n",
-      confirmed.seed);
-  if (confirmed.goal) {
-    const goal::Verdict verdict = verdict_on(summary.question, *confirmed.goal);
-    text += fmt::format("  goal: {}\n{}", goal::text_of(verdict.status),
-                        goal::readings_text(*summary.question.claim(), *confirmed.goal, verdict));
-  }
-  text += fmt::format("  {} of {} trials{} succeeded{}, {}", confirmed.successes, confirmed.trials,
-                      confirmed.rigs == 0                  ? ""
-                      : confirmed.rigs == confirmed.trials ? ", each on a rig of its own,"
-                                                           : fmt::format(" on {} rigs", confirmed.rigs),
-                      summary.question.worlds > 0 ? " on average over new worlds" : "",
-                      text::percentage(confirmed.successes, confirmed.trials));
-  if (const auto bounds = bounds_of(confirmed, summary.confidence)) {
-    text += fmt::format(", {} bounds [{}] % (Clopper and Pearson)", text::percent(summary.confidence),
-                        text::percent_bounds(bounds->low, bounds->high));
-  }
-  return text + "\n";
-}
-
-nlohmann::ordered_json confirmation_json(const summary::StudySummary& summary,
-                                         const study_run::Confirmation& confirmed) {
-  const auto bounds = bounds_of(confirmed, summary.confidence);
-  nlohmann::ordered_json json{
-      {"point", confirmed.point},
-      {"seed", confirmed.seed},
-      {"trials", confirmed.trials},
-      {"zero_count", confirmed.successes},
-      {"success_rate", statistics::rate(confirmed.successes, confirmed.trials)},
-      {"success_rate_low", bounds ? nlohmann::ordered_json(bounds->low) : nlohmann::ordered_json()},
-      {"success_rate_high", bounds ? nlohmann::ordered_json(bounds->high) : nlohmann::ordered_json()},
-      {"one_trial_per_rig", confirmed.rigs == confirmed.trials}};
-  if (confirmed.goal) {
-    json["goal"] = summary::verdict_json(*summary.question.claim(),
-                                         verdict_on(summary.question, *confirmed.goal), confirmed.rigs > 0);
-  }
-  return json;
+/// Bounds of means take their time: people are shown only those of the true motion.
+bool shows_data(const command_line::Arguments& arguments) {
+  return answers::audience_of(arguments.choice("format")) != document::Audience::people;
 }
 
 /// The points that --sort, --where and --top ask for.
-summary::PointSelection selection_of(const command_line::Arguments& arguments) {
+summary_answer::PointSelection selection_of(const command_line::Arguments& arguments) {
   return {arguments.value("sort"), arguments.values("where"),
           arguments.whole_number("top", 1, std::int64_t{1} << 40)};
 }
@@ -169,61 +117,48 @@ auto selected_by(const command_line::Arguments& arguments, const Select& select)
 }
 
 /// The summary of the points that the options ask for, where that takes less than one of all.
-std::optional<summary::SelectedSummary> summary_of_selected(const command_line::Arguments& arguments,
-                                                            double confidence) {
+std::optional<summary_answer::SelectedSummary> summary_of_selected(const command_line::Arguments& arguments,
+                                                                   double confidence) {
   const fs::path path = arguments.operands()[0];
   if (confidence != statistics::summary_confidence || !is_there(path) ||
       is_there(layout::shards_directory(path)))
     return std::nullopt;
   const std::optional<std::int64_t> point =
       command_line::point_option(arguments, commands::described_study(path).point_labels);
-  const bool bootstrap = arguments.choice("format") != "table";
-  const summary::PointSelection selection = selection_of(arguments);
+  const bool bootstrap = shows_data(arguments);
+  const summary_answer::PointSelection selection = selection_of(arguments);
   return selected_by(arguments,
-                     [&] { return summary::summarise_selected(path, bootstrap, selection, point); });
+                     [&] { return summary_answer::summarise_selected(path, bootstrap, selection, point); });
 }
 
 /// The summary of all points.
-summary::SelectedSummary summary_of_all(const command_line::Arguments& arguments, double confidence) {
+summary_answer::SelectedSummary summary_of_all(const command_line::Arguments& arguments, double confidence) {
   const fs::path path = arguments.operands()[0];
-  const bool table = arguments.choice("format") == "table";
+  const bool table = !shows_data(arguments);
   summary::StudySummary summary = summary_of(path, confidence, !table);
-  // Bounds of means take their time: in tables only those of the true motion are shown.
   if (table && (summary.features.motion || summary.features.following))
     summary = summary.unfinished ? summary::summarise_unfinished(path, confidence, true)
                                  : summary::summarise_file(path, confidence, true);
-  const summary::PointSelection selection = selection_of(arguments);
+  const summary_answer::PointSelection selection = selection_of(arguments);
   std::vector<std::int64_t> points =
-      selected_by(arguments, [&] { return summary::selected_points(summary, selection); });
+      selected_by(arguments, [&] { return summary_answer::selected_points(summary, selection); });
   return {std::move(summary), std::move(points), {}};
 }
 
 ExitCode summarise_file(const command_line::Arguments& arguments) {
-  const std::string format = arguments.choice("format");
+  const bool csv = arguments.choice("format") == "csv";
   const double confidence =
       command_line::probability_option(arguments, "confidence").value_or(statistics::summary_confidence);
-  if (format == "csv" && arguments.has("confirm"))
-    arguments.refuse("option '--confirm' goes with the formats table and json");
-  std::optional<summary::SelectedSummary> selected = summary_of_selected(arguments, confidence);
+  if (csv && arguments.has("confirm")) arguments.refuse("option '--confirm' does not go with the format csv");
+  std::optional<summary_answer::SelectedSummary> selected = summary_of_selected(arguments, confidence);
   if (!selected) selected = summary_of_all(arguments, confidence);
   const summary::StudySummary& summary = selected->summary;
-  const summary::SummaryForm form{std::move(selected->points),
-                                  command_line::point_option(arguments, summary.labels),
-                                  arguments.has("legend")};
-  const std::optional<study_run::Confirmation> confirmed =
-      confirmation_of(arguments, summary, summary::choose_point(summary, form.chosen).point);
-  if (format == "table") {
-    standard_output::write_fitted(summary::summary_table(summary, form) +
-                                  (confirmed ? confirmation_text(summary, *confirmed) : ""));
-  }
-  if (format == "json") {
-    nlohmann::ordered_json json = summary::summary_json(summary, form);
-    if (confirmed) json["confirmation"] = confirmation_json(summary, *confirmed);
-    standard_output::write(text::json_text(json));
-  }
-  if (format == "csv" && summary.unfinished) status::tell("{}\n", summary::unfinished_sentence(summary));
-  if (format == "csv") standard_output::write(summary::summary_csv(summary, form));
-  return ExitCode::success;
+  summary_answer::SummaryReading reading = summary_answer::read_summary(
+      summary, {std::move(selected->points), command_line::point_option(arguments, summary.labels),
+                arguments.has("legend")});
+  reading.confirmation = confirmation_of(arguments, summary, reading.chosen.point);
+  if (csv && summary.unfinished) status::tell("{}\n", summary_answer::unfinished_sentence(summary));
+  return answers::print(arguments, summary_answer::summary_description(summary), reading);
 }
 
 }  // namespace
@@ -231,8 +166,8 @@ ExitCode summarise_file(const command_line::Arguments& arguments) {
 commands::Command summary_command() {
   return {{"summary",
            "FILE",
-           {command_line::format_option({"table", "json", "csv"}),
-            {"point", "P", "the design point that the last lines speak of (default: the best)"},
+           {answers::format_option(summary_answer::summary_type()),
+            {"point", "P", "the design point that the headline speaks of (default: the best)"},
             {"sort", "NAME", "order rows by a value, with -NAME from the largest on, or by 'best'"},
             {"where", "CONDITION", "rows that meet it, such as 'ki < 2e4'; may be repeated", true},
             {"top", "N", "the first N rows; without --sort the best"},
@@ -242,7 +177,8 @@ commands::Command summary_command() {
             {"confidence", "LEVEL", "of all bounds, between 0 and 1 (default 0.95)"}}},
           "print the statistics of a results file",
           summary_help,
-          summarise_file};
+          summarise_file,
+          {summary_answer::summary_type()}};
 }
 
 }  // namespace zerocount::result_commands

@@ -18,7 +18,6 @@
 #include "results/storage/output_lock.hpp"
 #include "runners/cluster/submission.hpp"
 #include "runners/study_run/earlier_shards.hpp"
-#include "runners/study_run/progress.hpp"
 
 namespace zerocount::run_status {
 namespace {
@@ -246,30 +245,6 @@ RunStatus status_of(const fs::path& output) {
   RunStatus status = read_status(output);
   if (status.stopped) status = read_status(output);  // it may have ended while its files were read
   return status;
-}
-
-std::string status_text(const RunStatus& status) {
-  std::string text = status.name.empty() ? "no trial is finished yet" : status.name;
-  text += status.complete ? ": complete" : status.running ? ": running" : ": not running";
-  if (status.trials > 0) {
-    text += fmt::format(", {} of {} trials ({:.1f} %)", status.finished, status.trials,
-                        100.0 * static_cast<double>(status.finished) / static_cast<double>(status.trials));
-  }
-  if (status.running && status.rate > 0.0) {
-    text +=
-        fmt::format(", {:.4g} trials/s, {} to go", status.rate, study_run::duration_text(status.remaining()));
-  }
-  text += "\n";
-  if (status.parts) {
-    const PartCounts& parts = *status.parts;
-    text += fmt::format("parts:  {} of {} complete, {} running, {} interrupted, {} waiting\n", parts.complete,
-                        parts.all, parts.running, parts.interrupted, parts.waiting());
-    if (!status.complete && parts.complete == parts.all)
-      text += "not merged: see merge.log in the folder of the parts, or give the command 'slurm' again\n";
-  }
-  if (!status.complete) text += fmt::format("shards: {}\n", status.shards);
-  for (const std::string& problem : status.problems) text += fmt::format("problem: {}\n", problem);
-  return text;
 }
 
 }  // namespace zerocount::run_status

@@ -47,11 +47,4 @@ struct RunStatus {
 /// complete results file; machine_failed if a directory cannot be read.
 RunStatus status_of(const std::filesystem::path& output);
 
-/// Lines such as
-///
-///     study: running, 12000 of 50000 trials (24.0 %), 812.4 trials/s, 46 s to go
-///     parts:  3 of 8 complete, 4 running, 0 interrupted, 1 waiting
-///     shards: 12
-std::string status_text(const RunStatus& status);
-
 }  // namespace zerocount::run_status

@@ -9,7 +9,7 @@
 
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/statistics/sample_size.hpp"
-#include "analysis/summary/shown_points.hpp"
+#include "analysis/summary/point_names.hpp"
 #include "analysis/theory/point_theory_description.hpp"
 #include "core/loop/encoder.hpp"
 #include "experiments/study/study.hpp"

@@ -11,13 +11,15 @@
 
 #include "analysis/statistics/unknown.hpp"
 #include "analysis/summary/summary.hpp"
+#include "analysis/summary_answer/summary_answer.hpp"
 #include "analysis/text/report_json.hpp"
-#include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
+#include "runners/answers/answer_format.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/run_status/run_status.hpp"
 #include "runners/standard_output/standard_output.hpp"
 #include "runners/study_commands/study_commands.hpp"
+#include "runners/study_run/progress.hpp"
 
 namespace zerocount::study_commands {
 namespace {
@@ -38,44 +40,149 @@ constexpr const char* status_help =
 
 constexpr const char* clear_screen = "\x1b[H\x1b[J";
 
-nlohmann::ordered_json json_of(const run_status::RunStatus& status) {
-  nlohmann::ordered_json json{{"complete", status.complete}, {"name", status.name},
-                              {"running", status.running},   {"trials", status.trials},
-                              {"finished", status.finished}, {"shards", status.shards},
-                              {"rate", status.rate},         {"remaining", status.remaining()},
-                              {"problems", status.problems}};
-  if (status.parts) {
-    json["parts"] = {{"all", status.parts->all},
-                     {"complete", status.parts->complete},
-                     {"running", status.parts->running},
-                     {"interrupted", status.parts->interrupted},
-                     {"waiting", status.parts->waiting()}};
+/// The state of a run, with the summary of its finished trials.
+struct StatusReading {
+  const run_status::RunStatus& status;
+  const std::filesystem::path& output;
+  const summary_answer::SummaryReading* summary{nullptr};  ///< of a run that has finished trials
+  std::string no_summary{};                                ///< why there is none
+};
+using Status = const StatusReading&;
+
+/// "study: running, 12000 of 50000 trials (24.0 %), 812.4 trials/s, 46 s to go".
+std::string headline(Status s) {
+  const run_status::RunStatus& status = s.status;
+  std::string text = status.name.empty() ? "no trial is finished yet" : status.name;
+  text += status.complete ? ": complete" : status.running ? ": running" : ": not running";
+  if (status.trials > 0) {
+    text += fmt::format(", {} of {} trials ({:.1f} %)", status.finished, status.trials,
+                        100.0 * static_cast<double>(status.finished) / static_cast<double>(status.trials));
   }
-  return json;
+  if (status.running && status.rate > 0.0) {
+    text +=
+        fmt::format(", {:.4g} trials/s, {} to go", status.rate, study_run::duration_text(status.remaining()));
+  }
+  return text;
 }
 
-/// The summary of the finished trials, or the reason why it cannot be made: a damaged file, or a rig without
+std::string next_step(Status s) {
+  if (s.status.complete) return fmt::format("see 'zerocount summary {}'", s.output.string());
+  const std::optional<run_status::PartCounts>& parts = s.status.parts;
+  if (parts && parts->complete == parts->all)
+    return "not merged: see merge.log in the folder of the parts, or give the command 'slurm' again";
+  return {};
+}
+
+std::string problem_lines(Status s) {
+  std::string lines;
+  for (const std::string& problem : s.status.problems) lines += fmt::format("problem: {}\n", problem);
+  return lines;
+}
+
+document::Description<run_status::PartCounts> parts_description() {
+  using Parts = run_status::PartCounts;
+  return document::Description<Parts>()
+      .value({.key = "all", .heading = "all", .meaning = "parts of the array job"}, &Parts::all)
+      .value({.key = "complete", .heading = "complete", .meaning = "parts with all their trials"},
+             &Parts::complete)
+      .value({.key = "running", .heading = "running", .meaning = "parts that a process runs"},
+             &Parts::running)
+      .value({.key = "interrupted",
+              .heading = "interrupted",
+              .meaning = "parts with finished trials that no process runs"},
+             &Parts::interrupted)
+      .value({.key = "waiting", .heading = "waiting", .meaning = "parts that have not begun"},
+             &Parts::waiting);
+}
+
+document::Description<run_status::RunStatus> run_description() {
+  using document::Shown;
+  using Run = run_status::RunStatus;
+  return document::Description<Run>()
+      .value({.key = "complete", .meaning = "whether the results file is complete", .shown = Shown::in_data},
+             &Run::complete)
+      .value({.key = "name",
+              .meaning = "name of the study; empty if no file could be read",
+              .shown = Shown::in_data},
+             &Run::name)
+      .value({.key = "running", .meaning = "whether a process runs it", .shown = Shown::in_data},
+             &Run::running)
+      .value({.key = "trials",
+              .meaning = "trials of the study; the maximum with 'stop'",
+              .shown = Shown::in_data},
+             &Run::trials)
+      .value({.key = "finished", .meaning = "trials in complete files", .shown = Shown::in_data},
+             &Run::finished)
+      .value({.key = "shards",
+              .meaning = "finished shards, without those of complete parts",
+              .shown = Shown::in_data},
+             &Run::shards)
+      .value({.heading = "shards", .shown = Shown::to_people},
+             [](const Run& run) { return run.complete ? std::nullopt : std::optional(run.shards); })
+      .value(
+          {.key = "rate", .meaning = "mean rate since the run began", .unit = "1/s", .shown = Shown::in_data},
+          &Run::rate)
+      .value({.key = "remaining", .meaning = "time to go at this rate", .unit = "s", .shown = Shown::in_data},
+             &Run::remaining)
+      .value({.key = "problems",
+              .meaning = "files that cannot be read, or were set aside as damaged",
+              .shown = Shown::in_data},
+             &Run::problems)
+      .object({.key = "parts", .heading = "parts", .meaning = "parts of an array job", .optional = true},
+              parts_description(), &Run::parts);
+}
+
+/// @param summary what the summary is of; nothing: there is none
+document::AnswerDescription<StatusReading> status_answer(const summary::StudySummary* summary = nullptr) {
+  document::AnswerDescription<StatusReading> answer{
+      {.name = "status", .meaning = "progress of a run or an array job"}, {}};
+  answer.items.headline(headline)
+      .include(run_description(), [](Status s) -> const run_status::RunStatus& { return s.status; })
+      .sentence(next_step)
+      .sentence(problem_lines)
+      .sentence([](Status s) { return s.no_summary; });
+  if (summary != nullptr)
+    answer.items.object({.heading = "the trials that are finished", .shown = document::Shown::to_people},
+                        summary_answer::summary_description(*summary).items, &StatusReading::summary);
+  return answer;
+}
+
+/// The summary of the finished trials, or in `reason` why it cannot be made: a damaged file, or a rig without
 /// a finished trial before the missing ones.
-std::string summary_so_far(const std::filesystem::path& output) {
+std::optional<summary::StudySummary> summary_so_far(const std::filesystem::path& output,
+                                                    std::string& reason) {
   try {
-    return summary::summary_table(
-        summary::summarise_unfinished(output, statistics::summary_confidence, false));
+    return summary::summarise_unfinished(output, statistics::summary_confidence, false);
   } catch (const Failure& failure) {
     if (failure.code() == ExitCode::machine_failed) throw;
-    return fmt::format("no summary: {}\n", failure.what());
+    reason = fmt::format("no summary: {}", failure.what());
   }
+  return std::nullopt;
 }
 
-/// @param json_indent nothing: as a table
-run_status::RunStatus print_status(const std::filesystem::path& output, std::optional<int> json_indent) {
+document::Answer answer_of(const run_status::RunStatus& status, const std::filesystem::path& output,
+                           document::Audience audience) {
+  StatusReading reading{status, output};
+  std::optional<summary::StudySummary> summary;
+  if (!status.complete && status.finished > 0 && audience != document::Audience::json)
+    summary = summary_so_far(output, reading.no_summary);
+  if (!summary) return status_answer().of(reading, ExitCode::success, audience);
+  const summary_answer::SummaryReading of_summary = summary_answer::read_summary(*summary);
+  reading.summary = &of_summary;
+  return status_answer(&*summary).of(reading, ExitCode::success, audience);
+}
+
+/// @param watched it is printed again and again: JSON is one line
+run_status::RunStatus print_status(const command_line::Arguments& arguments, bool watched) {
+  const std::filesystem::path output = arguments.operands()[0];
+  const std::string format = arguments.choice("format");
   run_status::RunStatus status = run_status::status_of(output);
-  if (json_indent) {
-    standard_output::write(text::json_text(json_of(status), *json_indent));
-    return status;
+  const document::Answer answer = answer_of(status, output, answers::audience_of(format));
+  if (watched && format == "json") {
+    standard_output::write(text::json_text(document::json(answer), text::one_line));
+  } else {
+    answers::print(arguments, answer);
   }
-  standard_output::write_fitted(run_status::status_text(status));
-  if (status.complete) standard_output::print("see 'zerocount summary {}'\n", output.string());
-  if (!status.complete && status.finished > 0) standard_output::write_fitted("\n" + summary_so_far(output));
   return status;
 }
 
@@ -87,18 +194,14 @@ run_status::RunStatus print_status(const std::filesystem::path& output, std::opt
 }
 
 ExitCode print_statuses(const command_line::Arguments& arguments) {
-  const std::filesystem::path output = arguments.operands()[0];
   const std::optional<std::int64_t> seconds = arguments.whole_number("watch", 1, 86400);
-  const bool json = arguments.choice("format") == "json";
-  constexpr int indented = 2;
-  const auto indent = json ? std::optional(seconds ? text::one_line : indented) : std::nullopt;
-  run_status::RunStatus status = print_status(output, indent);
+  run_status::RunStatus status = print_status(arguments, seconds.has_value());
   while (seconds && !status.complete) {
-    if (status.stopped) refuse_to_watch(output, status);
+    if (status.stopped) refuse_to_watch(arguments.operands()[0], status);
     std::fflush(stdout);
     std::this_thread::sleep_for(std::chrono::seconds(*seconds));
     if (isatty(STDOUT_FILENO) == 1) std::fputs(clear_screen, stdout);
-    status = print_status(output, indent);
+    status = print_status(arguments, true);
   }
   return status.finished == 0 && !status.problems.empty() ? ExitCode::bad_data : ExitCode::success;
 }
@@ -109,10 +212,11 @@ commands::Command status_command() {
   return {{"status",
            "FILE",
            {{"watch", "S", "print again every S seconds until FILE is complete or its run has stopped"},
-            command_line::format_option({"table", "json"})}},
+            answers::format_option(status_answer().complete_type())}},
           "print the progress of a run or an array job, with the summary so far",
           status_help,
-          print_statuses};
+          print_statuses,
+          {status_answer().complete_type()}};
 }
 
 }  // namespace zerocount::study_commands

@@ -60,9 +60,9 @@ study::Study fresh_study(const reading::ResultsFile& file, std::int64_t trials,
 }
 
 /// What is counted of the trials of `rows`.
-Confirmation counted_in(const study::Study& study, layout::RowRange rows) {
+summary_answer::Confirmation counted_in(const study::Study& study, layout::RowRange rows) {
   const std::optional<measures::CountedGoal> goal = measures::counted_goal(study);
-  Confirmation counts;
+  summary_answer::Confirmation counts;
   if (goal) counts.goal.emplace().worlds = study.worlds;
   for (const shards::TrialResult& result : TrialRunner(study).run(rows)) {
     counts.successes += trial::succeeded(result.outcome.moves) ? 1 : 0;
@@ -72,7 +72,8 @@ Confirmation counted_in(const study::Study& study, layout::RowRange rows) {
   return counts;
 }
 
-Confirmation sum_of(Confirmation sum, const Confirmation& part) {
+summary_answer::Confirmation sum_of(summary_answer::Confirmation sum,
+                                    const summary_answer::Confirmation& part) {
   sum.successes += part.successes;
   if (sum.goal && part.goal) *sum.goal += *part.goal;
   if (!sum.goal) sum.goal = part.goal;
@@ -81,8 +82,9 @@ Confirmation sum_of(Confirmation sum, const Confirmation& part) {
 
 }  // namespace
 
-Confirmation confirm_point(const reading::ResultsFile& file, std::int64_t point, std::int64_t trials,
-                           std::shared_ptr<const plugin::ControllerPlugin> plugin) {
+summary_answer::Confirmation confirm_point(const reading::ResultsFile& file, std::int64_t point,
+                                           std::int64_t trials,
+                                           std::shared_ptr<const plugin::ControllerPlugin> plugin) {
   const study::Study study = fresh_study(file, trials, std::move(plugin));
   if (study.plugin && study.plugin->functions == nullptr) {
     throw Failure(ExitCode::bad_input,
@@ -90,13 +92,14 @@ Confirmation confirm_point(const reading::ResultsFile& file, std::int64_t point,
                               "expected its path with --plugin",
                               file.path().string(), study.plugin->description.name));
   }
-  const auto count = [&](const oneapi::tbb::blocked_range<std::int64_t>& part, Confirmation sum) {
+  const auto count = [&](const oneapi::tbb::blocked_range<std::int64_t>& part,
+                         summary_answer::Confirmation sum) {
     return sum_of(std::move(sum),
                   counted_in(study, {point * study.trials + part.begin(), part.end() - part.begin()}));
   };
-  Confirmation confirmation =
+  summary_answer::Confirmation confirmation =
       oneapi::tbb::parallel_reduce(oneapi::tbb::blocked_range<std::int64_t>(0, study.trials, trials_at_once),
-                                   Confirmation{}, count, sum_of);
+                                   summary_answer::Confirmation{}, count, sum_of);
   confirmation.point = point;
   confirmation.seed = study.seed;
   confirmation.trials = study.trials;

@@ -8,6 +8,8 @@
 
 #include "analysis/iso230/repeatability_file.hpp"
 #include "analysis/summary/summary.hpp"
+#include "analysis/summary_answer/summary_answer.hpp"
+#include "analysis/text/report_json.hpp"
 #include "results/reading/export.hpp"
 #include "results/reading/results_file.hpp"
 #include "tests/fuzz/expectation.hpp"
@@ -25,9 +27,10 @@ void export_tables(const std::filesystem::path& path, const std::filesystem::pat
 
 void print_summary(const std::filesystem::path& path) {
   const summary::StudySummary found = summary::summarise_file(path);
-  fuzz::require_text(summary::summary_table(found));
-  fuzz::require_text(summary::summary_json_text(found));
-  summary::summary_csv(found);
+  const document::Answer answer = summary_answer::summary_answer(found);
+  fuzz::require_text(document::text(answer));
+  fuzz::require_text(text::json_text(document::json(answer)));
+  document::csv(answer);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "analysis/summary/summary.hpp"
 #include "analysis/summary/summed_point.hpp"
+#include "analysis/summary_answer/summary_answer.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/results_file.hpp"
 #include "results/shards/merge.hpp"
@@ -53,8 +54,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::write_input(samples, {data, size}, file);
   fuzz::require_clear_refusal([] { read_shard(file.path()); });
   fuzz::require_clear_refusal([] {
-    fuzz::require_text(
-        summary::summary_table(summary::summarise_unfinished(folder.path() / "run.h5", 0.95, false)));
+    const summary::StudySummary found = summary::summarise_unfinished(folder.path() / "run.h5", 0.95, false);
+    fuzz::require_text(document::text(summary_answer::summary_answer(found)));
   });
   fuzz::require_clear_refusal([] { merge_shard(file.path(), folder.path() / "merged.h5"); });
   return 0;

@@ -57,10 +57,10 @@ TEST(Audience, IsShownItsItemsOfOneDescription) {
 }
 
 TEST(Audience, WhatItIsNotShownIsNotComputed) {
-  for (const auto& [audience, keys] : std::vector<std::pair<Audience, std::vector<std::string>>>{
-           {Audience::json, {"axes", "settling"}},
-           {Audience::csv, {"ki", "settling"}},
-           {Audience::people, {"settled"}}}) {
+  for (const auto& [audience, keys] :
+       std::vector<std::pair<Audience, std::vector<std::string>>>{{Audience::json, {"axes", "settling"}},
+                                                                  {Audience::csv, {"ki", "settling"}},
+                                                                  {Audience::people, {"settled"}}}) {
     std::vector<std::string> computed;
     Gains one;
     one.gains.resize(1);

@@ -11,6 +11,7 @@
 #include "analysis/iso230/repeatability_statistics.hpp"
 #include "analysis/summary/summary.hpp"
 #include "tests/analysis/iso230/sequence_studies.hpp"
+#include "tests/analysis/summary_forms.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace zerocount::iso230 {
@@ -62,8 +63,8 @@ double one_count_of_reversal(const study::SequenceMove& move, std::int64_t) {
 
 TEST(RepeatabilitySummary, TellsOfTheAxisInArcsecAndCounts) {
   const std::string text =
-      summary::summary_table(summary_of(testing::sequence_study(), one_count_of_reversal));
-  EXPECT_NE(text.find("\nrepeatability after ISO 230-2: 3 targets approached from both sides in 3 cycles\n"),
+      testing::summary_text(summary_of(testing::sequence_study(), one_count_of_reversal));
+  EXPECT_NE(text.find("\nrepeatability after ISO 230-2: 3 targets approached from both sides in 3 cycles:\n"),
             std::string::npos);
   const auto rows = rows_of(text, "fine");
   ASSERT_EQ(rows.size(),
@@ -78,8 +79,8 @@ TEST(RepeatabilitySummary, TellsOfTheAxisInArcsecAndCounts) {
 
 TEST(RepeatabilitySummary, OfASequenceFromOneSideHasItsValuesOnly) {
   const study::Study study = testing::sequence_study("cycles: 2, approach: negative");
-  const std::string text = summary::summary_table(summary_of(study, one_count_of_reversal));
-  EXPECT_NE(text.find("3 targets approached from above in 2 cycles\n"), std::string::npos);
+  const std::string text = testing::summary_text(summary_of(study, one_count_of_reversal));
+  EXPECT_NE(text.find("3 targets approached from above in 2 cycles:\n"), std::string::npos);
   const auto heads = rows_of(text, "point");
   EXPECT_EQ(heads[2], (std::vector<std::string>{"point", "target", "from", "x̄↓", "R↓"}));
   EXPECT_NE(text.find("at most 3.7 % of axes do not"),  // 1 − 0.05^(1/80) = 0.0368
@@ -89,9 +90,9 @@ TEST(RepeatabilitySummary, OfASequenceFromOneSideHasItsValuesOnly) {
 
 // Where R is not defined, no trial has it, and none has it at 0 either: that is not 0 trials of 80.
 TEST(RepeatabilitySummary, OfASingleCycleCountsNoZeros) {
-  const nlohmann::json json = nlohmann::json::parse(
-      summary::summary_json_text(summary_of(testing::sequence_study("cycles: 1"), one_count_of_reversal)));
-  const nlohmann::json& point = json["points"][0]["repeatability"];
+  const nlohmann::ordered_json json =
+      testing::summary_json(summary_of(testing::sequence_study("cycles: 1"), one_count_of_reversal));
+  const nlohmann::ordered_json& point = json["points"][0]["repeatability"];
   EXPECT_EQ(point["trials"], 80);
   for (const char* name : {"zero_repeatability", "zero_repeatability_rate"}) {
     EXPECT_TRUE(point.at(name).is_null()) << name;
@@ -102,13 +103,13 @@ TEST(RepeatabilitySummary, DeviationsOfManyCountsAreShownInFull) {
   const auto far = [](const study::SequenceMove& move, std::int64_t row) {
     return move.target == 2 ? 12345.0 : static_cast<double>(row % 2) * 0.0;
   };
-  const std::string text = summary::summary_table(summary_of(testing::sequence_study(), far));
+  const std::string text = testing::summary_text(summary_of(testing::sequence_study(), far));
   EXPECT_EQ(rows_of(text, "fine")[8][4], "12345");
 }
 
 TEST(RepeatabilitySummary, IsASectionOfTheJson) {
   const nlohmann::ordered_json json =
-      summary::summary_json(summary_of(testing::sequence_study(), one_count_of_reversal));
+      testing::summary_json(summary_of(testing::sequence_study(), one_count_of_reversal));
   const auto& point = json["points"][0]["repeatability"];
   EXPECT_TRUE(point["trials"].is_number_integer());
   EXPECT_EQ(point["evaluated"], 80);

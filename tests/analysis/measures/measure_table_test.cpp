@@ -13,10 +13,10 @@
 #include "analysis/measures/point_columns.hpp"
 #include "analysis/sensitivity/trial_outputs.hpp"
 #include "analysis/summary/study_statistics.hpp"
-#include "analysis/summary/summary.hpp"
 #include "core/failure/failure.hpp"
 #include "results/layout/fields.hpp"
 #include "tests/analysis/study_files.hpp"
+#include "tests/analysis/summary_forms.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace zerocount::measures {
@@ -110,13 +110,13 @@ TEST_F(AddedMeasure, IsInEveryFormOfTheSummary) {
   summary.axes = study.axes;
   summary.points =
       summary::study_statistics(reading::StudyFile(path, reading::Require::complete, &table), study);
-  const nlohmann::ordered_json json = summary::summary_json(summary)["points"][0]["torque_reserve"];
+  const nlohmann::ordered_json json = testing::summary_json(summary)["points"][0]["torque_reserve"];
   EXPECT_EQ(json["n"], 120);
   EXPECT_NEAR(json["mean"].get<double>(), mean_reserve(), 1e-12);
   EXPECT_LE(json["median_low"].get<double>(), json["median"].get<double>());
-  EXPECT_NE(summary::summary_csv(summary).find("torque_reserve_mean"), std::string::npos);
-  EXPECT_NE(summary::summary_table(summary).find("reserve (N m)"), std::string::npos);
-  EXPECT_NE(summary::summary_table(summary, {.legend = true}).find("reserve: of the torque"),
+  EXPECT_NE(testing::summary_csv(summary).find("torque_reserve_mean"), std::string::npos);
+  EXPECT_NE(testing::summary_text(summary).find("reserve (N m)"), std::string::npos);
+  EXPECT_NE(testing::summary_text(summary, {.legend = true}).find("reserve: of the torque"),
             std::string::npos);
 }
 

@@ -9,12 +9,17 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/measures/point_accumulator.hpp"
-#include "analysis/summary/shown_points.hpp"
+#include "analysis/summary/point_names.hpp"
+#include "analysis/summary_answer/point_selection.hpp"
 #include "core/failure/failure.hpp"
 #include "tests/analysis/summary/swept_study.hpp"
+#include "tests/analysis/summary_forms.hpp"
 
 namespace zerocount::summary {
 namespace {
+
+using summary_answer::PointSelection;
+using summary_answer::selected_points;
 
 trial::MoveOutcome move_that(bool succeeds) {
   trial::MoveOutcome move;
@@ -61,10 +66,10 @@ TEST(ChosenPoint, AtTheEndOfASweepSaysWhatMayLieBeyond) {
   StudySummary study = swept_study({independent(90, 100), independent(10, 100), independent(10, 100)});
   ASSERT_EQ(choose_point(study).ends.size(), 1U);
   EXPECT_TRUE(choose_point(study).ends[0].lowest);
-  EXPECT_NE(verdict_text(study, choose_point(study))
+  EXPECT_NE(competition_text(study, choose_point(study))
                 .find("controller.ki = 1 is the lowest value of the sweep: lower ones may be better"),
             std::string::npos);
-  EXPECT_EQ(chosen_point_json(study, choose_point(study))["ends_of_ranges"][0]["end"], "lowest");
+  EXPECT_EQ(testing::summary_json(study)["best"]["ends_of_ranges"][0]["end"], "lowest");
   study.axes[0].numbers[0] = 0.0;  // a gain has no lower value
   EXPECT_TRUE(choose_point(study).ends.empty());
   study.axes[0].numbers = {3.0, 2.0, 1.0};

@@ -4,13 +4,15 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "analysis/measures/point_accumulator.hpp"
 #include "analysis/statistics/tolerance.hpp"
-#include "analysis/summary/summary_parts.hpp"
 #include "analysis/text/percent.hpp"
 #include "core/failure/failure.hpp"
+#include "tests/analysis/summary/swept_study.hpp"
+#include "tests/analysis/summary_forms.hpp"
 
 namespace zerocount::summary {
 namespace {
@@ -67,26 +69,30 @@ TEST(AssuranceSection, TellsTheSameInEveryForm) {
   const std::vector<measures::PointSummary> points{
       trials_of_two_moves(400, 3, slowest).statistics({.confidence = 0.9}),
       trials_of_two_moves(100, 0, slowest).statistics({.confidence = 0.9})};
-  const measures::SummarySection section = tolerance_section(points, {"some", "all"});
-  EXPECT_EQ(section.key, "assurance");
-  ASSERT_EQ(section.json.size(), 2U);
+  StudySummary study = swept_study(points);
+  study.confidence = 0.9;
+  const nlohmann::ordered_json json = testing::summary_json(study);
+  const std::string csv = testing::summary_csv(study);
+  EXPECT_NE(csv.find(",success_at_least,failure_at_most,settling_within_95,settling_within_99,"
+                     "settling_within_99_9\n"),
+            std::string::npos)
+      << csv;
   for (std::size_t i = 0; i < 2; ++i) {
-    const auto& json = section.json[i];
-    EXPECT_EQ(json["success_at_least"], points[i].claim.success_at_least);
-    EXPECT_EQ(section.columns[0].values[i], points[i].claim.success_at_least);
-    EXPECT_EQ(section.columns[1].values[i], json["failure_at_most"]);
-    EXPECT_EQ(section.columns[2].values[i], json["settling_time"][0]["within"]);
-    const auto statement = json["statement"].get<std::string>();
-    const std::string text = measures::text_of(section, std::vector{static_cast<std::int64_t>(i)});
+    const nlohmann::ordered_json& assurance = json["points"][i]["assurance"];
+    EXPECT_EQ(assurance["success_at_least"], points[i].claim.success_at_least);
+    EXPECT_NE(
+        csv.find(fmt::format(",{},{},{},", points[i].claim.success_at_least, points[i].claim.failure_at_most,
+                             assurance["settling_time"][0]["within"].get<double>())),
+        std::string::npos);
+    const std::string text = testing::summary_text(study, {.points = {static_cast<std::int64_t>(i)}});
     const std::string bound = text::percent_at_least(points[i].claim.success_at_least);
     EXPECT_NE(text.find(bound), std::string::npos) << text;
     EXPECT_NE(text.find("with 90 % confidence"), std::string::npos) << text;
+    const auto statement = assurance["statement"].get<std::string>();
     EXPECT_EQ(statement.rfind(statistics::claim_sentence(points[i].claim), 0), 0U);
   }
-  EXPECT_EQ(section.columns[0].name, "success_at_least");
-  EXPECT_EQ(section.columns[4].name, "settling_within_99_9");
-  EXPECT_TRUE(std::isnan(section.json[0]["rule_of_three"].get<double>()));
-  EXPECT_NEAR(section.json[1]["rule_of_three"].get<double>(), std::log(10.0) / 100.0, 1e-12);
+  EXPECT_TRUE(json["points"][0]["assurance"]["rule_of_three"].is_null());
+  EXPECT_NEAR(json["points"][1]["assurance"]["rule_of_three"].get<double>(), std::log(10.0) / 100.0, 1e-12);
 }
 
 TEST(AssuranceSection, BoundsOfMeansAreThoseOfTheBootstrapOfTheirPoint) {
@@ -133,15 +139,17 @@ TEST(AssuranceSection, TellsOfRigsWhereTrialsShareThem) {
   EXPECT_NEAR(point.rigs.without_failure, 39.0 / 40.0, 1e-15);
   EXPECT_NEAR(point.success_rate().value, 39.0 / 40.0, 1e-15);
   EXPECT_LT(point.success_rate().clopper_pearson.low, 0.9);  // of 4000 independent trials 0.97
-  const measures::SummarySection section = tolerance_section(points, {"only"});
-  const std::string text = measures::text_of(section, std::vector<std::int64_t>{0});
+  StudySummary study = swept_study(points);
+  study.features.rigs = true;
+  const std::string text = testing::summary_text(study);
   EXPECT_NE(text.find("90 % of rigs ≥"), std::string::npos) << text;
   EXPECT_NE(text.find(text::percent_at_least(point.rigs.tolerance.zero_at_least)), std::string::npos) << text;
-  const auto statement = section.json[0]["statement"].get<std::string>();
+  const nlohmann::ordered_json assurance = testing::summary_json(study)["points"][0]["assurance"];
+  const auto statement = assurance["statement"].get<std::string>();
   EXPECT_NE(statement.find("of trials on all rigs succeed"), std::string::npos) << statement;
   EXPECT_NE(statement.find("(100 failures in 4000 trials on 40 rigs)"), std::string::npos) << statement;
-  EXPECT_EQ(section.json[0]["rigs"]["content"], 0.9);
-  EXPECT_EQ(section.json[0]["rigs"]["zero_at_least"], point.rigs.tolerance.zero_at_least);
+  EXPECT_EQ(assurance["rigs"]["content"], 0.9);
+  EXPECT_EQ(assurance["rigs"]["zero_at_least"], point.rigs.tolerance.zero_at_least);
   const measures::PointSummary decided = stopped.statistics({.stopped_by_outcomes = true});
   EXPECT_LE(decided.claim.success_at_least, point.claim.success_at_least);
   EXPECT_EQ(decided.rigs.tolerance.min_rigs, 0);

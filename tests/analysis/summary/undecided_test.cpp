@@ -8,6 +8,8 @@
 
 #include "core/trial/last_half.hpp"
 #include "core/trial/trial.hpp"
+#include "tests/analysis/summary/swept_study.hpp"
+#include "tests/analysis/summary_forms.hpp"
 
 namespace zerocount::summary {
 namespace {
@@ -85,20 +87,25 @@ TEST(Undecided, AreToldOfMovesThatOnlySeemToOscillate) {
       "about 1.5 s");
 }
 
-TEST(Undecided, SectionHasALineForEachPointThatHasSome) {
-  std::vector<measures::PointSummary> points(2);
-  points[1].undecided = {3000, 2736, 2700, 0, 0, 2.1};
-  const measures::SummarySection section = undecided_section(points, {"fast", "slow"});
-  const std::vector<std::int64_t> both{0, 1};
-  const std::string text = measures::text_of(section, both);
-  EXPECT_EQ(text.find("fast"), std::string::npos);
-  EXPECT_NE(text.find("slow   2736 of 3000"), std::string::npos) << text;
-  EXPECT_NE(text.find("neither stable nor shown unstable"), std::string::npos);
-  EXPECT_EQ(measures::text_of(section, std::vector<std::int64_t>{0}), "");
-  EXPECT_EQ(section.json[1]["hold_at_least"], 2.1);
-  EXPECT_EQ(section.json[1]["still_falling"], 2700);
-  points[1].undecided = {};
-  EXPECT_EQ(measures::text_of(undecided_section(points, {"fast", "slow"}), both), "");
+TEST(Undecided, AreToldOfThePointsThatHaveSome) {
+  StudySummary study = swept_study(std::vector<measures::PointSummary>(2));
+  study.labels = {"fast", "slow"};
+  for (measures::PointSummary& point : study.points) point.trials = 10;
+  study.points[1].undecided = {3000, 2736, 2700, 0, 0, 2.1};
+  const std::string text = testing::summary_text(study);
+  const std::size_t begin = text.find("undecided moves:"),
+                    end = text.find("neither stable nor shown unstable");
+  ASSERT_LT(begin, end) << text;
+  ASSERT_NE(end, std::string::npos) << text;
+  const std::string part = text.substr(begin, end - begin);
+  EXPECT_EQ(part.find("fast"), std::string::npos) << part;
+  EXPECT_NE(part.find("slow   2736 of 3000"), std::string::npos) << part;
+  const nlohmann::ordered_json json = testing::summary_json(study)["points"][1]["undecided"];
+  EXPECT_EQ(json["hold_at_least"], 2.1);
+  EXPECT_EQ(json["still_falling"], 2700);
+  EXPECT_NE(testing::summary_csv(study).find(",still_falling_moves,"), std::string::npos);
+  study.points[1].undecided = {};
+  EXPECT_EQ(testing::summary_text(study).find("neither stable nor shown"), std::string::npos);
 }
 
 }  // namespace

@@ -144,7 +144,7 @@ TEST_F(StoppingRun, SummaryHasTheBoundsThatHold) {
   for (std::int64_t point = 0; point < 2; ++point) {
     const statistics::ConfidenceInterval bounds =
         statistics::confidence_sequence_bounds(successes_among(file, point, trials), trials, 0.95);
-    const auto& stopped = points.at(static_cast<std::size_t>(point)).at("stopped");
+    const auto& stopped = points.at(static_cast<std::size_t>(point)).at("stopping");
     EXPECT_EQ(stopped.at("success_rate_low").get<double>(), bounds.low);
     EXPECT_EQ(stopped.at("success_rate_high").get<double>(), bounds.high);
     EXPECT_TRUE(stopped.at("reached").get<bool>());
@@ -195,8 +195,8 @@ TEST_F(StoppingRun, SummaryKeepsTheBoundsOfTheseRigsApartFromThoseOfAll) {
   const auto points = nlohmann::json::parse(result.out).at("points");
   bool differ = false;
   for (const auto& point : points) {
-    EXPECT_EQ(point.at("stopped").at("of_rigs"), 10);
-    EXPECT_LE(point.at("stopped").at("halfwidth").get<double>(), halfwidth);
+    EXPECT_EQ(point.at("stopping").at("of_rigs"), 10);
+    EXPECT_LE(point.at("stopping").at("halfwidth").get<double>(), halfwidth);
     const double of_all =
         point.at("success_rate_high").get<double>() - point.at("success_rate_low").get<double>();
     differ = differ || of_all > 2.0 * halfwidth;

@@ -1,4 +1,4 @@
-#include "analysis/summary/shown_points.hpp"
+#include "analysis/summary_answer/point_selection.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,23 +10,28 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/measures/point_columns.hpp"
+#include "analysis/document/answer.hpp"
 #include "analysis/summary/best_point.hpp"
-#include "analysis/summary/summary_parts.hpp"
+#include "analysis/summary/point_names.hpp"
+#include "analysis/summary_answer/point_description.hpp"
 #include "core/failure/failure.hpp"
 
-namespace zerocount::summary {
+namespace zerocount::summary_answer {
 namespace {
 
-void replace_all(std::string& text, std::string_view from, std::string_view to) {
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-}
+using summary::StudySummary;
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(' ');
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(' ') + 1 - first);
+}
+
+/// NaN where the text is not a number.
+double number_in(std::string_view text) {
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc{} && end == text.data() + text.size() ? number : statistics::unknown;
 }
 
 /// "band_settling_time_p95[1]" for "band_settling_time[1].p95".
@@ -43,17 +48,10 @@ std::string column_name(std::string_view name) {
   return column;
 }
 
-template <class Value>
-std::vector<double> by_point(const StudySummary& summary, const Value& value) {
-  std::vector<double> values;
-  for (const measures::PointSummary& point : summary.points) values.push_back(value(point));
-  return values;
-}
-
 /// The swept parameter of this name, in full or short; null if there is none.
 const study::SweepAxis* find_axis(const StudySummary& summary, std::string_view name) {
   for (const study::SweepAxis& axis : summary.axes) {
-    if (axis.name == name || short_name(summary.axes, axis) == name) return &axis;
+    if (axis.name == name || summary::short_name(summary.axes, axis) == name) return &axis;
   }
   return nullptr;
 }
@@ -64,6 +62,25 @@ std::string known_names(const StudySummary& summary) {
   return names + "label, point, success_rate, settling_time_p95 and the other columns of --format csv";
 }
 
+/// [point] the numbers in the column of the CSV; nothing where it has no such column.
+std::optional<std::vector<double>> csv_values(const StudySummary& summary, const std::string& name) {
+  const document::Description<PointReading> description = point_description(summary);
+  const auto is_column = [&](const auto& cell) { return cell.first == name; };
+  for (std::size_t i = 0; i < description.items().size(); ++i) {
+    const document::Item& item = description.items()[i];
+    if (std::ranges::none_of(document::csv_cells(item, {}), is_column)) continue;
+    std::vector<double> values;
+    for (std::int64_t point = 0; point < std::ssize(summary.points); ++point) {
+      const document::Content content =
+          description.content_of(i)(read_point(summary, point), document::Audience::csv);
+      const auto cells = document::csv_cells(item, content);
+      values.push_back(number_in(std::ranges::find_if(cells, is_column)->second));
+    }
+    return values;
+  }
+  return std::nullopt;
+}
+
 using KnownValues = std::map<std::string, std::vector<double>>;
 
 /// [point] the value of this name.
@@ -72,17 +89,7 @@ std::vector<double> values_of(const StudySummary& summary, std::string_view name
   if (axis != nullptr && axis->kind == study::SweepAxis::Kind::number) return axis->numbers;
   const std::string column = column_name(name);
   if (const auto stored = known.find(column); stored != known.end()) return stored->second;
-  for (const measures::StatisticField& field : measures::statistic_fields(summary.features, summary.table()))
-    if (text::flat_name(field) == column) return by_point(summary, field.value);
-  for (const measures::SummarySection& section : summary.sections) {
-    for (const layout::PointColumn& values : section.columns)
-      if (values.name == column) return values.values;
-  }
-  if (name == "point") {
-    std::vector<double> numbers(summary.points.size());
-    std::iota(numbers.begin(), numbers.end(), 0.0);
-    return numbers;
-  }
+  if (const auto values = csv_values(summary, column)) return *values;
   throw Failure(ExitCode::bad_input,
                 fmt::format("unknown value '{}'; expected {}", name, known_names(summary)));
 }
@@ -215,26 +222,6 @@ void sort_by(std::vector<std::int64_t>& points, const std::vector<double>& value
 
 }  // namespace
 
-std::vector<std::string> short_labels(std::vector<std::string> labels,
-                                      std::span<const study::SweepAxis> axes) {
-  for (const study::SweepAxis& axis : axes) {
-    const std::string name = short_name(axes, axis);
-    for (std::string& label : labels) {
-      replace_all(label, ", " + axis.name + "=", " " + name + "=");
-      if (label.starts_with(axis.name + "=")) label.replace(0, axis.name.size(), name);
-    }
-  }
-  return labels;
-}
-
-std::vector<std::string> point_names(const StudySummary& summary) {
-  std::vector<std::string> names = short_labels(summary.labels, summary.axes);
-  for (std::size_t i = 0; i < names.size(); ++i)
-    names[i] = names[i] == summary.labels[i] ? text::printable(names[i])
-                                             : fmt::format("{} ({})", i, text::printable(names[i]));
-  return names;
-}
-
 std::vector<std::string> columns_needed(const StudySummary& summary, const PointSelection& selection) {
   std::vector<std::string> columns;
   const auto need = [&](std::string_view name) {
@@ -256,7 +243,7 @@ std::vector<std::int64_t> selected_points(const StudySummary& summary, const Poi
   std::vector<std::int64_t> points(summary.points.size());
   std::iota(points.begin(), points.end(), std::int64_t{0});
   const bool by_merit = selection.sort == "best" || (selection.top && !selection.sort);
-  if (by_merit) points = points_by_merit(summary);
+  if (by_merit) points = summary::points_by_merit(summary);
   if (selection.sort && !by_merit) {
     const bool decreasing = selection.sort->starts_with('-');
     const std::string_view name = std::string_view(*selection.sort).substr(decreasing ? 1 : 0);
@@ -273,4 +260,4 @@ std::vector<std::int64_t> selected_points(const StudySummary& summary, const Poi
   return points;
 }
 
-}  // namespace zerocount::summary
+}  // namespace zerocount::summary_answer

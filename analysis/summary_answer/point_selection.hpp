@@ -3,23 +3,13 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "analysis/summary/summary.hpp"
 
-/// Which design points a table shows, in which order, and by which names.
-namespace zerocount::summary {
-
-/// [point] its label as tables show it: the paths in the labels of a grid are shortened to their ends, as in
-/// "kp=400 ki=8e4".
-std::vector<std::string> short_labels(std::vector<std::string> labels,
-                                      std::span<const study::SweepAxis> axes);
-
-/// [point] its number and short label: "3 (kp=400 ki=8e4)". Only the label where it does not name swept
-/// values, as that of a case.
-std::vector<std::string> point_names(const StudySummary& summary);
+/// Which design points a table shows, and in which order.
+namespace zerocount::summary_answer {
 
 /// The points that a user asks for.
 struct PointSelection {
@@ -29,19 +19,21 @@ struct PointSelection {
 };
 
 /// The values that a selection needs: the names of swept parameters left out.
-std::vector<std::string> columns_needed(const StudySummary& summary, const PointSelection& selection);
+std::vector<std::string> columns_needed(const summary::StudySummary& summary,
+                                        const PointSelection& selection);
 
 /// @throws Failure (bad_input) where the summary has no value of a name that is needed
-void require_columns(const StudySummary& summary, const PointSelection& selection);
+void require_columns(const summary::StudySummary& summary, const PointSelection& selection);
 
-/// The selected points in their order. Values have the names of the columns of summary_csv, where a '.' may
+/// The selected points in their order. Values have the names of the columns of the CSV, where a '.' may
 /// stand for '_' ("settling_time.p95"), and those of swept parameters, which may be shortened to an end that
 /// no other has ("ki"). A value that is NaN comes last, and meets no condition. Names, such as those of cases
 /// and labels, are equal (= or ==) or not (!=), and are sorted by the alphabet.
 /// @throws Failure (bad_input) for an unknown name or a condition that is none, (inconclusive) if no point
 /// is left
 /// @param known [name of a column][point] values that the file stores, in place of those of the statistics
-std::vector<std::int64_t> selected_points(const StudySummary& summary, const PointSelection& selection,
+std::vector<std::int64_t> selected_points(const summary::StudySummary& summary,
+                                          const PointSelection& selection,
                                           const std::map<std::string, std::vector<double>>& known = {});
 
-}  // namespace zerocount::summary
+}  // namespace zerocount::summary_answer

@@ -6,15 +6,15 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/summary/shown_points.hpp"
 #include "analysis/summary/summary.hpp"
+#include "analysis/summary_answer/point_selection.hpp"
 #include "results/layout/measure_table.hpp"
 
-namespace zerocount::summary {
+namespace zerocount::summary_answer {
 
 /// A summary in which only some points have all statistics (StudySummary::complete).
 struct SelectedSummary {
-  StudySummary summary;
+  summary::StudySummary summary;
   std::vector<std::int64_t> points{};  ///< that are selected, in their order
   /// The measures of the points that have few; the summary refers to them.
   std::shared_ptr<const layout::MeasureTable> measures{};
@@ -32,4 +32,4 @@ std::optional<SelectedSummary> summarise_selected(const std::filesystem::path& p
                                                   const PointSelection& selection,
                                                   std::optional<std::int64_t> point);
 
-}  // namespace zerocount::summary
+}  // namespace zerocount::summary_answer

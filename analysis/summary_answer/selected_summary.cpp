@@ -1,4 +1,4 @@
-#include "analysis/summary/selected_summary.hpp"
+#include "analysis/summary_answer/selected_summary.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -12,14 +12,15 @@
 #include "analysis/measures/trial_value.hpp"
 #include "analysis/summary/chosen_point.hpp"
 #include "analysis/summary/study_statistics.hpp"
-#include "analysis/summary/summary_parts.hpp"
 #include "analysis/summary/undecided.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/study_file.hpp"
 #include "results/shards/shard.hpp"
 
-namespace zerocount::summary {
+namespace zerocount::summary_answer {
 namespace {
+
+using summary::StudySummary;
 
 /// Points whose statistics are computed one by one; with more it is quicker to read the file from end to end.
 constexpr std::size_t max_selected = 200;
@@ -127,53 +128,31 @@ bool read_predictions(StudySummary& summary, const reading::StudyFile& file) {
   return true;
 }
 
-/// The section of some points as one of all.
-measures::SummarySection of_all(measures::SummarySection section, std::span<const std::int64_t> numbers,
-                                std::size_t points) {
-  measures::SummarySection all = std::move(section);
-  const std::vector<nlohmann::ordered_json> json =
-      std::exchange(all.json, std::vector<nlohmann::ordered_json>(points));
-  for (std::size_t i = 0; i < json.size(); ++i) all.json[static_cast<std::size_t>(numbers[i])] = json[i];
-  for (layout::PointColumn& column : all.columns) {
-    const std::vector<double> values =
-        std::exchange(column.values, std::vector<double>(points, statistics::unknown));
-    for (std::size_t i = 0; i < values.size(); ++i)
-      column.values[static_cast<std::size_t>(numbers[i])] = values[i];
-  }
-  for (text::PointTable& table : all.tables) {
-    for (std::int64_t& point : table.points) point = numbers[static_cast<std::size_t>(point)];
-  }
-  return all;
-}
-
 /// The summary of these points alone; its axes are those of all points.
 StudySummary summary_of_points(const StudySummary& summary, const reading::StudyFile& file,
                                const study::Study& study, std::span<const std::int64_t> numbers,
                                bool bootstrap) {
-  StudySummary some = summary_without_points(study, summary.confidence);
+  StudySummary some = summary::summary_without_points(study, summary.confidence);
   some.labels.clear();
   some.axes = summary.axes;
   std::vector<measures::UndecidedMoves> undecided;
   for (const std::int64_t point : numbers) {
     some.labels.push_back(summary.labels[static_cast<std::size_t>(point)]);
-    some.points.push_back(point_statistics(file, study, point, summary.confidence, bootstrap));
-    UndecidedSums sums;
+    some.points.push_back(summary::point_statistics(file, study, point, summary.confidence, bootstrap));
+    summary::UndecidedSums sums;
     measures::visit_trials(
         file, file.rows_of(point),
         [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) { sums.add(study, row, moves); });
     undecided.push_back(sums.moves());
   }
-  describe_points(some, study, undecided, numbers);
-  add_claims(some);
+  summary::describe_points(some, study, undecided, numbers);
   return some;
 }
 
-/// Computes the statistics of the points `summary.complete`, and their sections.
+/// Computes the statistics of the points `summary.complete`.
 void complete(StudySummary& summary, const reading::StudyFile& file, const study::Study& study,
               bool bootstrap) {
   StudySummary some = summary_of_points(summary, file, study, summary.complete, bootstrap);
-  for (measures::SummarySection& section : some.sections)
-    summary.sections.push_back(of_all(std::move(section), summary.complete, summary.points.size()));
   for (std::size_t i = 0; i < some.points.size(); ++i)
     summary.points[static_cast<std::size_t>(summary.complete[i])] = std::move(some.points[i]);
 }
@@ -192,7 +171,7 @@ std::optional<SelectedSummary> summarise_selected(const std::filesystem::path& p
   const reading::StudyFile file(path);
   const study::Study study = layout::recorded_study(file.header(), file.path());
   if (!is_summarised_by_point(study) || file.moves() != study.moves) return std::nullopt;
-  SelectedSummary selected{summary_without_points(study, statistics::summary_confidence),
+  SelectedSummary selected{summary::summary_without_points(study, statistics::summary_confidence),
                            {},
                            measures_of_merit(file, goal::question_of(study))};
   StudySummary& summary = selected.summary;
@@ -214,7 +193,7 @@ std::optional<SelectedSummary> summarise_selected(const std::filesystem::path& p
   selected.points = selected_points(summary, selection, known);
   if (selected.points.size() > max_selected) return std::nullopt;
   summary.complete = selected.points;
-  summary.complete.push_back(choose_point(summary, point).point);
+  summary.complete.push_back(summary::choose_point(summary, point).point);
   std::ranges::sort(summary.complete);
   summary.complete.erase(std::unique(summary.complete.begin(), summary.complete.end()),
                          summary.complete.end());
@@ -222,4 +201,4 @@ std::optional<SelectedSummary> summarise_selected(const std::filesystem::path& p
   return selected;
 }
 
-}  // namespace zerocount::summary
+}  // namespace zerocount::summary_answer

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "analysis/document/description.hpp"
+#include "analysis/text/report_field.hpp"
+#include "experiments/parameters/study_units.hpp"
+
+/// How the fields of a report stand in an answer.
+namespace zerocount::measures {
+
+/// Adds one number. @param subject_of gives the subject of a row, by reference
+template <class Row, class Subject, class Get>
+void add_field(document::Description<Row>& description, const text::ReportField<Subject>& field,
+               std::string key, parameters::AxisKind axis, document::Shown shown, Get subject_of) {
+  document::Item item{.key = std::move(key),
+                      .meaning = parameters::text_on(axis, field.long_name),
+                      .unit = parameters::unit_on(axis, field.unit),
+                      .shown = shown};
+  if (!field.whole) {
+    description.value(std::move(item),
+                      [value = field.value, subject_of](const Row& row) { return value(subject_of(row)); });
+    return;
+  }
+  description.value(std::move(item),
+                    [value = field.value, subject_of](const Row& row) -> std::optional<std::int64_t> {
+                      const double number = value(subject_of(row));
+                      if (std::isnan(number)) return std::nullopt;
+                      return static_cast<std::int64_t>(number);
+                    });
+}
+
+/// Adds the fields: those of a group as an object, so that their names in CSV are those of flat_name().
+template <class Row, class Subject, class Get>
+void add_fields(document::Description<Row>& description,
+                const std::vector<text::ReportField<Subject>>& fields, parameters::AxisKind axis,
+                Get subject_of) {
+  using Field = text::ReportField<Subject>;
+  std::vector<std::string> groups;
+  for (const Field& field : fields) {
+    if (field.group.empty()) {
+      add_field(description, field, field.name, axis, document::Shown::in_data, subject_of);
+      continue;
+    }
+    if (std::ranges::find(groups, field.group) != groups.end()) continue;
+    groups.push_back(field.group);
+    document::Description<Subject> group;
+    for (const Field& member : fields) {
+      if (member.group != field.group) continue;
+      add_field(group, member, member.name, axis, document::Shown::in_data,
+                [](const Subject& subject) -> const Subject& { return subject; });
+    }
+    std::string meaning = "statistics of " + field.group;
+    std::ranges::replace(meaning, '_', ' ');
+    description.object({.key = field.group, .meaning = std::move(meaning), .shown = document::Shown::in_data},
+                       std::move(group), subject_of);
+  }
+}
+
+/// An error band, and what its numbers are of.
+template <class Subject>
+struct BandReading {
+  const Subject& subject;
+  std::size_t band;  ///< in the order of the bands
+};
+
+/// Adds the fields of error bands: in JSON the list "bands", in CSV columns by flat_name().
+template <class Row, class Subject, class Get>
+void add_bands(document::Description<Row>& description, const std::vector<text::ReportField<Subject>>& fields,
+               parameters::AxisKind axis, Get subject_of) {
+  using Reading = BandReading<Subject>;
+  std::map<std::int64_t, std::vector<text::ReportField<Subject>>> by_limit;
+  for (const text::ReportField<Subject>& field : fields) by_limit[field.band.value()].push_back(field);
+  if (by_limit.empty()) return;
+  const auto bands =
+      std::make_shared<const std::vector<std::pair<std::int64_t, std::vector<text::ReportField<Subject>>>>>(
+          by_limit.begin(), by_limit.end());
+  std::vector<text::ReportField<Reading>> columns;
+  for (std::size_t i = 0; i < bands->front().second.size(); ++i) {
+    const text::ReportField<Subject>& first = bands->front().second[i];
+    columns.push_back({first.group, first.name, first.unit, first.long_name, first.whole,
+                       [bands, i](const Reading& reading) {
+                         return (*bands)[reading.band].second.at(i).value(reading.subject);
+                       }});
+  }
+  document::Description<Reading> row;
+  row.value({.key = "band", .meaning = "largest error of the band", .unit = "count"},
+            [bands](const Reading& reading) { return (*bands)[reading.band].first; });
+  add_fields(row, columns, axis, [](const Reading& reading) -> const Reading& { return reading; });
+  description.table(
+      {.key = "bands", .meaning = "statistics by error band", .shown = document::Shown::in_json},
+      std::move(row), [number = bands->size(), subject_of](const Row& of) {
+        std::vector<Reading> readings;
+        for (std::size_t band = 0; band < number; ++band) readings.push_back({subject_of(of), band});
+        return readings;
+      });
+  for (const text::ReportField<Subject>& field : fields)
+    add_field(description, field, text::flat_name(field), axis, document::Shown::in_csv, subject_of);
+}
+
+}  // namespace zerocount::measures

@@ -1,0 +1,121 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "analysis/measures/field_description.hpp"
+#include "analysis/measures/point_columns.hpp"
+#include "analysis/summary_answer/parts.hpp"
+#include "analysis/summary_answer/point_description.hpp"
+#include "analysis/text/text.hpp"
+
+namespace zerocount::summary_answer {
+namespace {
+
+using document::Shown;
+using Level = const LevelReading&;
+
+constexpr double micro = 1e6;
+
+/// Decimals that show two digits of an uncertainty; none below 0, at most 9.
+int decimals_below(double uncertainty) {
+  return std::clamp(1 - static_cast<int>(std::floor(std::log10(uncertainty))), 0, 9);
+}
+
+/// `value` as precisely as its bounds allow; with four digits where they say nothing.
+std::string bounded_number(double value, double uncertainty) {
+  if (!(uncertainty > 0.0)) return text::short_number(value);
+  return fmt::format("{:.{}f}", value, decimals_below(uncertainty));
+}
+
+/// The position with its bounds, in the small unit.
+std::string position_text(const measures::MeasureStatistics& position) {
+  const statistics::ConfidenceInterval& bounds = position.mean_bounds;
+  const double uncertainty = 0.5 * micro * (bounds.high - bounds.low);
+  std::string text = bounded_number(micro * position.mean, uncertainty);
+  if (!std::isnan(bounds.low))
+    text += fmt::format(" [{}, {}]", bounded_number(micro * bounds.low, uncertainty),
+                        bounded_number(micro * bounds.high, uncertainty));
+  return text;
+}
+
+template <class Value>
+auto statistic(Value trial::MoveOutcome::*member, double (*number)(const measures::MeasureStatistics&)) {
+  return [member, number](Level l) { return number(l.statistics().of(member)); };
+}
+
+double micro_mean(const measures::MeasureStatistics& s) {
+  return micro * s.mean;
+}
+
+std::int64_t trials_of(Level l) {
+  return l.statistics().of(&trial::MoveOutcome::holding_torque).n;
+}
+
+std::string depth_text(Level l) {
+  return trials_of(l) == 0
+             ? "–"
+             : fmt::format("{:.0f}", l.statistics().of(&trial::MoveOutcome::reversal_depth).max);
+}
+
+void add_people_columns(document::Description<LevelReading>& level, const summary::StudySummary& summary) {
+  using M = trial::MoveOutcome;
+  const parameters::AxisKind axis = summary.features.axis;
+  const std::string small = parameters::unit_on(axis, "µrad");
+  const auto column = [axis](const char* heading, std::string unit, const char* meaning = "") {
+    return document::Item{.heading = parameters::text_on(axis, heading),
+                          .meaning = parameters::text_on(axis, meaning),
+                          .unit = std::move(unit),
+                          .shown = Shown::to_people,
+                          .numeric = true};
+  };
+  level
+      .value(
+          column(
+              "$torque", parameters::unit_on(axis, "N m"),
+              "All values are those at the end of a level, means over the trials whose motion was not lost."),
+          statistic(&M::holding_torque, [](const measures::MeasureStatistics& s) { return s.mean; }))
+      .value(column("trials", ""), trials_of)
+      .value(column("position", small,
+                    "position: of the $rotor from the start, with bounds of the mean after Student; sd: over "
+                    "trials"),
+             [](Level l) { return position_text(l.statistics().of(&M::final_position)); })
+      .value(column("sd", small),
+             statistic(&M::final_position, [](const measures::MeasureStatistics& s) { return micro * s.sd; }))
+      .value(column("creep", small,
+                    "creep: plastic extension; depth: most reversal points on the stack; broke away: "
+                    "proportion of trials"),
+             statistic(&M::creep, micro_mean))
+      .value(column("depth", ""), depth_text)
+      .value(column("broke away", ""), [](Level l) {
+        return text::percentage(l.statistics().of(&M::broke_away).trials, trials_of(l));
+      });
+}
+
+}  // namespace
+
+document::Description<LevelReading> level_description(const summary::StudySummary& summary) {
+  const parameters::AxisKind axis = summary.features.axis;
+  document::Description<LevelReading> level;
+  level
+      .value({.key = "point", .meaning = "number of the design point", .shown = Shown::in_csv},
+             [](Level l) { return l.point.point; })
+      .value({.key = "label", .meaning = "label of the design point", .shown = Shown::in_csv},
+             [](Level l) { return l.point.label(); })
+      .value({.heading = "point", .shown = Shown::to_people}, [](Level l) { return l.point.label(); });
+  add_axes(level, summary, [](Level l) -> const PointReading& { return l.point; });
+  level.value({.key = "level", .heading = "level", .meaning = "number of the torque level"},
+              &LevelReading::level);
+  measures::add_fields(level, measures::level_fields(summary.table()), axis,
+                       [](Level l) -> const measures::LevelStatistics& { return l.statistics(); });
+  add_people_columns(level, summary);
+  return level
+      .value({.key = "observed", .meaning = "what was observed on the real rig", .shown = Shown::in_csv},
+             [](Level l) { return summary::observed_at(l.point.summary, l.point.point); })
+      .value({.heading = "observed", .shown = Shown::to_people}, [](Level l) {
+        return l.level == 0 ? summary::observed_at(l.point.summary, l.point.point) : "";
+      });
+}
+
+}  // namespace zerocount::summary_answer

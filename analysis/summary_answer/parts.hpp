@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "analysis/document/description.hpp"
+#include "analysis/summary_answer/point_reading.hpp"
+
+/// The parts that descriptions of a summary are put together of. Each adds what the study has of it: to a
+/// point its items, to the summary its table for people and the sentences on it.
+namespace zerocount::summary_answer {
+
+using PointDescription = document::Description<PointReading>;
+using SummaryDescription = document::Description<SummaryReading>;
+
+/// A number, or the name of a case.
+using AxisValue = std::variant<double, std::string>;
+AxisValue value_at(const study::SweepAxis& axis, const PointReading& point);
+
+/// The columns of the swept parameters in CSV. @param point_of gives the point of a row, by reference
+template <class Row, class Get>
+void add_axes(document::Description<Row>& description, const summary::StudySummary& summary, Get point_of) {
+  for (const study::SweepAxis& axis : summary.axes)
+    description.value(
+        {.key = axis.name, .meaning = axis.meaning, .unit = axis.unit, .shown = document::Shown::in_csv},
+        [&axis, point_of](const Row& row) { return value_at(axis, point_of(row)); });
+}
+
+/// "95 % bounds", with the confidence of the summary.
+std::string bounds_head(const summary::StudySummary& summary);
+
+/// The number of trials of every point; nothing where points differ in it.
+std::optional<std::int64_t> trials_of_each(const summary::StudySummary& summary);
+
+/// The columns that tell points apart: their labels, and a column for each swept parameter with its unit in
+/// the head, where these are few. In a grid, whose labels only repeat the swept values, the number of the
+/// point takes the place of the label. A star marks the chosen point among several.
+void add_swept_columns(PointDescription& point, const summary::StudySummary& summary);
+
+/// The columns for people of a study with targets, the most important first: what the study is judged by.
+void add_question_columns(PointDescription& point, const summary::StudySummary& summary);
+
+/// Likewise zero counts, arrival, jerks, stability and the paper's criteria, which a study without a goal is
+/// judged by.
+void add_zero_count_columns(PointDescription& point, const summary::StudySummary& summary);
+
+/// The short labels of the points.
+std::function<std::string(const PointReading&)> short_label(const summary::StudySummary& summary);
+
+/// The description of the table of a part, with the column "point".
+PointDescription labelled_points(const summary::StudySummary& summary);
+
+void add_goal(PointDescription& point, const summary::StudySummary& summary);
+document::Description<goal::Verdict> verdict_description(const study::Goal& goal, bool on_rigs);
+
+/// Whether the counts on the real rig are consistent with the simulated trials.
+void add_observed(PointDescription& point, const summary::StudySummary& summary);
+void add_observed(SummaryDescription& answer, const summary::StudySummary& summary);
+
+/// Moves that are off target: their numbers, and the hold that would decide them.
+void add_undecided(PointDescription& point, const summary::StudySummary& summary);
+void add_undecided(SummaryDescription& answer, const summary::StudySummary& summary);
+
+/// The rates of the worlds, and what the bad ones have in common.
+void add_worlds(PointDescription& point, const summary::StudySummary& summary);
+void add_worlds(SummaryDescription& answer, const summary::StudySummary& summary);
+
+/// The bounds of the success rate that hold although the study looked after every block and decided itself
+/// how many trials it took (`stop`).
+///
+/// With rigs they are bounds of the mean over the rigs of the study, whose trials the rule is about: every
+/// rig has run equally many at each look, and the product of the likelihood ratios of trials with different
+/// probabilities pᵢ is no larger on average than that of trials which all have their mean (the geometric mean
+/// is not above the arithmetic). How far other rigs differ, more trials on these do not tell.
+void add_stopping(PointDescription& point, const summary::StudySummary& summary);
+void add_stopping(SummaryDescription& answer, const summary::StudySummary& summary);
+
+/// What the trials of a point show of all axes that the manifest describes, as tolerance statements.
+void add_assurance(PointDescription& point, const summary::StudySummary& summary);
+void add_assurance(SummaryDescription& answer, const summary::StudySummary& summary);
+
+/// The values of ISO 230-2 of a study with a sequence.
+void add_repeatability(PointDescription& point, const summary::StudySummary& summary);
+void add_repeatability(SummaryDescription& answer, const summary::StudySummary& summary);
+
+}  // namespace zerocount::summary_answer

@@ -1,0 +1,307 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "analysis/iso230/repeatability_columns.hpp"
+#include "analysis/measures/field_description.hpp"
+#include "analysis/statistics/tolerance.hpp"
+#include "analysis/summary_answer/parts.hpp"
+#include "analysis/text/percent.hpp"
+#include "analysis/text/text.hpp"
+
+namespace zerocount::summary_answer {
+namespace {
+
+using document::Shown;
+using iso230::AxisRepeatability;
+using iso230::DeviationSource;
+using iso230::PointRepeatability;
+using iso230::RepeatabilityField;
+using iso230::SequenceShape;
+using iso230::TargetRepeatability;
+using iso230::ValueStatistics;
+using Point = const PointReading&;
+
+const PointRepeatability& repeatability_of(Point p) {
+  return p.summary.repeatability->points[p.index()];
+}
+
+/// The values of a point, and of one of its targets, by one scale.
+struct SourceReading {
+  const PointReading& point;
+  std::size_t source;
+  std::size_t target{0};
+
+  const DeviationSource& from() const { return iso230::deviation_sources()[source]; }
+  const iso230::SourceRepeatability& values() const { return repeatability_of(point).sources[source]; }
+  const statistics::Moments& position() const { return repeatability_of(point).positions[target]; }
+};
+using Source = const SourceReading&;
+using SourceDescription = document::Description<SourceReading>;
+
+const SourceReading& same_source(Source s) {
+  return s;
+}
+std::span<const ValueStatistics> of_axis(Source s) {
+  return s.values().axis;
+}
+std::span<const ValueStatistics> of_target(Source s) {
+  return s.values().targets[s.target];
+}
+
+/// An object for each value, with its statistics over the trials.
+template <class Values>
+void add_values(SourceDescription& description, std::span<const RepeatabilityField<Values>> fields,
+                bool of_targets, std::span<const ValueStatistics> (*statistics)(Source)) {
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    SourceDescription value;
+    for (const iso230::ValueStatisticField& statistic : iso230::value_statistic_fields()) {
+      if (of_targets && !statistic.of_targets) continue;
+      value.value({.key = std::string(statistic.name),
+                   .meaning = fmt::format("{} {}", statistic.long_name, fields[i].long_name)},
+                  [i, number = statistic.value, statistics](Source s) { return number(statistics(s)[i]); });
+    }
+    description.object({.key = std::string(fields[i].name), .meaning = std::string(fields[i].long_name)},
+                       value, same_source);
+  }
+}
+
+std::vector<SourceReading> targets_of(Source s) {
+  std::vector<SourceReading> targets;
+  for (std::size_t target = 0; target < s.values().targets.size(); ++target)
+    targets.push_back({s.point, s.source, target});
+  return targets;
+}
+
+SourceDescription source_object(parameters::AxisKind axis) {
+  SourceDescription values, target, source;
+  add_values(values, iso230::axis_fields(), false, of_axis);
+  target.value({.key = "target", .meaning = "number of the target"}, &SourceReading::target)
+      .value({.key = "position_min", .meaning = "smallest position in a trial", .unit = "count"},
+             [](Source s) { return s.position().min; })
+      .value({.key = "position_max", .meaning = "largest position in a trial", .unit = "count"},
+             [](Source s) { return s.position().max; });
+  add_values(target, iso230::target_fields(), true, of_target);
+  return source
+      .value({.key = "unit", .meaning = "of all values"},
+             [axis](Source s) { return parameters::unit_on(axis, s.from().unit); })
+      .object({.key = "axis", .meaning = "values of the axis"}, values, same_source)
+      .table({.key = "targets", .meaning = "values of the targets"}, target, targets_of);
+}
+
+PointDescription repeatability_object(parameters::AxisKind axis) {
+  PointDescription object;
+  measures::add_fields(object, iso230::point_repeatability_fields(), axis, repeatability_of);
+  for (std::size_t source = 0; source < iso230::deviation_sources().size(); ++source) {
+    const DeviationSource& from = iso230::deviation_sources()[source];
+    object.object({.key = std::string(from.name), .meaning = std::string(from.long_name)},
+                  source_object(axis), [source](Point p) {
+                    return SourceReading{p, source};
+                  });
+  }
+  return object;
+}
+
+void add_csv_columns(PointDescription& point, const iso230::RepeatabilitySummary& summary) {
+  const auto add = [&](const std::string& prefix, const auto& columns, std::string_view source,
+                       std::size_t target) {
+    for (const iso230::RepeatabilityColumn<PointRepeatability>& column : columns) {
+      if (column.source != source) continue;
+      point.value({.key = prefix + column.name,
+                   .meaning = parameters::text_on(summary.axis, column.long_name),
+                   .unit = parameters::unit_on(summary.axis, column.unit),
+                   .shown = Shown::in_csv},
+                  [value = column.value, target](Point p) { return value(repeatability_of(p), target); });
+    }
+  };
+  add("repeatability_", iso230::point_axis_columns(), "", 0);
+  for (const DeviationSource& source : iso230::deviation_sources()) {
+    const std::string prefix = fmt::format("repeatability_{}_", source.name);
+    add(prefix, iso230::point_axis_columns(), source.name, 0);
+    for (std::size_t target = 0; target < static_cast<std::size_t>(summary.shape.targets); ++target)
+      add(fmt::format("{}target_{}_", prefix, target), iso230::point_target_columns(), source.name, target);
+  }
+}
+
+/// Positions are shown as the trade states them: in seconds of arc, or µm.
+std::string shown_unit(const DeviationSource& source, parameters::AxisKind axis) {
+  return source.unit == "rad" ? parameters::unit_on(axis, "arcsec") : std::string(source.unit);
+}
+double in_shown_unit(const DeviationSource& source, parameters::AxisKind axis, double value) {
+  if (source.unit != "rad") return value;
+  constexpr double arcsec = std::numbers::pi / (180.0 * 3600.0);  // rad
+  constexpr double micrometre = 1e-6;                             // m
+  return value / (axis == parameters::AxisKind::linear ? micrometre : arcsec);
+}
+
+/// Three digits, or all of a larger whole part.
+std::string three_digits(double value) {
+  return std::abs(value) < 999.5 ? fmt::format("{:.3g}", value) : fmt::format("{:.0f}", value);
+}
+
+std::string median_and_p95(const DeviationSource& source, parameters::AxisKind axis,
+                           const ValueStatistics& value) {
+  if (value.n == 0) return "–";
+  return fmt::format("{} ({})", three_digits(in_shown_unit(source, axis, value.median.value)),
+                     three_digits(in_shown_unit(source, axis, value.p95.value)));
+}
+
+/// The readings of all points, sources and, of a table of targets, targets.
+std::vector<SourceReading> rows_of(const SummaryReading& s, std::size_t targets) {
+  std::vector<SourceReading> rows;
+  for (const PointReading& point : s.points) {
+    for (std::size_t target = 0; target < targets; ++target) {
+      for (std::size_t source = 0; source < iso230::deviation_sources().size(); ++source)
+        rows.push_back({point, source, target});
+    }
+  }
+  return rows;
+}
+
+void add_label(SourceDescription& columns, const summary::StudySummary& summary) {
+  columns.value({.heading = "point"}, [label = short_label(summary)](Source s) { return label(s.point); });
+}
+
+void add_source(SourceDescription& columns, parameters::AxisKind axis) {
+  columns.value({.heading = "from"}, [axis](Source s) {
+    return fmt::format("{} ({})", s.from().name, shown_unit(s.from(), axis));
+  });
+}
+
+/// The values that the directions of the sequence define, the most telling ones of them.
+template <typename Values>
+struct ShownValues {
+  std::vector<double Values::*> of_both, of_positive, of_negative;
+
+  bool contains(double Values::*value, const SequenceShape& shape) const {
+    const bool both = shape.positive && shape.negative;
+    const auto& shown = both ? of_both : shape.positive ? of_positive : of_negative;
+    return std::find(shown.begin(), shown.end(), value) != shown.end();
+  }
+};
+
+/// A column for each shown value: its median and 95 % quantile over the trials.
+template <typename Values>
+void add_columns(SourceDescription& columns, std::span<const RepeatabilityField<Values>> fields,
+                 const ShownValues<Values>& shown, const iso230::RepeatabilitySummary& summary,
+                 std::span<const ValueStatistics> (*statistics)(Source)) {
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (!shown.contains(fields[i].value, summary.shape)) continue;
+    columns.value({.heading = std::string(fields[i].symbol), .numeric = true},
+                  [i, axis = summary.axis, statistics](Source s) {
+                    return median_and_p95(s.from(), axis, statistics(s)[i]);
+                  });
+  }
+}
+
+/// The proportion of trials that repeat exactly, with its bounds; only of the encoder.
+std::optional<document::Bounded> zero_proportion(Source s) {
+  const PointRepeatability& point = repeatability_of(s.point);
+  if (s.from().unit != "count" || !point.zero_repeatability) return std::nullopt;
+  return document::Bounded{point.zero_rate, point.zero_bounds.low, point.zero_bounds.high};
+}
+
+SourceDescription columns_of_axis(const summary::StudySummary& summary) {
+  using A = AxisRepeatability;
+  static const ShownValues<A> shown{
+      {&A::reversal, &A::repeatability_positive, &A::repeatability_negative, &A::repeatability,
+       &A::systematic, &A::mean_bidirectional, &A::accuracy},
+      {&A::repeatability_positive, &A::systematic_positive, &A::accuracy_positive},
+      {&A::repeatability_negative, &A::systematic_negative, &A::accuracy_negative}};
+  SourceDescription columns;
+  add_label(columns, summary);
+  add_source(columns, summary.repeatability->axis);
+  columns.value({.heading = "trials"}, [](Source s) { return repeatability_of(s.point).evaluated; });
+  add_columns(columns, iso230::axis_fields(), shown, *summary.repeatability, of_axis);
+  return columns.value({.heading = fmt::format("zero [{}]", bounds_head(summary)),
+                        .unit = "1",
+                        .notation = document::Notation::percent},
+                       zero_proportion);
+}
+
+std::string position_text(const statistics::Moments& position) {
+  if (position.min == position.max) return fmt::format("{:.0f}", position.min);
+  return fmt::format("{:.0f} to {:.0f}", position.min, position.max);
+}
+
+SourceDescription columns_of_targets(const summary::StudySummary& summary) {
+  using T = TargetRepeatability;
+  static const ShownValues<T> shown{
+      {&T::mean_positive, &T::mean_negative, &T::reversal, &T::repeatability_positive,
+       &T::repeatability_negative, &T::repeatability},
+      {&T::mean_positive, &T::repeatability_positive},
+      {&T::mean_negative, &T::repeatability_negative}};
+  SourceDescription columns;
+  add_label(columns, summary);
+  columns.value({.heading = "target", .numeric = true}, [](Source s) { return position_text(s.position()); });
+  add_source(columns, summary.repeatability->axis);
+  add_columns(columns, iso230::target_fields(), shown, *summary.repeatability, of_target);
+  return columns;
+}
+
+std::string title_of_repeatability(const SequenceShape& shape) {
+  const std::string_view from = shape.positive && shape.negative ? "both sides"
+                                : shape.positive                 ? "below"
+                                                                 : "above";
+  return fmt::format("repeatability after ISO 230-2: {} {} approached from {} in {} {}", shape.targets,
+                     shape.targets == 1 ? "target" : "targets", from, shape.cycles,
+                     shape.cycles == 1 ? "cycle" : "cycles");
+}
+
+/// A line for each point at which all trials repeat exactly: what 100 % is worth.
+std::string exact_points(const SummaryReading& s) {
+  const auto label = short_label(s.summary);
+  const double confidence = s.summary.repeatability->confidence;
+  std::string lines;
+  for (const PointReading& p : s.points) {
+    const PointRepeatability& point = repeatability_of(p);
+    if (point.zero_repeatability != point.trials) continue;
+    lines += fmt::format(
+        "{}: all {} trials repeat exactly: not 100 %, but at most {} of axes do not, with {:.6g} % "
+        "confidence\n",
+        label(p), point.trials,
+        text::percent_at_most(statistics::proportion_at_most(0, point.trials, confidence)),
+        100.0 * confidence);
+  }
+  return lines;
+}
+
+constexpr std::string_view repeatability_legend =
+    "median (95 % quantile) over the trials without a nonfinite move; deviations by the true position are "
+    "from the middle of the target's count, those by the encoder, the fine one, from the target\n"
+    "R: repeatability; B: reversal value; E: systematic deviation; M: mean bidirectional deviation; "
+    "A: accuracy; x̄: mean deviation; ↑: approached from below; ↓: from above\n"
+    "zero: proportion of all trials whose repeatability by the encoder is exactly 0, the paper's 100 %; "
+    "bounds after Clopper and Pearson, in %\n";
+
+}  // namespace
+
+void add_repeatability(PointDescription& point, const summary::StudySummary& summary) {
+  if (!summary.repeatability) return;
+  point.object({.key = "repeatability", .meaning = "values of ISO 230-2", .shown = Shown::in_json},
+               repeatability_object(summary.repeatability->axis),
+               [](Point p) -> const PointReading& { return p; });
+  add_csv_columns(point, *summary.repeatability);
+}
+
+void add_repeatability(SummaryDescription& answer, const summary::StudySummary& summary) {
+  if (!summary.repeatability) return;
+  answer
+      .table({.heading = title_of_repeatability(summary.repeatability->shape), .shown = Shown::to_people},
+             columns_of_axis(summary), [](const SummaryReading& s) { return rows_of(s, 1); })
+      .table({.heading = "repeatability at the targets", .shown = Shown::to_people},
+             columns_of_targets(summary),
+             [](const SummaryReading& s) {
+               return rows_of(s, static_cast<std::size_t>(s.summary.repeatability->shape.targets));
+             })
+      .sentence([](const SummaryReading& s) { return exact_points(s) + std::string(repeatability_legend); });
+}
+
+}  // namespace zerocount::summary_answer

@@ -1,0 +1,396 @@
+#include "analysis/summary_answer/summary_answer.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "analysis/goal/goal_text.hpp"
+#include "analysis/statistics/proportion.hpp"
+#include "analysis/summary/judged_point.hpp"
+#include "analysis/summary_answer/parts.hpp"
+#include "analysis/summary_answer/point_description.hpp"
+#include "analysis/text/percent.hpp"
+#include "analysis/text/text.hpp"
+
+namespace zerocount::summary_answer {
+namespace {
+
+using document::Shown;
+using summary::StudySummary;
+using Summary = const SummaryReading&;
+
+const SummaryReading& same_summary(Summary s) {
+  return s;
+}
+
+/// Rigs that have trials; of an unfinished run, at the point with most of them.
+std::int64_t rigs_of(const StudySummary& summary) {
+  std::int64_t rigs = 0;
+  for (const measures::PointSummary& point : summary.points) rigs = std::max(rigs, point.rigs.n);
+  return rigs;
+}
+
+/// "paper-gains: 8 points × 2000 trials on 100 rigs".
+std::string size_line(const StudySummary& summary) {
+  const std::size_t points = summary.points.size();
+  std::string line =
+      fmt::format("{}: {} point{}", text::printable(summary.name), points, points == 1 ? "" : "s");
+  if (const std::optional<std::int64_t> trials = trials_of_each(summary))
+    line += fmt::format(" × {} trials", *trials);
+  if (summary.features.rigs) line += fmt::format(" on {} rigs", rigs_of(summary));
+  return line;
+}
+
+std::string headline(Summary s) {
+  if (s.summary.features.open_loop) return size_line(s.summary);
+  if (s.summary.question.claim())
+    return summary::judgement_headline(s.summary, summary::judge_point(s.summary, s.chosen));
+  return summary::claim_of_chosen_point(s.summary, s.chosen);
+}
+
+/// What the headline rests on.
+std::string details(Summary s) {
+  if (s.summary.features.open_loop) return {};
+  if (s.summary.question.claim())
+    return fmt::format("goal: {}\n{}", goal::goal_sentence(*s.summary.question.claim()),
+                       summary::judgement_details(s.summary, summary::judge_point(s.summary, s.chosen)));
+  const bool allows = s.chosen.chosen_from > 1 && !s.summary.features.dependent_trials;
+  return (allows ? "  the bound allows for the choice of the point by these trials\n" : "") +
+         summary::competition_text(s.summary, s.chosen);
+}
+
+std::string study_lines(Summary s) {
+  const std::string unfinished = unfinished_sentence(s.summary);
+  return (s.summary.features.open_loop ? "" : size_line(s.summary) + "\n") +
+         (unfinished.empty() ? "" : unfinished + "\n") + design_line(s.summary);
+}
+
+/// A line for every point with trials whose motion was lost: they count as failures, and the reader must
+/// know.
+std::string nonfinite_lines(Summary s) {
+  std::string lines;
+  for (const PointReading& point : s.points) {
+    const std::int64_t lost = point.statistics().outcomes.nonfinite;
+    if (lost == 0) continue;
+    lines += fmt::format(
+        "{}: {} of {} trials nonfinite: the motion left the finite numbers or could not be followed\n",
+        text::printable(point.label()), lost, point.statistics().trials);
+  }
+  return lines;
+}
+
+std::string points_shown(Summary s) {
+  if (s.points.size() == s.summary.points.size()) return {};
+  return fmt::format("({} of {} points)\n", s.points.size(), s.summary.points.size());
+}
+
+document::Description<summary::UnfinishedStudy> unfinished_description() {
+  using Unfinished = summary::UnfinishedStudy;
+  return document::Description<Unfinished>()
+      .value({.key = "finished", .meaning = "trials that the summary is of"}, &Unfinished::finished)
+      .value({.key = "trials", .meaning = "trials of the study; the maximum if 'stop' decides"},
+             &Unfinished::trials);
+}
+
+/// A swept number at the end of its range, at the chosen point.
+struct EndReading {
+  const StudySummary& summary;
+  std::int64_t point;
+  summary::EndOfRange end;
+};
+
+std::vector<EndReading> ends_of(Summary s) {
+  std::vector<EndReading> ends;
+  for (const summary::EndOfRange& end : s.chosen.ends) ends.push_back({s.summary, s.chosen.point, end});
+  return ends;
+}
+
+SummaryDescription chosen_description() {
+  using End = const EndReading&;
+  document::Description<EndReading> ends;
+  ends.value({.key = "parameter", .meaning = "dotted path"},
+             [](End e) { return e.summary.axes[e.end.axis].name; })
+      .value({.key = "value", .meaning = "value at the point, in the unit of the parameter"},
+             [](End e) { return summary::value_at(e.summary, e.end, e.point); })
+      .value({.key = "end", .meaning = "which end of the range it is", .words = {"lowest", "highest"}},
+             [](End e) { return e.end.lowest ? "lowest" : "highest"; });
+  return SummaryDescription()
+      .value({.key = "point", .meaning = "number of the design point"},
+             [](Summary s) { return s.chosen.point; })
+      .value({.key = "label", .meaning = "label of the design point"},
+             [](Summary s) { return s.summary.labels[static_cast<std::size_t>(s.chosen.point)]; })
+      .value({.key = "chosen_from", .meaning = "points that it is the best of; 1 if it was named"},
+             [](Summary s) { return s.chosen.chosen_from; })
+      .value({.key = "runner_up", .meaning = "number of the best of the other points"},
+             [](Summary s) { return s.chosen.runner_up; })
+      .value({.key = "as_good", .meaning = "numbers of the points that are not shown to be worse"},
+             [](Summary s) { return s.chosen.as_good; })
+      .table({.key = "ends_of_ranges", .meaning = "swept numbers of the point at an end of their range"},
+             ends, ends_of);
+}
+
+/// The new trials of --confirm.
+struct ConfirmationReading {
+  const StudySummary& summary;
+  const Confirmation& confirmed;
+
+  bool has_one_trial_per_rig() const { return confirmed.rigs == confirmed.trials; }
+  double rate() const { return statistics::rate(confirmed.successes, confirmed.trials); }
+  /// Clopper–Pearson bounds, where the trials are independent: unless they share rigs, in a study with a
+  /// goal.
+  std::optional<statistics::ConfidenceInterval> bounds() const {
+    if (confirmed.rigs > 0 && !has_one_trial_per_rig()) return std::nullopt;
+    return statistics::clopper_pearson(confirmed.successes, confirmed.trials, summary.confidence);
+  }
+  std::optional<goal::Verdict> verdict() const {
+    if (!confirmed.goal) return std::nullopt;
+    return goal::verdict_on(summary.question, *confirmed.goal);
+  }
+};
+using Confirmed = const ConfirmationReading&;
+
+std::optional<ConfirmationReading> confirmation_of(Summary s) {
+  if (!s.confirmation) return std::nullopt;
+  return ConfirmationReading{s.summary, *s.confirmation};
+}
+
+std::string confirmation_text(Summary s) {
+  const std::optional<ConfirmationReading> reading = confirmation_of(s);
+  if (!reading) return {};
+  const Confirmation& confirmed = reading->confirmed;
+  std::string text = fmt::format(
+      "run anew with seed {}, everything drawn anew, chosen beforehand so that no bound needs a "
+      "correction:\n",
+      confirmed.seed);
+  if (const std::optional<goal::Verdict> verdict = reading->verdict())
+    text += fmt::format("  goal: {}\n{}", goal::text_of(verdict->status),
+                        goal::readings_text(*s.summary.question.claim(), *confirmed.goal, *verdict));
+  text += fmt::format("  {} of {} trials{} succeeded{}, {}", confirmed.successes, confirmed.trials,
+                      confirmed.rigs == 0                ? ""
+                      : reading->has_one_trial_per_rig() ? ", each on a rig of its own,"
+                                                         : fmt::format(" on {} rigs", confirmed.rigs),
+                      s.summary.question.worlds > 0 ? " on average over new worlds" : "",
+                      text::percentage(confirmed.successes, confirmed.trials));
+  if (const auto bounds = reading->bounds()) {
+    text += fmt::format(", {} bounds [{}] % (Clopper and Pearson)", text::percent(s.summary.confidence),
+                        text::percent_bounds(bounds->low, bounds->high));
+  }
+  return text;
+}
+
+document::Description<ConfirmationReading> confirmation_description(const StudySummary& summary) {
+  document::Description<ConfirmationReading> description;
+  description
+      .value({.key = "point", .meaning = "number of the design point"},
+             [](Confirmed c) { return c.confirmed.point; })
+      .value({.key = "seed", .meaning = "seed of the new trials"},
+             [](Confirmed c) { return c.confirmed.seed; })
+      .value({.key = "trials", .meaning = "new trials"}, [](Confirmed c) { return c.confirmed.trials; })
+      .value({.key = "zero_count", .meaning = "new trials that succeeded"},
+             [](Confirmed c) { return c.confirmed.successes; })
+      .value({.key = "success_rate",
+              .meaning = "their proportion, with bounds unless trials share rigs",
+              .unit = "1"},
+             [](Confirmed c) {
+               const statistics::ConfidenceInterval bounds = c.bounds().value_or(
+                   statistics::ConfidenceInterval{statistics::unknown, statistics::unknown});
+               return document::Bounded{c.rate(), bounds.low, bounds.high};
+             })
+      .value({.key = "one_trial_per_rig", .meaning = "whether every new trial has a rig of its own"},
+             &ConfirmationReading::has_one_trial_per_rig);
+  if (summary.question.claim())
+    description.object({.key = "goal", .meaning = "whether the new trials meet the goal"},
+                       verdict_description(*summary.question.claim(), summary.features.rigs),
+                       &ConfirmationReading::verdict);
+  return description;
+}
+
+/// The items in JSON of both types of answers; what one of them lacks is optional.
+std::vector<document::Item> united(std::vector<document::Item> all, const std::vector<document::Item>& more) {
+  const auto find = [](auto& items, const std::string& key) {
+    return std::ranges::find(items, key, &document::Item::key);
+  };
+  std::erase_if(all, [](const document::Item& item) {
+    return !document::is_shown(item.shown, document::Audience::json);
+  });
+  for (document::Item& item : all) item.optional = item.optional || find(more, item.key) == more.end();
+  for (const document::Item& item : more) {
+    if (!document::is_shown(item.shown, document::Audience::json)) continue;
+    if (const auto known = find(all, item.key); known != all.end()) {
+      if (item.kind != document::Kind::list && item.kind != document::Kind::map)
+        known->members = united(known->members, item.members);
+      continue;
+    }
+    all.push_back(item);
+    all.back().optional = true;
+  }
+  return all;
+}
+
+/// A study that has everything but torque levels.
+StudySummary full_study() {
+  StudySummary full;
+  full.features.motion = full.features.steps = full.features.following = full.features.reversals = true;
+  full.features.travel = full.features.phases = full.features.load = full.features.drive_torque = true;
+  full.features.encoder_errors = full.features.final_error = full.features.stopping = true;
+  full.features.own_controller = full.features.rigs = true;
+  full.question.parts.front().claim = study::Goal{.machines = 0.99};
+  full.question.worlds = 1;
+  full.predictions.resize(1);
+  full.observed_counts[""] = {};
+  full.stop = study::StoppingRule{};
+  full.repeatability = iso230::RepeatabilitySummary{.shape = {1, 1, true, true}, .points = {}};
+  full.unfinished = summary::UnfinishedStudy{};
+  return full;
+}
+
+}  // namespace
+
+std::optional<std::int64_t> trials_of_each(const StudySummary& summary) {
+  if (summary.points.empty()) return std::nullopt;
+  const std::int64_t trials = summary.points.front().trials;
+  const bool equal = std::ranges::all_of(
+      summary.points, [&](const measures::PointSummary& point) { return point.trials == trials; });
+  return equal ? std::optional(trials) : std::nullopt;
+}
+
+std::string bounds_head(const StudySummary& summary) {
+  return text::percent(summary.confidence) + " bounds";
+}
+
+std::string design_line(const StudySummary& summary) {
+  const study::StudyFeatures& features = summary.features;
+  if (features.dependent_trials) {
+    return "The trials of a saltelli design are not independent: all bounds here are too narrow. They are "
+           "for 'zerocount sensitivity'";
+  }
+  std::string line = fmt::format("design: {}", summary.design);
+  if (features.rigs && !summary.points.empty()) {
+    line += fmt::format(
+        ", {} rigs: bounds are of all rigs that the manifest describes, and more trials on the same rigs "
+        "narrow them only so far",
+        rigs_of(summary));
+  }
+  if (summary.question.worlds > 0) {
+    line += fmt::format(", {} worlds: rates over all trials are averages over the worlds{}",
+                        summary.question.worlds,
+                        summary.question.claim() ? "; those of the goal are of the worst world" : "");
+  }
+  if (features.spread_trials) {
+    line += fmt::format(
+        "{} bounds are conservative: made for trials by chance, which vary more than those of this design",
+        features.rigs || summary.question.worlds > 0 ? ";" : ":");
+  }
+  return line;
+}
+
+std::string unfinished_sentence(const StudySummary& summary) {
+  if (!summary.unfinished) return {};
+  const std::int64_t begun = std::ranges::count_if(
+      summary.points, [](const measures::PointSummary& point) { return point.trials > 0; });
+  const std::int64_t without = summary.unfinished->points - begun;
+  return fmt::format(
+      "unfinished: of the {} of {} trials that the run has finished so far{}", summary.unfinished->finished,
+      summary.unfinished->trials,
+      without > 0 ? fmt::format("; {} of {} points have none yet", without, summary.unfinished->points) : "");
+}
+
+SummaryDescription question_tables(const StudySummary& summary) {
+  const bool levels = summary.features.open_loop;
+  const PointDescription point = point_description(summary);
+  const document::Description<LevelReading> level = level_description(summary);
+  const std::string legend = legend_of(levels ? level.items() : point.items());
+  SummaryDescription tables;
+  tables.table(
+      {.key = "points", .meaning = "the design points", .shown = levels ? Shown::in_json : Shown::everywhere},
+      point, &SummaryReading::points);
+  if (levels)
+    tables.table({.heading = "", .shown = Shown::to_people}, level, &SummaryReading::levels)
+        .table({.key = "levels", .meaning = "the torque levels of the points", .shown = Shown::in_csv}, level,
+               &SummaryReading::levels);
+  tables.sentence(
+      [legend](Summary s) { return nonfinite_lines(s) + points_shown(s) + (s.legend ? legend : ""); });
+  add_repeatability(tables, summary);
+  add_worlds(tables, summary);
+  return tables;
+}
+
+SummaryDescription zero_count_tables(const StudySummary& summary) {
+  SummaryDescription tables;
+  if (summary.question.claim()) {
+    PointDescription point = labelled_points(summary);
+    add_zero_count_columns(point, summary);
+    tables.table({.heading = "zero counts", .shown = Shown::to_people}, point, &SummaryReading::points)
+        .sentence([legend = legend_of(point.items())](Summary s) { return s.legend ? legend : ""; });
+  }
+  add_undecided(tables, summary);
+  add_observed(tables, summary);
+  add_stopping(tables, summary);
+  add_assurance(tables, summary);
+  return tables;
+}
+
+document::AnswerDescription<SummaryReading> summary_description(const StudySummary& summary) {
+  document::AnswerDescription<SummaryReading> answer{
+      {.name = "summary",
+       .meaning = "statistics of a study by design point; units and meanings are those of a rotary axis",
+       .csv_table = summary.features.open_loop ? "levels" : "points"},
+      {}};
+  answer.items.headline(headline)
+      .sentence(details)
+      .value({.key = "name", .meaning = "name of the study", .shown = Shown::in_data},
+             [](Summary s) { return s.summary.name; })
+      .value({.key = "design", .meaning = "how trials are drawn", .shown = Shown::in_data},
+             [](Summary s) { return s.summary.design; })
+      .value({.key = "conservative_bounds",
+              .meaning = "whether the design makes bounds wider than needed",
+              .shown = Shown::in_data},
+             [](Summary s) { return s.summary.features.spread_trials; })
+      .value({.key = "confidence", .meaning = "of all bounds", .unit = "1", .shown = Shown::in_data},
+             [](Summary s) { return s.summary.confidence; });
+  if (summary.unfinished)
+    answer.items.object({.key = "unfinished", .meaning = "how far the run has come", .shown = Shown::in_data},
+                        unfinished_description(), [](Summary s) { return s.summary.unfinished; });
+  answer.items.sentence(study_lines);
+  if (!summary.features.open_loop)
+    answer.items.object({.key = "best",
+                         .meaning = "the point that the headline is of, and its competitors",
+                         .shown = Shown::in_data},
+                        chosen_description(), same_summary);
+  answer.items.include(question_tables(summary), same_summary)
+      .include(zero_count_tables(summary), same_summary)
+      .sentence([](Summary s) -> std::string {
+        return s.legend ? "" : "(zerocount summary --legend explains the columns)";
+      });
+  answer.items
+      .object({.key = "confirmation",
+               .meaning = "new trials of the chosen point (--confirm)",
+               .shown = Shown::in_data,
+               .optional = true},
+              confirmation_description(summary), confirmation_of)
+      .sentence(confirmation_text);
+  return answer;
+}
+
+document::AnswerType summary_type() {
+  StudySummary plain, levels;
+  levels.features.open_loop = true;
+  StudySummary without_machines = full_study();
+  without_machines.features.rigs = false;
+  without_machines.question.parts.front().claim->machines.reset();
+  document::AnswerType type = summary_description(full_study()).complete_type();
+  for (const StudySummary* other : {&without_machines, &plain, &levels})
+    type.items = united(std::move(type.items), summary_description(*other).items.items());
+  return type;
+}
+
+document::Answer summary_answer(const StudySummary& summary, const SummaryForm& form) {
+  return summary_description(summary).of(read_summary(summary, form));
+}
+
+}  // namespace zerocount::summary_answer

@@ -15,15 +15,13 @@
 namespace zerocount::comparison {
 namespace {
 
+using document::bounded;
 using document::Description;
+using document::everywhere;
 using document::in_data;
-using document::Shown;
+using document::to_people;
 using document::with_words;
 using Comparison = const StudyComparison&;
-
-document::Bounded bounded(double value, const statistics::ConfidenceInterval& bounds) {
-  return {value, bounds.low, bounds.high};
-}
 
 std::optional<std::int64_t> whole(const std::optional<double>& trials) {
   return trials ? std::optional(static_cast<std::int64_t>(*trials)) : std::nullopt;
@@ -47,19 +45,23 @@ std::vector<std::string> change_words() {
 }
 
 Description<ComparedFile> file_description() {
-  using File = const ComparedFile&;
+  using layout::FileHeader;
+  using layout::Provenance;
+  const auto build =
+      Description<Provenance>()
+          .value(in_data("zerocount_version", "version of the program"), &Provenance::zerocount_version)
+          .value(in_data("git_commit", "commit of the program"), &Provenance::git_commit)
+          .value(in_data("created", "time of the run, UTC"), &Provenance::created);
+  const auto header = Description<FileHeader>()
+                          .value(in_data("name", "name of the study"), &FileHeader::name)
+                          .include(build, &FileHeader::provenance)
+                          .value(in_data("engine", "engine that simulated the trials"),
+                                 [](const FileHeader& of) { return layout::name_of(of.engine); })
+                          .value(in_data("seed", "seed of the study"), &FileHeader::seed)
+                          .value(in_data("trials", "trials per design point"), &FileHeader::trials);
   return Description<ComparedFile>()
       .value(in_data("path", "path of the file"), &ComparedFile::path)
-      .value(in_data("name", "name of the study"), [](File f) { return f.header.name; })
-      .value(in_data("zerocount_version", "version of the program"),
-             [](File f) { return f.header.provenance.zerocount_version; })
-      .value(in_data("git_commit", "commit of the program"),
-             [](File f) { return f.header.provenance.git_commit; })
-      .value(in_data("engine", "engine that simulated the trials"),
-             [](File f) { return layout::name_of(f.header.engine); })
-      .value(in_data("created", "time of the run, UTC"), [](File f) { return f.header.provenance.created; })
-      .value(in_data("seed", "seed of the study"), [](File f) { return f.header.seed; })
-      .value(in_data("trials", "trials per design point"), [](File f) { return f.header.trials; });
+      .include(header, &ComparedFile::header);
 }
 
 Description<MeasureComparison> measure_description() {
@@ -173,22 +175,19 @@ Description<VerdictCounts> counts_description() {
 }
 
 Description<ComparisonRow> row_description() {
-  const auto shown = [](const char* heading) {
-    return document::Item{.heading = heading, .shown = Shown::to_people};
-  };
   // One column names the rows, so that every part of a divided table has it.
   return Description<ComparisonRow>()
-      .value(shown("point, measure"),
+      .value(to_people("point, measure"),
              [](const ComparisonRow& row) { return fmt::format("{} {}", row.point, row.measure); })
-      .value(shown("verdict"), &ComparisonRow::verdict)
-      .value(shown("baseline"), &ComparisonRow::baseline)
-      .value(shown("file"), &ComparisonRow::current)
-      .value(shown("worse by"), &ComparisonRow::worse_by)
-      .value(shown("bounds"), &ComparisonRow::bounds)
-      .value(shown("margin"), &ComparisonRow::margin)
-      .value(shown("detects"), &ComparisonRow::detects)
-      .value(shown("p"), &ComparisonRow::p)
-      .value(shown("note"), &ComparisonRow::note);
+      .value(to_people("verdict"), &ComparisonRow::verdict)
+      .value(to_people("baseline"), &ComparisonRow::baseline)
+      .value(to_people("file"), &ComparisonRow::current)
+      .value(to_people("worse by"), &ComparisonRow::worse_by)
+      .value(to_people("bounds"), &ComparisonRow::bounds)
+      .value(to_people("margin"), &ComparisonRow::margin)
+      .value(to_people("detects"), &ComparisonRow::detects)
+      .value(to_people("p"), &ComparisonRow::p)
+      .value(to_people("note"), &ComparisonRow::note);
 }
 
 std::string file_text(const ComparedFile& file) {
@@ -205,10 +204,10 @@ constexpr std::size_t max_rows = 60;
 Description<manifest::ManifestDifference> difference_description() {
   using Difference = manifest::ManifestDifference;
   Description<Difference> description;
-  description.value({.key = "key", .heading = "key", .meaning = "dotted path"}, &Difference::key);
+  description.value(everywhere("key", "key", "dotted path"), &Difference::key);
   const auto add = [&](document::Item data, const char* heading, std::string Difference::*value) {
     description.value(std::move(data), value)
-        .value({.heading = heading, .shown = Shown::to_people}, [value](const Difference& difference) {
+        .value(to_people(heading), [value](const Difference& difference) {
           return (difference.*value).empty() ? "(absent)" : difference.*value;
         });
   };
@@ -256,46 +255,39 @@ std::optional<std::string> baseline_label(Comparison comparison) {
 }
 
 void add_facts(Description<StudyComparison>& items) {
-  const auto shown = [](const char* heading) {
-    return document::Item{.heading = heading, .shown = Shown::to_people};
-  };
   items
-      .value(shown("baseline"),
+      .value(to_people("baseline"),
              [](Comparison c) { return compares_points(c) ? std::string() : file_text(c.baseline); })
-      .value(shown("file"), [](Comparison c) { return file_text(c.current); })
+      .value(to_people("file"), [](Comparison c) { return file_text(c.current); })
       .object(in_data("baseline", "the file of the baseline"), file_description(), &StudyComparison::baseline)
       .object(in_data("current", "the file that is compared with it"), file_description(),
               &StudyComparison::current)
-      .value({.key = "baseline_label",
-              .heading = "baseline point",
-              .meaning = "label of the baseline's point, where two points of one file are compared"},
+      .value(everywhere("baseline_label", "baseline point",
+                        "label of the baseline's point, where two points of one file are compared"),
              baseline_label)
-      .value(shown("point"),
+      .value(to_people("point"),
              [](Comparison c) { return compares_points(c) ? c.points.front().label : std::string(); })
-      .value(shown("compared"),
+      .value(to_people("compared"),
              [](Comparison c) { return fmt::format("{}: {}", to_string(c.layer), c.layer_reason); })
       .value(with_words(in_data("layer", "what the files have in common"), {"bits", "paired", "two_samples"}),
              [](Comparison c) { return to_string(c.layer); })
       .value(in_data("layer_reason", "why they are compared so"), &StudyComparison::layer_reason)
       .value(in_data("equal_to_the_bit", "whether every dataset is equal to the bit"),
              &StudyComparison::equal_to_the_bit)
-      .value({.key = "first_difference",
-              .heading = "first difference",
-              .meaning = "first dataset that differs, with the place; empty if not searched for"},
+      .value(everywhere("first_difference", "first difference",
+                        "first dataset that differs, with the place; empty if not searched for"),
              &StudyComparison::first_difference)
-      .value({.key = "goal", .heading = "goal", .meaning = "the goal by which the points are judged"},
+      .value(everywhere("goal", "goal", "the goal by which the points are judged"),
              [](Comparison c) { return c.goal ? std::optional(goal::goal_sentence(*c.goal)) : std::nullopt; })
-      .value({.key = "changed_inputs",
-              .heading = "changed inputs",
-              .meaning = "drawn parameters whose values differ on the same draws"},
+      .value(everywhere("changed_inputs", "changed inputs",
+                        "drawn parameters whose values differ on the same draws"),
              &StudyComparison::changed_inputs)
       .sentence([](Comparison c) {
         return c.notes.empty() ? "" : fmt::format("note: {}", fmt::join(c.notes, "\nnote: "));
       })
       .value(in_data("notes", "what else the reader should know"), &StudyComparison::notes)
-      .table({.key = "manifest_differences",
-              .heading = "What differs in the manifest",
-              .meaning = "keys whose values differ; a value is empty where its key is absent"},
+      .table(everywhere("manifest_differences", "What differs in the manifest",
+                        "keys whose values differ; a value is empty where its key is absent"),
              difference_description(), &StudyComparison::manifest_differences);
 }
 
@@ -312,7 +304,7 @@ void add_judgements(Description<StudyComparison>& items) {
              [](Comparison) { return decision_probability; })
       .value(in_data("max_trials_to_decide", "trials per design point, the most that were tried", "1"),
              &StudyComparison::max_trials_to_decide)
-      .table({.heading = "Judgements", .shown = Shown::to_people}, row_description(), rows_shown)
+      .table(to_people("Judgements"), row_description(), rows_shown)
       .sentence(omitted_sentence)
       .table(in_data("points", "the design points"), point_description(), &StudyComparison::points)
       .sentence(legend)

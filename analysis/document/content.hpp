@@ -18,6 +18,11 @@ struct Bounded {
   double high;
 };
 
+/// A value with bounds, which have the members `low` and `high`.
+Bounded bounded(double value, const auto& bounds) {
+  return {value, bounds.low, bounds.high};
+}
+
 struct Content;
 
 /// The contents of the members of an item, in their order.

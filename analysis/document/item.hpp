@@ -89,6 +89,19 @@ struct Item {
   std::vector<Item> members{};  ///< of an object, a table, sections or their rows; [0] of a list and a map
 };
 
+/// An item that is shown in all formats.
+inline Item everywhere(std::string key, std::string heading, std::string meaning, std::string unit = {}) {
+  return {.key = std::move(key),
+          .heading = std::move(heading),
+          .meaning = std::move(meaning),
+          .unit = std::move(unit)};
+}
+
+/// An item that is shown in text, Markdown and HTML only.
+inline Item to_people(std::string heading) {
+  return {.heading = std::move(heading), .shown = Shown::to_people};
+}
+
 /// An item that is shown in JSON and CSV only.
 inline Item in_data(std::string key, std::string meaning, std::string unit = {}) {
   return {

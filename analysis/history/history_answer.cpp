@@ -13,9 +13,11 @@
 namespace zerocount::history {
 namespace {
 
+using document::bounded;
 using document::Description;
+using document::everywhere;
 using document::in_data;
-using document::Shown;
+using document::to_people;
 
 /// A run of a series.
 struct RunReading {
@@ -36,7 +38,7 @@ struct ChangeReading {
 
 struct ComparisonReading {
   const RunRecord& run;
-  const ValueComparison& compared;
+  ValueComparison compared;
 };
 
 /// A run, by its time and its commit.
@@ -63,28 +65,23 @@ std::string bounds_text(const Series& series, const RunValue& value) {
   return fmt::format("[{}, {}]", value_text(series, value.bounds.low), value_text(series, value.bounds.high));
 }
 
-document::Bounded bounded(double value, const statistics::ConfidenceInterval& bounds) {
-  return {value, bounds.low, bounds.high};
-}
-
 Description<ComparisonReading> comparison_description() {
-  using Reading = const ComparisonReading&;
-  const auto of_baseline = [](std::string RunComparison::*member) {
-    return [member](Reading r) {
-      return r.run.comparison ? std::optional((*r.run.comparison).*member) : std::nullopt;
-    };
-  };
+  using Compared = ValueComparison;
+  const auto baseline =
+      Description<RunComparison>()
+          .value(in_data("baseline_created", "time of the baseline, UTC"), &RunComparison::baseline_created)
+          .value(in_data("baseline_commit", "commit of the baseline"), &RunComparison::baseline_commit);
+  const auto value = Description<Compared>()
+                         .value(in_data("verdict", "verdict on the change"), &Compared::verdict)
+                         .value(in_data("baseline", "value of the baseline"), &Compared::baseline)
+                         .value(in_data("effect", "change for the worse, with one-sided bounds"),
+                                [](const Compared& c) { return bounded(c.effect, c.bounds); })
+                         .value(in_data("margin", "largest accepted effect"), &Compared::margin)
+                         .value(in_data("p", "two-sided p-value of no difference", "1"), &Compared::p);
   return Description<ComparisonReading>()
-      .value(in_data("verdict", "verdict on the change"), [](Reading r) { return r.compared.verdict; })
-      .value(in_data("baseline_created", "time of the baseline, UTC"),
-             of_baseline(&RunComparison::baseline_created))
-      .value(in_data("baseline_commit", "commit of the baseline"),
-             of_baseline(&RunComparison::baseline_commit))
-      .value(in_data("baseline", "value of the baseline"), [](Reading r) { return r.compared.baseline; })
-      .value(in_data("effect", "change for the worse, with one-sided bounds"),
-             [](Reading r) { return bounded(r.compared.effect, r.compared.bounds); })
-      .value(in_data("margin", "largest accepted effect"), [](Reading r) { return r.compared.margin; })
-      .value(in_data("p", "two-sided p-value of no difference", "1"), [](Reading r) { return r.compared.p; });
+      .include(value, &ComparisonReading::compared)
+      .include(
+          baseline, [](const ComparisonReading& r) -> const auto& { return r.run.comparison; });
 }
 
 std::string note_on(const RunReading& reading) {
@@ -97,37 +94,32 @@ std::string note_on(const RunReading& reading) {
 Description<RunReading> run_description() {
   using Run = const RunReading&;
   return Description<RunReading>()
-      .value({.key = "created", .heading = "run", .meaning = "time of the run, UTC"},
-             [](Run r) { return r.record().created; })
+      .value(everywhere("created", "run", "time of the run, UTC"), [](Run r) { return r.record().created; })
       .value(in_data("git_commit", "commit of the program"), [](Run r) { return r.record().git_commit; })
-      .value({.heading = "commit", .shown = Shown::to_people},
-             [](Run r) { return r.record().git_commit.substr(0, 10); })
+      .value(to_people("commit"), [](Run r) { return r.record().git_commit.substr(0, 10); })
       .value(in_data("zerocount_version", "version of the program"),
              [](Run r) { return r.record().zerocount_version; })
       .value(in_data("study_sha256", "hash of the study"), [](Run r) { return r.record().study_sha256; })
-      .value({.key = "seed", .heading = "seed", .meaning = "seed of the study, decimal"},
-             [](Run r) { return r.record().seed; })
-      .value({.key = "trials", .heading = "trials", .meaning = "trials per design point"},
+      .value(everywhere("seed", "seed", "seed of the study, decimal"), [](Run r) { return r.record().seed; })
+      .value(everywhere("trials", "trials", "trials per design point"),
              [](Run r) { return r.record().trials; })
       .value(in_data("n", "trials or values that the value is of"), [](Run r) { return r.value().n; })
       .value(in_data("value", "value of the measure, in its unit, with 95 % bounds"),
              [](Run r) { return bounded(r.value().value, r.value().bounds); })
-      .value({.heading = "value", .shown = Shown::to_people},
-             [](Run r) { return value_text(r.series, r.value().value); })
-      .value({.heading = "95 % bounds", .shown = Shown::to_people},
-             [](Run r) { return bounds_text(r.series, r.value()); })
+      .value(to_people("value"), [](Run r) { return value_text(r.series, r.value().value); })
+      .value(to_people("95 % bounds"), [](Run r) { return bounds_text(r.series, r.value()); })
       .object(in_data("comparison", "comparison with the baseline"), comparison_description(),
               [](Run r) -> std::optional<ComparisonReading> {
                 if (!r.value().comparison) return {};
                 return ComparisonReading{r.record(), *r.value().comparison};
               })
-      .value({.heading = "verdict", .shown = Shown::to_people},
+      .value(to_people("verdict"),
              [](Run r) { return r.value().comparison ? r.value().comparison->verdict : std::string(); })
       .value(in_data("changed", "changes after which this is the first run"),
              [](Run r) { return r.changes(&SeriesChange::first); })
       .value(in_data("significant", "changes that are significant since this run"),
              [](Run r) { return r.changes(&SeriesChange::significant); })
-      .value({.heading = "change", .shown = Shown::to_people}, note_on);
+      .value(to_people("change"), note_on);
 }
 
 Description<ChangeReading> change_description() {
@@ -168,23 +160,19 @@ std::vector<ChangeReading> change_readings(const Series& series) {
 Description<Series> series_description() {
   using Of = const Series&;
   return Description<Series>()
-      .value({.key = "study", .heading = "study", .meaning = "name of the study"}, &Series::study)
+      .value(everywhere("study", "study", "name of the study"), &Series::study)
       .value(in_data("series_sha256", "hash of the question, equal for all runs"), &Series::series_sha256)
-      .value({.key = "point", .heading = "point", .meaning = "label of the design point"}, &Series::point)
-      .value({.key = "measure", .heading = "measure", .meaning = "name of the measure"}, &Series::measure)
+      .value(everywhere("point", "point", "label of the design point"), &Series::point)
+      .value(everywhere("measure", "measure", "name of the measure"), &Series::measure)
       .value(in_data("unit", "unit of the values"), &Series::unit)
       .value(document::with_words(in_data("test", "how the series is tested"), {"levels", "baseline"}),
              [](Of s) { return s.test == SeriesTest::levels ? "levels" : "baseline"; })
-      .value({.heading = "since", .shown = Shown::to_people},
-             [](Of s) { return s.runs.front().run.created.substr(0, 10); })
-      .value({.heading = "runs", .shown = Shown::to_people}, [](Of s) { return s.runs.size(); })
-      .value({.heading = "first", .shown = Shown::to_people},
-             [](Of s) { return value_text(s, s.runs.front().value.value); })
-      .value({.heading = "last", .shown = Shown::to_people},
-             [](Of s) { return value_text(s, s.runs.back().value.value); })
-      .value({.heading = "95 % bounds", .shown = Shown::to_people},
-             [](Of s) { return bounds_text(s, s.runs.back().value); })
-      .value({.heading = "changes", .shown = Shown::to_people}, [](Of s) { return s.changes.size(); })
+      .value(to_people("since"), [](Of s) { return s.runs.front().run.created.substr(0, 10); })
+      .value(to_people("runs"), [](Of s) { return s.runs.size(); })
+      .value(to_people("first"), [](Of s) { return value_text(s, s.runs.front().value.value); })
+      .value(to_people("last"), [](Of s) { return value_text(s, s.runs.back().value.value); })
+      .value(to_people("95 % bounds"), [](Of s) { return bounds_text(s, s.runs.back().value); })
+      .value(to_people("changes"), [](Of s) { return s.changes.size(); })
       .table(in_data("runs", "runs by time"), run_description(), run_readings)
       .table(in_data("changes", "changes that are significant"), change_description(), change_readings);
 }
@@ -229,9 +217,9 @@ document::AnswerDescription<History> history_answer() {
              [](Of) { return false_alarm_runs; })
       .value(in_data("threshold", "limit of |z| of the test levels", "1"), &History::threshold)
       .value(in_data("max_p", "limit of p of the test baseline", "1"), &History::max_p)
-      .table({.key = "series", .heading = "Series", .meaning = "a measure at a point in all runs"},
-             series_description(), &History::series)
-      .table({.heading = "Runs", .shown = Shown::to_people}, run_description(), [](Of h) {
+      .table(everywhere("series", "Series", "a measure at a point in all runs"), series_description(),
+             &History::series)
+      .table(to_people("Runs"), run_description(), [](Of h) {
         return h.series.size() == 1 ? run_readings(h.series.front()) : std::vector<RunReading>();
       });
   return answer;

@@ -10,9 +10,10 @@ namespace zerocount::jerks {
 namespace {
 
 using document::AnswerDescription;
+using document::bounded;
 using document::Description;
+using document::everywhere;
 using document::in_data;
-using document::Shown;
 
 /// The jerks of a point, and the report that they are in.
 struct PointReading {
@@ -22,54 +23,34 @@ struct PointReading {
   const JerkStatistics& statistics() const { return jerks.statistics; }
 };
 
-document::Bounded bounded(double value, const statistics::ConfidenceInterval& bounds) {
-  return {value, bounds.low, bounds.high};
-}
-
 Description<JerkRate> rate_description() {
   using Rate = const JerkRate&;
   return Description<JerkRate>()
-      .value({.key = "from", .heading = "from", .meaning = "start of the range, since arrival", .unit = "s"},
-             &JerkRate::from)
-      .value({.key = "to",
-              .heading = "to",
-              .meaning = "end of the range, since arrival; belongs to the next",
-              .unit = "s"},
+      .value(everywhere("from", "from", "start of the range, since arrival", "s"), &JerkRate::from)
+      .value(everywhere("to", "to", "end of the range, since arrival; belongs to the next", "s"),
              &JerkRate::to)
-      .value({.key = "moves",
-              .heading = "moves",
-              .meaning = "moves in which a jerk could have begun in the range"},
+      .value(everywhere("moves", "moves", "moves in which a jerk could have begun in the range"),
              &JerkRate::moves)
-      .value({.key = "exposure",
-              .heading = "exposure",
-              .meaning = "time in which a jerk could have begun, summed over all moves",
-              .unit = "s"},
+      .value(everywhere("exposure", "exposure",
+                        "time in which a jerk could have begun, summed over all moves", "s"),
              &JerkRate::exposure)
-      .value({.key = "jerks", .heading = "jerks", .meaning = "jerks that began in the range"},
-             &JerkRate::jerks)
-      .value({.key = "rate",
-              .heading = "rate",
-              .meaning = "jerks per exposure, with Garwood's bounds, widened by the dispersion",
-              .unit = "1/s"},
+      .value(everywhere("jerks", "jerks", "jerks that began in the range"), &JerkRate::jerks)
+      .value(everywhere("rate", "rate",
+                        "jerks per exposure, with Garwood's bounds, widened by the dispersion", "1/s"),
              [](Rate r) { return bounded(r.rate, r.bounds); })
       .value(in_data("poisson_low", "lower bound of the rate of independent jerks (Garwood)", "1/s"),
              [](Rate r) { return r.poisson.low; })
       .value(in_data("poisson_high", "its upper bound", "1/s"), [](Rate r) { return r.poisson.high; })
-      .value({.key = "dispersion",
-              .heading = "dispersion",
-              .meaning = "variance of the jerks of a trial, divided by that of independent ones",
-              .unit = "1"},
+      .value(everywhere("dispersion", "dispersion",
+                        "variance of the jerks of a trial, divided by that of independent ones", "1"),
              &JerkRate::dispersion);
 }
 
 Description<JerkIntervals> interval_description() {
   using Intervals = const JerkIntervals&;
   Description<JerkIntervals> description;
-  description
-      .value({.key = "n", .heading = "number", .meaning = "intervals between the jerks of a move"},
-             &JerkIntervals::n)
-      .value({.key = "mean", .heading = "mean", .meaning = "mean interval", .unit = "s"},
-             &JerkIntervals::mean);
+  description.value(everywhere("n", "number", "intervals between the jerks of a move"), &JerkIntervals::n)
+      .value(everywhere("mean", "mean", "mean interval", "s"), &JerkIntervals::mean);
   for (std::size_t i = 0; i < jerk_interval_probabilities.size(); ++i) {
     const double percent = 100.0 * jerk_interval_probabilities[i];
     description.value({.key = fmt::format("p{:02.0f}", percent),
@@ -123,33 +104,57 @@ Description<JerkMagnitudes> magnitude_description() {
              &JerkMagnitudes::longest_duration);
 }
 
+Description<CreepAgreement> agreement_description() {
+  return Description<CreepAgreement>()
+      .value(in_data("ended", "waits that ended with a jerk"), &CreepAgreement::ended)
+      .value(in_data("predicted", "of these, predicted to within two samples and 1 %"),
+             &CreepAgreement::predicted)
+      .value(in_data("lasting", "waits without a jerk"), &CreepAgreement::lasting)
+      .value(in_data("lasting_predicted", "of these, predicted to last as long"),
+             &CreepAgreement::lasting_predicted)
+      .value(in_data("median_deviation", "median deviation of the onset from its prediction", "s"),
+             &CreepAgreement::median_deviation)
+      .value(in_data("largest_deviation", "largest deviation of the onset", "s"),
+             &CreepAgreement::largest_deviation);
+}
+
 Description<PointJerks> creep_description() {
   using Jerks = const PointJerks&;
-  const auto predictions =
-      Description<PointJerks>()
-          .value(in_data("ended", "waits that ended with a jerk"),
-                 [](Jerks j) { return j.creep_agreement.ended; })
-          .value(in_data("predicted", "of these, predicted to within two samples and 1 %"),
-                 [](Jerks j) { return j.creep_agreement.predicted; })
-          .value(in_data("lasting", "waits without a jerk"),
-                 [](Jerks j) { return j.creep_agreement.lasting; })
-          .value(in_data("lasting_predicted", "of these, predicted to last as long"),
-                 [](Jerks j) { return j.creep_agreement.lasting_predicted; })
-          .value(in_data("too_short", "excluded waits: not longer than a dwell"),
-                 [](Jerks j) { return j.creep.too_short; })
+  const auto applies = [](Jerks j) { return j.creep.not_applicable.empty(); };
+  const auto waits =
+      Description<CreepComparison>()
+          .value(in_data("too_short", "excluded waits: not longer than a dwell"), &CreepComparison::too_short)
           .value(in_data("unsteady", "excluded waits: the torque was not constant, or the hook slid"),
-                 [](Jerks j) { return j.creep.unsteady; })
-          .value(in_data("median_deviation", "median deviation of the onset from its prediction", "s"),
-                 [](Jerks j) { return j.creep_agreement.median_deviation; })
-          .value(in_data("largest_deviation", "largest deviation of the onset", "s"),
-                 [](Jerks j) { return j.creep_agreement.largest_deviation; });
+                 &CreepComparison::unsteady);
   return Description<PointJerks>()
       .value(in_data("trials", "trials simulated again"), [](Jerks j) { return j.creep.trials; })
       .value(in_data("not_applicable", "reason why the closed form does not apply"),
-             [](Jerks j) {
-               return j.creep.not_applicable.empty() ? std::nullopt : std::optional(j.creep.not_applicable);
-             })
-      .include(predictions, [](Jerks j) { return j.creep.not_applicable.empty() ? &j : nullptr; });
+             [applies](Jerks j) { return applies(j) ? std::nullopt : std::optional(j.creep.not_applicable); })
+      .include(agreement_description(),
+               [applies](Jerks j) { return applies(j) ? &j.creep_agreement : nullptr; })
+      .include(waits, [applies](Jerks j) { return applies(j) ? &j.creep : nullptr; });
+}
+
+Description<JerkStatistics> statistics_description() {
+  using Statistics = JerkStatistics;
+  return Description<Statistics>()
+      .value(in_data("trials", "trials of the design point"), &Statistics::trials)
+      .value(in_data("moves", "moves of all trials"), &Statistics::moves)
+      .value(in_data("arrived", "moves that arrived; only these can jerk"), &Statistics::arrived)
+      .value(in_data("lost", "moves that became non-finite after arrival; excluded"), &Statistics::lost)
+      .value(in_data("trials_with_jerks", "trials with at least one jerk"), &Statistics::with_jerks)
+      .value(in_data("jerks", "jerks of all trials"), &Statistics::jerks)
+      .table(everywhere("rates", "Rate of jerks since arrival", "rate by time"), rate_description(),
+             &Statistics::rates)
+      .object(everywhere("interval", "Intervals between the jerks of a move",
+                         "times between the onsets of successive jerks of a move"),
+              interval_description(), &Statistics::intervals)
+      .object(in_data("slowing", "trend of the intervals between the jerks of a move"), slowing_description(),
+              &Statistics::slowing)
+      .object(in_data("agreement", "jerks in the direction of their holding torque"),
+              proportion_description(), &Statistics::agreement)
+      .object(in_data("magnitude", "largest |error| of the jerks"), magnitude_description(),
+              &Statistics::magnitudes);
 }
 
 std::string counts_sentence(const PointReading& point) {
@@ -216,32 +221,7 @@ Description<PointReading> point_description() {
       .sentence(creep_sentence)
       .value(in_data("point", "number of the design point"), [](Point p) { return p.jerks.point; })
       .value(in_data("label", "label of the design point"), [](Point p) { return p.jerks.label; })
-      .value(in_data("trials", "trials of the design point"), [](Point p) { return p.statistics().trials; })
-      .value(in_data("moves", "moves of all trials"), [](Point p) { return p.statistics().moves; })
-      .value(in_data("arrived", "moves that arrived; only these can jerk"),
-             [](Point p) { return p.statistics().arrived; })
-      .value(in_data("lost", "moves that became non-finite after arrival; excluded"),
-             [](Point p) { return p.statistics().lost; })
-      .value(in_data("trials_with_jerks", "trials with at least one jerk"),
-             [](Point p) { return p.statistics().with_jerks; })
-      .value(in_data("jerks", "jerks of all trials"), [](Point p) { return p.statistics().jerks; })
-      .table(
-          {.key = "rates", .heading = "Rate of jerks since arrival", .meaning = "rate by time"},
-          rate_description(), [](Point p) -> const auto& { return p.statistics().rates; })
-      .object(
-          {.key = "interval",
-           .heading = "Intervals between the jerks of a move",
-           .meaning = "times between the onsets of successive jerks of a move"},
-          interval_description(), [](Point p) -> const auto& { return p.statistics().intervals; })
-      .object(
-          in_data("slowing", "trend of the intervals between the jerks of a move"), slowing_description(),
-          [](Point p) -> const auto& { return p.statistics().slowing; })
-      .object(
-          in_data("agreement", "jerks in the direction of their holding torque"), proportion_description(),
-          [](Point p) -> const auto& { return p.statistics().agreement; })
-      .object(
-          in_data("magnitude", "largest |error| of the jerks"), magnitude_description(),
-          [](Point p) -> const auto& { return p.statistics().magnitudes; })
+      .include(statistics_description(), &PointReading::statistics)
       .object(
           in_data("creep", "comparison with the closed form of creep at constant torque"),
           creep_description(), [](Point p) -> const auto& { return p.jerks; });

@@ -12,17 +12,16 @@ namespace zerocount::sensitivity {
 namespace {
 
 using document::Description;
+using document::everywhere;
 using document::in_data;
 using document::Shown;
 
 Description<FactorSensitivity> factor_description() {
   Description<FactorSensitivity> description;
   description
-      .value({.key = "name",
-              .heading = "factor",
-              .meaning = "dotted path of the parameter, or what is drawn within trials"},
+      .value(everywhere("name", "factor", "dotted path of the parameter, or what is drawn within trials"),
              &FactorSensitivity::name)
-      .value({.key = "matters", .heading = "matters", .meaning = "whether it is shown to have an influence"},
+      .value(everywhere("matters", "matters", "whether it is shown to have an influence"),
              &FactorSensitivity::matters);
   const auto add = [&](const char* key, const char* heading, const char* meaning,
                        BoundedNumber FactorSensitivity::*number) {
@@ -81,12 +80,10 @@ Description<OutputSensitivity> output_description() {
              &OutputSensitivity::standard_deviation)
       .table({.key = "factors", .meaning = "what varies in the trials, strongest first"},
              factor_description(), &OutputSensitivity::factors)
-      .table({.key = "left_out", .heading = "Left out", .meaning = "factors without numbers"},
+      .table(everywhere("left_out", "Left out", "factors without numbers"),
              Description<FactorLeftOut>()
-                 .value({.key = "name", .heading = "factor", .meaning = "name of the factor"},
-                        &FactorLeftOut::name)
-                 .value({.key = "reason", .heading = "reason", .meaning = "why it has no numbers"},
-                        &FactorLeftOut::reason),
+                 .value(everywhere("name", "factor", "name of the factor"), &FactorLeftOut::name)
+                 .value(everywhere("reason", "reason", "why it has no numbers"), &FactorLeftOut::reason),
              &OutputSensitivity::left_out);
 }
 

@@ -60,7 +60,7 @@ TEST_F(ReportCommand, ComparesByTheMarginsOfTheGate) {
   const ProgramResult result =
       run({"report", "a.h5", "--baseline", "a.h5", "--margins", "gate.yaml", "-o", "m.html"});
   EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_NE(folder->read("m.html").find("0.9999"), std::string::npos);
+  EXPECT_NE(folder->read("m.html").find("99.99 %"), std::string::npos);
 }
 
 TEST_F(ReportCommand, IsTheSamePageEveryTime) {

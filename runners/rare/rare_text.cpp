@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/goal/goal_text.hpp"
-#include "analysis/goal/question.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/report_json.hpp"
 #include "analysis/text/text.hpp"
@@ -41,6 +40,12 @@ std::int64_t failures_drawn(const EstimatorState& state) {
 std::string event_text(const Question& question) {
   if (!question.event.text.empty()) return fmt::format("of a move with {}", question.event.text);
   return "that a move " + goal::missing_text(goal::question_of(question.study));
+}
+
+/// In JSON: the text of the event, or "goal" or "success", which is missed.
+std::string event_name(const Question& question) {
+  if (!question.event.text.empty()) return question.event.text;
+  return std::string(words_of(goal::question_of(question.study)).subject);
 }
 
 std::string_view reason_of(EstimateStatus status) {
@@ -272,36 +277,34 @@ std::string json_of(const RareAnswer& answer, const Question& question) {
                       {"shift", input.shift},
                       {"failures", range_json(input.failures)},
                       {"usual", range_json(input.usual)}});
-  return text::json_text(
-      {{"probability", has_probability(answer) ? Json(estimate.probability) : Json()},
-       {"low", estimate.bounds.low},
-       {"high", estimate.bounds.high},
-       {"trials", answer.state.trials},
-       {"status", is_estimated(answer) ? "estimated" : "undecided"},
-       {"reason", reason_of(estimate.status)},
-       {"premise", is_estimated(answer) && !answer.state.proposal.is_natural()
-                       ? Json("high: " + premise_of(question))
-                       : Json()},
-       {"budget",
-        {{"trials", answer.max_trials ? Json(*answer.max_trials) : Json()},
-         {"seconds", answer.max_seconds ? Json(*answer.max_seconds) : Json()}}},
-       {"confidence", answer.confidence},
-       {"event", question.event.text.empty() ? Json(goal::words_of(goal::question_of(question.study)).subject)
-                                             : Json(question.event.text)},
-       {"point", question.point},
-       {"label", question.study.point_labels[static_cast<std::size_t>(question.point)]},
-       {"world", question.world ? Json(*question.world) : Json()},
-       {"plain",
-        {{"trials", answer.state.plain_trials},
-         {"failures", answer.state.plain_failures},
-         {"high", estimate.plain_high}}},
-       {"scores", scores_json(answer, question)},
-       {"drawn", answer.state.drawn.size()},
-       {"failures_drawn", failures_drawn(answer.state)},
-       {"values", values_json(answer, question)},
-       {"inputs", std::move(inputs)},
-       {"machines", machines_json(answer)},
-       {"seconds", answer.seconds}});
+  return text::json_text({{"probability", has_probability(answer) ? Json(estimate.probability) : Json()},
+                          {"low", estimate.bounds.low},
+                          {"high", estimate.bounds.high},
+                          {"trials", answer.state.trials},
+                          {"status", is_estimated(answer) ? "estimated" : "undecided"},
+                          {"reason", reason_of(estimate.status)},
+                          {"premise", is_estimated(answer) && !answer.state.proposal.is_natural()
+                                          ? Json("high: " + premise_of(question))
+                                          : Json()},
+                          {"budget",
+                           {{"trials", answer.max_trials ? Json(*answer.max_trials) : Json()},
+                            {"seconds", answer.max_seconds ? Json(*answer.max_seconds) : Json()}}},
+                          {"confidence", answer.confidence},
+                          {"event", event_name(question)},
+                          {"point", question.point},
+                          {"label", question.study.point_labels[static_cast<std::size_t>(question.point)]},
+                          {"world", question.world ? Json(*question.world) : Json()},
+                          {"plain",
+                           {{"trials", answer.state.plain_trials},
+                            {"failures", answer.state.plain_failures},
+                            {"high", estimate.plain_high}}},
+                          {"scores", scores_json(answer, question)},
+                          {"drawn", answer.state.drawn.size()},
+                          {"failures_drawn", failures_drawn(answer.state)},
+                          {"values", values_json(answer, question)},
+                          {"inputs", std::move(inputs)},
+                          {"machines", machines_json(answer)},
+                          {"seconds", answer.seconds}});
 }
 
 std::string text_of(const RareAnswer& answer, const Question& question, const std::string& output) {

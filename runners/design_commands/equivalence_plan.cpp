@@ -12,18 +12,16 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include "analysis/comparison/comparison_report.hpp"
 #include "analysis/comparison/forecast.hpp"
 #include "analysis/comparison/measure_comparison.hpp"
 #include "analysis/comparison/point_trials.hpp"
 #include "analysis/parallel/parallel.hpp"
-#include "analysis/text/text.hpp"
+#include "analysis/text/percent.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/plugins/hidden_state.hpp"
-#include "runners/standard_output/standard_output.hpp"
 #include "runners/study_run/progress.hpp"
 #include "runners/study_run/study_runner.hpp"
 #include "runners/study_run/trial_runner.hpp"
@@ -31,7 +29,8 @@
 namespace zerocount::design_commands {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using document::in_data;
+using document::Shown;
 
 constexpr std::int64_t pilot_trials = 1000;  ///< of each design point
 constexpr std::int64_t pilot_block = 100;    ///< that one task runs
@@ -187,59 +186,98 @@ EquivalencePlan plan_of(const command_line::Arguments& arguments) {
   return plan;
 }
 
-Json json_of(const EquivalencePlan& plan) {
-  const auto number = [](const std::optional<double>& trials) {
-    return trials ? Json(static_cast<std::int64_t>(*trials)) : Json(nullptr);
-  };
-  Json json{{"confidence", plan.rules.confidence},
-            {"power", plan.power},
-            {"pilot_trials", plan.pilot},
-            {"trials", number(plan.forecast.trials)},
-            {"max_trials", static_cast<std::int64_t>(plan.forecast.max_trials)},
-            {"measures", Json::array()}};
-  for (const PlannedMeasure& one : plan.measures) {
-    json["measures"].push_back({{"point", one.point},
-                                {"measure", one.found.measure},
-                                {"unit", one.found.unit},
-                                {"value", one.found.current},
-                                {"margin", one.found.margin},
-                                {"trials", number(one.forecast.trials)}});
-  }
-  return json;
+std::optional<std::int64_t> whole(const std::optional<double>& trials) {
+  return trials ? std::optional(static_cast<std::int64_t>(*trials)) : std::nullopt;
 }
 
-std::string trials_cell(const EquivalencePlan& plan, const PlannedMeasure& one) {
-  if (one.forecast.trials) return comparison::trials_text(*one.forecast.trials);
-  return fmt::format("{} decide a margin of {}", comparison::trials_text(plan.forecast.max_trials),
-                     comparison::value_text(one.forecast.margin, one.found.measure, one.found.unit));
+/// A measure of the plan, and the most trials that were tried.
+struct MeasureRow {
+  const PlannedMeasure& planned;
+  double max_trials;
+
+  std::string text(double value) const {
+    return comparison::value_text(value, planned.found.measure, planned.found.unit);
+  }
+};
+
+std::vector<MeasureRow> measure_rows(const EquivalencePlan& plan) {
+  std::vector<MeasureRow> rows;
+  for (const PlannedMeasure& one : plan.measures) rows.push_back({one, plan.forecast.max_trials});
+  return rows;
 }
 
-std::string text_of(const EquivalencePlan& plan) {
-  std::vector<std::vector<std::string>> cells{{"point", "measure", "pilot", "margin", "trials"}};
-  for (const PlannedMeasure& one : plan.measures) {
-    const auto text = [&](double value) {
-      return comparison::value_text(value, one.found.measure, one.found.unit);
-    };
-    cells.push_back({text::printable(one.point), one.found.measure, text(one.found.current),
-                     "± " + text(one.found.margin), trials_cell(plan, one)});
-  }
-  const std::string trials = comparison::trials_text(plan.forecast.trials.value_or(plan.forecast.max_trials));
+std::string trials_cell(const MeasureRow& row) {
+  const comparison::JudgementForecast& forecast = row.planned.forecast;
+  if (forecast.trials) return comparison::trials_text(*forecast.trials);
+  return fmt::format("{} decide a margin of {}", comparison::trials_text(row.max_trials),
+                     row.text(forecast.margin));
+}
+
+document::Description<MeasureRow> measure_columns() {
+  using Row = const MeasureRow&;
+  return document::Description<MeasureRow>()
+      .value({.key = "point", .heading = "point", .meaning = "label of the design point"},
+             [](Row row) { return row.planned.point; })
+      .value({.key = "measure", .heading = "measure", .meaning = "name of the measure"},
+             [](Row row) { return row.planned.found.measure; })
+      .value(in_data("unit", "its unit"), [](Row row) { return row.planned.found.unit; })
+      .value(in_data("value", "its value in the pilot, in its unit"),
+             [](Row row) { return row.planned.found.current; })
+      .value({.heading = "pilot", .shown = Shown::to_people, .numeric = true},
+             [](Row row) { return row.text(row.planned.found.current); })
+      .value(in_data("margin", "largest accepted difference, in its unit"),
+             [](Row row) { return row.planned.found.margin; })
+      .value({.heading = "margin", .shown = Shown::to_people, .numeric = true},
+             [](Row row) { return "± " + row.text(row.planned.found.margin); })
+      .value(in_data("trials", "trials of each study per design point for this measure alone"),
+             [](Row row) { return whole(row.planned.forecast.trials); })
+      .value({.heading = "trials", .shown = Shown::to_people, .numeric = true}, trials_cell);
+}
+
+std::string equivalence_headline(const EquivalencePlan& plan) {
   return fmt::format(
-      "to show that two equal studies with different random numbers differ by less than the margins\n"
-      "(bounds: {:.4g} % each), by a pilot of {} trials per design point\n\n{}\n"
-      "{} trials per design point in each of the two studies{} show with a probability of {:.4g} %\n"
-      "that all these measures are equivalent\n",
-      100.0 * plan.rules.confidence, plan.pilot, text::aligned_table(cells, {false, false, true, true, true}),
-      trials, plan.forecast.trials ? "" : " do not", 100.0 * plan.power);
+      "{} trials per design point in each of the two studies{} show with a probability of {} that all these "
+      "measures are equivalent",
+      comparison::trials_text(plan.forecast.trials.value_or(plan.forecast.max_trials)),
+      plan.forecast.trials ? "" : " do not", text::percent(plan.power));
+}
+
+std::string aim_sentence(const EquivalencePlan& plan) {
+  return fmt::format(
+      "equivalent: two equal studies with different random numbers differ by less than the margins (bounds: "
+      "{} "
+      "each), by a pilot of {} trials per design point",
+      text::percent(plan.rules.confidence), plan.pilot);
+}
+
+document::AnswerDescription<EquivalencePlan> equivalence_answer() {
+  using Of = const EquivalencePlan&;
+  document::AnswerDescription<EquivalencePlan> answer{
+      {.name = "plan-equivalence", .meaning = "trials that show that two equal studies are equivalent"}, {}};
+  answer.items.headline(equivalence_headline)
+      .sentence(aim_sentence)
+      .value(in_data("confidence", "confidence of each bound", "1"),
+             [](Of plan) { return plan.rules.confidence; })
+      .value(in_data("power", "probability with which equivalence is shown", "1"), &EquivalencePlan::power)
+      .value(in_data("pilot_trials", "trials of the pilot per design point"), &EquivalencePlan::pilot)
+      .value(in_data("trials", "trials of each study per design point; unknown if max_trials do not suffice"),
+             [](Of plan) { return whole(plan.forecast.trials); })
+      .value(in_data("max_trials", "the most trials that were tried"),
+             [](Of plan) { return static_cast<std::int64_t>(plan.forecast.max_trials); })
+      .table({.key = "measures", .meaning = "measures at the design points"}, measure_columns(),
+             measure_rows);
+  return answer;
 }
 
 }  // namespace
 
-ExitCode print_equivalence_plan(const command_line::Arguments& arguments) {
-  const bool json = arguments.choice("format") == "json";
+document::Answer equivalence_plan(const command_line::Arguments& arguments) {
   const EquivalencePlan plan = plan_of(arguments);
-  standard_output::write(json ? json_of(plan).dump(2) + "\n" : text_of(plan));
-  return plan.forecast.trials ? ExitCode::success : ExitCode::inconclusive;
+  return equivalence_answer().of(plan, plan.forecast.trials ? ExitCode::success : ExitCode::inconclusive);
+}
+
+document::AnswerType equivalence_plan_type() {
+  return equivalence_answer().complete_type();
 }
 
 }  // namespace zerocount::design_commands

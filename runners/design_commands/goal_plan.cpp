@@ -4,95 +4,124 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
+#include "analysis/goal/goal_description.hpp"
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/goal/goal_verdict.hpp"
 #include "analysis/goal/question.hpp"
 #include "analysis/summary/judged_point.hpp"
-#include "analysis/text/report_json.hpp"
-#include "analysis/text/text.hpp"
 #include "runners/commands/study_argument.hpp"
-#include "runners/standard_output/standard_output.hpp"
 
 namespace zerocount::design_commands {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using document::in_data;
+using document::Shown;
+using document::with_words;
 
 constexpr std::string_view other_plans = ", or --success, --halfwidth or --margin";
 
-Json needs_json(const goal::Needs& needs) {
-  return {{"rigs", needs.rigs}, {"trials", needs.trials}};
+/// The smallest studies that can meet the goal of a manifest.
+struct GoalPlans {
+  const study::Study& study;
+  std::vector<goal::Needs> smallest;
+};
+
+std::string smallest_headline(const GoalPlans& plans) {
+  if (plans.smallest.empty()) return "no study of up to 10⁹ trials can meet the goal";
+  const goal::Needs& first = plans.smallest.front();
+  const bool on_rigs = plans.study.rigs > 0;
+  return fmt::format("the goal can be met from {} {} on, if no move misses it",
+                     on_rigs ? first.rigs : first.trials, on_rigs ? "rigs" : "trials");
 }
 
-void print_plan_of_study(const study::Study& study, bool json) {
-  const bool on_rigs = study.rigs > 0;
-  const std::size_t points = study.point_labels.size();
-  const std::vector<goal::Needs> studies =
-      goal::smallest_studies(*study.goal, on_rigs, study.moves, points, study.worlds);
-  if (json) {
-    Json plans = Json::array();
-    for (const goal::Needs& one : studies) plans.push_back(needs_json(one));
-    standard_output::write(text::json_text(
-        {{"goal", goal::goal_sentence(*study.goal)}, {"worlds", study.worlds}, {"plans", plans}}));
-    return;
-  }
-  std::string text = fmt::format("goal: {}\n", goal::goal_sentence(*study.goal));
-  if (studies.empty()) {
-    text += "no study of up to 10⁹ trials can meet it\n";
-  } else if (!on_rigs) {
-    text += fmt::format("met from {} trials on, if no move misses it\n", studies.front().trials);
-  } else {
-    std::vector<text::TextColumn> columns{
-        {"rigs", true, {}}, {"trials on each", true, {}}, {"trials", true, {}}};
-    for (const goal::Needs& one : studies) {
-      columns[0].cells.push_back(std::to_string(one.rigs));
-      columns[1].cells.push_back(std::to_string(one.trials / one.rigs));
-      columns[2].cells.push_back(std::to_string(one.trials));
-    }
-    text += "the fewest rigs with which it can be met, if no move misses it:\n\n" +
-            text::aligned_table(columns) + "\n";
-  }
-  if (study.worlds > 0)
-    text += fmt::format("in all {} worlds together, each with as many as the others\n", study.worlds);
-  if (points > 1) text += fmt::format("at the best of the {} points\n", points);
-  text +=
-      "Moves that miss it take more: 'zerocount plan PILOT' says how many, from the results of a small "
-      "study\n";
-  standard_output::write_fitted(text);
+std::string extent_sentence(const GoalPlans& plans) {
+  std::string lines;
+  if (plans.study.worlds > 0)
+    lines += fmt::format("in all {} worlds together, each with as many as the others\n", plans.study.worlds);
+  if (const std::size_t points = plans.study.point_labels.size(); points > 1)
+    lines += fmt::format("at the best of the {} points\n", points);
+  return lines +
+         "Moves that miss it take more: 'zerocount plan PILOT' says how many, from the results of a small "
+         "study";
 }
 
-void print_plan_of_pilot(const std::string& path, bool json) {
+/// The studies for people, who see those on rigs as a table.
+std::vector<goal::Needs> smallest_on_rigs(const GoalPlans& plans) {
+  return plans.study.rigs > 0 ? plans.smallest : std::vector<goal::Needs>();
+}
+
+document::Description<goal::Needs> study_columns() {
+  return document::Description<goal::Needs>()
+      .value({.heading = "rigs"}, &goal::Needs::rigs)
+      .value({.heading = "trials on each"}, [](const goal::Needs& one) { return one.trials / one.rigs; })
+      .value({.heading = "trials"}, &goal::Needs::trials);
+}
+
+document::AnswerDescription<GoalPlans> goal_answer() {
+  document::AnswerDescription<GoalPlans> answer{
+      {.name = "plan-goal", .meaning = "the smallest studies that can meet the goal of a manifest"}, {}};
+  answer.items.headline(smallest_headline)
+      .value({.key = "goal", .heading = "goal", .meaning = "the goal in words"},
+             [](const GoalPlans& plans) { return goal::goal_sentence(*plans.study.goal); })
+      .value(in_data("worlds", "worlds; 0 without worlds"),
+             [](const GoalPlans& plans) { return plans.study.worlds; })
+      .table(in_data("plans", "studies, if no move misses the goal"), goal::needs_description(),
+             &GoalPlans::smallest)
+      .table({.heading = "the fewest rigs with which it can be met", .shown = Shown::to_people},
+             study_columns(), smallest_on_rigs)
+      .sentence(extent_sentence);
+  return answer;
+}
+
+/// The judgement of the results of a pilot.
+struct Pilot {
+  const summary::StudySummary& summary;
+  summary::JudgedPoint judged;
+};
+
+document::AnswerDescription<Pilot> pilot_answer() {
+  document::AnswerDescription<Pilot> answer{
+      {.name = "plan-pilot", .meaning = "the study that decides the goal, by the results of a small one"},
+      {}};
+  answer.items.headline([](const Pilot& p) { return summary::judgement_headline(p.summary, p.judged); })
+      .value({.key = "goal", .heading = "goal", .meaning = "the goal in words"},
+             [](const Pilot& p) { return goal::goal_sentence(*p.summary.question.claim()); })
+      .value(with_words(in_data("status", "verdict on the goal"), goal::status_words()),
+             [](const Pilot& p) { return goal::text_of(p.judged.verdict.status); })
+      .sentence([](const Pilot& p) { return summary::judgement_details(p.summary, p.judged); })
+      .sentence([](const Pilot& p) { return p.judged.needs ? "" : "  decided by these trials"; })
+      .object(in_data("needed", "study that would decide the goal"), goal::needs_description(),
+              [](const Pilot& p) { return goal::practicable(p.judged.needs); })
+      .value(in_data("probability", "probability with which it decides", "1"),
+             [](const Pilot&) { return goal::probability_of_needs; });
+  return answer;
+}
+
+document::Answer plan_of_manifest(const command_line::Arguments& arguments) {
+  const std::string& path = arguments.operands()[0];
+  const study::Study study = commands::load_study(path, arguments);
+  goal::require_claim(study.goal, path, other_plans);
+  return goal_answer().of({study, goal::smallest_studies(*study.goal, study.rigs > 0, study.moves,
+                                                         study.point_labels.size(), study.worlds)});
+}
+
+document::Answer plan_of_pilot(const std::string& path) {
   const summary::StudySummary summary = summary::summarise_file(path);
   goal::require_claim(summary.question.claim(), path, other_plans);
-  const summary::JudgedPoint judged = summary::judge_point(summary, summary::choose_point(summary));
-  if (json) {
-    const bool known = judged.needs && judged.needs->trials > 0;
-    standard_output::write(text::json_text({{"goal", goal::goal_sentence(*summary.question.claim())},
-                                            {"status", goal::text_of(judged.verdict.status)},
-                                            {"needed", known ? needs_json(*judged.needs) : Json()},
-                                            {"probability", goal::probability_of_needs}}));
-    return;
-  }
-  standard_output::write_fitted(summary::judgement_text(summary, judged) +
-                                (judged.needs ? "" : "  decided by these trials\n"));
+  return pilot_answer().of({summary, summary::judge_point(summary, summary::choose_point(summary))});
 }
 
 }  // namespace
 
-ExitCode print_goal_plan(const command_line::Arguments& arguments) {
-  const std::string& path = arguments.operands()[0];
-  const bool json = arguments.choice("format") == "json";
-  if (commands::is_results_file(path)) {
-    if (arguments.has("set")) arguments.refuse("option '--set' needs a MANIFEST");
-    print_plan_of_pilot(path, json);
-    return ExitCode::success;
-  }
-  const study::Study study = commands::load_study(path, arguments);
-  goal::require_claim(study.goal, path, other_plans);
-  print_plan_of_study(study, json);
-  return ExitCode::success;
+document::Answer goal_plan(const command_line::Arguments& arguments) {
+  if (!commands::is_results_file(arguments.operands()[0])) return plan_of_manifest(arguments);
+  if (arguments.has("set")) arguments.refuse("option '--set' needs a MANIFEST");
+  return plan_of_pilot(arguments.operands()[0]);
+}
+
+std::vector<document::AnswerType> goal_plan_types() {
+  return {goal_answer().complete_type(), pilot_answer().complete_type()};
 }
 
 }  // namespace zerocount::design_commands

@@ -1,6 +1,8 @@
 #pragma once
 
-#include "core/failure/failure.hpp"
+#include <vector>
+
+#include "analysis/document/answer.hpp"
 #include "runners/command_line/command_line.hpp"
 
 namespace zerocount::design_commands {
@@ -9,6 +11,8 @@ namespace zerocount::design_commands {
 /// manifest. Of a manifest the smallest studies that can meet it, of a results file the study that
 /// decides it with a probability of 90 %.
 /// @throws Failure (bad_input) if there is no goal
-ExitCode print_goal_plan(const command_line::Arguments& arguments);
+document::Answer goal_plan(const command_line::Arguments& arguments);
+
+std::vector<document::AnswerType> goal_plan_types();
 
 }  // namespace zerocount::design_commands

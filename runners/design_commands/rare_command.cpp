@@ -9,15 +9,16 @@
 #include "core/failure/failure.hpp"
 #include "results/storage/durable_file.hpp"
 #include "results/storage/output_lock.hpp"
+#include "runners/answers/answer_format.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/design_commands/design_commands.hpp"
+#include "runners/design_commands/rare_figure.hpp"
 #include "runners/plugins/hidden_state.hpp"
+#include "runners/rare/rare_answer.hpp"
 #include "runners/rare/rare_run.hpp"
-#include "runners/rare/rare_text.hpp"
-#include "runners/standard_output/standard_output.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_run/interruption.hpp"
 #include "runners/study_run/study_runner.hpp"
@@ -34,8 +35,8 @@ constexpr const char* rare_help =
     "largest torque, error at the end, unrest), learns a distribution of the failures it found,\n"
     "draws trials from it, and weights them, so that each has the right expectation. Every value of a\n"
     "choice, of integers and of samples is tried, be it ever so improbable. The lower bound holds in\n"
-    "any case. The upper bound assumes that no failures hide where neither a plain trial nor a score\n"
-    "leads. If nothing leads to a failure, plain trials go on to the end of the budget.\n"
+    "any case. The upper bound assumes that every kind of failure was reached by a plain trial or by a\n"
+    "score. If nothing leads to a failure, plain trials go on to the end of the budget.\n"
     "\n"
     "Without a goal the event is a move that does not end at zero counts.\n"
     "--event asks for another event: MEASURE > x, such as 'settling_time > 0.5' or\n"
@@ -96,6 +97,14 @@ rare::RareSettings settings_of(const command_line::Arguments& arguments) {
   return settings;
 }
 
+document::AnswerDescription<rare::RareReading> rare_answer() {
+  document::AnswerDescription<rare::RareReading> answer{
+      {.name = "rare", .meaning = "the probability of a rare failure", .csv_table = "inputs"},
+      rare::rare_description()};
+  answer.items.figures([](const rare::RareReading& r) { return rare_figures(r.answer.inputs); });
+  return answer;
+}
+
 ExitCode rare(const command_line::Arguments& arguments) {
   const rare::RareSettings settings = settings_of(arguments);
   const study::Study study = commands::load_study(arguments.operands()[0], arguments, {&settings.output, 1});
@@ -115,13 +124,9 @@ ExitCode rare(const command_line::Arguments& arguments) {
   commands::print_fallback_lock(lock, settings.output);
   storage::require_replaceable(settings.output);
   const rare::RareAnswer answer = rare::run_rare(question, settings, interruption.token());
-  if (arguments.choice("format") == "json") {
-    standard_output::write(rare::json_of(answer, question));
-  } else {
-    standard_output::write_fitted(rare::text_of(answer, question, settings.output.string()));
-  }
-  return answer.estimate.status == rare::EstimateStatus::estimated ? ExitCode::success
-                                                                   : ExitCode::inconclusive;
+  const bool is_estimated = answer.estimate.status == rare::EstimateStatus::estimated;
+  return answers::print(arguments, rare_answer(), rare::RareReading{answer, question, settings.output},
+                        is_estimated ? ExitCode::success : ExitCode::inconclusive);
 }
 
 }  // namespace
@@ -130,7 +135,7 @@ commands::Command rare_command() {
   return {{"rare",
            "MANIFEST -o FILE",
            {{"output,o", "FILE", "the file of the weighted trials (required)"},
-            command_line::format_option({"text", "json"}),
+            answers::format_option(rare_answer().complete_type()),
             {"event", "EVENT", "in place of a missed goal: MEASURE > x, with > >= < or <="},
             {"point", "P", "the design point, by label or number"},
             {"world", "W", "the world, of a study with worlds"},
@@ -143,7 +148,8 @@ commands::Command rare_command() {
             command_line::force_option()}},
           "the probability of a failure that plain trials do not see",
           rare_help,
-          rare};
+          rare,
+          {rare_answer().complete_type()}};
 }
 
 }  // namespace zerocount::design_commands

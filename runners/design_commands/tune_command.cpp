@@ -4,35 +4,30 @@
 
 #include <fmt/format.h>
 
-#include "analysis/goal/question.hpp"
 #include "analysis/parallel/parallel.hpp"
+#include "analysis/report/answer_page.hpp"
 #include "analysis/report/embedded_files.hpp"
 #include "analysis/report/page.hpp"
+#include "analysis/report/report.hpp"
 #include "core/failure/failure.hpp"
-#include "core/trial/trial.hpp"
-#include "experiments/yaml/text_file.hpp"
-#include "results/layout/header.hpp"
-#include "results/reading/results_file.hpp"
+#include "results/reading/study_file.hpp"
 #include "results/storage/durable_file.hpp"
 #include "results/storage/output_lock.hpp"
+#include "runners/answers/answer_format.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/figure_picture.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/design_commands/design_commands.hpp"
+#include "runners/design_commands/examined_point.hpp"
+#include "runners/design_commands/tune_answer.hpp"
 #include "runners/plugins/hidden_state.hpp"
-#include "runners/standard_output/standard_output.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_run/engine_use.hpp"
 #include "runners/study_run/interruption.hpp"
 #include "runners/study_run/study_runner.hpp"
-#include "runners/tuning/limits_text.hpp"
-#include "runners/tuning/tune_text.hpp"
 #include "runners/tuning/tuner.hpp"
-#include "runners/tuning/tuning_page.hpp"
-#include "runners/tuning/worst_in_box.hpp"
-#include "runners/tuning/worst_text.hpp"
 
 namespace zerocount::design_commands {
 namespace {
@@ -60,45 +55,73 @@ constexpr const char* tune_help =
     "\n"
     "Example: zerocount tune my-axis.yaml -o tuned.h5\n";
 
-constexpr const char* limits_help =
-    "Tells what stands between a point and its goal: the rate of the goal with each cause of\n"
-    "failures switched off alone, and with the best pair of causes: creep, the converter (16 times\n"
-    "finer), the encoder (4 times finer), the sample rate (twice), delay and amplifier lag, noise,\n"
-    "disturbance, missed and late samples. The gains are not tuned again. All are simulated with\n"
-    "the same random numbers. Without a goal the rate is that of moves that end at zero counts. Of\n"
-    "several points --point chooses one.\n"
-    "\n"
-    "Example: zerocount limits my-axis.yaml\n";
+/// `--report`, once it can be written.
+std::optional<std::filesystem::path> page_option(const command_line::Arguments& arguments,
+                                                 const std::filesystem::path& output) {
+  std::optional<std::filesystem::path> page = command_line::text_place(arguments, "report");
+  if (!page) return page;
+  command_line::require_places(arguments, {arguments.operands()[0], output}, {*page});
+  if (commands::drawing_kind(arguments, "report", *page) != commands::DrawingKind::page)
+    arguments.refuse(fmt::format("option '--report': '{}' does not end in .html", page->string()));
+  return page;
+}
 
-constexpr const char* worst_help =
-    "Finds the machine that a gain suits worst: of the machines of the study, and in the box of the\n"
-    "central 99.9 % of each quantity that differs between machines, where it is sought from the\n"
-    "worst of the study, from the corners, and from points between them; then among the likely\n"
-    "machines, whose normal scores have a sum of squares within the 99.9 % quantile. Each is judged\n"
-    "by 256 trials of its own. -o writes the manifest of the worst machine of the box: its values\n"
-    "are fixed, and `run` repeats these trials. Without a goal moves are to end at zero counts. Of\n"
-    "several points --point chooses one.\n"
-    "\n"
-    "Example: zerocount worst my-axis.yaml -o worst.yaml\n";
+/// The answer with its figures, then the report on the results file of the proof, where there is one.
+report::ReportPage tuning_page(const Tuning& tuning) {
+  report::ReportPage page =
+      report::answer_page(tune_answer().of(tuning, ExitCode::success, document::Audience::people));
+  page.title = fmt::format("{}: tuning", tuning.study.name);
+  page.subtitle = tuning.study.description;
+  page.sections.front().name = "tuning";
+  page.sections.front().title = "Tuning";
+  if (!tuning.answer.proof) return page;
+  for (report::PageSection& section : report::study_report(reading::StudyFile(tuning.output)).page.sections)
+    page.sections.push_back(std::move(section));
+  return page;
+}
 
-ExitCode tune(const command_line::Arguments& arguments) {
+tuning::TuneSettings tune_settings(const command_line::Arguments& arguments) {
   tuning::TuneSettings settings;
   settings.output = command_line::output_place(arguments);
-  const study::Study study = commands::load_study(arguments.operands()[0], arguments, {&settings.output, 1});
   settings.threads = static_cast<int>(arguments.whole_number("threads", 1, 4096).value_or(0));
   settings.quiet = arguments.has("quiet");
   const command_line::Budget budget = command_line::budget_option(arguments);
   settings.budget = {budget.trials, budget.seconds};
-  const bool json = arguments.choice("format") == "json";
   settings.force = arguments.has("force");
-  const std::optional<std::filesystem::path> page = command_line::text_place(arguments, "report");
-  if (page) {
-    command_line::require_places(arguments, {arguments.operands()[0], settings.output}, {*page});
-    if (commands::drawing_kind(arguments, "report", *page) != commands::DrawingKind::page)
-      arguments.refuse(fmt::format("option '--report': '{}' does not end in .html", page->string()));
-    report::require_drawing_libraries();
+  return settings;
+}
+
+/// Prints the proven answer as soon as it stands, in text; then the rest, or in the other formats the whole.
+class TunePrinter {
+ public:
+  explicit TunePrinter(const command_line::Arguments& arguments)
+      : arguments_(arguments), in_parts_(arguments.choice("format") == "text") {}
+
+  void print_proven(const Tuning& tuning) {
+    if (!in_parts_ || printed_) return;
+    answers::print(arguments_, proven_answer(), tuning);
+    printed_ = true;
   }
-  settings.maps = page.has_value();
+
+  ExitCode print_rest(const Tuning& tuning) {
+    print_proven(tuning);
+    return answers::print(arguments_, in_parts_ ? rest_answer() : tune_answer(), tuning,
+                          commands::exit_code_of(tuning.answer.status));
+  }
+
+ private:
+  const command_line::Arguments& arguments_;
+  bool in_parts_;
+  bool printed_{false};
+};
+
+ExitCode tune(const command_line::Arguments& arguments) {
+  tuning::TuneSettings settings = tune_settings(arguments);
+  const study::Study study = commands::load_study(arguments.operands()[0], arguments, {&settings.output, 1});
+  const std::optional<std::filesystem::path> page = page_option(arguments, settings.output);
+  const bool in_html = arguments.choice("format") == "html";
+  settings.maps = page || in_html;
+  if (settings.maps) report::require_drawing_libraries();
   const parallel::ThreadLimit limit(study_run::threads_to_use(settings.threads));
   commands::print_warnings(study);
   const std::string engine = study_run::engine_text(study_run::points_on_reference(study));
@@ -108,118 +131,14 @@ ExitCode tune(const command_line::Arguments& arguments) {
   const storage::OutputLock lock(settings.output);
   storage::require_replaceable(settings.output);
   commands::print_fallback_lock(lock, settings.output);
-  bool printed = false;
+  TunePrinter printer(arguments);
   settings.proven = [&](const tuning::TuneAnswer& proven) {
-    if (!json) standard_output::write_fitted(tuning::proven_text(proven, study, settings.output.string()));
-    printed = true;
+    printer.print_proven({proven, study, settings.output});
   };
-  const tuning::TuneAnswer answer = tuning::tune(study, settings, interruption.token());
+  const tuning::TuneAnswer found = tuning::tune(study, settings, interruption.token());
   if (page)
-    command_line::write_text(*page, report::html_page(tuning::tuning_page(answer, study, settings.output)));
-  if (json) {
-    standard_output::write(tuning::json_of(answer, study));
-  } else {
-    if (!printed) standard_output::write_fitted(tuning::proven_text(answer, study, settings.output.string()));
-    standard_output::write_fitted(tuning::rest_text(answer, study));
-  }
-  return commands::exit_code_of(answer.status);
-}
-
-/// A study, and the point of it that is asked for.
-struct PointToExamine {
-  study::Study study;
-  std::int64_t point{0};
-};
-
-PointToExamine point_to_examine(const command_line::Arguments& arguments) {
-  const std::string& path = arguments.operands()[0];
-  PointToExamine examined;
-  if (commands::is_results_file(path)) {
-    if (arguments.has("set"))
-      arguments.refuse("option '--set': changes a manifest, not a results file; expected a manifest");
-    const reading::ResultsFile file(path);
-    if (file.header().plugin)
-      throw Failure(
-          ExitCode::bad_input,
-          fmt::format("{}: its controller is a plugin, which the file does not contain; expected its "
-                      "manifest",
-                      path));
-    examined.study = layout::recorded_study(file.header(), path);
-  } else {
-    examined.study = commands::load_study(path, arguments);
-  }
-  const study::Study& study = examined.study;
-  goal::require_targets(study, path);
-  const std::optional<std::int64_t> point = command_line::point_option(arguments, study.point_labels);
-  if (!point && study::point_count(study) > 1)
-    throw Failure(ExitCode::bad_input, fmt::format("{}: it has {} design points; expected one with --point",
-                                                   path, study::point_count(study)));
-  examined.point = point.value_or(0);
-  return examined;
-}
-
-/// @throws Failure (interrupted) where `work` throws Interrupted
-template <class Work>
-auto unless_interrupted(const Work& work) {
-  try {
-    return work();
-  } catch (const trial::Interrupted&) {
-    throw Failure(ExitCode::interrupted, "interrupted: nothing was written");
-  }
-}
-
-ExitCode limits(const command_line::Arguments& arguments) {
-  const PointToExamine examined = point_to_examine(arguments);
-  const study::Study& study = examined.study;
-  const study_run::InterruptionWatch interruption;
-  const std::vector<tuning::Limit> limits = unless_interrupted([&] {
-    return tuning::limits_of(study, tuning::units_of(study, examined.point), interruption.token());
-  });
-  if (arguments.choice("format") == "json") {
-    standard_output::write(tuning::limits_json(limits));
-  } else {
-    standard_output::write_fitted(tuning::limits_text(limits, goal::question_of(study)));
-  }
-  return ExitCode::success;
-}
-
-/// The folder from which the operand names its files; nothing for a results file.
-std::optional<std::filesystem::path> folder_of(const std::filesystem::path& operand) {
-  if (commands::is_results_file(operand)) return std::nullopt;
-  return std::filesystem::absolute(yaml::is_stream(operand) ? "." : operand).parent_path();
-}
-
-ExitCode worst(const command_line::Arguments& arguments) {
-  const std::optional<std::filesystem::path> output = command_line::text_place(arguments, "output");
-  if (output) command_line::require_places(arguments, {arguments.operands()[0]}, {*output});
-  const PointToExamine examined = point_to_examine(arguments);
-  const study::Study& study = examined.study;
-  const study_run::InterruptionWatch interruption;
-  const tuning::WorstMachines worst = unless_interrupted([&] {
-    return tuning::worst_machines(study, tuning::units_of(study, examined.point),
-                                  folder_of(arguments.operands()[0]), interruption.token());
-  });
-  if (arguments.choice("format") == "json") {
-    standard_output::write(tuning::worst_json(worst));
-  } else {
-    standard_output::write_fitted(tuning::worst_text(worst, study));
-  }
-  if (!output) return ExitCode::success;
-  if (worst.in_box.manifest.empty())
-    throw Failure(ExitCode::bad_input, fmt::format("{}: no manifest describes the worst machine: {}",
-                                                   output->string(), worst.in_box.no_manifest));
-  command_line::write_text(*output, worst.in_box.manifest);
-  if (arguments.choice("format") == "text" && !yaml::is_standard_stream(*output))
-    standard_output::write(fmt::format(
-        "wrote {0}{1}; the machine's worst trial: zerocount trace {0} --trial {2}\n", output->string(),
-        worst.with_profiles ? fmt::format(", of which rig {} is the machine", worst.in_box.rig)
-                            : std::string(),
-        worst.in_box.trial));
-  return ExitCode::success;
-}
-
-command_line::OptionSpec set_option() {
-  return {"set", "KEY=VALUE", "override a manifest key, e.g. controller.delay=1; may be repeated", true};
+    command_line::write_text(*page, report::html_page(tuning_page({found, study, settings.output, true})));
+  return printer.print_rest({found, study, settings.output, in_html});
 }
 
 }  // namespace
@@ -228,7 +147,7 @@ commands::Command tune_command() {
   return {{"tune",
            "MANIFEST -o FILE",
            {{"output,o", "FILE", "the results file of the proof (required)"},
-            command_line::format_option({"text", "json"}),
+            answers::format_option(tune_answer().complete_type()),
             {"budget", "B", "of all: a number of trials, or a time such as 60s or 5min"},
             {"report", "PAGE", "write a page (*.html) with maps, what was tried, and the proof"},
             {"threads", "N", "threads to use; default: all cores"},
@@ -237,31 +156,8 @@ commands::Command tune_command() {
             command_line::force_option()}},
           "find gains that meet the goal, and prove them",
           tune_help,
-          tune};
-}
-
-commands::Command limits_command() {
-  return {{"limits",
-           "MANIFEST|FILE",
-           {command_line::format_option({"text", "json"}),
-            {"point", "P", "the design point, by label or number"},
-            set_option()}},
-          "what stands between a point and its goal",
-          limits_help,
-          limits};
-}
-
-commands::Command worst_command() {
-  return {{"worst",
-           "MANIFEST|FILE",
-           {command_line::format_option({"text", "json"}),
-            {"output,o", "MANIFEST", "write a manifest of the worst machine in the box"},
-            {"point", "P", "the design point, by label or number"},
-            set_option(),
-            command_line::force_option()}},
-          "the machine that a gain suits worst",
-          worst_help,
-          worst};
+          tune,
+          {tune_answer().complete_type()}};
 }
 
 }  // namespace zerocount::design_commands

@@ -181,16 +181,18 @@ std::vector<WeightedTrial> read_drawn(const hdf5::File& file, const Question& qu
 }  // namespace
 
 void write_rare_file(const std::filesystem::path& path, const Question& question, const EstimatorState& state,
-                     double seconds, const std::string& answer) {
+                     double seconds, const Json& answer) {
   const storage::UnfinishedFile part(path);
   hdf5::File file = hdf5::File::create(part.path());
   layout::write_header(
       file, layout::make_header(question.study, layout::FileKind::rare, layout::all_rows(question.study),
                                 layout::current_provenance()));
-  const Json estimate{
-      {"point", question.point},       {"world", question.world ? Json(*question.world) : Json()},
-      {"event", question.event.text},  {"seconds", seconds},
-      {"answer", Json::parse(answer)}, {"state", state_json(state)}};
+  const Json estimate{{"point", question.point},
+                      {"world", question.world ? Json(*question.world) : Json()},
+                      {"event", question.event.text},
+                      {"seconds", seconds},
+                      {"answer", answer},
+                      {"state", state_json(state)}};
   layout::write_single_text(file, "estimate", estimate.dump(),
                             "question, answer and state of the estimate, as JSON");
   write_drawn(file, question, state);

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "analysis/rare/estimator.hpp"
 #include "results/layout/header.hpp"
 #include "runners/rare/rare_question.hpp"
@@ -23,10 +25,10 @@ struct RareRecord {
 
 /// Writes the file: the header and the manifest, /estimate (JSON: what was learned and the answer), and
 /// /drawn, a row for each trial drawn from the proposal with its weight, inputs and coordinates.
-/// @param answer as JSON, for readers
+/// @param answer by rare_description(), for readers
 /// @throws Failure (machine_failed)
 void write_rare_file(const std::filesystem::path& path, const Question& question, const EstimatorState& state,
-                     double seconds, const std::string& answer);
+                     double seconds, const nlohmann::ordered_json& answer);
 
 /// @throws Failure: bad_data for a damaged file, ForeignFile for another format
 RareRecord read_rare_file(const std::filesystem::path& path);

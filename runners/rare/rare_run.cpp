@@ -9,12 +9,14 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
+#include "analysis/document/answer.hpp"
 #include "core/failure/failure.hpp"
 #include "core/trial/trial.hpp"
 #include "results/layout/header.hpp"
+#include "runners/rare/rare_answer.hpp"
 #include "runners/rare/rare_file.hpp"
-#include "runners/rare/rare_text.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_run/deadline.hpp"
 
@@ -146,7 +148,8 @@ class RareRun {
   }
 
   void write() const {
-    write_rare_file(settings_.output, question_, answer_.state, answer_.seconds, json_of(answer_, question_));
+    write_rare_file(settings_.output, question_, answer_.state, answer_.seconds,
+                    document::json(rare_description(), RareReading{answer_, question_, settings_.output}));
   }
 
   const Question& question_;

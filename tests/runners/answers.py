@@ -78,7 +78,7 @@ QUESTIONS = [
     "experiment axis.yaml",
     "identify material.h5 --effort 0.1",
     "learn worlds.h5",
-    "tune tune.yaml -o tuned.h5 --budget 4000 --force",
+    "tune tune.yaml -o tuned.h5 --budget 6000 --force",
     "limits axis.yaml",
     "worst axis.yaml",
     "rare axis.yaml -o rare.h5 --force --budget 20000",

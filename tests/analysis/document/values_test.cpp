@@ -1,6 +1,7 @@
 // Values of answers that read back to the same number.
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -41,6 +42,17 @@ TEST(Values, WithoutBoundsAreShownWithoutThem) {
   EXPECT_EQ(text(answer_with(Bounded{0.5, unknown, unknown})), "number: 0.5\n");
   EXPECT_EQ(text(answer_with(Bounded{0.5, unknown, 1.0})), "number: 0.5 [–, 1]\n");
   EXPECT_EQ(text(answer_with(Bounded{unknown, unknown, unknown})), "");
+}
+
+// The schema lets be null what may be missing, and nothing else.
+TEST(Values, OfAPartAreNullableWhereThePartMayBeMissing) {
+  using Part = Holder<double>;
+  const auto part = Description<Part>().value({.key = "number", .heading = "number"}, &Part::number);
+  const auto there = Description<Part>().include(part, [](const Part& whole) { return whole; });
+  EXPECT_FALSE(there.items()[0].nullable);
+  const auto missing = Description<Part>().include(part, [](const Part&) { return std::optional<Part>(); });
+  EXPECT_TRUE(missing.items()[0].nullable);
+  EXPECT_TRUE(missing.members_of({1.0}).contents[0].is_empty());
 }
 
 }  // namespace

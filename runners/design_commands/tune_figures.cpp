@@ -1,25 +1,29 @@
-#include "runners/tuning/tuning_page.hpp"
+#include "runners/design_commands/tune_figures.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "analysis/goal/goal_text.hpp"
-#include "analysis/report/html.hpp"
-#include "analysis/report/report.hpp"
 #include "analysis/report/report_figures.hpp"
-#include "analysis/text/text.hpp"
 #include "results/reading/study_file.hpp"
-#include "runners/tuning/tune_text.hpp"
 
-namespace zerocount::tuning {
+namespace zerocount::design_commands {
 namespace {
 
+using document::Figure;
+using document::FigureData;
 using nlohmann::ordered_json;
 using report::datum;
-using report::Figure;
-using report::FigureData;
+using tuning::Aim;
+using tuning::Limit;
+using tuning::MapCell;
+using tuning::Place;
+using tuning::TriedPoint;
+using tuning::TuneAnswer;
+using tuning::TuningMap;
+using tuning::Values;
+using tuning::WorstMachine;
 
 std::string axis_title(const study::FreeParameter& parameter) {
   return parameter.unit == "1" ? parameter.name : fmt::format("{} ({})", parameter.name, parameter.unit);
@@ -77,8 +81,8 @@ Figure map_figure(const TuneAnswer& answer, const TuningMap& map, const Aim& aim
       "128 machines of the search; × marks cells whose loops do not keep the margins. Dots are the points "
       "that "
       "the search tried, at all values of the other parameters; the star is the tuned point.",
-      {cells_data(map, answer.free), boundary_data(map, wanted_rate(aim)), places_data("tried", map, tried),
-       places_data("tuned", map, {answer.gains})});
+      {cells_data(map, answer.free), boundary_data(map, tuning::wanted_rate(aim)),
+       places_data("tried", map, tried), places_data("tuned", map, {answer.gains})});
   ordered_json& encoding = figure.specification["layer"][0]["encoding"];
   for (const auto& [axis, parameter] : {std::pair{"x", &x}, std::pair{"y", &y}}) {
     encoding[axis]["title"] = axis_title(*parameter);
@@ -88,7 +92,7 @@ Figure map_figure(const TuneAnswer& answer, const TuningMap& map, const Aim& aim
   return figure;
 }
 
-std::string values_text(const TuneAnswer& answer, const Values& values) {
+std::string point_text(const TuneAnswer& answer, const Values& values) {
   std::string text;
   for (std::size_t i = 0; i < values.size(); ++i)
     text += fmt::format("{}{} {}", i > 0 ? ", " : "", answer.free[i].name, values[i]);
@@ -101,7 +105,7 @@ FigureData points_data(std::string name, const TuneAnswer& answer, const std::ve
       {{{"criterion", "criterion", ""}, [](const TriedPoint& one) { return datum(one.estimate.criterion); }},
        {{"rate", "rate of the goal", "1"}, [](const TriedPoint& one) { return datum(one.estimate.rate); }},
        {{"values", "values", ""},
-        [&](const TriedPoint& one) { return ordered_json(values_text(answer, one.values)); }},
+        [&](const TriedPoint& one) { return ordered_json(point_text(answer, one.values)); }},
        {{"units", "machines or trials", "1"},
         [](const TriedPoint& one) { return ordered_json(one.estimate.units); }}});
 }
@@ -126,15 +130,15 @@ Figure frontier_figure(const TuneAnswer& answer, const study::Study& study) {
 }
 
 Figure room_figure(const TuneAnswer& answer) {
-  const Place tuned = place_of(answer.free, answer.gains);
+  const Place tuned = tuning::place_of(answer.free, answer.gains);
   Values low = answer.gains;
   Values high = answer.gains;
   for (std::size_t i = 0; i < answer.room.size(); ++i) {
     low[i] = answer.room[i].low;
     high[i] = answer.room[i].high;
   }
-  const Place low_place = place_of(answer.free, low);
-  const Place high_place = place_of(answer.free, high);
+  const Place low_place = tuning::place_of(answer.free, low);
+  const Place high_place = tuning::place_of(answer.free, high);
   FigureData data{"room",
                   {{"parameter", "parameter", ""},
                    {"tuned", "tuned", ""},
@@ -183,29 +187,18 @@ Figure worst_figure(const WorstMachine& worst, const study::Study& study, const 
 
 }  // namespace
 
-report::ReportPage tuning_page(const TuneAnswer& answer, const study::Study& study,
-                               const std::filesystem::path& proof) {
-  const std::string text = proven_text(answer, study, proof.string()) + rest_text(answer, study);
-  const std::vector<std::string> lines =
-      answer.proof ? proof_lines(answer, study) : nearest_lines(answer, study);
-  report::PageSection section{"tuning",
-                              "Tuning",
-                              report::html_verdict(headline(answer, study), lines) +
-                                  report::html_preformatted("the answer as the command prints it", text),
-                              {}};
-  const std::string title = fmt::format("{}: tuning", study.name);
-  if (!answer.proof) return {title, study.description, "There is no proof.", {std::move(section)}};
-  const reading::StudyFile file(proof);
-  for (const TuningMap& map : answer.maps) section.figures.push_back(map_figure(answer, map, aim_of(study)));
-  if (!answer.tried.empty()) section.figures.push_back(frontier_figure(answer, study));
-  if (!answer.room.empty()) section.figures.push_back(room_figure(answer));
-  if (!answer.limits.empty()) section.figures.push_back(limits_figure(answer));
-  if (answer.worst && !study.plugin)
-    section.figures.push_back(worst_figure(*answer.worst, answer.proof->study, file));
-  report::ReportPage page = report::study_report(file).page;
-  page.title = title;
-  page.sections.insert(page.sections.begin(), std::move(section));
-  return page;
+std::vector<Figure> tune_figures(const Tuning& tuning) {
+  const TuneAnswer& answer = tuning.answer;
+  std::vector<Figure> figures;
+  if (!answer.proof) return figures;
+  for (const TuningMap& map : answer.maps)
+    figures.push_back(map_figure(answer, map, tuning::aim_of(tuning.study)));
+  if (!answer.tried.empty()) figures.push_back(frontier_figure(answer, tuning.study));
+  if (!answer.room.empty()) figures.push_back(room_figure(answer));
+  if (!answer.limits.empty()) figures.push_back(limits_figure(answer));
+  if (answer.worst && !tuning.study.plugin)
+    figures.push_back(worst_figure(*answer.worst, answer.proof->study, reading::StudyFile(tuning.output)));
+  return figures;
 }
 
-}  // namespace zerocount::tuning
+}  // namespace zerocount::design_commands

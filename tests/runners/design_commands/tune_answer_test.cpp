@@ -1,5 +1,5 @@
 // The sentences of an answer of `tune`, with numbers that are infinite, missing or not reached.
-#include "runners/tuning/tune_text.hpp"
+#include "runners/design_commands/tune_answer.hpp"
 
 #include <limits>
 #include <string>
@@ -10,11 +10,16 @@
 
 #include "experiments/manifest/load_study.hpp"
 
-namespace zerocount::tuning {
+namespace zerocount::design_commands {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
+
+using tuning::NearestPoint;
+using tuning::Proof;
+using tuning::SmallestMargins;
+using tuning::TuneAnswer;
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -43,62 +48,81 @@ TuneAnswer answer_for(const study::Study& study, goal::Status status) {
   return answer;
 }
 
-TEST(TuneText, SaysThatATimeIsNotReachedInASentence) {
+std::string text_of(const TuneAnswer& answer, const study::Study& study) {
+  return document::text(tune_answer().of({answer, study, "tuned.h5"}));
+}
+
+nlohmann::ordered_json json_of(const TuneAnswer& answer, const study::Study& study) {
+  return document::json(tune_answer().of({answer, study, "tuned.h5"}));
+}
+
+TEST(TuneAnswer, SaysThatATimeIsNotReachedInASentence) {
   const study::Study study = axis();
-  const std::string text = proven_text(answer_for(study, goal::Status::missed), study, "tuned.h5");
+  const std::string text = text_of(answer_for(study, goal::Status::missed), study);
   EXPECT_THAT(text, HasSubstr("band_settling_time.p95 by the proof: not within the hold\n"));
   EXPECT_THAT(
       text, HasSubstr("fewer than 90 % of the moves are within the band for good at the end of the hold\n"));
   for (const char* const hole : {"hold s", "inf", "nan", "–"}) EXPECT_THAT(text, Not(HasSubstr(hole)));
 }
 
-TEST(TuneText, UnreachableSaysByHowMuchTheGoalIsMissed) {
+TEST(TuneAnswer, UnreachableSaysByHowMuchTheGoalIsMissed) {
   const study::Study study = axis();
-  EXPECT_EQ(headline(answer_for(study, goal::Status::missed), study),
+  EXPECT_EQ(json_of(answer_for(study, goal::Status::missed), study)["headline"],
             "unreachable in these ranges: at the best values found 85.3 % of the moves meet the goal, and at "
             "least 90 % are wanted");
 }
 
-TEST(TuneText, NamesEachMarginWithItsUnitAndWhatIsWanted) {
+TEST(TuneAnswer, NamesEachMarginWithItsUnitAndWhatIsWanted) {
   const study::Study study = axis();
   TuneAnswer answer = answer_for(study, goal::Status::met);
   answer.margins = SmallestMargins{true, never, 41.0, 10.0, 8};
   EXPECT_THAT(
-      rest_text(answer, study),
-      HasSubstr("smallest margins of 8 machines before they slide: gain margin ∞ dB (at least 6 wanted), "
-                "phase margin 41° (at least 30 wanted), delay margin 10 samples or more (none wanted)\n"));
+      text_of(answer, study),
+      HasSubstr(
+          "smallest margins of 8 machines before they slide: gain margin ∞ dB (at least 6 wanted), "
+          "phase margin 41 degrees (at least 30 wanted), delay margin 10 samples or more (none wanted)\n"));
 }
 
-TEST(TuneText, NamesTheMarginsThatTheNearestPointLacks) {
+TEST(TuneAnswer, NamesTheMarginsThatTheNearestPointLacks) {
   const study::Study study = axis();
   TuneAnswer answer;
   answer.status = goal::Status::missed;
   answer.free = study.tuning->free;
   answer.examined = 4000;
   answer.nearest = NearestPoint{{3e-5, 1e-4}, {true, 4.5, 41.0, 2.0, 8}};
-  const std::string text = proven_text(answer, study, "tuned.h5");
+  const std::string text = text_of(answer, study);
   EXPECT_THAT(text, HasSubstr("none of 4000 points that were tried keeps the margins\n"));
   EXPECT_THAT(text,
               HasSubstr("nearest: controller.ki = 3e-05, controller.kp = 0.0001, with gain margin 4.5 dB"));
   EXPECT_THAT(text, HasSubstr("  its gain margin is 1.5 dB too small\n"));
   EXPECT_THAT(text, Not(HasSubstr("its phase margin")));
-  const nlohmann::json json = nlohmann::json::parse(json_of(answer, study));
-  EXPECT_EQ(json["nearest"]["lacking"], (nlohmann::json{{"gain", 1.5}}));
+  const nlohmann::ordered_json json = json_of(answer, study);
+  EXPECT_EQ(json["nearest"]["lacking"], (nlohmann::ordered_json{{"gain", 1.5}}));
   answer.nearest->margins.stable = false;
-  EXPECT_THAT(proven_text(answer, study, "tuned.h5"), HasSubstr("unstable at all of them; nearest, at"));
+  EXPECT_THAT(text_of(answer, study), HasSubstr("unstable at all of them; nearest, at"));
 }
 
-TEST(TuneText, NamesWhatTheBudgetWasNotEnoughFor) {
+TEST(TuneAnswer, NamesWhatTheBudgetWasNotEnoughFor) {
   const study::Study study = axis();
   TuneAnswer answer = answer_for(study, goal::Status::met);
   answer.budget.trials = 900;
   answer.spent_trials = 880;
   answer.left_out = {"room", "limits"};
-  const std::string text = rest_text(answer, study);
+  const std::string text = text_of(answer, study);
   EXPECT_THAT(text, HasSubstr("spent: 880 of 900 trials"));
   EXPECT_THAT(text, HasSubstr("the budget is not enough: room; limits\n"));
-  EXPECT_EQ(nlohmann::json::parse(json_of(answer, study))["left_out"], (nlohmann::json{"room", "limits"}));
+  EXPECT_EQ(json_of(answer, study)["left_out"], (nlohmann::ordered_json{"room", "limits"}));
+}
+
+// What is printed as soon as it is proven, and the rest, are the whole.
+TEST(TuneAnswer, IsTheProvenPartAndTheRest) {
+  const study::Study study = axis();
+  const TuneAnswer answer = answer_for(study, goal::Status::met);
+  const Tuning tuning{answer, study, "tuned.h5"};
+  EXPECT_EQ(document::text(proven_answer().of(tuning)) + document::text(rest_answer().of(tuning)),
+            document::text(tune_answer().of(tuning)));
+  EXPECT_THAT(document::text(proven_answer().of(tuning)), HasSubstr("wrote tuned.h5"));
 }
 
 }  // namespace
-}  // namespace zerocount::tuning
+}  // namespace zerocount::design_commands

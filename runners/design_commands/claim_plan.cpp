@@ -1,0 +1,360 @@
+#include "runners/design_commands/claim_plan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "analysis/statistics/proportion.hpp"
+#include "analysis/statistics/rig_statistics.hpp"
+#include "analysis/statistics/sample_size.hpp"
+#include "analysis/summary/summary.hpp"
+#include "analysis/text/percent.hpp"
+#include "analysis/text/text.hpp"
+#include "runners/command_line/option_values.hpp"
+
+namespace zerocount::design_commands {
+namespace {
+
+using document::Description;
+using document::in_data;
+using document::Shown;
+using statistics::ClaimPlan;
+using statistics::RigPlan;
+using statistics::SequentialCost;
+
+constexpr std::int64_t default_failures = 3;
+constexpr double worst_case_rate = 0.5;
+
+/// The parsed options.
+struct PlanRequest {
+  double confidence{statistics::summary_confidence};
+  std::optional<double> success, true_success, power, halfwidth;
+  std::optional<double> rig_sd, rigs_share;
+  std::int64_t failures{default_failures};
+  std::string pilot;  ///< source of rig_sd and the rate, for people
+
+  double rate() const { return true_success.value_or(worst_case_rate); }
+};
+
+/// Takes the standard deviation and the rate from the point of a pilot study whose rigs differ most.
+void measure_pilot(PlanRequest& request, const std::string& path) {
+  const summary::StudySummary summary = summary::summarise_file(path);
+  const measures::PointSummary* worst = nullptr;
+  for (const measures::PointSummary& point : summary.points) {
+    const double sd = point.rigs.success_sd;
+    if (!std::isnan(sd) && (worst == nullptr || sd > worst->rigs.success_sd)) worst = &point;
+  }
+  if (worst == nullptr) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: has no differences between rigs; expected the results of a study with "
+                              "`rigs` and several trials on each",
+                              path));
+  }
+  const double rate = worst->success_rate().value;
+  if (!(rate > 0.0 && rate < 1.0)) {
+    throw Failure(ExitCode::bad_input, fmt::format("{}: no point has both successes and failures; expected "
+                                                   "--rig-sd and --true-success in place of a pilot",
+                                                   path));
+  }
+  request.rig_sd = worst->rigs.success_sd;
+  if (!request.true_success) request.true_success = rate;
+  request.pilot =
+      fmt::format("{}, point {}", path,
+                  text::printable(summary.labels[static_cast<std::size_t>(worst - summary.points.data())]));
+}
+
+PlanRequest request_of(const command_line::Arguments& arguments) {
+  PlanRequest request;
+  request.confidence =
+      command_line::probability_option(arguments, "confidence").value_or(statistics::summary_confidence);
+  request.success = command_line::probability_option(arguments, "success");
+  request.true_success = command_line::probability_option(arguments, "true-success");
+  request.power = command_line::probability_option(arguments, "power");
+  request.halfwidth = command_line::probability_option(arguments, "halfwidth");
+  request.failures = arguments.whole_number("failures", 0, 1000).value_or(default_failures);
+  request.rigs_share = command_line::probability_option(arguments, "rigs-share");
+  request.rig_sd = command_line::probability_option(arguments, "rig-sd");
+  if (!arguments.operands().empty()) {
+    if (request.rig_sd) arguments.refuse("expected --rig-sd or a pilot FILE, not both");
+    if (!request.halfwidth) arguments.refuse("a pilot FILE needs --halfwidth");
+    measure_pilot(request, arguments.operands()[0]);
+  }
+  if (request.rig_sd && !request.halfwidth) arguments.refuse("option '--rig-sd' needs --halfwidth");
+  if (request.rigs_share && !request.success) arguments.refuse("option '--rigs-share' needs --success");
+  if (request.rigs_share && (request.power || request.true_success))
+    arguments.refuse("option '--rigs-share' plans without a failure: expected no --power or --true-success");
+  if (!request.success && !request.halfwidth) arguments.refuse("expected --success or --halfwidth");
+  if (request.power && !(request.success && request.true_success))
+    arguments.refuse("option '--power' needs --success and --true-success");
+  if (!request.success && arguments.has("failures")) arguments.refuse("option '--failures' needs --success");
+  return request;
+}
+
+/// What was asked, and the plans that answer it; those of other questions are empty.
+struct Plans {
+  PlanRequest request;
+  std::vector<ClaimPlan> claims{};
+  std::vector<RigPlan> tolerance{};
+  std::vector<RigPlan> halfwidth_on_rigs{};
+  std::optional<SequentialCost> halfwidth{};  ///< without rigs
+};
+
+/// A plan of a claim, and its probability to show it at the assumed true proportion.
+struct ClaimRow {
+  ClaimPlan plan;
+  std::optional<double> chance{};
+  std::optional<bool> has_power{};
+};
+
+std::vector<ClaimRow> claim_rows(const Plans& plans) {
+  const PlanRequest& request = plans.request;
+  std::vector<ClaimRow> rows;
+  for (const ClaimPlan& plan : plans.claims) {
+    ClaimRow& row = rows.emplace_back(ClaimRow{plan});
+    if (!request.true_success) continue;
+    row.chance = statistics::chance_of_claim(plan.trials, plan.failures, *request.true_success);
+    if (request.power) row.has_power = *row.chance >= *request.power;
+  }
+  return rows;
+}
+
+std::vector<ClaimPlan> claims_of(const PlanRequest& request) {
+  std::vector<ClaimPlan> plans;
+  for (std::int64_t failures = 0; failures <= request.failures; ++failures)
+    plans.push_back({failures, statistics::trials_for_claim(*request.success, request.confidence, failures)});
+  if (!request.power) return plans;
+  const ClaimPlan strong = statistics::plan_with_power(*request.success, request.confidence,
+                                                       *request.true_success, *request.power);
+  if (strong.failures > request.failures) plans.push_back(strong);
+  return plans;
+}
+
+std::vector<RigPlan> halfwidth_plans(const PlanRequest& request) {
+  constexpr std::array<std::int64_t, 8> listed_trials_per_rig{1, 2, 5, 10, 20, 50, 100, 1000};
+  std::vector<RigPlan> plans;
+  plans.reserve(listed_trials_per_rig.size());
+  for (const std::int64_t trials : listed_trials_per_rig) {
+    plans.push_back({statistics::rigs_for_halfwidth(*request.halfwidth, request.confidence, request.rate(),
+                                                    *request.rig_sd, trials),
+                     trials});
+  }
+  return plans;
+}
+
+/// Plans in which more rigs need fewer trials on each. The rank of the tolerance statement rises in steps
+/// with the number of rigs, so that some larger numbers need more trials on each: these are left out.
+std::vector<RigPlan> tolerance_plans(const PlanRequest& request) {
+  const std::int64_t fewest = statistics::min_rigs_for_tolerance(*request.rigs_share, request.confidence);
+  std::vector<RigPlan> plans;
+  for (const std::int64_t rigs : {fewest, fewest + (fewest + 1) / 2, 2 * fewest, 4 * fewest}) {
+    const RigPlan plan =
+        statistics::plan_tolerance(*request.rigs_share, *request.success, request.confidence, rigs);
+    if (plans.empty() || plan.trials_per_rig < plans.back().trials_per_rig) plans.push_back(plan);
+  }
+  return plans;
+}
+
+Plans plans_of(PlanRequest request) {
+  Plans plans{std::move(request)};
+  const PlanRequest& asked = plans.request;
+  if (asked.rigs_share) {
+    plans.tolerance = tolerance_plans(asked);
+  } else if (asked.success) {
+    plans.claims = claims_of(asked);
+  }
+  if (!asked.halfwidth) return plans;
+  if (asked.rig_sd) {
+    plans.halfwidth_on_rigs = halfwidth_plans(asked);
+  } else {
+    plans.halfwidth = statistics::sequential_cost(*asked.halfwidth, asked.confidence, asked.rate());
+  }
+  return plans;
+}
+
+// Items.
+
+std::string with_confidence(const PlanRequest& request) {
+  return fmt::format("with {} confidence", text::percent(request.confidence));
+}
+
+/// The first plan with the power that is asked for, or without a failure.
+std::string claim_headline(const Plans& plans) {
+  const std::vector<ClaimRow> rows = claim_rows(plans);
+  const auto strong = std::ranges::find(rows, std::optional(true), &ClaimRow::has_power);
+  const ClaimRow& row = strong == rows.end() ? rows.front() : *strong;
+  return fmt::format(
+      "{} trials, {}, show{} that at least {} of axes succeed, {}", row.plan.trials,
+      row.plan.failures == 0 ? "none of which fails"
+                             : fmt::format("at most {} of which fail", row.plan.failures),
+      row.chance ? fmt::format(" with a probability of {}", text::percent_near(*row.chance)) : "",
+      text::percent(*plans.request.success), with_confidence(plans.request));
+}
+
+std::string chance_sentence(const Plans& plans) {
+  if (!plans.request.true_success) return "";
+  return fmt::format("chance: if {} of axes succeed in truth", text::percent(*plans.request.true_success));
+}
+
+std::string tolerance_headline(const Plans& plans) {
+  const RigPlan& fewest = plans.tolerance.front();
+  return fmt::format(
+      "{} rigs with {} trials each, none of which fails, show that at least {} of rigs hold zero in at least "
+      "{} of moves, {}; trials of one move or more",
+      fewest.rigs, fewest.trials_per_rig, text::percent(*plans.request.rigs_share),
+      text::percent(*plans.request.success), with_confidence(plans.request));
+}
+
+std::string halfwidth_headline(const Plans& plans) {
+  const PlanRequest& request = plans.request;
+  if (!request.halfwidth) return "";
+  const std::string aim =
+      fmt::format("the {} bounds of a success rate of {} within ±{}", text::percent(request.confidence),
+                  text::percent(request.rate()), text::percent(*request.halfwidth));
+  if (plans.halfwidth)
+    return fmt::format("{} trials bring {}{}", plans.halfwidth->fixed, aim,
+                       request.true_success ? "" : ", the worst case");
+  const std::vector<RigPlan>& on_rigs = plans.halfwidth_on_rigs;
+  return fmt::format("{} to {} rigs bring {}, with a standard deviation of {} between rigs{}",
+                     on_rigs.back().rigs, on_rigs.front().rigs, aim, text::percent(*request.rig_sd),
+                     request.pilot.empty() ? "" : " (" + request.pilot + ")");
+}
+
+std::string stop_sentence(const Plans& plans) {
+  if (!plans.halfwidth) return "";
+  return fmt::format(
+      "with `stop`, which decides by the outcomes when to end, it takes about {}: {:.1f} times as many, "
+      "because its bounds hold at whatever number of trials it ends",
+      plans.halfwidth->sequential, plans.halfwidth->ratio());
+}
+
+std::string rigs_sentence(const Plans& plans) {
+  if (plans.halfwidth_on_rigs.empty()) return "";
+  const double rate = plans.request.rate();
+  return fmt::format(
+      "more trials on a rig help little once they outnumber {:.3g}: what differs between rigs remains",
+      rate * (1.0 - rate) / (*plans.request.rig_sd * *plans.request.rig_sd));
+}
+
+Description<RigPlan> rig_columns() {
+  return Description<RigPlan>()
+      .value({.key = "rigs", .heading = "rigs", .meaning = "rigs"}, &RigPlan::rigs)
+      .value({.key = "trials_per_rig", .heading = "trials on each", .meaning = "trials on each"},
+             &RigPlan::trials_per_rig)
+      .value({.key = "trials", .heading = "trials", .meaning = "trials on all rigs"},
+             [](const RigPlan& plan) { return plan.rigs * plan.trials_per_rig; });
+}
+
+Description<ClaimRow> claim_columns() {
+  using Row = const ClaimRow&;
+  return Description<ClaimRow>()
+      .value({.key = "failures", .heading = "failures at most", .meaning = "failures at most"},
+             [](Row row) { return row.plan.failures; })
+      .value({.key = "trials", .heading = "trials", .meaning = "trials"},
+             [](Row row) { return row.plan.trials; })
+      .value({.key = "chance",
+              .heading = "chance to show it",
+              .meaning = "probability that the plan shows the claim, if true_success is the proportion",
+              .unit = "1"},
+             &ClaimRow::chance)
+      .value({.key = "has_power",
+              .heading = "power is enough",
+              .meaning = "whether this probability is at least the power that is asked for"},
+             &ClaimRow::has_power);
+}
+
+Description<Plans> halfwidth_description() {
+  using Of = const Plans&;
+  return Description<Plans>()
+      .value(in_data("halfwidth", "half-width of the bounds", "1"), [](Of p) { return *p.request.halfwidth; })
+      .value(in_data("rate", "assumed rate", "1"), [](Of p) { return p.request.rate(); })
+      .value(in_data("rig_sd", "standard deviation of the success probability between rigs", "1"),
+             [](Of p) { return p.request.rig_sd; })
+      .table(in_data("rig_plans", "rigs and trials; none without rig_sd"), rig_columns(),
+             &Plans::halfwidth_on_rigs)
+      .value(in_data("trials", "trials without rigs, decided beforehand"),
+             [](Of p) { return p.halfwidth ? std::optional(p.halfwidth->fixed) : std::nullopt; })
+      .value(in_data("trials_with_stop", "trials without rigs, decided by the outcomes"),
+             [](Of p) { return p.halfwidth ? std::optional(p.halfwidth->sequential) : std::nullopt; });
+}
+
+const PlanRequest& request_in(const Plans& plans) {
+  return plans.request;
+}
+
+Description<PlanRequest> confidence_item() {
+  return Description<PlanRequest>().value(
+      in_data("confidence", "confidence of the claim, or of the bounds", "1"), &PlanRequest::confidence);
+}
+
+void add_halfwidth(Description<Plans>& items) {
+  items
+      .object(in_data("halfwidth", "plan of the bounds of a rate"), halfwidth_description(),
+              [](const Plans& plans) { return plans.request.halfwidth ? &plans : nullptr; })
+      .table({.shown = Shown::to_people}, rig_columns(), &Plans::halfwidth_on_rigs)
+      .sentence(stop_sentence)
+      .sentence(rigs_sentence);
+}
+
+document::AnswerDescription<Plans> success_answer() {
+  document::AnswerDescription<Plans> answer{
+      {.name = "plan-success", .meaning = "trials that show a proportion of successful axes"}, {}};
+  const auto asked =
+      confidence_item()
+          .value(in_data("success", "proportion of axes to be shown to succeed", "1"), &PlanRequest::success)
+          .value(in_data("true_success", "assumed true proportion", "1"), &PlanRequest::true_success)
+          .value(in_data("power", "probability that is asked for", "1"), &PlanRequest::power);
+  answer.items.headline(claim_headline)
+      .include(asked, request_in)
+      .table({.key = "plans", .meaning = "plans by the number of failures"}, claim_columns(), claim_rows)
+      .sentence(chance_sentence)
+      .sentence(halfwidth_headline);
+  add_halfwidth(answer.items);
+  return answer;
+}
+
+document::AnswerDescription<Plans> rigs_answer() {
+  document::AnswerDescription<Plans> answer{
+      {.name = "plan-rigs", .meaning = "rigs and trials that show a proportion of successful rigs"}, {}};
+  const auto asked = confidence_item()
+                         .value(in_data("success", "proportion of its moves in which a rig holds zero", "1"),
+                                &PlanRequest::success)
+                         .value(in_data("rigs_share", "proportion of rigs to be shown to succeed", "1"),
+                                &PlanRequest::rigs_share);
+  answer.items.headline(tolerance_headline)
+      .include(asked, request_in)
+      .table({.key = "rig_plans", .meaning = "rigs and trials, if no trial fails"}, rig_columns(),
+             &Plans::tolerance)
+      .sentence(halfwidth_headline);
+  add_halfwidth(answer.items);
+  return answer;
+}
+
+document::AnswerDescription<Plans> halfwidth_answer() {
+  document::AnswerDescription<Plans> answer{
+      {.name = "plan-halfwidth", .meaning = "trials that bring the bounds of a rate within a half-width"},
+      {}};
+  answer.items.headline(halfwidth_headline).include(confidence_item(), request_in);
+  add_halfwidth(answer.items);
+  return answer;
+}
+
+}  // namespace
+
+document::Answer claim_plan(const command_line::Arguments& arguments) {
+  const Plans plans = plans_of(request_of(arguments));
+  if (plans.request.rigs_share) return rigs_answer().of(plans);
+  return (plans.request.success ? success_answer() : halfwidth_answer()).of(plans);
+}
+
+std::vector<document::AnswerType> claim_plan_types() {
+  return {success_answer().complete_type(), rigs_answer().complete_type(),
+          halfwidth_answer().complete_type()};
+}
+
+}  // namespace zerocount::design_commands

@@ -1,0 +1,54 @@
+#include "runners/design_commands/examined_point.hpp"
+
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "analysis/goal/question.hpp"
+#include "results/layout/header.hpp"
+#include "results/reading/results_file.hpp"
+#include "runners/command_line/option_values.hpp"
+#include "runners/commands/study_argument.hpp"
+
+namespace zerocount::design_commands {
+namespace {
+
+study::Study study_in_file(const command_line::Arguments& arguments) {
+  const std::string& path = arguments.operands()[0];
+  if (arguments.has("set"))
+    arguments.refuse("option '--set': changes a manifest, not a results file; expected a manifest");
+  const reading::ResultsFile file(path);
+  if (file.header().plugin)
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: its controller is a plugin, which the file does not contain; expected its "
+                              "manifest",
+                              path));
+  return layout::recorded_study(file.header(), path);
+}
+
+}  // namespace
+
+ExaminedPoint point_to_examine(const command_line::Arguments& arguments) {
+  const std::string& path = arguments.operands()[0];
+  ExaminedPoint examined{commands::is_results_file(path) ? study_in_file(arguments)
+                                                         : commands::load_study(path, arguments)};
+  const study::Study& study = examined.study;
+  goal::require_targets(study, path);
+  const std::optional<std::int64_t> point = command_line::point_option(arguments, study.point_labels);
+  if (!point && study::point_count(study) > 1)
+    throw Failure(ExitCode::bad_input, fmt::format("{}: it has {} design points; expected one with --point",
+                                                   path, study::point_count(study)));
+  examined.point = point.value_or(0);
+  return examined;
+}
+
+command_line::OptionSpec set_option() {
+  return {"set", "KEY=VALUE", "override a manifest key, e.g. controller.delay=1; may be repeated", true};
+}
+
+command_line::OptionSpec examined_point_option() {
+  return {"point", "P", "the design point, by label or number"};
+}
+
+}  // namespace zerocount::design_commands

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/failure/failure.hpp"
+#include "core/trial/trial.hpp"
+#include "experiments/study/study.hpp"
+#include "runners/command_line/command_line.hpp"
+
+namespace zerocount::design_commands {
+
+/// A study, and the point of it that is asked for.
+struct ExaminedPoint {
+  study::Study study;
+  std::int64_t point{0};
+};
+
+/// The point of `MANIFEST|FILE` with `--set` and `--point`.
+/// @throws Failure (bad_input) without targets, or if it has several points and none is named
+ExaminedPoint point_to_examine(const command_line::Arguments& arguments);
+
+/// `--set`, of commands with a manifest.
+command_line::OptionSpec set_option();
+
+/// `--point` of point_to_examine().
+command_line::OptionSpec examined_point_option();
+
+/// @throws Failure (interrupted) where `work` throws Interrupted
+template <class Work>
+auto unless_interrupted(const Work& work) {
+  try {
+    return work();
+  } catch (const trial::Interrupted&) {
+    throw Failure(ExitCode::interrupted, "interrupted: nothing was written");
+  }
+}
+
+}  // namespace zerocount::design_commands

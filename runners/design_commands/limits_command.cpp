@@ -1,0 +1,145 @@
+#include "runners/design_commands/limits_command.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "analysis/text/percent.hpp"
+#include "runners/answers/answer_format.hpp"
+#include "runners/commands/command.hpp"
+#include "runners/design_commands/design_commands.hpp"
+#include "runners/design_commands/examined_point.hpp"
+#include "runners/study_run/interruption.hpp"
+
+namespace zerocount::design_commands {
+namespace {
+
+using document::in_data;
+using document::Notation;
+using document::Shown;
+using tuning::Limit;
+
+constexpr const char* limits_help =
+    "Tells what stands between a point and its goal: the rate of the goal with each cause of\n"
+    "failures switched off alone, and with the best pair of causes: creep, the converter (16 times\n"
+    "finer), the encoder (4 times finer), the sample rate (twice), delay and amplifier lag, noise,\n"
+    "disturbance, missed and late samples. The gains are not tuned again. All are simulated with\n"
+    "the same random numbers. Without a goal the rate is that of moves that end at zero counts. Of\n"
+    "several points --point chooses one.\n"
+    "\n"
+    "Example: zerocount limits my-axis.yaml\n";
+
+struct LimitRow {
+  const Limit& limit;
+  const Limit& base;  ///< with nothing switched off
+};
+
+std::vector<LimitRow> limit_rows(const std::vector<Limit>& limits) {
+  std::vector<LimitRow> rows;
+  for (const Limit& one : limits) rows.push_back({one, limits.front()});
+  return rows;
+}
+
+/// "14 % fewer": the failures of the row, compared with those of the base.
+std::string failures_cell(const LimitRow& row) {
+  const double base = row.base.rate.value();
+  if (&row.limit == &row.base || !row.limit.rate || base == 1.0) return "";
+  const double avoided = (*row.limit.rate - base) / (1.0 - base);
+  return fmt::format("{:.0f} % {}", std::abs(100.0 * avoided), avoided >= 0.0 ? "fewer" : "more");
+}
+
+document::Description<LimitRow> limit_columns() {
+  using Row = const LimitRow&;
+  return document::Description<LimitRow>()
+      .value({.key = "cause", .heading = "switched off", .meaning = "cause of failures that is switched off"},
+             [](Row row) { return row.limit.cause; })
+      .value(
+          {.key = "rate",
+           .heading = "rate",
+           .meaning = "proportion of moves, or of machines, that meet the question without it; unknown if it "
+                      "cannot be simulated",
+           .unit = "1",
+           .notation = Notation::percent},
+          [](Row row) { return row.limit.rate; })
+      .value({.key = "failures", .heading = "failures", .shown = Shown::to_people, .numeric = true},
+             failures_cell)
+      .value(in_data("note", "what the rate does not show, or why there is none"),
+             [](Row row) { return row.limit.note.empty() ? std::nullopt : std::optional(row.limit.note); })
+      .value({.key = "remark", .heading = "remark", .shown = Shown::to_people},
+             [](Row row) { return row.limit.rate ? row.limit.note : ""; });
+}
+
+std::string not_simulated(const std::vector<Limit>& limits) {
+  std::string lines;
+  for (const Limit& one : limits) {
+    if (!one.rate) lines += fmt::format("{} is not simulated: {}\n", one.cause, one.note);
+  }
+  return lines;
+}
+
+struct PointLimits {
+  const study::Study& study;
+  std::vector<Limit> limits;
+};
+
+/// "96.5 % of the moves meet the goal; most of them, 100 %, with twice the sample rate".
+std::string limits_headline(const PointLimits& found) {
+  const Limit& base = found.limits.front();
+  const std::string rate = fmt::format("{} of the {}", text::percent_near(base.rate.value()),
+                                       rated_words(goal::question_of(found.study)));
+  const Limit& best = *std::ranges::max_element(found.limits, {}, &Limit::rate);
+  if (*base.rate == 1.0) return rate + ": these trials show no limit";
+  if (*best.rate == *base.rate) return rate + "; no cause of failures that is switched off raises it";
+  return fmt::format("{}; the most, {}, with {}", rate, text::percent_near(*best.rate), best.cause);
+}
+
+document::AnswerDescription<PointLimits> limits_answer() {
+  document::AnswerDescription<PointLimits> answer{
+      {.name = "limits", .meaning = "what stands between a point and its goal", .csv_table = "limits"}, {}};
+  answer.items.headline(limits_headline)
+      .include(limits_description("with causes of failures switched off"), &PointLimits::limits);
+  return answer;
+}
+
+ExitCode limits(const command_line::Arguments& arguments) {
+  const ExaminedPoint examined = point_to_examine(arguments);
+  const study_run::InterruptionWatch interruption;
+  const PointLimits found{examined.study, unless_interrupted([&] {
+                            return tuning::limits_of(examined.study,
+                                                     tuning::units_of(examined.study, examined.point),
+                                                     interruption.token());
+                          })};
+  return answers::print(arguments, limits_answer(), found);
+}
+
+}  // namespace
+
+std::string rated_words(const goal::Question& question) {
+  return fmt::format("{} {}{}", goal::is_of_machines(question) ? "machines" : "moves",
+                     goal::words_of(question).meet, question.worlds > 0 ? " in the worst world" : "");
+}
+
+document::Description<std::vector<Limit>> limits_description(const std::string& title) {
+  return document::Description<std::vector<Limit>>()
+      .table({.key = "limits",
+              .heading = title,
+              .meaning = "rates with each cause of failures switched off, that with none of them first"},
+             limit_columns(), limit_rows)
+      .sentence(not_simulated);
+}
+
+commands::Command limits_command() {
+  return {{"limits",
+           "MANIFEST|FILE",
+           {answers::format_option(limits_answer().complete_type()), examined_point_option(), set_option()}},
+          "what stands between a point and its goal",
+          limits_help,
+          limits,
+          {limits_answer().complete_type()}};
+}
+
+}  // namespace zerocount::design_commands

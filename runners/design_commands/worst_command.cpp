@@ -1,0 +1,237 @@
+#include "runners/design_commands/worst_command.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "analysis/goal/question.hpp"
+#include "analysis/text/text.hpp"
+#include "experiments/yaml/text_file.hpp"
+#include "runners/answers/answer_format.hpp"
+#include "runners/command_line/output_place.hpp"
+#include "runners/commands/command.hpp"
+#include "runners/commands/study_argument.hpp"
+#include "runners/design_commands/design_commands.hpp"
+#include "runners/design_commands/examined_point.hpp"
+#include "runners/study_run/interruption.hpp"
+#include "runners/tuning/worst_in_box.hpp"
+
+namespace zerocount::design_commands {
+namespace {
+
+using document::in_data;
+using document::Shown;
+using tuning::JudgedMachine;
+using tuning::WorstMachine;
+using tuning::WorstMachines;
+
+constexpr const char* worst_help =
+    "Finds the machine that a gain suits worst: of the machines of the study, and in the box of the\n"
+    "central 99.9 % of each quantity that differs between machines, where it is sought from the\n"
+    "worst of the study, from the corners, and from points between them; then among the likely\n"
+    "machines, whose normal scores have a sum of squares within the 99.9 % quantile. Each is judged\n"
+    "by 256 trials of its own. -o writes the manifest of the worst machine of the box: its values\n"
+    "are fixed, and `run` repeats these trials. Without a goal moves are to end at zero counts. Of\n"
+    "several points --point chooses one.\n"
+    "\n"
+    "Example: zerocount worst my-axis.yaml -o worst.yaml\n";
+
+struct Search {
+  const study::Study& study;
+  WorstMachines found;
+  std::optional<std::filesystem::path> manifest{};  ///< that is written
+
+  /// "75.4 % of 256 moves meet the goal".
+  std::string judged(const JudgedMachine& machine) const {
+    return fmt::format("{:.4g} % of {} moves {}", 100.0 * machine.met, machine.moves,
+                       goal::words_of(goal::question_of(study)).meet);
+  }
+};
+
+std::string box_sentence(const Search& search) {
+  const WorstMachines& found = search.found;
+  return "worst in the box of the central 99.9 % of each input: " +
+         (found.in_box_is_of_study ? fmt::format("none is worse than {} of the study",
+                                                 machine_name(found.of_study, search.study.rigs > 0))
+                                   : search.judged(found.in_box));
+}
+
+std::string likely_sentence(const Search& search) {
+  return "worst of the likely machines: " +
+         (search.found.likely_is_in_box ? "the same machine" : search.judged(search.found.likely));
+}
+
+std::string profiles_sentence(const Search& search) {
+  const WorstMachines& found = search.found;
+  if (!found.with_profiles) return "";
+  return fmt::format("with the profiles of rig {}{}", found.in_box.rig,
+                     found.likely_is_in_box ? "" : fmt::format(", likely: of rig {}", found.likely.rig));
+}
+
+/// How the machine of the manifest is run again.
+std::string replay_sentence(const Search& search) {
+  const JudgedMachine& machine = search.found.in_box;
+  if (!search.manifest || yaml::is_standard_stream(*search.manifest) || machine.manifest.empty()) return "";
+  return fmt::format("{0} has its manifest{1}; its worst trial: zerocount trace {0} --trial {2}",
+                     search.manifest->string(),
+                     search.found.with_profiles ? fmt::format(", of which rig {} is the machine", machine.rig)
+                                                : std::string(),
+                     machine.trial);
+}
+
+/// An input of the machines in the box and of the likely ones.
+struct InputRow {
+  std::string name;
+  double in_box;
+  std::optional<double> likely;  ///< where it is another machine
+};
+
+std::vector<InputRow> input_rows(const Search& search) {
+  const WorstMachines& found = search.found;
+  std::vector<InputRow> rows;
+  for (std::size_t i = 0; i < found.in_box.inputs.size(); ++i) {
+    const auto& [name, value] = found.in_box.inputs[i];
+    rows.push_back({name, value, std::nullopt});
+    if (!found.likely_is_in_box) rows.back().likely = found.likely.inputs[i].second;
+  }
+  return rows;
+}
+
+document::Description<InputRow> input_columns() {
+  return document::Description<InputRow>()
+      .value({.key = "input", .heading = "input"}, &InputRow::name)
+      .value({.key = "in_box", .heading = "in the box"}, &InputRow::in_box)
+      .value({.key = "likely", .heading = "likely"}, &InputRow::likely);
+}
+
+document::Description<JudgedMachine> judged_description() {
+  return document::Description<JudgedMachine>()
+      .value(in_data("moves", "moves by which the machine is judged"), &JudgedMachine::moves)
+      .value(in_data("met", "proportion of these moves that meet the goal", "1"), &JudgedMachine::met);
+}
+
+/// A machine that was sought, and whether it is another one of the answer.
+struct FoundMachine {
+  const JudgedMachine& machine;
+  bool is_other;
+};
+
+document::Description<FoundMachine> found_description(const std::string& other_key,
+                                                      const std::string& other_meaning) {
+  using Found = const FoundMachine&;
+  return document::Description<FoundMachine>()
+      .value(in_data("rig", "rig of the study with its profiles; 0 without rigs"),
+             [](Found found) { return found.machine.rig; })
+      .value(in_data("trial", "its worst trial, of its manifest"),
+             [](Found found) { return found.machine.trial; })
+      .include(judged_description(), [](Found found) -> const JudgedMachine& { return found.machine; })
+      .value(in_data("inputs", "the quantities that differ between machines, by parameter"),
+             [](Found found) -> const NamedValues& { return found.machine.inputs; })
+      .value(in_data("quantiles", "their quantiles", "1"),
+             [](Found found) -> const std::vector<double>& { return found.machine.quantiles; })
+      .value({.key = other_key, .meaning = other_meaning}, &FoundMachine::is_other);
+}
+
+document::AnswerDescription<Search> worst_answer() {
+  document::AnswerDescription<Search> answer{
+      {.name = "worst", .meaning = "the machine that a gain suits worst"}, {}};
+  answer.items.headline(box_sentence)
+      .sentence(likely_sentence)
+      .include(worst_description(), [](const Search& s) { return s.found.of_study; })
+      .sentence([](const Search& s) {
+        return "worst of the study: " + worst_machine_text(s.found.of_study, s.study);
+      })
+      .object(in_data("again", "the worst machine of the study, judged by new trials"), judged_description(),
+              [](const Search& s) { return s.found.again; })
+      .sentence([](const Search& s) { return "  in new trials " + s.judged(s.found.again); })
+      .object(in_data("box", "the worst machine in the box of the central 99.9 % of each input"),
+              found_description("of_study", "whether it is the worst machine of the study"),
+              [](const Search& s) {
+                return FoundMachine{s.found.in_box, s.found.in_box_is_of_study};
+              })
+      .object(in_data("likely", "the worst of the likely machines"),
+              found_description("in_box", "whether it is the machine of the box"),
+              [](const Search& s) {
+                return FoundMachine{s.found.likely, s.found.likely_is_in_box};
+              })
+      .table({.key = "machine_inputs", .heading = "these machines", .shown = Shown::to_people},
+             input_columns(), input_rows)
+      .sentence(profiles_sentence)
+      .sentence(replay_sentence);
+  return answer;
+}
+
+/// The folder from which the operand names its files; nothing for a results file.
+std::optional<std::filesystem::path> folder_of(const std::filesystem::path& operand) {
+  if (commands::is_results_file(operand)) return std::nullopt;
+  return std::filesystem::absolute(yaml::is_stream(operand) ? "." : operand).parent_path();
+}
+
+ExitCode worst(const command_line::Arguments& arguments) {
+  const std::optional<std::filesystem::path> output = command_line::text_place(arguments, "output");
+  if (output) command_line::require_places(arguments, {arguments.operands()[0]}, {*output});
+  const ExaminedPoint examined = point_to_examine(arguments);
+  const study_run::InterruptionWatch interruption;
+  const Search search{examined.study, unless_interrupted([&] {
+                        return tuning::worst_machines(
+                            examined.study, tuning::units_of(examined.study, examined.point),
+                            folder_of(arguments.operands()[0]), interruption.token());
+                      }),
+                      output};
+  const ExitCode code = answers::print(arguments, worst_answer(), search);
+  if (!output) return code;
+  const JudgedMachine& machine = search.found.in_box;
+  if (machine.manifest.empty())
+    throw Failure(ExitCode::bad_input, fmt::format("{}: no manifest describes the worst machine: {}",
+                                                   output->string(), machine.no_manifest));
+  command_line::write_text(*output, machine.manifest);
+  return code;
+}
+
+}  // namespace
+
+std::string values_text(const NamedValues& values) {
+  std::string text;
+  for (const auto& [name, value] : values)
+    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, text::short_number(value));
+  return text;
+}
+
+std::string machine_name(const WorstMachine& worst, bool on_rigs) {
+  return fmt::format("{} {}", on_rigs ? "rig" : "trial", worst.rig);
+}
+
+std::string worst_machine_text(const WorstMachine& worst, const study::Study& study) {
+  return fmt::format("{}, {:.4g} % of its moves {}{}{}", machine_name(worst, study.rigs > 0),
+                     100.0 * worst.met, goal::words_of(goal::question_of(study)).meet,
+                     worst.inputs.empty() ? "" : "; ", values_text(worst.inputs));
+}
+
+document::Description<WorstMachine> worst_description() {
+  return document::Description<WorstMachine>()
+      .value(in_data("rig",
+                     "number of the machine in the study: its rig, or its trial where no trials share a rig"),
+             &WorstMachine::rig)
+      .value(in_data("trial", "its worst trial"), &WorstMachine::trial)
+      .value(in_data("met", "proportion of its moves that meet the goal", "1"), &WorstMachine::met)
+      .value(in_data("inputs", "what it has drawn, by parameter"), &WorstMachine::inputs);
+}
+
+commands::Command worst_command() {
+  return {{"worst",
+           "MANIFEST|FILE",
+           {answers::format_option(worst_answer().complete_type()),
+            {"output,o", "MANIFEST", "write a manifest of the worst machine in the box"},
+            examined_point_option(),
+            set_option(),
+            command_line::force_option()}},
+          "the machine that a gain suits worst",
+          worst_help,
+          worst,
+          {worst_answer().complete_type()}};
+}
+
+}  // namespace zerocount::design_commands

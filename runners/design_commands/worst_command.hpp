@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "analysis/document/description.hpp"
+#include "runners/tuning/worst_machine.hpp"
+
+namespace zerocount::design_commands {
+
+using NamedValues = std::vector<std::pair<std::string, double>>;
+
+/// "controller.ki = 5, controller.kp = 0"
+std::string values_text(const NamedValues& values);
+
+/// "rig 3", or "trial 3" of a study without rigs.
+std::string machine_name(const tuning::WorstMachine& worst, bool on_rigs);
+
+/// "rig 3, 75 % of its moves meet the goal; friction.k1 = 175".
+std::string worst_machine_text(const tuning::WorstMachine& worst, const study::Study& study);
+
+/// The machine of a study that does worst; for data only, because worst_machine_text() says it.
+document::Description<tuning::WorstMachine> worst_description();
+
+}  // namespace zerocount::design_commands

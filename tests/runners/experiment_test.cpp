@@ -88,7 +88,7 @@ TEST_F(Experiment, TheTorqueBecomesARecord) {
   }
   EXPECT_EQ(lines, json["samples"].get<std::int64_t>() + 1);
   EXPECT_EQ(std::ranges::count(file("torque.txt"), '\n'), json["samples"].get<std::int64_t>());
-  EXPECT_NE(file("page.html").find("What to record"), std::string::npos);
+  EXPECT_NE(file("page.html").find("figure-experiment"), std::string::npos);
   folder_.write("both.csv", both);
   const auto k1_of = [&](const std::string& name) {
     const ProgramResult identified =

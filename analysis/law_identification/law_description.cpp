@@ -114,7 +114,7 @@ document::Description<ComparedRecord> record_description() {
 document::AnswerDescription<LawComparison> laws_answer() {
   using Of = const LawComparison&;
   document::AnswerDescription<LawComparison> answer{
-      {.name = "identify_laws", .meaning = "friction laws compared on the same records", .csv_table = "laws"},
+      {.name = "identify-laws", .meaning = "friction laws compared on the same records", .csv_table = "laws"},
       {}};
   answer.items.headline(headline_of)
       .value(in_data("kind", "always laws"), [](Of) { return "laws"; })

@@ -97,7 +97,7 @@ document::AnswerDescription<SlidingIdentification> sliding_answer() {
   using document::in_data;
   using Of = const SlidingIdentification&;
   document::AnswerDescription<SlidingIdentification> answer{
-      {.name = "identify_sliding",
+      {.name = "identify-sliding",
        .meaning = "inertia and friction of an axis from its sliding motion",
        .csv_table = "parameters"},
       {}};

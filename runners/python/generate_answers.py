@@ -12,7 +12,6 @@ import collections
 import json
 import keyword
 import pathlib
-import re
 import subprocess
 import sys
 import textwrap
@@ -165,7 +164,7 @@ def by_command(answers: Mapping[str, Schema]) -> dict[str, list[str]]:
     """Names of the answers of each command."""
     result: dict[str, list[str]] = {}
     for name in answers:
-        result.setdefault(re.split("[-_]", name)[0], []).append(name)
+        result.setdefault(name.partition("-")[0], []).append(name)
     return result
 
 

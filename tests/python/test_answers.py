@@ -36,6 +36,16 @@ tune: {free: {controller.ki: {log: [1.0e-5, 6.0e-5]}}, margins: off}
 """
 
 
+SLIDE = """\
+zerocount: 1
+name: slide
+trials: 1
+seed: 3
+friction: {model: coulomb, breakaway: 0.2, coulomb_ratio: 0.8}
+command: {torque: {levels: [0, 0.5, -0.5, 0.5, -0.5], rate: 10}, hold: 0.3}
+"""
+
+
 @pytest.fixture(scope="module")
 def schema() -> Any:
     """The schema of all answers."""
@@ -59,6 +69,9 @@ def asked(axis: zc.Study, small: zc.Results, other: zc.Results, results_of: Resu
     few.save(folder / "few.yaml")
     margin, label = {"success_rate": 0.2, "settling_time": "50%"}, small.study.labels[2]
     laws, steps = ["spring", "dahl"], ("identify", records.path, "--point", "steps")
+    slide = folder / "slide.csv"
+    (folder / "slide.yaml").write_text(SLIDE, encoding="utf-8")
+    by_program("trace", folder / "slide.yaml", "--format", "csv", "-o", slide)
     shown = {"success": 0.97, "rigs_share": 0.9}
     return {
         "judge the best": (small.judge, ("judge", small.path)),
@@ -108,6 +121,7 @@ def asked(axis: zc.Study, small: zc.Results, other: zc.Results, results_of: Resu
         ),
         "identify": (lambda: zc.identify(records.path, point="steps"), steps),
         "identify laws": (lambda: zc.identify(records.path, point="steps", model=laws), (*steps, "--model", laws[0], "--model", laws[1])),
+        "identify sliding": (lambda: zc.identify(slide, sliding=True), ("identify", slide, "--sliding")),
         "limits": (lambda: zc.ask("limits", axis, point=2), ("limits", manifest, "--point", 2)),
         "jerks": (lambda: zc.ask("jerks", small, creep_trials=2), ("jerks", small.path, "--creep-trials", 2)),
         "learn": (lambda: zc.ask("learn", worlds), ("learn", worlds.path)),

@@ -42,7 +42,16 @@ goal: {band: 0, within: 0.2, moves: 0.8}
 friction: {alpha: {interval: [0.1, 8]}, k1: {interval: [40, 200]}}
 command: {targets: [5, 12], hold: 0.4}
 """
+SLIDE = """
+zerocount: 1
+name: slide
+trials: 1
+seed: 3
+friction: {model: coulomb, breakaway: 0.2, coulomb_ratio: 0.8}
+command: {torque: {levels: [0, 0.5, -0.5, 0.5, -0.5], rate: 10}, hold: 0.3}
+"""
 FILES = {
+    "slide.yaml": SLIDE,
     "axis.yaml": AXIS,
     "sweep.yaml": AXIS + SWEEP,
     "tune.yaml": AXIS + TUNE,
@@ -57,6 +66,7 @@ PREPARATIONS = [
     "run no-goal.yaml -o no-goal.h5",
     "new material-test -o material.yaml",
     "run material.yaml -o material.h5 --set trials=1",
+    "trace slide.yaml --format csv -o slide.csv",
     "history add axis.h5 --database history.sqlite",
     "history add again.h5 --database history.sqlite",
 ]
@@ -77,6 +87,8 @@ QUESTIONS = [
     "parameters --manifest axis.yaml",
     "experiment axis.yaml",
     "identify material.h5 --effort 0.1",
+    "identify material.h5 --effort 0.1 --model spring --model dahl",
+    "identify slide.csv --sliding",
     "learn worlds.h5",
     "tune tune.yaml -o tuned.h5 --budget 6000 --force",
     "limits axis.yaml",

@@ -14,7 +14,7 @@ from .asking import ask
 from .comparison import Comparison, compare
 from .errors import DataError, Error, MachineError, ManifestError, Problem, TooLittleDataError
 from .figures import Figure
-from .identification import Identification, identify
+from .identification import Identification, LawIdentification, SlidingIdentification, identify
 from .laws import ControlLaw, Setup, trial
 from .laws import Sample as LoopSample
 from .planning import plan
@@ -33,6 +33,7 @@ __all__ = [
     "Error",
     "Figure",
     "Identification",
+    "LawIdentification",
     "LoopSample",
     "MachineError",
     "ManifestError",
@@ -40,6 +41,7 @@ __all__ = [
     "Results",
     "Sample",
     "Setup",
+    "SlidingIdentification",
     "Study",
     "TooLittleDataError",
     "Trace",

@@ -49,7 +49,7 @@ class CheckAnswer(Answer):
     worlds : int
         Worlds; 0: none.
     judged_by : str or None
-        What the moves are judged by.
+        What the moves are judged by; null without targets.
     stopping : pandas.DataFrame
         Trials that the stopping rule takes.
 
@@ -189,6 +189,365 @@ class VerifyAnswer(Answer):
 
     ok: bool
     files: pandas.DataFrame
+
+
+class ExperimentAnswer(Answer):
+    """The record from which identify tells the friction.
+
+    Attributes
+    ----------
+    name : str
+        Name of the study.
+    axis : Literal["rotary", "linear"]
+        Kind of axis.
+    sample_time : float or None
+        Time between samples, s.
+    samples : int
+        Samples of the record.
+    max_torque : float or None
+        Largest torque or force, N m or N.
+    least_breakaway : float or None
+        Least breakaway of the machines, N m or N.
+    travel : float or None
+        Largest distance from the start on any machine, rad or m.
+    machines : int
+        Machines on which it is safe.
+    protocols : int
+        Protocols that were tried.
+    converged : bool
+        Whether no change of the protocol was better.
+    residuals_passed : bool
+        Whether identify explains the simulated record.
+    segments : pandas.DataFrame
+        Parts of the record.
+
+        - ``to``: torque or force to which it leads linearly, N m or N
+        - ``samples``: its samples
+
+    parameters : pandas.DataFrame
+        What to expect of each parameter.
+
+        - ``key``: dotted path in a manifest
+        - ``guess``: value of the median machine, in the unit
+        - ``unit``: unit of the parameter
+        - ``status``: whether the record determines it
+        - ``low``: lower end of the 95 % interval to expect
+        - ``high``: its upper end
+        - ``told``: machines on which the record determines it
+        - ``narrowest``: least half-width of the interval over the machines, relative
+        - ``widest``: largest half-width of the interval over the machines, relative
+        - ``reason``: why the record does not determine it; empty: it does
+
+    identify : str
+        The command that identifies the record.
+    """
+
+    name: str
+    axis: Literal["rotary", "linear"]
+    sample_time: float | None
+    samples: int
+    max_torque: float | None
+    least_breakaway: float | None
+    travel: float | None
+    machines: int
+    protocols: int
+    converged: bool
+    residuals_passed: bool
+    segments: pandas.DataFrame
+    parameters: pandas.DataFrame
+    identify: str
+
+
+class Errors(Record):
+    """Joint errors of the estimates.
+
+    Attributes
+    ----------
+    parameters : list[str]
+        Names, in the order of the matrices.
+    covariance : list[list[float or None]]
+        Of the errors of logarithms; of n and the time offset themselves.
+    correlation : list[list[float or None]]
+        Of the same errors.
+    """
+
+    parameters: list[str]
+    covariance: list[list[float | None]]
+    correlation: list[list[float | None]]
+
+
+class Residuals(Record):
+    """Checks of the residuals.
+
+    Attributes
+    ----------
+    observations : int
+        Residuals.
+    spread : float or None
+        Root mean square of the residuals over their standard deviations.
+    expected_spread : float or None
+        Its mean over the replicates.
+    spread_chance : float or None
+        Proportion of replicates with at least this spread.
+    runs : float or None
+        Runs of one sign.
+    expected_runs : float or None
+        Their mean over the replicates.
+    runs_chance : float or None
+        Proportion of replicates at least as far off.
+    correlation_length : float or None
+        Correlation length of the residuals, in residuals.
+    expected_correlation_length : float or None
+        Its mean over the replicates.
+    passed : bool
+        Whether encoder and noise explain the residuals.
+    reason : str or None
+        What they do not explain; null: nothing.
+    widening : float or None
+        Factor that widened the intervals.
+    """
+
+    observations: int
+    spread: float | None
+    expected_spread: float | None
+    spread_chance: float | None
+    runs: float | None
+    expected_runs: float | None
+    runs_chance: float | None
+    correlation_length: float | None
+    expected_correlation_length: float | None
+    passed: bool
+    reason: str | None
+    widening: float | None
+
+
+class ResidualLine(Record):
+    """Spectral line of the residuals that a second mass may make.
+
+    Attributes
+    ----------
+    record : str
+        Record with the line.
+    frequency : float or None
+        Its frequency, Hz.
+    """
+
+    record: str
+    frequency: float | None
+
+
+class IdentifyAnswer(Answer):
+    """Friction, damping and inertia from material tests.
+
+    Attributes
+    ----------
+    axis : Literal["rotary", "linear"]
+        Kind of axis.
+    parameters : pandas.DataFrame
+        The parameters.
+
+        - ``name``: name of the parameter
+        - ``key``: dotted path in a manifest; null: it has none
+        - ``unit``: unit of its numbers
+        - ``status``: whether the records determine it
+        - ``value``: estimate, in the unit
+        - ``standard_error``: its standard error, in the unit
+        - ``low``: lower end of its 95 % interval, in the unit
+        - ``high``: upper end of its 95 % interval, in the unit
+        - ``reason``: why it is not identifiable, or kept
+        - ``distribution``: distribution in a manifest whose central 95 % are the interval
+
+    sample_time : float or None
+        Time between samples of the first record, s.
+    correlations : pandas.DataFrame
+        Pairs of parameters whose errors correlate by 0.9 and more.
+
+        - ``one``: a parameter
+        - ``other``: the other one
+        - ``value``: correlation of their errors
+
+    errors : Errors
+        Joint errors of the estimates.
+    records : pandas.DataFrame
+        What each record has of the tests.
+
+        - ``name``: file, and part of it
+        - ``samples``: samples of the record
+        - ``duration``: its duration, s
+        - ``counted``: whether it is read in counts
+        - ``unit``: size of a unit of the readings, rad or m
+        - ``branches``: slow branches of the torque
+        - ``reversals``: reversals of the torque
+        - ``holds``: stretches of constant torque
+        - ``ring_downs``: oscillations that die out after a step
+        - ``misfit``: root mean square of the residuals, in units of the readings
+        - ``noise``: standard deviation of the readings, in their unit
+        - ``excluded``: samples masked by --exclude
+        - ``note``: what was cut out of it
+
+    residuals : Residuals
+        Checks of the residuals.
+    residual_line : ResidualLine or None
+        Spectral line of the residuals that a second mass may make.
+    search_ended : bool
+        Whether the search ended because of --effort.
+    manifest : str
+        The parameters as a fragment of a manifest.
+    """
+
+    _records = {"errors": Errors, "residuals": Residuals, "residual_line": ResidualLine}
+
+    axis: Literal["rotary", "linear"]
+    parameters: pandas.DataFrame
+    sample_time: float | None
+    correlations: pandas.DataFrame
+    errors: Errors
+    records: pandas.DataFrame
+    residuals: Residuals
+    residual_line: ResidualLine | None
+    search_ended: bool
+    manifest: str
+
+
+class IdentifyLawsAnswer(Answer):
+    """Friction laws compared on the same records.
+
+    Attributes
+    ----------
+    kind : str
+        Always laws.
+    axis : Literal["rotary", "linear"]
+        Kind of axis.
+    laws : pandas.DataFrame
+        The laws, the best one first.
+
+        - ``law``: word of the friction law
+        - ``fitted``: fitted numbers, with the time offset
+        - ``misfit``: root mean square of the residuals, rad or m
+        - ``misfit_over_travel``: the same over the travel of the records
+        - ``bic_above_least``: Schwarz's criterion above that of the best law
+        - ``explained``: whether they explain the residuals
+        - ``spread``: root mean square of the residuals over their standard deviations
+        - ``expected_spread``: its mean over replicates
+        - ``widening``: factor that widened the intervals
+        - ``converged``: whether the fit converged
+        - ``parameters``: its parameters
+          - ``name``: name of the parameter
+          - ``key``: dotted path in a manifest; null: it has none
+          - ``unit``: unit of its numbers
+          - ``status``: whether the records determine it
+          - ``value``: estimate, in the unit
+          - ``standard_error``: its standard error, in the unit
+          - ``low``: lower end of its 95 % interval, in the unit
+          - ``high``: upper end of its 95 % interval, in the unit
+          - ``reason``: why it is not identifiable, or kept
+          - ``distribution``: distribution in a manifest whose central 95 % are the interval
+        - ``manifest``: the law as a fragment of a manifest
+
+    readings : int
+        Readings of all records.
+    effective_readings : float or None
+        Those that count as independent in BIC.
+    sample_time : float or None
+        Time between samples, s.
+    records : pandas.DataFrame
+        The records.
+
+        - ``name``: file, and part of it
+        - ``samples``: samples of the record
+        - ``excluded``: samples masked by --exclude
+        - ``note``: what was cut out of it
+
+    manifest : str
+        The parameters as a fragment of a manifest.
+    """
+
+    kind: str
+    axis: Literal["rotary", "linear"]
+    laws: pandas.DataFrame
+    readings: int
+    effective_readings: float | None
+    sample_time: float | None
+    records: pandas.DataFrame
+    manifest: str
+
+
+class Correlation(Record):
+    """Correlation of the errors of the fitted parameters.
+
+    Attributes
+    ----------
+    parameters : list[str]
+        Names, in the order of the matrix.
+    matrix : list[list[float or None]]
+        Correlations.
+    """
+
+    parameters: list[str]
+    matrix: list[list[float | None]]
+
+
+class IdentifySlidingAnswer(Answer):
+    """Inertia and friction of an axis from its sliding motion.
+
+    Attributes
+    ----------
+    kind : str
+        Always sliding.
+    axis : Literal["rotary", "linear"]
+        Kind of axis.
+    parameters : pandas.DataFrame
+        The parameters.
+
+        - ``name``: name of the parameter
+        - ``key``: dotted path in a manifest; null: it has none
+        - ``unit``: unit of its numbers
+        - ``status``: whether the records determine it
+        - ``value``: estimate, in the unit
+        - ``standard_error``: its standard error, in the unit
+        - ``low``: lower end of its 95 % interval, in the unit
+        - ``high``: upper end of its 95 % interval, in the unit
+        - ``reason``: why it is not identifiable, or kept
+        - ``distribution``: distribution in a manifest whose central 95 % are the interval
+
+    correlation : Correlation
+        Correlation of the errors of the fitted parameters.
+    records : pandas.DataFrame
+        What was used of each record.
+
+        - ``name``: file, and part of it
+        - ``samples``: samples of the record
+        - ``duration``: its duration, s
+        - ``resolution``: step of the readings, rad or m
+        - ``presliding_travel``: travel after a standstill or a reversal in which the friction is below its level of
+          sliding, which was left out, rad or m
+        - ``strokes``: strokes of the record
+        - ``windows``: windows of the fit
+        - ``used``: samples in the windows
+        - ``min_velocity``: least speed, rad/s or m/s
+        - ``max_velocity``: largest speed, rad/s or m/s
+
+    misfit : float or None
+        Root mean square of the residuals, in steps of the readings.
+    unexplained_torque : float or None
+        Its root mean square over the windows, N m or N.
+    torque : float or None
+        Root mean square of the torque in the strokes, N m or N.
+    manifest : str
+        The parameters as a fragment of a manifest.
+    """
+
+    _records = {"correlation": Correlation}
+
+    kind: str
+    axis: Literal["rotary", "linear"]
+    parameters: pandas.DataFrame
+    correlation: Correlation
+    records: pandas.DataFrame
+    misfit: float | None
+    unexplained_torque: float | None
+    torque: float | None
+    manifest: str
 
 
 class Needed(Record):
@@ -887,10 +1246,6 @@ class SensitivityAnswer(Answer):
     points: pandas.DataFrame
 
 
-class IdentifyAnswer(Undescribed):
-    """Of the command identify, whose schema the program does not give yet."""
-
-
 class PlanAnswer(Undescribed):
     """Of the command plan, whose schema the program does not give yet."""
 
@@ -906,6 +1261,10 @@ class TuneAnswer(Undescribed):
 TYPES: dict[str, type[Answer]] = {
     "check": CheckAnswer,
     "verify": VerifyAnswer,
+    "experiment": ExperimentAnswer,
+    "identify": IdentifyAnswer,
+    "identify-laws": IdentifyLawsAnswer,
+    "identify-sliding": IdentifySlidingAnswer,
     "judge": JudgeAnswer,
     "learn": LearnAnswer,
     "parameters": ParametersAnswer,
@@ -914,14 +1273,13 @@ TYPES: dict[str, type[Answer]] = {
     "compare": CompareAnswer,
     "history": HistoryAnswer,
     "sensitivity": SensitivityAnswer,
-    "identify": IdentifyAnswer,
     "plan": PlanAnswer,
     "summary": SummaryAnswer,
     "tune": TuneAnswer,
 }
 
 
-DESCRIBED = frozenset({"check", "verify", "judge", "learn", "parameters", "jerks", "compare", "history", "sensitivity"})
+DESCRIBED = frozenset({"check", "verify", "experiment", "identify", "judge", "learn", "parameters", "jerks", "compare", "history", "sensitivity"})
 
 
 class Ask(Protocol):
@@ -931,6 +1289,10 @@ class Ask(Protocol):
     def __call__(self, command: Literal["check"], /, *operands: Any, **options: Any) -> CheckAnswer: ...
     @overload
     def __call__(self, command: Literal["verify"], /, *operands: Any, **options: Any) -> VerifyAnswer: ...
+    @overload
+    def __call__(self, command: Literal["experiment"], /, *operands: Any, **options: Any) -> ExperimentAnswer: ...
+    @overload
+    def __call__(self, command: Literal["identify"], /, *operands: Any, **options: Any) -> IdentifyAnswer | IdentifyLawsAnswer | IdentifySlidingAnswer: ...
     @overload
     def __call__(self, command: Literal["judge"], /, *operands: Any, **options: Any) -> JudgeAnswer: ...
     @overload
@@ -945,8 +1307,6 @@ class Ask(Protocol):
     def __call__(self, command: Literal["history"], /, *operands: Any, **options: Any) -> HistoryAnswer: ...
     @overload
     def __call__(self, command: Literal["sensitivity"], /, *operands: Any, **options: Any) -> SensitivityAnswer: ...
-    @overload
-    def __call__(self, command: Literal["identify"], /, *operands: Any, **options: Any) -> IdentifyAnswer: ...
     @overload
     def __call__(self, command: Literal["plan"], /, *operands: Any, **options: Any) -> PlanAnswer: ...
     @overload

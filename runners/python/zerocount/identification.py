@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import _zerocount
 
-from .answer_types import IdentifyAnswer
+from .answer_types import IdentifyAnswer, IdentifyLawsAnswer, IdentifySlidingAnswer
+from .answers import Answer
 from .asking import ask
 from .optional import required
 
@@ -16,14 +17,13 @@ if TYPE_CHECKING:
     import pandas  # type: ignore[import]
 
 
-class Identification(IdentifyAnswer):
-    """Friction that was identified from records. Of several laws, and of sliding, it has the attributes of
-    ``IdentifyLawsAnswer`` and ``IdentifySlidingAnswer``."""
+class Identified(Answer):
+    """What was identified from records."""
 
     @property
     def passed(self) -> bool | None:
-        """Whether encoder and noise explain the residuals; otherwise the result must not be trusted. None where several
-        laws are compared."""
+        """Whether encoder and noise explain the residuals; otherwise the result must not be trusted. None where the answer
+        does not tell it of one model."""
         residuals = self.get("residuals")
         return bool(residuals["passed"]) if residuals else None
 
@@ -31,13 +31,30 @@ class Identification(IdentifyAnswer):
     def settings(self) -> dict[str, Any]:
         """The manifest as dotted keys: ``study.set(identified.settings)``."""
         sections = _zerocount.manifest_tree(self["manifest"], "<identified>", []) or {}
-        return {f"{section}.{key}": value for section, keys in sections.items() for key, value in keys.items()}
+        return {
+            f"{section}.{key}": value
+            for section, keys in sections.items()
+            if isinstance(keys, Mapping)
+            for key, value in keys.items()
+        }
 
     @property
     def table(self) -> pandas.DataFrame:
-        """The parameters, one row each, by their names; of several laws those of the one with the lowest BIC."""
-        parameters = self["parameters"] if "parameters" in self else _best_law(self["laws"])["parameters"]
+        """The parameters, one row each, by their names; of several laws those of the best."""
+        parameters = self["parameters"] if "parameters" in self else self["laws"][0]["parameters"]
         return required("pandas", "the table of parameters").DataFrame(parameters).set_index("name")
+
+
+class Identification(Identified, IdentifyAnswer):
+    """Friction, damping and inertia from material tests."""
+
+
+class LawIdentification(Identified, IdentifyLawsAnswer):
+    """Friction laws that were compared on the same records."""
+
+
+class SlidingIdentification(Identified, IdentifySlidingAnswer):
+    """Inertia and friction from sliding motion."""
 
 
 def identify(
@@ -66,7 +83,7 @@ def identify(
     point: int | str | Sequence[int | str] | None = None,
     force: bool = False,
     progress: bool = True,
-) -> Identification:
+) -> Identification | LawIdentification | SlidingIdentification:
     """Identify friction, damping and inertia from records.
 
     Parameters
@@ -124,7 +141,8 @@ def identify(
 
     Returns
     -------
-    Identification
+    Identification, or LawIdentification or SlidingIdentification
+        The others of several laws, and of sliding.
 
     Raises
     ------
@@ -167,10 +185,8 @@ def identify(
         point=point,
         force=force,
     )
+    if isinstance(answer, IdentifyLawsAnswer):
+        return LawIdentification.of(answer)
+    if isinstance(answer, IdentifySlidingAnswer):
+        return SlidingIdentification.of(answer)
     return Identification.of(answer)
-
-
-def _best_law(laws: Sequence[Mapping[str, Any]]) -> Mapping[str, Any]:
-    """Of the laws that were compared the one with the lowest BIC."""
-    fitted = [law for law in laws if law.get("bic_above_least") is not None]
-    return min(fitted, key=lambda law: float(law["bic_above_least"]))

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -70,10 +71,11 @@ std::vector<RunValue> goal_values(const summary::StudySummary& summary, const me
     values.push_back(proportion_value(label, "goal_machines", verdict.machines, point.rigs.n / worlds));
   }
   const statistics::Quantile& p95 = settling_of(question, point).p95;
-  RunValue& time = values.emplace_back(label, "goal_settling_time", "s");
+  RunValue time{label, "goal_settling_time", "s"};
   time.value = p95.value;
   time.bounds = {p95.low, p95.high};
   time.n = point.moves;
+  values.push_back(std::move(time));
   return values;
 }
 

@@ -47,25 +47,36 @@ std::string friction_lines(const SlidingIdentification& identification) {
 }
 
 document::Description<SlidingRecord> record_description() {
+  using document::in_data;
   using Of = const SlidingRecord&;
-  constexpr auto digits = document::Notation::three_digits;
+  const auto for_people = [](const char* key, const char* heading) {
+    return document::Item{
+        .key = key, .heading = heading, .shown = document::Shown::to_people, .numeric = true};
+  };
   return document::Description<SlidingRecord>()
       .value({"name", "record", "file, and part of it"}, [](Of r) { return text::printable(r.name); })
       .value({"samples", "samples", "samples of the record"}, [](Of r) { return r.time.size(); })
       .value({"duration", "duration", "its duration", "s"}, [](Of r) { return r.time.back(); })
-      .value({"resolution", "step of the readings", "step of the readings, rad or m", "", digits},
-             &SlidingRecord::resolution)
-      .value({"presliding_travel", "left out after a standstill",
-              "travel after a standstill or a reversal in which the friction is below its level of sliding, "
-              "which was left out, rad or m",
-              "", digits},
+      .value(in_data("resolution", "step of the readings, rad or m"), &SlidingRecord::resolution)
+      .value(for_people("resolution_text", "read in steps of"),
+             [](Of r) { return fmt::format("{:.3g} {}", r.resolution, parameters::unit_on(r.axis, "rad")); })
+      .value(in_data("presliding_travel",
+                     "travel after a standstill or a reversal in which the friction is below its level of "
+                     "sliding, which was left out, rad or m"),
              &SlidingRecord::presliding_travel)
+      .value(for_people("presliding_text", "left out after each reversal"),
+             [](Of r) {
+               return fmt::format("{:.3g} {}", r.presliding_travel, parameters::unit_on(r.axis, "rad"));
+             })
       .value({"strokes", "strokes", "strokes of the record"}, [](Of r) { return r.strokes.size(); })
       .value({"windows", "windows", "windows of the fit"}, [](Of r) { return r.windows.size(); })
       .value({"used", "samples used", "samples in the windows"}, used_samples)
-      .value({"min_velocity", "from", "least speed, rad/s or m/s", "", digits}, &SlidingRecord::min_velocity)
-      .value({"max_velocity", "to speed", "largest speed, rad/s or m/s", "", digits},
-             &SlidingRecord::max_velocity);
+      .value(in_data("min_velocity", "least speed, rad/s or m/s"), &SlidingRecord::min_velocity)
+      .value(in_data("max_velocity", "largest speed, rad/s or m/s"), &SlidingRecord::max_velocity)
+      .value(for_people("velocities", "speeds"), [](Of r) {
+        return fmt::format("{:.3g} to {:.3g} {}/s", r.min_velocity, r.max_velocity,
+                           parameters::unit_on(r.axis, "rad"));
+      });
 }
 
 }  // namespace

@@ -69,5 +69,26 @@ TEST(Audience, WhatItIsNotShownIsNotComputed) {
   }
 }
 
+// Columns of CSV have the names of their objects before them, or one of their own.
+TEST(Csv, HasWholeNumbersAndTheNamesOfColumns) {
+  Description<Gain> goal, gain;
+  goal.value({.key = "rate", .unit = "1"},
+             [](const Gain& g) {
+               return Bounded{g.settling, 0.0, 1.0};
+             })
+      .value({.key = "hold", .unit = "s", .column = "hold_at_least"}, [](const Gain& g) { return g.value; });
+  gain.value({.key = "trials", .shown = Shown::in_csv},
+             [](const Gain& g) { return static_cast<int>(g.value); })
+      .object({.key = "goal"}, goal, [](const Gain& g) { return g.value > 1.0 ? &g : nullptr; });
+  AnswerDescription<Gains> answer{{.name = "gains", .meaning = "gains", .csv_table = "gains"}, {}};
+  answer.items.table({.key = "gains"}, gain, &Gains::gains);
+  EXPECT_EQ(csv(answer.of(Gains{})),
+            "trials,goal_rate,goal_rate_low,goal_rate_high,hold_at_least\n1,nan,nan,nan,nan\n2,0.5,0,1,2\n");
+  const std::vector<std::pair<std::string, std::string>> cells =
+      csv_cells(gain.items()[1], gain.content_of(1)({2.0, 0.5}, Audience::csv));
+  ASSERT_EQ(cells.size(), 4U);
+  EXPECT_EQ(cells.back(), (std::pair<std::string, std::string>{"hold_at_least", "2"}));
+}
+
 }  // namespace
 }  // namespace zerocount::document

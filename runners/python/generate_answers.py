@@ -27,16 +27,14 @@ TARGET = HERE / "answer_types.py"
 WIDTH = 120
 PYTHON = {"boolean": "bool", "integer": "int", "number": "float", "string": "str"}
 OF_ALL = ("answer", "version", "headline")
-CALLED = ("check", "compare", "identify", "judge", "plan", "summary", "tune")
-"""Commands that functions of the package call."""
-RESERVED = frozenset({"Answer", "Record", "Any", "Ask", "Literal", "Protocol", "Union", "Undescribed"})
+RESERVED = frozenset({"Answer", "Record", "Any", "Ask", "Literal", "Protocol", "Union"})
 HEAD = '''"""The answers of the program, written by generate_answers.py from ``zerocount schema --answers``: do not edit."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Literal, Protocol, Union, overload
 
-from .answers import Answer, Record, Undescribed
+from .answers import Answer, Record
 
 if TYPE_CHECKING:
     import pandas  # type: ignore[import]
@@ -188,20 +186,13 @@ def module_text(answers: Mapping[str, Schema]) -> str:
         for path, found in objects(schema, (answer,)):
             classes.setdefault(names.of(path), class_text(names.of(path), "Record", found, path, names))
         classes[class_name(answer)] = class_text(class_name(answer), "Answer", schema, (answer,), names)
-    described = f"DESCRIBED = frozenset({{{', '.join(map(json.dumps, commands))}}})\n"
-    for command in CALLED:
-        if command not in commands:
-            commands[command] = [command]
-            text = f'"""Of the command {command}, whose schema the program does not give yet."""'
-            classes[class_name(command)] = f"class {class_name(command)}(Undescribed):\n    {text}\n"
     unions = [
         f"{class_name(command)} = Union[{', '.join(map(class_name, kinds))}]\n"
         for command, kinds in commands.items()
         if command not in kinds
     ]
-    known = [kind for kinds in commands.values() for kind in kinds]
-    types = "".join(f'    "{kind}": {class_name(kind)},\n' for kind in known)
-    parts = [HEAD, *classes.values(), *unions, f"TYPES: dict[str, type[Answer]] = {{\n{types}}}\n", described]
+    types = "".join(f'    "{name}": {class_name(name)},\n' for name in answers)
+    parts = [HEAD, *classes.values(), *unions, f"TYPES: dict[str, type[Answer]] = {{\n{types}}}\n"]
     return "\n\n".join([*parts, ask_text(commands)])
 
 

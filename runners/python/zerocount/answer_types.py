@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Literal, Protocol, Union, overload
 
-from .answers import Answer, Record, Undescribed
+from .answers import Answer, Record
 
 if TYPE_CHECKING:
     import pandas  # type: ignore[import]
@@ -189,6 +189,1505 @@ class VerifyAnswer(Answer):
 
     ok: bool
     files: pandas.DataFrame
+
+
+class Needed(Record):
+    """Study that would decide the goal.
+
+    Attributes
+    ----------
+    rigs : int
+        Machines; 0 without rigs.
+    trials : int
+        Trials of a design point.
+    """
+
+    rigs: int
+    trials: int
+
+
+class Success(Record):
+    """Rates of success by world.
+
+    Attributes
+    ----------
+    worst : float or None
+        Rate of the worst world, with one-sided bounds.
+    worst_low : float or None
+        Lower bound.
+    worst_high : float or None
+        Upper bound.
+    median : float or None
+        Median of the rates.
+    best : float or None
+        Rate of the best world.
+    worst_world : int
+        Index of the worst world.
+    best_world : int
+        Index of the best world.
+    """
+
+    worst: float | None
+    worst_low: float | None
+    worst_high: float | None
+    median: float | None
+    best: float | None
+    worst_world: int
+    best_world: int
+
+
+class Rule(Record):
+    """What the bad worlds have in common.
+
+    Attributes
+    ----------
+    text : str
+        The rule in words.
+    conditions : pandas.DataFrame
+        Conditions of the rule.
+
+        - ``parameter``: dotted path, or name of a derived quantity
+        - ``relation``
+        - ``value``: threshold, in the unit of the parameter
+
+    same : pandas.DataFrame
+        Conditions each of which alone names the same worlds.
+
+        - ``parameter``: dotted path, or name of a derived quantity
+        - ``relation``
+        - ``value``: threshold, in the unit of the parameter
+
+    joined_by : Literal["and", "or"]
+        How the conditions are joined.
+    bad_named : int
+        Bad worlds that the rule names.
+    others_named : int
+        Other worlds that it names.
+    error_rate : float or None
+        Proportion of worlds named wrongly.
+    p_value : float or None
+        Probability of such a rule by chance.
+    """
+
+    text: str
+    conditions: pandas.DataFrame
+    same: pandas.DataFrame
+    joined_by: Literal["and", "or"]
+    bad_named: int
+    others_named: int
+    error_rate: float | None
+    p_value: float | None
+
+
+class JudgeWorlds(Record):
+    """The worlds at the point.
+
+    Attributes
+    ----------
+    n : int
+        Number of worlds.
+    success : Success
+        Rates of success by world.
+    success_rates : list[float or None]
+        Rate of success of each world.
+    goal_rates : list[float or None] or None
+        Proportion of moves of each world that meet the goal.
+    goal_status : list[Literal["met", "missed", "undecided"]] or None
+        Verdict of each world.
+    met : int or None
+        Worlds in which the goal is met.
+    missed : int or None
+        Worlds in which the goal is missed.
+    undecided : int or None
+        Worlds in which the goal is undecided.
+    bad_worlds : list[int]
+        Indices of the worlds that fall short.
+    rule : Rule or None
+        What the bad worlds have in common.
+    """
+
+    _records = {"success": Success, "rule": Rule}
+
+    n: int
+    success: Success
+    success_rates: list[float | None]
+    goal_rates: list[float | None] | None
+    goal_status: list[Literal["met", "missed", "undecided"]] | None
+    met: int | None
+    missed: int | None
+    undecided: int | None
+    bad_worlds: list[int]
+    rule: Rule | None
+
+
+class JudgeAnswer(Answer):
+    """Whether a study meets its goal.
+
+    Attributes
+    ----------
+    point : int
+        Number of the design point.
+    label : str
+        Label of the design point.
+    goal : str
+        The goal in words.
+    status : Literal["met", "missed", "undecided"]
+        Verdict on the goal.
+    rate : float or None
+        Proportion of moves that meet the goal, with one-sided bounds.
+    rate_low : float or None
+        Lower bound.
+    rate_high : float or None
+        Upper bound.
+    machines_low : float or None
+        Lower bound of the proportion of machines that meet the goal, if it is about machines.
+    machines_high : float or None
+        Its upper bound.
+    chosen_from : int
+        Design points that the point is the best of; 1 if it was named.
+    needed : Needed or None
+        Study that would decide the goal.
+    worlds : JudgeWorlds or None
+        The worlds at the point.
+    """
+
+    _records = {"needed": Needed, "worlds": JudgeWorlds}
+
+    point: int
+    label: str
+    goal: str
+    status: Literal["met", "missed", "undecided"]
+    rate: float | None
+    rate_low: float | None
+    rate_high: float | None
+    machines_low: float | None
+    machines_high: float | None
+    chosen_from: int
+    needed: Needed | None
+    worlds: JudgeWorlds | None
+
+
+class LearnAnswer(Answer):
+    """Which unknown to measure next.
+
+    Attributes
+    ----------
+    point : int
+        Number of the design point.
+    label : str
+        Label of the design point.
+    status : Literal["met", "missed", "undecided"] or None
+        Verdict on the goal; null without one.
+    worlds : int
+        Number of worlds.
+    bad : int
+        Worlds that fall short.
+    undecided : int
+        Worlds that are undecided.
+    needed : Needed or None
+        Study that would decide the goal.
+    next : Literal["nothing", "change_axis", "more_trials", "measure", "no_single_measurement"]
+        What to do next.
+    measure : str or None
+        The unknown to measure; null: none.
+    precision : float or None
+        Relative error of the measurement.
+    unknowns : pandas.DataFrame
+        What a measurement of each unknown decides.
+
+        - ``parameter``: dotted path of the unknown, or name of a derived quantity
+        - ``unit``: unit of the unknown
+        - ``derived``: what the derived quantity is
+        - ``decided``: worlds that the measurement decides rightly
+        - ``decided_good``: those of them that meet the goal
+        - ``decided_bad``: those of them that fall short
+        - ``misjudged``: worlds that are unlike all that remain possible
+        - ``open``: worlds that the measurement does not decide
+        - ``p_value``: probability of as many decided if the unknowns did not matter
+        - ``record``: record of identify that tells the unknown; null: none
+
+    """
+
+    _records = {"needed": Needed}
+
+    point: int
+    label: str
+    status: Literal["met", "missed", "undecided"] | None
+    worlds: int
+    bad: int
+    undecided: int
+    needed: Needed | None
+    next: Literal["nothing", "change_axis", "more_trials", "measure", "no_single_measurement"]
+    measure: str | None
+    precision: float | None
+    unknowns: pandas.DataFrame
+
+
+class TuneProofWorlds(Record):
+    """Verdicts by world.
+
+    Attributes
+    ----------
+    met : int
+        Worlds in which the goal is met.
+    missed : int
+        Worlds in which the goal is missed.
+    undecided : int
+        Worlds in which the goal is undecided.
+    """
+
+    met: int
+    missed: int
+    undecided: int
+
+
+class Proof(Record):
+    """Trials of the tuned values on machines that the search never saw.
+
+    Attributes
+    ----------
+    rate : float or None
+        Proportion of moves that meet the goal, with one-sided bounds.
+    rate_low : float or None
+        Lower bound.
+    rate_high : float or None
+        Upper bound.
+    machines_low : float or None
+        Lower bound of the proportion of machines that meet the goal, if it is about machines.
+    rigs : int
+        Machines; 0 without rigs.
+    trials : int
+        Trials.
+    seed : int
+        Seed of the proof.
+    attempts : int
+        Candidates or sizes that were proven.
+    criterion : float or None
+        Quantity that is minimised; unknown for never.
+    worlds : TuneProofWorlds or None
+        Verdicts by world.
+    """
+
+    _records = {"worlds": TuneProofWorlds}
+
+    rate: float | None
+    rate_low: float | None
+    rate_high: float | None
+    machines_low: float | None
+    rigs: int
+    trials: int
+    seed: int
+    attempts: int
+    criterion: float | None
+    worlds: TuneProofWorlds | None
+
+
+class Worst(Record):
+    """The worst machine of the proof.
+
+    Attributes
+    ----------
+    rig : int
+        Number of the machine in the study: its rig, or its trial where no trials share a rig.
+    trial : int
+        Its worst trial.
+    met : float or None
+        Proportion of its moves that meet the goal.
+    inputs : dict[str, float or None]
+        What it has drawn, by parameter.
+    """
+
+    rig: int
+    trial: int
+    met: float | None
+    inputs: dict[str, float | None]
+
+
+class Margins(Record):
+    """Its smallest margins.
+
+    Attributes
+    ----------
+    gain : float or None
+        Gain margin; unknown where no loop has a limit, dB.
+    phase : float or None
+        Phase margin; unknown where no loop has a limit, degrees.
+    delay : float or None
+        Samples of delay until a loop is unstable; 10 means 10 or more, samples.
+    stable : bool
+        Whether no loop is unstable.
+    machines : int
+        Machines that were examined.
+    """
+
+    gain: float | None
+    phase: float | None
+    delay: float | None
+    stable: bool
+    machines: int
+
+
+class Nearest(Record):
+    """The point that comes nearest to the margins, where none keeps them.
+
+    Attributes
+    ----------
+    gains : dict[str, float or None]
+        Its values, by parameter.
+    margins : Margins
+        Its smallest margins.
+    lacking : dict[str, float or None]
+        By how much margins are too small: dB, degrees, samples.
+    """
+
+    _records = {"margins": Margins}
+
+    gains: dict[str, float | None]
+    margins: Margins
+    lacking: dict[str, float | None]
+
+
+class Searched(Record):
+    """Size of the search.
+
+    Attributes
+    ----------
+    points : int
+        Points that were simulated.
+    trials : int
+        Trials of the search, and of those for other controls.
+    seconds : float or None
+        Time, s.
+    converged : bool
+        Whether the last generation improved no more.
+    """
+
+    points: int
+    trials: int
+    seconds: float | None
+    converged: bool
+
+
+class TuneAnswer(Answer):
+    """Values of the free parameters with which the axis meets its goal.
+
+    Attributes
+    ----------
+    goal : str
+        The goal in words.
+    status : Literal["met", "unreachable", "undecided"]
+        Whether the goal is met; unreachable: not in the ranges.
+    gains : dict[str, float or None]
+        Tuned values by parameter; none where no values keep the margins.
+    proof : Proof or None
+        Trials of the tuned values on machines that the search never saw.
+    needed : Needed or None
+        Study that would decide the goal.
+    at_edges : list[str]
+        Free parameters at an end of their range.
+    worst : Worst or None
+        The worst machine of the proof.
+    nearest : Nearest or None
+        The point that comes nearest to the margins, where none keeps them.
+    wider_band_rate : float or None
+        Rate of the goal with a band one count wider, where it is not met.
+    margins : Margins or None
+        Smallest margins of the tuned loops.
+    delay_lost : float or None
+        controller.delay from which on the goal seems lost, samples.
+    searched : Searched
+        Size of the search.
+    spent_trials : int
+        Trials of all.
+    left_out : list[str]
+        Parts of the answer for which the budget was not enough.
+    room : dict[str, list[float or None]]
+        Range of each parameter in which the goal seems met, the others as tuned.
+    alternatives : pandas.DataFrame
+        Simpler and other controls at their own best values.
+
+        - ``fixed``: parameters that are not tuned, with their values
+        - ``gains``: its best values by parameter; none if none keeps the margins
+        - ``status``: verdict on the goal
+        - ``rate``: proportion of moves that meet the goal, with one-sided bounds
+        - ``rate_low``: lower bound
+        - ``rate_high``: upper bound
+        - ``criterion``: quantity that is minimised; unknown for never
+
+    limits : pandas.DataFrame
+        Rates with each cause of failures switched off, that with none of them first.
+
+        - ``cause``: cause of failures that is switched off
+        - ``rate``: proportion of moves, or of machines, that meet the question without it; unknown if it cannot be
+          simulated
+        - ``note``: what the rate does not show, or why there is none
+
+    frontier : pandas.DataFrame
+        Points of the search that no other point beats in both rate and criterion.
+
+        - ``gains``: values by parameter
+        - ``rate``: rate of the goal by the search, which is a little too good
+        - ``criterion``: quantity that is minimised; unknown for never
+
+    """
+
+    _records = {"proof": Proof, "needed": Needed, "worst": Worst, "nearest": Nearest, "margins": Margins, "searched": Searched}
+
+    goal: str
+    status: Literal["met", "unreachable", "undecided"]
+    gains: dict[str, float | None]
+    proof: Proof | None
+    needed: Needed | None
+    at_edges: list[str]
+    worst: Worst | None
+    nearest: Nearest | None
+    wider_band_rate: float | None
+    margins: Margins | None
+    delay_lost: float | None
+    searched: Searched
+    spent_trials: int
+    left_out: list[str]
+    room: dict[str, list[float | None]]
+    alternatives: pandas.DataFrame
+    limits: pandas.DataFrame
+    frontier: pandas.DataFrame
+
+
+class LimitsAnswer(Answer):
+    """What stands between a point and its goal.
+
+    Attributes
+    ----------
+    limits : pandas.DataFrame
+        Rates with each cause of failures switched off, that with none of them first.
+
+        - ``cause``: cause of failures that is switched off
+        - ``rate``: proportion of moves, or of machines, that meet the question without it; unknown if it cannot be
+          simulated
+        - ``note``: what the rate does not show, or why there is none
+
+    """
+
+    limits: pandas.DataFrame
+
+
+class Again(Record):
+    """The worst machine of the study, judged by new trials.
+
+    Attributes
+    ----------
+    moves : int
+        Moves by which the machine is judged.
+    met : float or None
+        Proportion of these moves that meet the goal.
+    """
+
+    moves: int
+    met: float | None
+
+
+class Box(Record):
+    """The worst machine in the box of the central 99.9 % of each input.
+
+    Attributes
+    ----------
+    rig : int
+        Rig of the study with its profiles; 0 without rigs.
+    trial : int
+        Its worst trial, of its manifest.
+    moves : int
+        Moves by which the machine is judged.
+    met : float or None
+        Proportion of these moves that meet the goal.
+    inputs : dict[str, float or None]
+        The quantities that differ between machines, by parameter.
+    quantiles : list[float or None]
+        Their quantiles.
+    of_study : bool
+        Whether it is the worst machine of the study.
+    """
+
+    rig: int
+    trial: int
+    moves: int
+    met: float | None
+    inputs: dict[str, float | None]
+    quantiles: list[float | None]
+    of_study: bool
+
+
+class Likely(Record):
+    """The worst of the likely machines.
+
+    Attributes
+    ----------
+    rig : int
+        Rig of the study with its profiles; 0 without rigs.
+    trial : int
+        Its worst trial, of its manifest.
+    moves : int
+        Moves by which the machine is judged.
+    met : float or None
+        Proportion of these moves that meet the goal.
+    inputs : dict[str, float or None]
+        The quantities that differ between machines, by parameter.
+    quantiles : list[float or None]
+        Their quantiles.
+    in_box : bool
+        Whether it is the machine of the box.
+    """
+
+    rig: int
+    trial: int
+    moves: int
+    met: float | None
+    inputs: dict[str, float | None]
+    quantiles: list[float | None]
+    in_box: bool
+
+
+class WorstAnswer(Answer):
+    """The machine that a gain suits worst.
+
+    Attributes
+    ----------
+    rig : int
+        Number of the machine in the study: its rig, or its trial where no trials share a rig.
+    trial : int
+        Its worst trial.
+    met : float or None
+        Proportion of its moves that meet the goal.
+    inputs : dict[str, float or None]
+        What it has drawn, by parameter.
+    again : Again
+        The worst machine of the study, judged by new trials.
+    box : Box
+        The worst machine in the box of the central 99.9 % of each input.
+    likely : Likely
+        The worst of the likely machines.
+    """
+
+    _records = {"again": Again, "box": Box, "likely": Likely}
+
+    rig: int
+    trial: int
+    met: float | None
+    inputs: dict[str, float | None]
+    again: Again
+    box: Box
+    likely: Likely
+
+
+class Budget(Record):
+    """What it could spend.
+
+    Attributes
+    ----------
+    trials : int or None
+        Trials of this run.
+    seconds : float or None
+        Time of this run, s.
+    """
+
+    trials: int | None
+    seconds: float | None
+
+
+class Plain(Record):
+    """What the plain trials show.
+
+    Attributes
+    ----------
+    trials : int
+        Trials drawn from their own distribution.
+    failures : int
+        Those with a move that failed.
+    high : float or None
+        Upper bound by these alone.
+    """
+
+    trials: int
+    failures: int
+    high: float | None
+
+
+class Machines(Record):
+    """Machines that carry the probability.
+
+    Attributes
+    ----------
+    examined : int
+        Machines, drawn from the failures.
+    moves_each : int
+        New moves of each.
+    median_rate : float or None
+        Median of their proportions of failing moves.
+    mostly_failing : float or None
+        Proportion of the failures on machines that fail in most of their moves.
+    probability_of_one : float or None
+        Probability of such a machine.
+    """
+
+    examined: int
+    moves_each: int
+    median_rate: float | None
+    mostly_failing: float | None
+    probability_of_one: float | None
+
+
+class RareAnswer(Answer):
+    """The probability of a rare failure.
+
+    Attributes
+    ----------
+    probability : float or None
+        Probability of the event in a move; unknown where no failure was weighted.
+    low : float or None
+        Its lower bound.
+    high : float or None
+        Its upper bound.
+    trials : int
+        Trials that were run.
+    status : Literal["estimated", "undecided"]
+        Whether the bounds are as narrow as asked.
+    reason : str
+        Why it ended.
+    premise : str or None
+        What a bound assumes.
+    budget : Budget
+        What it could spend.
+    confidence : float or None
+        Confidence of both bounds together.
+    seconds : float or None
+        Time of all runs, s.
+    event : str
+        The event; goal, success: it is missed.
+    point : int
+        Number of the design point.
+    label : str
+        Label of the design point.
+    world : int or None
+        The world, of a study with worlds.
+    plain : Plain
+        What the plain trials show.
+    scores : pandas.DataFrame
+        Searches for failures along scores.
+
+        - ``score``: quantity that leads towards failures
+        - ``reached``: whether failures were reached
+        - ``levels``: levels of the search
+        - ``probability``: probability of the last level, without bounds
+        - ``trials``: trials of the search
+
+    values_ : pandas.DataFrame
+        Single values at which failures are frequent.
+
+        - ``parameter``: parameter with single values
+        - ``value``: value at which failures are frequent
+        - ``probability``: probability of the value
+        - ``failures``: trials at the value that failed
+        - ``trials``: trials at the value
+
+    inputs : pandas.DataFrame
+        Inputs that differ between trials, the most shifted first.
+
+        - ``parameter``: dotted path of the parameter
+        - ``unit``: its unit
+        - ``shift``: standard deviations by which failures lie above the median of all trials
+        - ``failures``.* (low, median, high): quantiles in failures
+        - ``usual``.* (low, median, high): quantiles in all trials
+
+    machines : Machines or None
+        Machines that carry the probability.
+    drawn : int
+        Weighted trials in the file.
+    failures_drawn : int
+        Those that failed.
+    """
+
+    _records = {"budget": Budget, "plain": Plain, "machines": Machines}
+
+    probability: float | None
+    low: float | None
+    high: float | None
+    trials: int
+    status: Literal["estimated", "undecided"]
+    reason: str
+    premise: str | None
+    budget: Budget
+    confidence: float | None
+    seconds: float | None
+    event: str
+    point: int
+    label: str
+    world: int | None
+    plain: Plain
+    scores: pandas.DataFrame
+    values_: pandas.DataFrame
+    inputs: pandas.DataFrame
+    machines: Machines | None
+    drawn: int
+    failures_drawn: int
+
+
+class ParametersAnswer(Answer):
+    """What a manifest can say.
+
+    Attributes
+    ----------
+    parameters : pandas.DataFrame
+        Parameters and their defaults.
+
+        - ``name``: dotted path in a manifest
+        - ``unit``: 1 where it is dimensionless
+        - ``default``: value where a manifest has none, or the range over the guides
+        - ``allowed``: words, or the range of numbers
+        - ``source``: source of the default
+        - ``meaning``: what it is
+
+    distributions : pandas.DataFrame
+        What may stand in place of any number.
+
+        - ``name``: key of the distribution
+        - ``written``: as in a manifest
+        - ``meaning``: what it is
+
+    keys_ : pandas.DataFrame
+        Other keys of a manifest.
+
+        - ``name``: dotted path in a manifest
+        - ``required``: whether every manifest has it
+        - ``meaning``: what it is
+
+    """
+
+    parameters: pandas.DataFrame
+    distributions: pandas.DataFrame
+    keys_: pandas.DataFrame
+
+
+class ParametersGuidesAnswer(Answer):
+    """Starting values of guides and bearings.
+
+    Attributes
+    ----------
+    quantities : pandas.DataFrame
+        Quantities of the guides.
+
+        - ``guide``: name of the guide
+        - ``quantity``: what is between low and high
+        - ``unit``: 1 where it is dimensionless
+        - ``low``: least value to expect, in the unit
+        - ``high``: largest value to expect, in the unit
+        - ``origin``: where the numbers come from
+        - ``source``: publication and place, or reason of an assumption
+
+    parameters : pandas.DataFrame
+        Parameters of the guides with their usual mass and preload.
+
+        - ``guide``: name of the guide
+        - ``mass``: mass or moment of inertia that it moves
+        - ``mass_unit``: unit of the mass
+        - ``preload``: preload; null where friction does not depend on it, N
+        - ``parameter``: what is between low and high
+        - ``unit``: 1 where it is dimensionless
+        - ``low``: least value to expect, in the unit
+        - ``high``: largest value to expect, in the unit
+        - ``origin``: where the numbers come from
+
+    """
+
+    quantities: pandas.DataFrame
+    parameters: pandas.DataFrame
+
+
+class JerksAnswer(Answer):
+    """Rate, intervals and trend of the jerks of each design point.
+
+    Attributes
+    ----------
+    name : str
+        Name of the study.
+    confidence : float or None
+        Confidence of all bounds.
+    points : pandas.DataFrame
+        The design points.
+
+        - ``point``: number of the design point
+        - ``label``: label of the design point
+        - ``trials``: trials of the design point
+        - ``moves``: moves of all trials
+        - ``arrived``: moves that arrived; only these can jerk
+        - ``lost``: moves that became non-finite after arrival; excluded
+        - ``trials_with_jerks``: trials with at least one jerk
+        - ``jerks``: jerks of all trials
+        - ``rates``: rate by time
+          - ``from``: start of the range, since arrival, s
+          - ``to``: end of the range, since arrival; belongs to the next, s
+          - ``moves``: moves in which a jerk could have begun in the range
+          - ``exposure``: time in which a jerk could have begun, summed over all moves, s
+          - ``jerks``: jerks that began in the range
+          - ``rate``: jerks per exposure, with Garwood's bounds, widened by the dispersion, 1/s
+          - ``rate_low``: lower bound, 1/s
+          - ``rate_high``: upper bound, 1/s
+          - ``poisson_low``: lower bound of the rate of independent jerks (Garwood), 1/s
+          - ``poisson_high``: its upper bound, 1/s
+          - ``dispersion``: variance of the jerks of a trial, divided by that of independent ones
+        - ``interval``.* (n, mean, p05, p05_low, p05_high, p25, p25_low, p25_high, p50, p50_low, p50_high, p75, p75_low,
+          p75_high, p95, p95_low, p95_high): times between the onsets of successive jerks of a move
+        - ``slowing``.* (moves, tested, slowing, quickening, score, stouffer, p_value, permutations): trend of the
+          intervals between the jerks of a move
+        - ``agreement``.* (hits, jerks, proportion, proportion_low, proportion_high, independent): jerks in the
+          direction of their holding torque
+        - ``magnitude``.* (one_count, counts, mean, max, median_duration, longest_duration): largest |error| of the
+          jerks
+        - ``creep``.* (trials, not_applicable, ended, predicted, lasting, lasting_predicted, too_short, unsteady,
+          median_deviation, largest_deviation): comparison with the closed form of creep at constant torque
+
+    """
+
+    name: str
+    confidence: float | None
+    points: pandas.DataFrame
+
+
+class HistoryAnswer(Answer):
+    """Results over time, and when they changed.
+
+    Attributes
+    ----------
+    false_alarm_probability : float or None
+        Probability of a change in any series without cause.
+    false_alarm_runs : float or None
+        Runs within which it has this probability.
+    threshold : float or None
+        Limit of |z| of the test levels.
+    max_p : float or None
+        Limit of p of the test baseline.
+    series : pandas.DataFrame
+        A measure at a point in all runs.
+
+        - ``study``: name of the study
+        - ``series_sha256``: hash of the question, equal for all runs
+        - ``point``: label of the design point
+        - ``measure``: name of the measure
+        - ``unit``: unit of the values
+        - ``test``: how the series is tested
+        - ``runs``: runs by time
+          - ``created``: time of the run, UTC
+          - ``git_commit``: commit of the program
+          - ``zerocount_version``: version of the program
+          - ``study_sha256``: hash of the study
+          - ``seed``: seed of the study, decimal
+          - ``trials``: trials per design point
+          - ``n``: trials or values that the value is of
+          - ``value``: value of the measure, in its unit, with 95 % bounds
+          - ``value_low``: lower bound
+          - ``value_high``: upper bound
+          - ``comparison``.* (verdict, baseline_created, baseline_commit, baseline, effect, effect_low, effect_high,
+            margin, p): comparison with the baseline
+          - ``changed``: changes after which this is the first run
+          - ``significant``: changes that are significant since this run
+        - ``changes``: changes that are significant
+          - ``before``: level before the change
+          - ``after``: level after the change
+          - ``since_baseline``: whether the change lies between the baseline and the first run
+          - ``last_run_before``.* (created, git_commit): last run, or the baseline, before the change
+          - ``first_run_after``.* (created, git_commit): first run after the change
+          - ``significant_since``.* (created, git_commit): run at which the change was significant
+          - ``z``: signed root of the likelihood ratio statistic, of the test levels
+          - ``p``: two-sided p-value, of the test baseline
+          - ``sentence``: the change in words
+
+    """
+
+    false_alarm_probability: float | None
+    false_alarm_runs: float | None
+    threshold: float | None
+    max_p: float | None
+    series: pandas.DataFrame
+
+
+class PlanGoalAnswer(Answer):
+    """The smallest studies that can meet the goal of a manifest.
+
+    Attributes
+    ----------
+    goal : str
+        The goal in words.
+    worlds : int
+        Worlds; 0 without worlds.
+    plans : pandas.DataFrame
+        Studies, if no move misses the goal.
+
+        - ``rigs``: machines; 0 without rigs
+        - ``trials``: trials of a design point
+
+    """
+
+    goal: str
+    worlds: int
+    plans: pandas.DataFrame
+
+
+class PlanPilotAnswer(Answer):
+    """The study that decides the goal, by the results of a small one.
+
+    Attributes
+    ----------
+    goal : str
+        The goal in words.
+    status : Literal["met", "missed", "undecided"]
+        Verdict on the goal.
+    needed : Needed or None
+        Study that would decide the goal.
+    probability : float or None
+        Probability with which it decides.
+    """
+
+    _records = {"needed": Needed}
+
+    goal: str
+    status: Literal["met", "missed", "undecided"]
+    needed: Needed | None
+    probability: float | None
+
+
+class Halfwidth(Record):
+    """Plan of the bounds of a rate.
+
+    Attributes
+    ----------
+    halfwidth : float or None
+        half-width of the bounds.
+    rate : float or None
+        Assumed rate.
+    rig_sd : float or None
+        Standard deviation of the success probability between rigs.
+    rig_plans : pandas.DataFrame
+        Rigs and trials; none without rig_sd.
+
+        - ``rigs``: rigs
+        - ``trials_per_rig``: trials on each
+        - ``trials``: trials on all rigs
+
+    trials : int or None
+        Trials without rigs, decided beforehand.
+    trials_with_stop : int or None
+        Trials without rigs, decided by the outcomes.
+    """
+
+    halfwidth: float | None
+    rate: float | None
+    rig_sd: float | None
+    rig_plans: pandas.DataFrame
+    trials: int | None
+    trials_with_stop: int | None
+
+
+class PlanSuccessAnswer(Answer):
+    """Trials that show a proportion of successful axes.
+
+    Attributes
+    ----------
+    confidence : float or None
+        Confidence of the claim, or of the bounds.
+    success : float or None
+        Proportion of axes to be shown to succeed.
+    true_success : float or None
+        Assumed true proportion.
+    power : float or None
+        Probability that is asked for.
+    plans : pandas.DataFrame
+        Plans by the number of failures.
+
+        - ``failures``: failures at most
+        - ``trials``: trials
+        - ``chance``: probability that the plan shows the claim, if true_success is the proportion
+        - ``has_power``: whether this probability is at least the power that is asked for
+
+    halfwidth : Halfwidth or None
+        Plan of the bounds of a rate.
+    """
+
+    _records = {"halfwidth": Halfwidth}
+
+    confidence: float | None
+    success: float | None
+    true_success: float | None
+    power: float | None
+    plans: pandas.DataFrame
+    halfwidth: Halfwidth | None
+
+
+class PlanRigsAnswer(Answer):
+    """Rigs and trials that show a proportion of successful rigs.
+
+    Attributes
+    ----------
+    confidence : float or None
+        Confidence of the claim, or of the bounds.
+    success : float or None
+        Proportion of its moves in which a rig holds zero.
+    rigs_share : float or None
+        Proportion of rigs to be shown to succeed.
+    rig_plans : pandas.DataFrame
+        Rigs and trials, if no trial fails.
+
+        - ``rigs``: rigs
+        - ``trials_per_rig``: trials on each
+        - ``trials``: trials on all rigs
+
+    halfwidth : Halfwidth or None
+        Plan of the bounds of a rate.
+    """
+
+    _records = {"halfwidth": Halfwidth}
+
+    confidence: float | None
+    success: float | None
+    rigs_share: float | None
+    rig_plans: pandas.DataFrame
+    halfwidth: Halfwidth | None
+
+
+class PlanHalfwidthAnswer(Answer):
+    """Trials that bring the bounds of a rate within a half-width.
+
+    Attributes
+    ----------
+    confidence : float or None
+        Confidence of the claim, or of the bounds.
+    halfwidth : Halfwidth or None
+        Plan of the bounds of a rate.
+    """
+
+    _records = {"halfwidth": Halfwidth}
+
+    confidence: float | None
+    halfwidth: Halfwidth | None
+
+
+class PlanEquivalenceAnswer(Answer):
+    """Trials that show that two equal studies are equivalent.
+
+    Attributes
+    ----------
+    confidence : float or None
+        Confidence of each bound.
+    power : float or None
+        Probability with which equivalence is shown.
+    pilot_trials : int
+        Trials of the pilot per design point.
+    trials : int or None
+        Trials of each study per design point; unknown if max_trials do not suffice.
+    max_trials : int
+        The most trials that were tried.
+    measures : pandas.DataFrame
+        Measures at the design points.
+
+        - ``point``: label of the design point
+        - ``measure``: name of the measure
+        - ``unit``: its unit
+        - ``value``: its value in the pilot, in its unit
+        - ``margin``: largest accepted difference, in its unit
+        - ``trials``: trials of each study per design point for this measure alone
+
+    """
+
+    confidence: float | None
+    power: float | None
+    pilot_trials: int
+    trials: int | None
+    max_trials: int
+    measures: pandas.DataFrame
+
+
+class SensitivityAnswer(Answer):
+    """Which random parameters influence the outputs of the trials.
+
+    Attributes
+    ----------
+    name : str
+        Name of the study.
+    design_is_saltelli : bool
+        Whether the design is saltelli, and there are total indices.
+    confidence : float or None
+        Confidence of all bounds, each by itself.
+    points : pandas.DataFrame
+        The design points.
+
+        - ``point``: number of the design point
+        - ``label``: label of the design point
+        - ``outputs``: outputs of the trials
+          - ``output``: name of the output
+          - ``unit``: unit of the mean and the standard deviation
+          - ``meaning``: what the output is
+          - ``estimated``: whether the factors could be estimated
+          - ``conclusion``: which factors matter, which do not, and what stays open
+          - ``notes``: what limits these numbers
+          - ``trials``: trials, or worlds, that are used
+          - ``mean``: mean of the output, in its unit
+          - ``standard_deviation``: standard deviation of the output, in its unit
+          - ``factors``: what varies in the trials, strongest first
+            - ``name``: dotted path of the parameter, or what is drawn within trials
+            - ``matters``: whether it is shown to have an influence
+            - ``total``: total Sobol' index
+            - ``total_low``: lower bound
+            - ``total_high``: upper bound
+            - ``first_order``: first-order Sobol' index
+            - ``first_order_low``: lower bound
+            - ``first_order_high``: upper bound
+            - ``rank_correlation``: Spearman's rank correlation
+            - ``rank_correlation_low``: lower bound
+            - ``rank_correlation_high``: upper bound
+            - ``partial_rank_correlation``: rank correlation with the part of the other factors taken out
+            - ``partial_rank_correlation_low``: lower bound
+            - ``partial_rank_correlation_high``: upper bound
+            - ``log_odds``: change of ln(p/(1 - p)) over one standard deviation of the factor, p the proportion of yes
+            - ``log_odds_low``: lower bound
+            - ``log_odds_high``: upper bound
+          - ``left_out``: factors without numbers
+            - ``name``: name of the factor
+            - ``reason``: why it has no numbers
+
+    """
+
+    name: str
+    design_is_saltelli: bool
+    confidence: float | None
+    points: pandas.DataFrame
+
+
+class Unfinished(Record):
+    """How far the run has come.
+
+    Attributes
+    ----------
+    finished : int
+        Trials that the summary is of.
+    trials : int
+        Trials of the study; the maximum if 'stop' decides.
+    """
+
+    finished: int
+    trials: int
+
+
+class Best(Record):
+    """The point that the headline is of, and its competitors.
+
+    Attributes
+    ----------
+    point : int
+        Number of the design point.
+    label : str
+        Label of the design point.
+    chosen_from : int
+        Points that it is the best of; 1 if it was named.
+    runner_up : int or None
+        Number of the best of the other points.
+    as_good : list[int]
+        Numbers of the points that are not shown to be worse.
+    ends_of_ranges : pandas.DataFrame
+        Swept numbers of the point at an end of their range.
+
+        - ``parameter``: dotted path
+        - ``value``: value at the point, in the unit of the parameter
+        - ``end``: which end of the range it is
+
+    """
+
+    point: int
+    label: str
+    chosen_from: int
+    runner_up: int | None
+    as_good: list[int]
+    ends_of_ranges: pandas.DataFrame
+
+
+class Goal(Record):
+    """Whether the new trials meet the goal.
+
+    Attributes
+    ----------
+    status : Literal["met", "missed", "undecided"]
+        Verdict on the goal.
+    rate : float or None
+        Proportion of moves that meet the goal, with one-sided bounds; with worlds of the worst world.
+    rate_low : float or None
+        Lower bound.
+    rate_high : float or None
+        Upper bound.
+    machines : float or None
+        Proportion of machines that meet the goal, with one-sided bounds; with worlds of the worst world.
+    machines_low : float or None
+        Lower bound.
+    machines_high : float or None
+        Upper bound.
+    rigs_without_miss : int or None
+        Rigs all of whose moves meet the goal.
+    """
+
+    status: Literal["met", "missed", "undecided"]
+    rate: float | None
+    rate_low: float | None
+    rate_high: float | None
+    machines: float | None
+    machines_low: float | None
+    machines_high: float | None
+    rigs_without_miss: int | None
+
+
+class Confirmation(Record):
+    """New trials of the chosen point (--confirm).
+
+    Attributes
+    ----------
+    point : int
+        Number of the design point.
+    seed : int
+        Seed of the new trials.
+    trials : int
+        New trials.
+    zero_count : int
+        New trials that succeeded.
+    success_rate : float or None
+        Their proportion, with bounds unless trials share rigs.
+    success_rate_low : float or None
+        Lower bound.
+    success_rate_high : float or None
+        Upper bound.
+    one_trial_per_rig : bool
+        Whether every new trial has a rig of its own.
+    goal : Goal or None
+        Whether the new trials meet the goal.
+    """
+
+    _records = {"goal": Goal}
+
+    point: int
+    seed: int
+    trials: int
+    zero_count: int
+    success_rate: float | None
+    success_rate_low: float | None
+    success_rate_high: float | None
+    one_trial_per_rig: bool
+    goal: Goal | None
+
+
+class SummaryAnswer(Answer):
+    """Statistics of a study by design point; units and meanings are those of a rotary axis.
+
+    Attributes
+    ----------
+    name : str
+        Name of the study.
+    design : str
+        How trials are drawn.
+    conservative_bounds : bool
+        Whether the design makes bounds wider than needed.
+    confidence : float or None
+        Of all bounds.
+    unfinished : Unfinished or None
+        How far the run has come.
+    best : Best or None
+        The point that the headline is of, and its competitors.
+    points : pandas.DataFrame
+        The design points.
+
+        - ``point``: number of the design point
+        - ``label``: label of the design point
+        - ``axes``: values of the swept parameters; null where one has a distribution
+        - ``goal``.* (status, rate, rate_low, rate_high, machines, machines_low, machines_high, rigs_without_miss):
+          whether the point meets the goal, with bounds of this point alone
+        - ``trials``: trials of the point
+        - ``zero_count``: trials whose worst move ended at zero error
+        - ``one_count``: trials whose worst move ended within one count
+        - ``off_target``: trials whose worst move ended beyond one count without oscillating: neither stable nor shown
+          unstable
+        - ``oscillating``: trials whose worst move ended beyond one count, oscillating
+        - ``nonfinite``: trials with a move that left the finite numbers
+        - ``open_loop``: trials with torque levels in place of targets, which are not judged
+        - ``stable``: trials all of whose moves arrived and stayed within one count
+        - ``arrived``: trials all of whose moves arrived
+        - ``broke_away``: trials in which the hook slid during any move
+        - ``saturated``: trials in which the DAC clipped during any move
+        - ``success_rate``: zero_count as a proportion of trials, NaN of an open-loop study
+        - ``success_rate_low``: lower 95 % bound of success_rate: Clopper-Pearson, with rigs Korn-Graubard
+        - ``success_rate_high``: upper 95 % bound of success_rate: Clopper-Pearson, with rigs Korn-Graubard
+        - ``success_rate_wilson_low``: lower 95 % Wilson bound of success_rate, with rigs for the effective number of
+          trials
+        - ``success_rate_wilson_high``: upper 95 % Wilson bound of success_rate, with rigs for the effective number of
+          trials
+        - ``stable_rate``: stable as a proportion of trials, NaN of an open-loop study
+        - ``stable_rate_low``: lower 95 % bound of stable_rate: Clopper-Pearson, with rigs Korn-Graubard
+        - ``stable_rate_high``: upper 95 % bound of stable_rate: Clopper-Pearson, with rigs Korn-Graubard
+        - ``stable_rate_wilson_low``: lower 95 % Wilson bound of stable_rate, with rigs for the effective number of
+          trials
+        - ``stable_rate_wilson_high``: upper 95 % Wilson bound of stable_rate, with rigs for the effective number of
+          trials
+        - ``settling_time``.* (n, moves, mean, min, p05, p25, median, median_low, median_high, p75, p95, p95_low,
+          p95_high, max, mean_low, mean_high): statistics of settling time
+        - ``jerk_count``.* (n, mean, sd, median, p95, max, total, mean_low, mean_high): statistics of jerk count
+        - ``jerk_interval``.* (n, mean, median): statistics of jerk interval
+        - ``jerk_slowing``.* (moves, slowing, quickening, share, tau): statistics of jerk slowing
+        - ``jerk_agreement``: jerks in the direction of the holding torque as a proportion of all jerks
+        - ``jerk_one_count_share``: jerks of one count as a proportion of all jerks
+        - ``final_settling_time``.* (n, moves, mean, min, p05, p25, median, median_low, median_high, p75, p95, p95_low,
+          p95_high, max, mean_low, mean_high): statistics of final settling time
+        - ``overshoot``.* (n, mean, max): statistics of overshoot
+        - ``holding_torque``.* (n, mean, min, max): statistics of holding torque
+        - ``peak_torque``.* (n, mean, max): statistics of peak torque
+        - ``creep``.* (n, mean, min, max): statistics of creep
+        - ``reversal_depth_max``: largest number of reversal points on the stack
+        - ``final_error``.* (n, mean, median, median_low, median_high, p95, p95_low, p95_high, max): statistics of final
+          error
+        - ``zero_fraction``.* (n, mean): statistics of zero fraction
+        - ``oscillation``.* (n, amplitude_median, period_median): statistics of oscillation
+        - ``true_error``.* (n, mean, rms, max): statistics of true error
+        - ``travel_time``.* (mean, max): statistics of travel time
+        - ``phase_changes``.* (trials, mean, max): statistics of phase changes
+        - ``encoder_disagreement``.* (trials, mean, max): statistics of encoder disagreement
+        - ``rigs``.* (n, success_sd, without_failure, without_failure_low, without_failure_high, worst_5_percent):
+          statistics of rigs
+        - ``stopped``: trials that were ended early, because a move had diverged
+        - ``controller_failed``: trials that the controller ended by giving no finite torque
+        - ``rest_error_rms``.* (n, mean, max, mean_low, mean_high): statistics of rest error rms
+        - ``rest_error_range``.* (n, mean, max, mean_low, mean_high): statistics of rest error range
+        - ``rest_motion_rms``.* (n, mean, max, mean_low, mean_high): statistics of rest motion rms
+        - ``rest_motion_range``.* (n, mean, max, mean_low, mean_high): statistics of rest motion range
+        - ``rest_torque_power``.* (n, mean, max, mean_low, mean_high): statistics of rest torque power
+        - ``rest_torque_noise``.* (n, mean, max, mean_low, mean_high): statistics of rest torque noise
+        - ``step_motion``.* (n, mean, max, mean_low, mean_high): statistics of step motion
+        - ``step_made``.* (rate, rate_low, rate_high): statistics of step made
+        - ``following_error_rms``.* (n, mean, max, mean_low, mean_high): statistics of following error rms
+        - ``following_error_peak``.* (n, mean, max, mean_low, mean_high): statistics of following error peak
+        - ``reversal_spike``.* (n, mean, max, mean_low, mean_high): statistics of reversal spike
+        - ``bands``: statistics by error band
+          - ``band``: largest error of the band, count
+          - ``entry_time``.* (n, moves, mean, min, p05, p25, median, median_low, median_high, p75, p95, p95_low,
+            p95_high, max): statistics of entry time
+          - ``settling_time``.* (n, moves, mean, min, p05, p25, median, median_low, median_high, p75, p95, p95_low,
+            p95_high, max, mean_low, mean_high): statistics of settling time
+          - ``exits``.* (n, mean, sd, p95, max, total, mean_low, mean_high): statistics of exits
+        - ``moves``: counts of trials by move
+          - ``zero_count``: trials with this outcome of the move
+          - ``one_count``: trials with this outcome of the move
+          - ``oscillating``: trials with this outcome of the move
+          - ``nonfinite``: trials with this outcome of the move
+          - ``open_loop``: trials with this outcome of the move
+          - ``off_target``: trials with this outcome of the move
+          - ``stable``: trials whose move has this quality
+          - ``arrived``: trials whose move has this quality
+          - ``broke_away``: trials whose move has this quality
+          - ``saturated``: trials whose move has this quality
+          - ``stopped``: trials whose move has this quality
+          - ``controller_failed``: trials whose move has this quality
+        - ``prediction``.* (trials, stable, unstable, stable_share, unstable_share, verdict): by the paper's criteria
+        - ``observed``: what was observed on the real rig
+        - ``undecided``.* (moves, off_target, still_falling, falling_with_ripple, about_to_arrive, hold_at_least): moves
+          that are neither stable nor shown unstable
+        - ``observed_counts``.* (successes, of, p_value, lowest_p_value, verdict, statement): trials on the real rig
+          against those simulated
+        - ``repeatability``.* (trials, evaluated, zero_repeatability, zero_repeatability_rate,
+          zero_repeatability_rate_low, zero_repeatability_rate_high, true, encoder): values of ISO 230-2
+        - ``stopping``.* (success_rate_low, success_rate_high, confidence, halfwidth, halfwidth_asked,
+          halfwidth_confidence, reached, of_rigs): what the rule that ended the study asked for, and what was reached
+        - ``worlds``.* (n, success, success_rates, goal_rates, goal_status, met, missed, undecided, bad_worlds, rule):
+          the worlds at the point
+        - ``assurance``.* (success_at_least, failure_at_most, rule_of_three, settling_time, statement, rigs): what the
+          trials show of all axes that the manifest describes
+        - ``levels``: the torque levels
+          - ``level``: number of the torque level
+          - ``n``: trials whose motion was not lost, of which the values of the level are
+          - ``nonfinite``: trials whose motion was lost in the level or before
+          - ``torque``: mean torque at the end of the level, N m
+          - ``position``.* (mean, low, high, sd, min, max): statistics of position
+          - ``creep``.* (mean, low, high, sd, min, max): statistics of creep
+          - ``broke_away``: trials in which the hook slid during the level
+          - ``reversal_depth_max``: largest number of reversal points on the stack during the level
+
+    confirmation : Confirmation or None
+        New trials of the chosen point (--confirm).
+    """
+
+    _records = {"unfinished": Unfinished, "best": Best, "confirmation": Confirmation}
+
+    name: str
+    design: str
+    conservative_bounds: bool
+    confidence: float | None
+    unfinished: Unfinished | None
+    best: Best | None
+    points: pandas.DataFrame
+    confirmation: Confirmation | None
+
+
+class Parts(Record):
+    """Parts of an array job.
+
+    Attributes
+    ----------
+    all : int
+        Parts of the array job.
+    complete : int
+        Parts with all their trials.
+    running : int
+        Parts that a process runs.
+    interrupted : int
+        Parts with finished trials that no process runs.
+    waiting : int
+        Parts that have not begun.
+    """
+
+    all: int
+    complete: int
+    running: int
+    interrupted: int
+    waiting: int
+
+
+class StatusAnswer(Answer):
+    """Progress of a run or an array job.
+
+    Attributes
+    ----------
+    complete : bool
+        Whether the results file is complete.
+    name : str
+        Name of the study; empty if no file could be read.
+    running : bool
+        Whether a process runs it.
+    trials : int
+        Trials of the study; the maximum with 'stop'.
+    finished : int
+        Trials in complete files.
+    shards : int
+        Finished shards, without those of complete parts.
+    rate : float or None
+        Mean rate since the run began, 1/s.
+    remaining : float or None
+        Time to go at this rate, s.
+    problems : list[str]
+        Files that cannot be read, or were set aside as damaged.
+    parts : Parts or None
+        Parts of an array job.
+    """
+
+    _records = {"parts": Parts}
+
+    complete: bool
+    name: str
+    running: bool
+    trials: int
+    finished: int
+    shards: int
+    rate: float | None
+    remaining: float | None
+    problems: list[str]
+    parts: Parts | None
 
 
 class ExperimentAnswer(Answer):
@@ -550,359 +2049,6 @@ class IdentifySlidingAnswer(Answer):
     manifest: str
 
 
-class Needed(Record):
-    """Study that would decide the goal.
-
-    Attributes
-    ----------
-    rigs : int
-        Machines; 0 without rigs.
-    trials : int
-        Trials of a design point.
-    """
-
-    rigs: int
-    trials: int
-
-
-class Success(Record):
-    """Rates of success by world.
-
-    Attributes
-    ----------
-    worst : float or None
-        Rate of the worst world, with one-sided bounds.
-    worst_low : float or None
-        Lower bound.
-    worst_high : float or None
-        Upper bound.
-    median : float or None
-        Median of the rates.
-    best : float or None
-        Rate of the best world.
-    worst_world : int
-        Index of the worst world.
-    best_world : int
-        Index of the best world.
-    """
-
-    worst: float | None
-    worst_low: float | None
-    worst_high: float | None
-    median: float | None
-    best: float | None
-    worst_world: int
-    best_world: int
-
-
-class Rule(Record):
-    """What the bad worlds have in common.
-
-    Attributes
-    ----------
-    text : str
-        The rule in words.
-    conditions : pandas.DataFrame
-        Conditions of the rule.
-
-        - ``parameter``: dotted path, or name of a derived quantity
-        - ``relation``
-        - ``value``: threshold, in the unit of the parameter
-
-    same : pandas.DataFrame
-        Conditions each of which alone names the same worlds.
-
-        - ``parameter``: dotted path, or name of a derived quantity
-        - ``relation``
-        - ``value``: threshold, in the unit of the parameter
-
-    joined_by : Literal["and", "or"]
-        How the conditions are joined.
-    bad_named : int
-        Bad worlds that the rule names.
-    others_named : int
-        Other worlds that it names.
-    error_rate : float or None
-        Proportion of worlds named wrongly.
-    p_value : float or None
-        Probability of such a rule by chance.
-    """
-
-    text: str
-    conditions: pandas.DataFrame
-    same: pandas.DataFrame
-    joined_by: Literal["and", "or"]
-    bad_named: int
-    others_named: int
-    error_rate: float | None
-    p_value: float | None
-
-
-class Worlds(Record):
-    """The worlds at the point.
-
-    Attributes
-    ----------
-    n : int
-        Number of worlds.
-    success : Success
-        Rates of success by world.
-    success_rates : list[float or None]
-        Rate of success of each world.
-    goal_rates : list[float or None] or None
-        Proportion of moves of each world that meet the goal.
-    goal_status : list[Literal["met", "missed", "undecided"]] or None
-        Verdict of each world.
-    met : int or None
-        Worlds in which the goal is met.
-    missed : int or None
-        Worlds in which the goal is missed.
-    undecided : int or None
-        Worlds in which the goal is undecided.
-    bad_worlds : list[int]
-        Indices of the worlds that fall short.
-    rule : Rule or None
-        What the bad worlds have in common.
-    """
-
-    _records = {"success": Success, "rule": Rule}
-
-    n: int
-    success: Success
-    success_rates: list[float | None]
-    goal_rates: list[float | None] | None
-    goal_status: list[Literal["met", "missed", "undecided"]] | None
-    met: int | None
-    missed: int | None
-    undecided: int | None
-    bad_worlds: list[int]
-    rule: Rule | None
-
-
-class JudgeAnswer(Answer):
-    """Whether a study meets its goal.
-
-    Attributes
-    ----------
-    point : int
-        Number of the design point.
-    label : str
-        Label of the design point.
-    goal : str
-        The goal in words.
-    status : Literal["met", "missed", "undecided"]
-        Verdict on the goal.
-    rate : float or None
-        Proportion of moves that meet the goal, with one-sided bounds.
-    rate_low : float or None
-        Lower bound.
-    rate_high : float or None
-        Upper bound.
-    machines_low : float or None
-        Lower bound of the proportion of machines that meet the goal, if it is about machines.
-    machines_high : float or None
-        Its upper bound.
-    chosen_from : int
-        Design points that the point is the best of; 1 if it was named.
-    needed : Needed or None
-        Study that would decide the goal.
-    worlds : Worlds or None
-        The worlds at the point.
-    """
-
-    _records = {"needed": Needed, "worlds": Worlds}
-
-    point: int
-    label: str
-    goal: str
-    status: Literal["met", "missed", "undecided"]
-    rate: float | None
-    rate_low: float | None
-    rate_high: float | None
-    machines_low: float | None
-    machines_high: float | None
-    chosen_from: int
-    needed: Needed | None
-    worlds: Worlds | None
-
-
-class LearnAnswer(Answer):
-    """Which unknown to measure next.
-
-    Attributes
-    ----------
-    point : int
-        Number of the design point.
-    label : str
-        Label of the design point.
-    status : Literal["met", "missed", "undecided"] or None
-        Verdict on the goal; null without one.
-    worlds : int
-        Number of worlds.
-    bad : int
-        Worlds that fall short.
-    undecided : int
-        Worlds that are undecided.
-    needed : Needed or None
-        Study that would decide the goal.
-    next : Literal["nothing", "change_axis", "more_trials", "measure", "no_single_measurement"]
-        What to do next.
-    measure : str or None
-        The unknown to measure; null: none.
-    precision : float or None
-        Relative error of the measurement.
-    unknowns : pandas.DataFrame
-        What a measurement of each unknown decides.
-
-        - ``parameter``: dotted path of the unknown, or name of a derived quantity
-        - ``unit``: unit of the unknown
-        - ``derived``: what the derived quantity is
-        - ``decided``: worlds that the measurement decides rightly
-        - ``decided_good``: those of them that meet the goal
-        - ``decided_bad``: those of them that fall short
-        - ``misjudged``: worlds that are unlike all that remain possible
-        - ``open``: worlds that the measurement does not decide
-        - ``p_value``: probability of as many decided if the unknowns did not matter
-        - ``record``: record of identify that tells the unknown; null: none
-
-    """
-
-    _records = {"needed": Needed}
-
-    point: int
-    label: str
-    status: Literal["met", "missed", "undecided"] | None
-    worlds: int
-    bad: int
-    undecided: int
-    needed: Needed | None
-    next: Literal["nothing", "change_axis", "more_trials", "measure", "no_single_measurement"]
-    measure: str | None
-    precision: float | None
-    unknowns: pandas.DataFrame
-
-
-class ParametersAnswer(Answer):
-    """What a manifest can say.
-
-    Attributes
-    ----------
-    parameters : pandas.DataFrame
-        Parameters and their defaults.
-
-        - ``name``: dotted path in a manifest
-        - ``unit``: 1 where it is dimensionless
-        - ``default``: value where a manifest has none, or the range over the guides
-        - ``allowed``: words, or the range of numbers
-        - ``source``: source of the default
-        - ``meaning``: what it is
-
-    distributions : pandas.DataFrame
-        What may stand in place of any number.
-
-        - ``name``: key of the distribution
-        - ``written``: as in a manifest
-        - ``meaning``: what it is
-
-    keys_ : pandas.DataFrame
-        Other keys of a manifest.
-
-        - ``name``: dotted path in a manifest
-        - ``required``: whether every manifest has it
-        - ``meaning``: what it is
-
-    """
-
-    parameters: pandas.DataFrame
-    distributions: pandas.DataFrame
-    keys_: pandas.DataFrame
-
-
-class ParametersGuidesAnswer(Answer):
-    """Starting values of guides and bearings.
-
-    Attributes
-    ----------
-    quantities : pandas.DataFrame
-        Quantities of the guides.
-
-        - ``guide``: name of the guide
-        - ``quantity``: what is between low and high
-        - ``unit``: 1 where it is dimensionless
-        - ``low``: least value to expect, in the unit
-        - ``high``: largest value to expect, in the unit
-        - ``origin``: where the numbers come from
-        - ``source``: publication and place, or reason of an assumption
-
-    parameters : pandas.DataFrame
-        Parameters of the guides with their usual mass and preload.
-
-        - ``guide``: name of the guide
-        - ``mass``: mass or moment of inertia that it moves
-        - ``mass_unit``: unit of the mass
-        - ``preload``: preload; null where friction does not depend on it, N
-        - ``parameter``: what is between low and high
-        - ``unit``: 1 where it is dimensionless
-        - ``low``: least value to expect, in the unit
-        - ``high``: largest value to expect, in the unit
-        - ``origin``: where the numbers come from
-
-    """
-
-    quantities: pandas.DataFrame
-    parameters: pandas.DataFrame
-
-
-class JerksAnswer(Answer):
-    """Rate, intervals and trend of the jerks of each design point.
-
-    Attributes
-    ----------
-    name : str
-        Name of the study.
-    confidence : float or None
-        Confidence of all bounds.
-    points : pandas.DataFrame
-        The design points.
-
-        - ``point``: number of the design point
-        - ``label``: label of the design point
-        - ``trials``: trials of the design point
-        - ``moves``: moves of all trials
-        - ``arrived``: moves that arrived; only these can jerk
-        - ``lost``: moves that became non-finite after arrival; excluded
-        - ``trials_with_jerks``: trials with at least one jerk
-        - ``jerks``: jerks of all trials
-        - ``rates``: rate by time
-          - ``from``: start of the range, since arrival, s
-          - ``to``: end of the range, since arrival; belongs to the next, s
-          - ``moves``: moves in which a jerk could have begun in the range
-          - ``exposure``: time in which a jerk could have begun, summed over all moves, s
-          - ``jerks``: jerks that began in the range
-          - ``rate``: jerks per exposure, with Garwood's bounds, widened by the dispersion, 1/s
-          - ``rate_low``: lower bound, 1/s
-          - ``rate_high``: upper bound, 1/s
-          - ``poisson_low``: lower bound of the rate of independent jerks (Garwood), 1/s
-          - ``poisson_high``: its upper bound, 1/s
-          - ``dispersion``: variance of the jerks of a trial, divided by that of independent ones
-        - ``interval``.* (n, mean, p05, p05_low, p05_high, p25, p25_low, p25_high, p50, p50_low, p50_high, p75, p75_low,
-          p75_high, p95, p95_low, p95_high): times between the onsets of successive jerks of a move
-        - ``slowing``.* (moves, tested, slowing, quickening, score, stouffer, p_value, permutations): trend of the
-          intervals between the jerks of a move
-        - ``agreement``.* (hits, jerks, proportion, proportion_low, proportion_high, independent): jerks in the
-          direction of their holding torque
-        - ``magnitude``.* (one_count, counts, mean, max, median_duration, longest_duration): largest |error| of the
-          jerks
-        - ``creep``.* (trials, not_applicable, ended, predicted, lasting, lasting_predicted, too_short, unsteady,
-          median_deviation, largest_deviation): comparison with the closed form of creep at constant torque
-
-    """
-
-    name: str
-    confidence: float | None
-    points: pandas.DataFrame
-
-
 class Baseline(Record):
     """The file of the baseline.
 
@@ -1133,153 +2279,37 @@ class CompareAnswer(Answer):
     points: pandas.DataFrame
 
 
-class HistoryAnswer(Answer):
-    """Results over time, and when they changed.
-
-    Attributes
-    ----------
-    false_alarm_probability : float or None
-        Probability of a change in any series without cause.
-    false_alarm_runs : float or None
-        Runs within which it has this probability.
-    threshold : float or None
-        Limit of |z| of the test levels.
-    max_p : float or None
-        Limit of p of the test baseline.
-    series : pandas.DataFrame
-        A measure at a point in all runs.
-
-        - ``study``: name of the study
-        - ``series_sha256``: hash of the question, equal for all runs
-        - ``point``: label of the design point
-        - ``measure``: name of the measure
-        - ``unit``: unit of the values
-        - ``test``: how the series is tested
-        - ``runs``: runs by time
-          - ``created``: time of the run, UTC
-          - ``git_commit``: commit of the program
-          - ``zerocount_version``: version of the program
-          - ``study_sha256``: hash of the study
-          - ``seed``: seed of the study, decimal
-          - ``trials``: trials per design point
-          - ``n``: trials or values that the value is of
-          - ``value``: value of the measure, in its unit, with 95 % bounds
-          - ``value_low``: lower bound
-          - ``value_high``: upper bound
-          - ``comparison``.* (verdict, baseline_created, baseline_commit, baseline, effect, effect_low, effect_high,
-            margin, p): comparison with the baseline
-          - ``changed``: changes after which this is the first run
-          - ``significant``: changes that are significant since this run
-        - ``changes``: changes that are significant
-          - ``before``: level before the change
-          - ``after``: level after the change
-          - ``since_baseline``: whether the change lies between the baseline and the first run
-          - ``last_run_before``.* (created, git_commit): last run, or the baseline, before the change
-          - ``first_run_after``.* (created, git_commit): first run after the change
-          - ``significant_since``.* (created, git_commit): run at which the change was significant
-          - ``z``: signed root of the likelihood ratio statistic, of the test levels
-          - ``p``: two-sided p-value, of the test baseline
-          - ``sentence``: the change in words
-
-    """
-
-    false_alarm_probability: float | None
-    false_alarm_runs: float | None
-    threshold: float | None
-    max_p: float | None
-    series: pandas.DataFrame
-
-
-class SensitivityAnswer(Answer):
-    """Which random parameters influence the outputs of the trials.
-
-    Attributes
-    ----------
-    name : str
-        Name of the study.
-    design_is_saltelli : bool
-        Whether the design is saltelli, and there are total indices.
-    confidence : float or None
-        Confidence of all bounds, each by itself.
-    points : pandas.DataFrame
-        The design points.
-
-        - ``point``: number of the design point
-        - ``label``: label of the design point
-        - ``outputs``: outputs of the trials
-          - ``output``: name of the output
-          - ``unit``: unit of the mean and the standard deviation
-          - ``meaning``: what the output is
-          - ``estimated``: whether the factors could be estimated
-          - ``conclusion``: which factors matter, which do not, and what stays open
-          - ``notes``: what limits these numbers
-          - ``trials``: trials, or worlds, that are used
-          - ``mean``: mean of the output, in its unit
-          - ``standard_deviation``: standard deviation of the output, in its unit
-          - ``factors``: what varies in the trials, strongest first
-            - ``name``: dotted path of the parameter, or what is drawn within trials
-            - ``matters``: whether it is shown to have an influence
-            - ``total``: total Sobol' index
-            - ``total_low``: lower bound
-            - ``total_high``: upper bound
-            - ``first_order``: first-order Sobol' index
-            - ``first_order_low``: lower bound
-            - ``first_order_high``: upper bound
-            - ``rank_correlation``: Spearman's rank correlation
-            - ``rank_correlation_low``: lower bound
-            - ``rank_correlation_high``: upper bound
-            - ``partial_rank_correlation``: rank correlation with the part of the other factors taken out
-            - ``partial_rank_correlation_low``: lower bound
-            - ``partial_rank_correlation_high``: upper bound
-            - ``log_odds``: change of ln(p/(1 - p)) over one standard deviation of the factor, p the proportion of yes
-            - ``log_odds_low``: lower bound
-            - ``log_odds_high``: upper bound
-          - ``left_out``: factors without numbers
-            - ``name``: name of the factor
-            - ``reason``: why it has no numbers
-
-    """
-
-    name: str
-    design_is_saltelli: bool
-    confidence: float | None
-    points: pandas.DataFrame
-
-
-class PlanAnswer(Undescribed):
-    """Of the command plan, whose schema the program does not give yet."""
-
-
-class SummaryAnswer(Undescribed):
-    """Of the command summary, whose schema the program does not give yet."""
-
-
-class TuneAnswer(Undescribed):
-    """Of the command tune, whose schema the program does not give yet."""
+PlanAnswer = Union[PlanGoalAnswer, PlanPilotAnswer, PlanSuccessAnswer, PlanRigsAnswer, PlanHalfwidthAnswer, PlanEquivalenceAnswer]
 
 
 TYPES: dict[str, type[Answer]] = {
     "check": CheckAnswer,
     "verify": VerifyAnswer,
+    "judge": JudgeAnswer,
+    "learn": LearnAnswer,
+    "tune": TuneAnswer,
+    "limits": LimitsAnswer,
+    "worst": WorstAnswer,
+    "rare": RareAnswer,
+    "parameters": ParametersAnswer,
+    "parameters-guides": ParametersGuidesAnswer,
+    "jerks": JerksAnswer,
+    "history": HistoryAnswer,
+    "plan-goal": PlanGoalAnswer,
+    "plan-pilot": PlanPilotAnswer,
+    "plan-success": PlanSuccessAnswer,
+    "plan-rigs": PlanRigsAnswer,
+    "plan-halfwidth": PlanHalfwidthAnswer,
+    "plan-equivalence": PlanEquivalenceAnswer,
+    "sensitivity": SensitivityAnswer,
+    "summary": SummaryAnswer,
+    "status": StatusAnswer,
     "experiment": ExperimentAnswer,
     "identify": IdentifyAnswer,
     "identify-laws": IdentifyLawsAnswer,
     "identify-sliding": IdentifySlidingAnswer,
-    "judge": JudgeAnswer,
-    "learn": LearnAnswer,
-    "parameters": ParametersAnswer,
-    "parameters-guides": ParametersGuidesAnswer,
-    "jerks": JerksAnswer,
     "compare": CompareAnswer,
-    "history": HistoryAnswer,
-    "sensitivity": SensitivityAnswer,
-    "plan": PlanAnswer,
-    "summary": SummaryAnswer,
-    "tune": TuneAnswer,
 }
-
-
-DESCRIBED = frozenset({"check", "verify", "experiment", "identify", "judge", "learn", "parameters", "jerks", "compare", "history", "sensitivity"})
 
 
 class Ask(Protocol):
@@ -1290,28 +2320,36 @@ class Ask(Protocol):
     @overload
     def __call__(self, command: Literal["verify"], /, *operands: Any, **options: Any) -> VerifyAnswer: ...
     @overload
-    def __call__(self, command: Literal["experiment"], /, *operands: Any, **options: Any) -> ExperimentAnswer: ...
-    @overload
-    def __call__(self, command: Literal["identify"], /, *operands: Any, **options: Any) -> IdentifyAnswer | IdentifyLawsAnswer | IdentifySlidingAnswer: ...
-    @overload
     def __call__(self, command: Literal["judge"], /, *operands: Any, **options: Any) -> JudgeAnswer: ...
     @overload
     def __call__(self, command: Literal["learn"], /, *operands: Any, **options: Any) -> LearnAnswer: ...
+    @overload
+    def __call__(self, command: Literal["tune"], /, *operands: Any, **options: Any) -> TuneAnswer: ...
+    @overload
+    def __call__(self, command: Literal["limits"], /, *operands: Any, **options: Any) -> LimitsAnswer: ...
+    @overload
+    def __call__(self, command: Literal["worst"], /, *operands: Any, **options: Any) -> WorstAnswer: ...
+    @overload
+    def __call__(self, command: Literal["rare"], /, *operands: Any, **options: Any) -> RareAnswer: ...
     @overload
     def __call__(self, command: Literal["parameters"], /, *operands: Any, **options: Any) -> ParametersAnswer | ParametersGuidesAnswer: ...
     @overload
     def __call__(self, command: Literal["jerks"], /, *operands: Any, **options: Any) -> JerksAnswer: ...
     @overload
-    def __call__(self, command: Literal["compare"], /, *operands: Any, **options: Any) -> CompareAnswer: ...
-    @overload
     def __call__(self, command: Literal["history"], /, *operands: Any, **options: Any) -> HistoryAnswer: ...
+    @overload
+    def __call__(self, command: Literal["plan"], /, *operands: Any, **options: Any) -> PlanGoalAnswer | PlanPilotAnswer | PlanSuccessAnswer | PlanRigsAnswer | PlanHalfwidthAnswer | PlanEquivalenceAnswer: ...
     @overload
     def __call__(self, command: Literal["sensitivity"], /, *operands: Any, **options: Any) -> SensitivityAnswer: ...
     @overload
-    def __call__(self, command: Literal["plan"], /, *operands: Any, **options: Any) -> PlanAnswer: ...
-    @overload
     def __call__(self, command: Literal["summary"], /, *operands: Any, **options: Any) -> SummaryAnswer: ...
     @overload
-    def __call__(self, command: Literal["tune"], /, *operands: Any, **options: Any) -> TuneAnswer: ...
+    def __call__(self, command: Literal["status"], /, *operands: Any, **options: Any) -> StatusAnswer: ...
+    @overload
+    def __call__(self, command: Literal["experiment"], /, *operands: Any, **options: Any) -> ExperimentAnswer: ...
+    @overload
+    def __call__(self, command: Literal["identify"], /, *operands: Any, **options: Any) -> IdentifyAnswer | IdentifyLawsAnswer | IdentifySlidingAnswer: ...
+    @overload
+    def __call__(self, command: Literal["compare"], /, *operands: Any, **options: Any) -> CompareAnswer: ...
     @overload
     def __call__(self, command: str, /, *operands: Any, **options: Any) -> Answer: ...

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import copy
-import html
-import json
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
@@ -202,29 +200,3 @@ def _column_of(known: Mapping[str, Mapping[str, Any]], name: str) -> Mapping[str
             values: Mapping[str, Any] = found["additionalProperties"]
             return {**values, "description": found.get("description", "")}
     return None
-
-
-class Undescribed(Answer):
-    """The answer of a command whose schema the program does not give yet."""
-
-    if TYPE_CHECKING:
-
-        def __getattr__(self, name: str) -> Any: ...
-
-
-def undescribed(command: str, text: str) -> Mapping[str, Any]:
-    """JSON without a schema, in the form that an answer has with one."""
-    values = json.loads(text)
-    answer = values if isinstance(values, Mapping) else {"rows": values}
-    head = {"answer": command, "version": 0, "headline": answer.get("sentence", command)}
-    page = f"<pre>{html.escape(text)}</pre>"
-    return {"answer": {**head, **answer}, "schema": _schema_of({**head, **answer}), "text": text, "html": page}
-
-
-def _schema_of(value: Any) -> Mapping[str, Any]:
-    """A schema that tells objects and tables."""
-    if isinstance(value, Mapping):
-        return {"properties": {key: _schema_of(inner) for key, inner in value.items()}}
-    if isinstance(value, list) and value and all(isinstance(row, Mapping) for row in value):
-        return {"items": _schema_of({key: inner for row in value for key, inner in row.items()})}
-    return {}

@@ -8,8 +8,8 @@ from collections.abc import Callable, Mapping
 from typing import Any, cast
 
 from . import program
-from .answer_types import DESCRIBED, TYPES, Ask
-from .answers import Answer, undescribed
+from .answer_types import TYPES, Ask
+from .answers import Answer
 from .options import options
 from .progress import progress_bar
 
@@ -53,8 +53,7 @@ def ask(command: str, /, *operands: Any, progress: bool = True, **values: Any) -
     """
     from .studies import Study, study
 
-    format = "notebook" if command in DESCRIBED else "json"
-    words = options(**values, format=format)
+    words = options(**values, format="notebook")
     subject = study(operands[0]) if operands and isinstance(operands[0], (Study, Mapping)) else None
     others = [os.fspath(getattr(operand, "path", operand)) for operand in operands[subject is not None :]]
     with progress_bar(command, progress) as bar:
@@ -62,5 +61,5 @@ def ask(command: str, /, *operands: Any, progress: bool = True, **values: Any) -
             text = subject.command(command, *others, *words, accepted=program.VERDICTS, progress=bar)
         else:
             text = program.run([command, *others, *words], accepted=program.VERDICTS, progress=bar)[1]
-    rendered = json.loads(text) if format == "notebook" else undescribed(command, text)
-    return TYPES.get(rendered["answer"]["answer"], Answer)(rendered)
+    rendered = json.loads(text)
+    return TYPES[rendered["answer"]["answer"]](rendered)

@@ -23,8 +23,8 @@ namespace zerocount::measures {
 /// Adds one number. @param subject_of gives the subject of a row, by reference
 template <class Row, class Subject, class Get>
 void add_field(document::Description<Row>& description, const text::ReportField<Subject>& field,
-               std::string key, parameters::AxisKind axis, document::Shown shown, Get subject_of) {
-  document::Item item{.key = std::move(key),
+               const std::string& key, parameters::AxisKind axis, document::Shown shown, Get subject_of) {
+  document::Item item{.key = key,
                       .meaning = parameters::text_on(axis, field.long_name),
                       .unit = parameters::unit_on(axis, field.unit),
                       .shown = shown};

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <ranges>
 
 #include <fmt/format.h>
 
@@ -146,7 +145,7 @@ void add_assurance(SummaryDescription& answer, const summary::StudySummary& summ
                   arrival_of(i));
   answer
       .table({.heading = title_of_claims(summary), .shown = Shown::to_people}, columns,
-             [](const SummaryReading& s) { return s.points | std::views::filter(has_trials); })
+             [](const SummaryReading& s) { return points_that(s, has_trials); })
       .sentence(note_on_claims);
 }
 

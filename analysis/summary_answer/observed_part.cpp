@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <ranges>
 
 #include <fmt/format.h>
 
@@ -70,7 +69,7 @@ void add_observed(SummaryDescription& answer, const summary::StudySummary& summa
   answer
       .table({.heading = "observed on the real rig", .shown = Shown::to_people}, columns,
              [](const SummaryReading& s) {
-               return s.points | std::views::filter([](Point p) { return p.observed.has_value(); });
+               return points_that(s, [](Point p) { return p.observed.has_value(); });
              })
       .sentence([](const SummaryReading& s) -> std::string {
         if (std::ranges::none_of(s.points, [](Point p) { return p.observed.has_value(); })) return {};

@@ -52,6 +52,16 @@ void add_zero_count_columns(PointDescription& point, const summary::StudySummary
 /// The short labels of the points.
 std::function<std::string(const PointReading&)> short_label(const summary::StudySummary& summary);
 
+/// The points that are so, in their order.
+template <class Is>
+std::vector<std::reference_wrapper<const PointReading>> points_that(const SummaryReading& summary, Is is) {
+  std::vector<std::reference_wrapper<const PointReading>> points;
+  for (const PointReading& point : summary.points) {
+    if (is(point)) points.emplace_back(point);
+  }
+  return points;
+}
+
 /// The description of the table of a part, with the column "point".
 PointDescription labelled_points(const summary::StudySummary& summary);
 

@@ -72,11 +72,8 @@ bool has_several_trials_of_rigs(const StudySummary& summary) {
 
 /// A column of text that is made of the statistics of a point.
 template <typename Cell>
-void add_cells(PointDescription& point, std::string heading, std::string meaning, Cell cell) {
-  point.value({.heading = std::move(heading),
-               .meaning = std::move(meaning),
-               .shown = Shown::to_people,
-               .numeric = true},
+void add_cells(PointDescription& point, const std::string& heading, const std::string& meaning, Cell cell) {
+  point.value({.heading = heading, .meaning = meaning, .shown = Shown::to_people, .numeric = true},
               [cell](Point p) { return cell(p.statistics()); });
 }
 

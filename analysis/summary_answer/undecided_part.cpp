@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <ranges>
 
 #include <fmt/format.h>
 
@@ -52,7 +51,7 @@ void add_undecided(SummaryDescription& answer, const summary::StudySummary& summ
   columns.value({.heading = "undecided moves"}, undecided_text);
   answer
       .table({.heading = "undecided moves", .shown = Shown::to_people}, columns,
-             [](const SummaryReading& s) { return s.points | std::views::filter(has_undecided); })
+             [](const SummaryReading& s) { return points_that(s, has_undecided); })
       .sentence([](const SummaryReading& s) {
         return std::string(std::ranges::any_of(s.points, has_undecided) ? measures::undecided_meaning : "");
       });

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cstddef>
-#include <ranges>
 
 #include <fmt/format.h>
 
@@ -124,7 +123,7 @@ void add_worlds(SummaryDescription& answer, const summary::StudySummary& summary
       .table({.heading = fmt::format("by world: the lowest, median and highest rate of {} worlds",
                                      summary.question.worlds),
               .shown = Shown::to_people},
-             columns, [](const SummaryReading& s) { return s.points | std::views::filter(has_worlds); })
+             columns, [](const SummaryReading& s) { return points_that(s, has_worlds); })
       .sentence(note_on_worlds);
 }
 

@@ -61,7 +61,7 @@ def check_shell_files(prefix):
     require(completions(script, "zerocount", "new", "paper-g") == ["paper-gains"], "bash completes a manifest that comes with it")
     for value in (["--format", "js"], ["--format", "=", "js"]):
         require(completions(script, "zerocount", "summary", "a.h5", *value) == ["json"], f"bash completes {' '.join(value)}")
-    require("table json csv" in " ".join(completions(script, "zerocount", "summary", "--format", "=")), "bash offers all formats")
+    require("text json markdown html csv" in " ".join(completions(script, "zerocount", "summary", "--format", "=")), "bash offers all formats")
     with tempfile.TemporaryDirectory() as folder:
         (pathlib.Path(folder) / "my study.yaml").touch()
         for words in (["run"], ["history", "add"], ["history", "show", "--database"], ["new", "paper-gains", "-o"]):

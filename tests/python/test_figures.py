@@ -158,7 +158,7 @@ def test_lines_have_the_arrays_of_the_data(small: zc.Results, results_of: Result
     line = next(line for line in axes.lines if len(line.get_xdata()) == 3)
     assert np.allclose(line.get_xdata(), small.table["ki"], rtol=1e-5)
     assert np.allclose(line.get_ydata(), small.table["goal_rate"], rtol=1e-5)
-    assert (axes.get_xlabel(), axes.get_ylabel()) == ("controller.ki (N m/(rad s))", "proportion of moves that meet the goal")
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("controller.ki (N m/(rad s))", "rate of moves in goal")
     assert axes.get_ylim() == (0, 1) and axes.get_xlim() == (5e3, 4e4)
     r = results_of("paper-fig7")
     (axes,) = r.plot("paper-fig7").matplotlib().axes
@@ -221,8 +221,8 @@ def test_a_figure_is_named_by_its_start(small: zc.Results) -> None:
 
 def test_a_figure_shows_the_trials_of_a_point(small: zc.Results) -> None:
     """The trials that are shown are those of the point, by its number or label."""
-    by_number, by_label, of_another = (small.plot("trace-median", point=point) for point in (2, "controller.ki=40000", 0))
+    by_number, by_label, of_another = (small.plot("trace-worst", point=point) for point in (2, "controller.ki=40000", 0))
     assert by_number.specification == by_label.specification != of_another.specification
     for wrong in (3, "none"):
         with pytest.raises(zc.ManifestError, match="expected 0 to 2 or a label"):
-            small.plot("trace-median", point=wrong)
+            small.plot("trace-worst", point=wrong)

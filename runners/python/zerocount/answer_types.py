@@ -166,6 +166,272 @@ class CheckAnswer(Answer):
     theory: pandas.DataFrame
 
 
+class Unfinished(Record):
+    """How far the run has come.
+
+    Attributes
+    ----------
+    finished : int
+        Trials that the summary is of.
+    trials : int
+        Trials of the study; the maximum if 'stop' decides.
+    """
+
+    finished: int
+    trials: int
+
+
+class Best(Record):
+    """The point that the headline is of, and its competitors.
+
+    Attributes
+    ----------
+    point : int
+        Number of the design point.
+    label : str
+        Label of the design point.
+    chosen_from : int
+        Points that it is the best of; 1 if it was named.
+    runner_up : int or None
+        Number of the best of the other points.
+    as_good : list[int]
+        Numbers of the points that are not shown to be worse.
+    ends_of_ranges : pandas.DataFrame
+        Swept numbers of the point at an end of their range.
+
+        - ``parameter``: dotted path
+        - ``value``: value at the point, in the unit of the parameter
+        - ``end``: which end of the range it is
+
+    """
+
+    point: int
+    label: str
+    chosen_from: int
+    runner_up: int | None
+    as_good: list[int]
+    ends_of_ranges: pandas.DataFrame
+
+
+class Goal(Record):
+    """Whether the new trials meet the goal.
+
+    Attributes
+    ----------
+    status : Literal["met", "missed", "undecided"]
+        Verdict on the goal.
+    rate : float or None
+        Proportion of moves that meet the goal, with one-sided bounds; with worlds of the worst world.
+    rate_low : float or None
+        Lower bound.
+    rate_high : float or None
+        Upper bound.
+    machines : float or None
+        Proportion of machines that meet the goal, with one-sided bounds; with worlds of the worst world.
+    machines_low : float or None
+        Lower bound.
+    machines_high : float or None
+        Upper bound.
+    rigs_without_miss : int or None
+        Rigs all of whose moves meet the goal.
+    """
+
+    status: Literal["met", "missed", "undecided"]
+    rate: float | None
+    rate_low: float | None
+    rate_high: float | None
+    machines: float | None
+    machines_low: float | None
+    machines_high: float | None
+    rigs_without_miss: int | None
+
+
+class Confirmation(Record):
+    """New trials of the chosen point (--confirm).
+
+    Attributes
+    ----------
+    point : int
+        Number of the design point.
+    seed : int
+        Seed of the new trials.
+    trials : int
+        New trials.
+    zero_count : int
+        New trials that succeeded.
+    success_rate : float or None
+        Their proportion, with bounds unless trials share rigs.
+    success_rate_low : float or None
+        Lower bound.
+    success_rate_high : float or None
+        Upper bound.
+    one_trial_per_rig : bool
+        Whether every new trial has a rig of its own.
+    goal : Goal or None
+        Whether the new trials meet the goal.
+    """
+
+    _records = {"goal": Goal}
+
+    point: int
+    seed: int
+    trials: int
+    zero_count: int
+    success_rate: float | None
+    success_rate_low: float | None
+    success_rate_high: float | None
+    one_trial_per_rig: bool
+    goal: Goal | None
+
+
+class SummaryAnswer(Answer):
+    """Statistics of a study by design point; units and meanings are those of a rotary axis.
+
+    Attributes
+    ----------
+    name : str
+        Name of the study.
+    design : str
+        How trials are drawn.
+    conservative_bounds : bool
+        Whether the design makes bounds wider than needed.
+    confidence : float or None
+        Of all bounds.
+    unfinished : Unfinished or None
+        How far the run has come.
+    best : Best or None
+        The point that the headline is of, and its competitors.
+    points : pandas.DataFrame
+        The design points.
+
+        - ``point``: number of the design point
+        - ``label``: label of the design point
+        - ``axes``: values of the swept parameters; null where one has a distribution
+        - ``goal``.* (status, rate, rate_low, rate_high, machines, machines_low, machines_high, rigs_without_miss):
+          whether the point meets the goal, with bounds of this point alone
+        - ``trials``: trials of the point
+        - ``zero_count``: trials whose worst move ended at zero error
+        - ``one_count``: trials whose worst move ended within one count
+        - ``off_target``: trials whose worst move ended beyond one count without oscillating: neither stable nor shown
+          unstable
+        - ``oscillating``: trials whose worst move ended beyond one count, oscillating
+        - ``nonfinite``: trials with a move that left the finite numbers
+        - ``open_loop``: trials with torque levels in place of targets, which are not judged
+        - ``stable``: trials all of whose moves arrived and stayed within one count
+        - ``arrived``: trials all of whose moves arrived
+        - ``broke_away``: trials in which the hook slid during any move
+        - ``saturated``: trials in which the DAC clipped during any move
+        - ``success_rate``: zero_count as a proportion of trials, NaN of an open-loop study
+        - ``success_rate_low``: lower 95 % bound of success_rate: Clopper-Pearson, with rigs Korn-Graubard
+        - ``success_rate_high``: upper 95 % bound of success_rate: Clopper-Pearson, with rigs Korn-Graubard
+        - ``success_rate_wilson_low``: lower 95 % Wilson bound of success_rate, with rigs for the effective number of
+          trials
+        - ``success_rate_wilson_high``: upper 95 % Wilson bound of success_rate, with rigs for the effective number of
+          trials
+        - ``stable_rate``: stable as a proportion of trials, NaN of an open-loop study
+        - ``stable_rate_low``: lower 95 % bound of stable_rate: Clopper-Pearson, with rigs Korn-Graubard
+        - ``stable_rate_high``: upper 95 % bound of stable_rate: Clopper-Pearson, with rigs Korn-Graubard
+        - ``stable_rate_wilson_low``: lower 95 % Wilson bound of stable_rate, with rigs for the effective number of
+          trials
+        - ``stable_rate_wilson_high``: upper 95 % Wilson bound of stable_rate, with rigs for the effective number of
+          trials
+        - ``settling_time``.* (n, moves, mean, min, p05, p25, median, median_low, median_high, p75, p95, p95_low,
+          p95_high, max, mean_low, mean_high): statistics of settling time
+        - ``jerk_count``.* (n, mean, sd, median, p95, max, total, mean_low, mean_high): statistics of jerk count
+        - ``jerk_interval``.* (n, mean, median): statistics of jerk interval
+        - ``jerk_slowing``.* (moves, slowing, quickening, share, tau): statistics of jerk slowing
+        - ``jerk_agreement``: jerks in the direction of the holding torque as a proportion of all jerks
+        - ``jerk_one_count_share``: jerks of one count as a proportion of all jerks
+        - ``final_settling_time``.* (n, moves, mean, min, p05, p25, median, median_low, median_high, p75, p95, p95_low,
+          p95_high, max, mean_low, mean_high): statistics of final settling time
+        - ``overshoot``.* (n, mean, max): statistics of overshoot
+        - ``holding_torque``.* (n, mean, min, max): statistics of holding torque
+        - ``peak_torque``.* (n, mean, max): statistics of peak torque
+        - ``creep``.* (n, mean, min, max): statistics of creep
+        - ``reversal_depth_max``: largest number of reversal points on the stack
+        - ``final_error``.* (n, mean, median, median_low, median_high, p95, p95_low, p95_high, max): statistics of final
+          error
+        - ``zero_fraction``.* (n, mean): statistics of zero fraction
+        - ``oscillation``.* (n, amplitude_median, period_median): statistics of oscillation
+        - ``true_error``.* (n, mean, rms, max): statistics of true error
+        - ``travel_time``.* (mean, max): statistics of travel time
+        - ``phase_changes``.* (trials, mean, max): statistics of phase changes
+        - ``encoder_disagreement``.* (trials, mean, max): statistics of encoder disagreement
+        - ``rigs``.* (n, success_sd, without_failure, without_failure_low, without_failure_high, worst_5_percent):
+          statistics of rigs
+        - ``stopped``: trials that were ended early, because a move had diverged
+        - ``controller_failed``: trials that the controller ended by giving no finite torque
+        - ``rest_error_rms``.* (n, mean, max, mean_low, mean_high): statistics of rest error rms
+        - ``rest_error_range``.* (n, mean, max, mean_low, mean_high): statistics of rest error range
+        - ``rest_motion_rms``.* (n, mean, max, mean_low, mean_high): statistics of rest motion rms
+        - ``rest_motion_range``.* (n, mean, max, mean_low, mean_high): statistics of rest motion range
+        - ``rest_torque_power``.* (n, mean, max, mean_low, mean_high): statistics of rest torque power
+        - ``rest_torque_noise``.* (n, mean, max, mean_low, mean_high): statistics of rest torque noise
+        - ``step_motion``.* (n, mean, max, mean_low, mean_high): statistics of step motion
+        - ``step_made``.* (rate, rate_low, rate_high): statistics of step made
+        - ``following_error_rms``.* (n, mean, max, mean_low, mean_high): statistics of following error rms
+        - ``following_error_peak``.* (n, mean, max, mean_low, mean_high): statistics of following error peak
+        - ``reversal_spike``.* (n, mean, max, mean_low, mean_high): statistics of reversal spike
+        - ``bands``: statistics by error band
+          - ``band``: largest error of the band, count
+          - ``entry_time``.* (n, moves, mean, min, p05, p25, median, median_low, median_high, p75, p95, p95_low,
+            p95_high, max): statistics of entry time
+          - ``settling_time``.* (n, moves, mean, min, p05, p25, median, median_low, median_high, p75, p95, p95_low,
+            p95_high, max, mean_low, mean_high): statistics of settling time
+          - ``exits``.* (n, mean, sd, p95, max, total, mean_low, mean_high): statistics of exits
+        - ``moves``: counts of trials by move
+          - ``zero_count``: trials with this outcome of the move
+          - ``one_count``: trials with this outcome of the move
+          - ``oscillating``: trials with this outcome of the move
+          - ``nonfinite``: trials with this outcome of the move
+          - ``open_loop``: trials with this outcome of the move
+          - ``off_target``: trials with this outcome of the move
+          - ``stable``: trials whose move has this quality
+          - ``arrived``: trials whose move has this quality
+          - ``broke_away``: trials whose move has this quality
+          - ``saturated``: trials whose move has this quality
+          - ``stopped``: trials whose move has this quality
+          - ``controller_failed``: trials whose move has this quality
+        - ``prediction``.* (trials, stable, unstable, stable_share, unstable_share, verdict): by the paper's criteria
+        - ``observed``: what was observed on the real rig
+        - ``undecided``.* (moves, off_target, still_falling, falling_with_ripple, about_to_arrive, hold_at_least): moves
+          that are neither stable nor shown unstable
+        - ``observed_counts``.* (successes, of, p_value, lowest_p_value, verdict, statement): trials on the real rig
+          against those simulated
+        - ``repeatability``.* (trials, evaluated, zero_repeatability, zero_repeatability_rate,
+          zero_repeatability_rate_low, zero_repeatability_rate_high, true, encoder): values of ISO 230-2
+        - ``stopping``.* (success_rate_low, success_rate_high, confidence, halfwidth, halfwidth_asked,
+          halfwidth_confidence, reached, of_rigs): what the rule that ended the study asked for, and what was reached
+        - ``worlds``.* (n, success, success_rates, goal_rates, goal_status, met, missed, undecided, bad_worlds, rule):
+          the worlds at the point
+        - ``assurance``.* (success_at_least, failure_at_most, rule_of_three, settling_time, statement, rigs): what the
+          trials show of all axes that the manifest describes
+        - ``levels``: the torque levels
+          - ``level``: number of the torque level
+          - ``n``: trials whose motion was not lost, of which the values of the level are
+          - ``nonfinite``: trials whose motion was lost in the level or before
+          - ``torque``: mean torque at the end of the level, N m
+          - ``position``.* (mean, low, high, sd, min, max): statistics of position
+          - ``creep``.* (mean, low, high, sd, min, max): statistics of creep
+          - ``broke_away``: trials in which the hook slid during the level
+          - ``reversal_depth_max``: largest number of reversal points on the stack during the level
+
+    confirmation : Confirmation or None
+        New trials of the chosen point (--confirm).
+    """
+
+    _records = {"unfinished": Unfinished, "best": Best, "confirmation": Confirmation}
+
+    name: str
+    design: str
+    conservative_bounds: bool
+    confidence: float | None
+    unfinished: Unfinished | None
+    best: Best | None
+    points: pandas.DataFrame
+    confirmation: Confirmation | None
+
+
 class VerifyAnswer(Answer):
     """Whether results files hold what their manifests say.
 
@@ -189,6 +455,365 @@ class VerifyAnswer(Answer):
 
     ok: bool
     files: pandas.DataFrame
+
+
+class ExperimentAnswer(Answer):
+    """The record from which identify tells the friction.
+
+    Attributes
+    ----------
+    name : str
+        Name of the study.
+    axis : Literal["rotary", "linear"]
+        Kind of axis.
+    sample_time : float or None
+        Time between samples, s.
+    samples : int
+        Samples of the record.
+    max_torque : float or None
+        Largest torque or force, N m or N.
+    least_breakaway : float or None
+        Least breakaway of the machines, N m or N.
+    travel : float or None
+        Largest distance from the start on any machine, rad or m.
+    machines : int
+        Machines on which it is safe.
+    protocols : int
+        Protocols that were tried.
+    converged : bool
+        Whether no change of the protocol was better.
+    residuals_passed : bool
+        Whether identify explains the simulated record.
+    segments : pandas.DataFrame
+        Parts of the record.
+
+        - ``to``: torque or force to which it leads linearly, N m or N
+        - ``samples``: its samples
+
+    parameters : pandas.DataFrame
+        What to expect of each parameter.
+
+        - ``key``: dotted path in a manifest
+        - ``guess``: value of the median machine, in the unit
+        - ``unit``: unit of the parameter
+        - ``status``: whether the record determines it
+        - ``low``: lower end of the 95 % interval to expect
+        - ``high``: its upper end
+        - ``told``: machines on which the record determines it
+        - ``narrowest``: least half-width of the interval over the machines, relative
+        - ``widest``: largest half-width of the interval over the machines, relative
+        - ``reason``: why the record does not determine it; empty: it does
+
+    identify : str
+        The command that identifies the record.
+    """
+
+    name: str
+    axis: Literal["rotary", "linear"]
+    sample_time: float | None
+    samples: int
+    max_torque: float | None
+    least_breakaway: float | None
+    travel: float | None
+    machines: int
+    protocols: int
+    converged: bool
+    residuals_passed: bool
+    segments: pandas.DataFrame
+    parameters: pandas.DataFrame
+    identify: str
+
+
+class Errors(Record):
+    """Joint errors of the estimates.
+
+    Attributes
+    ----------
+    parameters : list[str]
+        Names, in the order of the matrices.
+    covariance : list[list[float or None]]
+        Of the errors of logarithms; of n and the time offset themselves.
+    correlation : list[list[float or None]]
+        Of the same errors.
+    """
+
+    parameters: list[str]
+    covariance: list[list[float | None]]
+    correlation: list[list[float | None]]
+
+
+class Residuals(Record):
+    """Checks of the residuals.
+
+    Attributes
+    ----------
+    observations : int
+        Residuals.
+    spread : float or None
+        Root mean square of the residuals over their standard deviations.
+    expected_spread : float or None
+        Its mean over the replicates.
+    spread_chance : float or None
+        Proportion of replicates with at least this spread.
+    runs : float or None
+        Runs of one sign.
+    expected_runs : float or None
+        Their mean over the replicates.
+    runs_chance : float or None
+        Proportion of replicates at least as far off.
+    correlation_length : float or None
+        Correlation length of the residuals, in residuals.
+    expected_correlation_length : float or None
+        Its mean over the replicates.
+    passed : bool
+        Whether encoder and noise explain the residuals.
+    reason : str or None
+        What they do not explain; null: nothing.
+    widening : float or None
+        Factor that widened the intervals.
+    """
+
+    observations: int
+    spread: float | None
+    expected_spread: float | None
+    spread_chance: float | None
+    runs: float | None
+    expected_runs: float | None
+    runs_chance: float | None
+    correlation_length: float | None
+    expected_correlation_length: float | None
+    passed: bool
+    reason: str | None
+    widening: float | None
+
+
+class ResidualLine(Record):
+    """Spectral line of the residuals that a second mass may make.
+
+    Attributes
+    ----------
+    record : str
+        Record with the line.
+    frequency : float or None
+        Its frequency, Hz.
+    """
+
+    record: str
+    frequency: float | None
+
+
+class IdentifyAnswer(Answer):
+    """Friction, damping and inertia from material tests.
+
+    Attributes
+    ----------
+    axis : Literal["rotary", "linear"]
+        Kind of axis.
+    parameters : pandas.DataFrame
+        The parameters.
+
+        - ``name``: name of the parameter
+        - ``key``: dotted path in a manifest; null: it has none
+        - ``unit``: unit of its numbers
+        - ``status``: whether the records determine it
+        - ``value``: estimate, in the unit
+        - ``standard_error``: its standard error, in the unit
+        - ``low``: lower end of its 95 % interval, in the unit
+        - ``high``: upper end of its 95 % interval, in the unit
+        - ``reason``: why it is not identifiable, or kept
+        - ``distribution``: distribution in a manifest whose central 95 % are the interval
+
+    sample_time : float or None
+        Time between samples of the first record, s.
+    correlations : pandas.DataFrame
+        Pairs of parameters whose errors correlate by 0.9 and more.
+
+        - ``one``: a parameter
+        - ``other``: the other one
+        - ``value``: correlation of their errors
+
+    errors : Errors
+        Joint errors of the estimates.
+    records : pandas.DataFrame
+        What each record has of the tests.
+
+        - ``name``: file, and part of it
+        - ``samples``: samples of the record
+        - ``duration``: its duration, s
+        - ``counted``: whether it is read in counts
+        - ``unit``: size of a unit of the readings, rad or m
+        - ``branches``: slow branches of the torque
+        - ``reversals``: reversals of the torque
+        - ``holds``: stretches of constant torque
+        - ``ring_downs``: oscillations that die out after a step
+        - ``misfit``: root mean square of the residuals, in units of the readings
+        - ``noise``: standard deviation of the readings, in their unit
+        - ``excluded``: samples masked by --exclude
+        - ``note``: what was cut out of it
+
+    residuals : Residuals
+        Checks of the residuals.
+    residual_line : ResidualLine or None
+        Spectral line of the residuals that a second mass may make.
+    search_ended : bool
+        Whether the search ended because of --effort.
+    manifest : str
+        The parameters as a fragment of a manifest.
+    """
+
+    _records = {"errors": Errors, "residuals": Residuals, "residual_line": ResidualLine}
+
+    axis: Literal["rotary", "linear"]
+    parameters: pandas.DataFrame
+    sample_time: float | None
+    correlations: pandas.DataFrame
+    errors: Errors
+    records: pandas.DataFrame
+    residuals: Residuals
+    residual_line: ResidualLine | None
+    search_ended: bool
+    manifest: str
+
+
+class IdentifyLawsAnswer(Answer):
+    """Friction laws compared on the same records.
+
+    Attributes
+    ----------
+    kind : str
+        Always laws.
+    axis : Literal["rotary", "linear"]
+        Kind of axis.
+    laws : pandas.DataFrame
+        The laws, the best one first.
+
+        - ``law``: word of the friction law
+        - ``fitted``: fitted numbers, with the time offset
+        - ``misfit``: root mean square of the residuals, rad or m
+        - ``misfit_over_travel``: the same over the travel of the records
+        - ``bic_above_least``: Schwarz's criterion above that of the best law
+        - ``explained``: whether they explain the residuals
+        - ``spread``: root mean square of the residuals over their standard deviations
+        - ``expected_spread``: its mean over replicates
+        - ``widening``: factor that widened the intervals
+        - ``converged``: whether the fit converged
+        - ``parameters``: its parameters
+          - ``name``: name of the parameter
+          - ``key``: dotted path in a manifest; null: it has none
+          - ``unit``: unit of its numbers
+          - ``status``: whether the records determine it
+          - ``value``: estimate, in the unit
+          - ``standard_error``: its standard error, in the unit
+          - ``low``: lower end of its 95 % interval, in the unit
+          - ``high``: upper end of its 95 % interval, in the unit
+          - ``reason``: why it is not identifiable, or kept
+          - ``distribution``: distribution in a manifest whose central 95 % are the interval
+        - ``manifest``: the law as a fragment of a manifest
+
+    readings : int
+        Readings of all records.
+    effective_readings : float or None
+        Those that count as independent in BIC.
+    sample_time : float or None
+        Time between samples, s.
+    records : pandas.DataFrame
+        The records.
+
+        - ``name``: file, and part of it
+        - ``samples``: samples of the record
+        - ``excluded``: samples masked by --exclude
+        - ``note``: what was cut out of it
+
+    manifest : str
+        The parameters as a fragment of a manifest.
+    """
+
+    kind: str
+    axis: Literal["rotary", "linear"]
+    laws: pandas.DataFrame
+    readings: int
+    effective_readings: float | None
+    sample_time: float | None
+    records: pandas.DataFrame
+    manifest: str
+
+
+class Correlation(Record):
+    """Correlation of the errors of the fitted parameters.
+
+    Attributes
+    ----------
+    parameters : list[str]
+        Names, in the order of the matrix.
+    matrix : list[list[float or None]]
+        Correlations.
+    """
+
+    parameters: list[str]
+    matrix: list[list[float | None]]
+
+
+class IdentifySlidingAnswer(Answer):
+    """Inertia and friction of an axis from its sliding motion.
+
+    Attributes
+    ----------
+    kind : str
+        Always sliding.
+    axis : Literal["rotary", "linear"]
+        Kind of axis.
+    parameters : pandas.DataFrame
+        The parameters.
+
+        - ``name``: name of the parameter
+        - ``key``: dotted path in a manifest; null: it has none
+        - ``unit``: unit of its numbers
+        - ``status``: whether the records determine it
+        - ``value``: estimate, in the unit
+        - ``standard_error``: its standard error, in the unit
+        - ``low``: lower end of its 95 % interval, in the unit
+        - ``high``: upper end of its 95 % interval, in the unit
+        - ``reason``: why it is not identifiable, or kept
+        - ``distribution``: distribution in a manifest whose central 95 % are the interval
+
+    correlation : Correlation
+        Correlation of the errors of the fitted parameters.
+    records : pandas.DataFrame
+        What was used of each record.
+
+        - ``name``: file, and part of it
+        - ``samples``: samples of the record
+        - ``duration``: its duration, s
+        - ``resolution``: step of the readings, rad or m
+        - ``presliding_travel``: travel after a standstill or a reversal in which the friction is below its level of
+          sliding, which was left out, rad or m
+        - ``strokes``: strokes of the record
+        - ``windows``: windows of the fit
+        - ``used``: samples in the windows
+        - ``min_velocity``: least speed, rad/s or m/s
+        - ``max_velocity``: largest speed, rad/s or m/s
+
+    misfit : float or None
+        Root mean square of the residuals, in steps of the readings.
+    unexplained_torque : float or None
+        Its root mean square over the windows, N m or N.
+    torque : float or None
+        Root mean square of the torque in the strokes, N m or N.
+    manifest : str
+        The parameters as a fragment of a manifest.
+    """
+
+    _records = {"correlation": Correlation}
+
+    kind: str
+    axis: Literal["rotary", "linear"]
+    parameters: pandas.DataFrame
+    correlation: Correlation
+    records: pandas.DataFrame
+    misfit: float | None
+    unexplained_torque: float | None
+    torque: float | None
+    manifest: str
 
 
 class Needed(Record):
@@ -247,14 +872,14 @@ class Rule(Record):
         Conditions of the rule.
 
         - ``parameter``: dotted path, or name of a derived quantity
-        - ``relation``
+        - ``relation``: sign between parameter and value
         - ``value``: threshold, in the unit of the parameter
 
     same : pandas.DataFrame
         Conditions each of which alone names the same worlds.
 
         - ``parameter``: dotted path, or name of a derived quantity
-        - ``relation``
+        - ``relation``: sign between parameter and value
         - ``value``: threshold, in the unit of the parameter
 
     joined_by : Literal["and", "or"]
@@ -1041,13 +1666,243 @@ class JerksAnswer(Answer):
           direction of their holding torque
         - ``magnitude``.* (one_count, counts, mean, max, median_duration, longest_duration): largest |error| of the
           jerks
-        - ``creep``.* (trials, not_applicable, ended, predicted, lasting, lasting_predicted, too_short, unsteady,
-          median_deviation, largest_deviation): comparison with the closed form of creep at constant torque
+        - ``creep``.* (trials, not_applicable, ended, predicted, lasting, lasting_predicted, median_deviation,
+          largest_deviation, too_short, unsteady): comparison with the closed form of creep at constant torque
 
     """
 
     name: str
     confidence: float | None
+    points: pandas.DataFrame
+
+
+class Baseline(Record):
+    """The file of the baseline.
+
+    Attributes
+    ----------
+    path : str
+        Path of the file.
+    name : str
+        Name of the study.
+    zerocount_version : str
+        Version of the program.
+    git_commit : str
+        Commit of the program.
+    created : str
+        Time of the run, UTC.
+    engine : str
+        Engine that simulated the trials.
+    seed : int
+        Seed of the study.
+    trials : int
+        Trials per design point.
+    """
+
+    path: str
+    name: str
+    zerocount_version: str
+    git_commit: str
+    created: str
+    engine: str
+    seed: int
+    trials: int
+
+
+class Current(Record):
+    """The file that is compared with it.
+
+    Attributes
+    ----------
+    path : str
+        Path of the file.
+    name : str
+        Name of the study.
+    zerocount_version : str
+        Version of the program.
+    git_commit : str
+        Commit of the program.
+    created : str
+        Time of the run, UTC.
+    engine : str
+        Engine that simulated the trials.
+    seed : int
+        Seed of the study.
+    trials : int
+        Trials per design point.
+    """
+
+    path: str
+    name: str
+    zerocount_version: str
+    git_commit: str
+    created: str
+    engine: str
+    seed: int
+    trials: int
+
+
+class Counts(Record):
+    """Number of verdicts.
+
+    Attributes
+    ----------
+    passed : int
+        Judgements that passed.
+    regression : int
+        Worse, or a requirement that is not met.
+    changed : int
+        Better, where every change fails.
+    inconclusive : int
+        Judgements that are open.
+    not_measured : int
+        Judgements without enough values.
+    worse : int
+        Measures that are worse.
+    better : int
+        Measures that are better.
+    equivalent : int
+        Measures that are equivalent.
+    not_worse : int
+        Measures that are better or equivalent.
+    undecided : int
+        Measures whose change is open.
+    """
+
+    passed: int
+    regression: int
+    changed: int
+    inconclusive: int
+    not_measured: int
+    worse: int
+    better: int
+    equivalent: int
+    not_worse: int
+    undecided: int
+
+
+class CompareAnswer(Answer):
+    """Whether a study is as good as its baseline.
+
+    Attributes
+    ----------
+    verdict : Literal["regression", "changed", "inconclusive", "passed", "not measured"]
+        Verdict of the gate.
+    baseline : Baseline
+        The file of the baseline.
+    current : Current
+        The file that is compared with it.
+    baseline_label : str or None
+        Label of the baseline's point, where two points of one file are compared.
+    layer : Literal["bits", "paired", "two_samples"]
+        What the files have in common.
+    layer_reason : str
+        Why they are compared so.
+    equal_to_the_bit : bool
+        Whether every dataset is equal to the bit.
+    first_difference : str
+        First dataset that differs, with the place; empty if not searched for.
+    goal : str or None
+        The goal by which the points are judged.
+    changed_inputs : list[str]
+        Drawn parameters whose values differ on the same draws.
+    notes : list[str]
+        What else the reader should know.
+    manifest_differences : pandas.DataFrame
+        Keys whose values differ; a value is empty where its key is absent.
+
+        - ``key``: dotted path
+        - ``baseline``: value in the baseline
+        - ``current``: value in the file
+
+    confidence : float or None
+        Confidence of each bound.
+    false_discovery_rate : float or None
+        Accepted proportion of false discoveries.
+    tests : int
+        Tests over which the false discoveries are controlled.
+    counts : Counts
+        Number of verdicts.
+    trials_to_decide : int or None
+        Trials per design point that decide the whole.
+    decision_probability : float or None
+        Probability with which these decide.
+    max_trials_to_decide : float or None
+        Trials per design point, the most that were tried.
+    points : pandas.DataFrame
+        The design points.
+
+        - ``label``: label of the design point
+        - ``verdict``: verdict of the gate
+        - ``baseline_point``: number of the point in the baseline
+        - ``current_point``: number of the point in the file
+        - ``baseline_trials``: trials of the baseline
+        - ``current_trials``: trials of the file
+        - ``pairs``: trials that were compared one by one
+        - ``baseline_undecided``.* (moves, off_target, still_falling, falling_with_ripple, about_to_arrive): undecided
+          moves of the baseline
+        - ``current_undecided``.* (moves, off_target, still_falling, falling_with_ripple, about_to_arrive): undecided
+          moves of the file
+        - ``measures``: comparison of each measure
+          - ``measure``: name of the measure
+          - ``unit``: unit of all values
+          - ``verdict``: change that the data show
+          - ``gate``: verdict of the gate
+          - ``baseline``: proportion or mean in the baseline
+          - ``current``: proportion or mean in the file
+          - ``baseline_n``: trials with a value in the baseline
+          - ``current_n``: trials with a value in the file
+          - ``effect``: change for the worse, with one-sided bounds
+          - ``effect_low``: lower bound
+          - ``effect_high``: upper bound
+          - ``margin``: largest accepted effect
+          - ``changed_fails``: whether a change for the better beyond the margin fails too
+          - ``detectable_change``: smallest change for the worse that these trials find
+          - ``test``: test that p is of
+          - ``p``: p-value against a change for the worse
+          - ``adjusted_p``: p after control of the false discoveries
+          - ``improvement_p``: p-value against a change for the better
+          - ``adjusted_improvement_p``: improvement_p after control of the false discoveries
+          - ``trials_to_decide``: trials per design point that decide an inconclusive measure
+          - ``decided_margin``: any larger margin is decided by these trials
+          - ``max_trials_margin``: smallest margin that max_trials_to_decide trials decide
+          - ``note``: reason or remark
+        - ``requirements``: absolute requirements
+          - ``require``: the requirement as it was given
+          - ``quantity``: quantity that is required
+          - ``unit``: unit of the limit and the value
+          - ``verdict``: verdict of the gate
+          - ``limit``: limit of the value
+          - ``value``: value in the file
+          - ``n``: trials or moves that the value is of
+          - ``bounds``: one-sided bounds, low and high: of the value, or of the proportion within the limit of a
+            quantile
+          - ``trials_to_decide``: trials per design point that decide the requirement
+        - ``goal``.* (baseline, current): verdicts on the goal, where the points are judged by one
+
+    """
+
+    _records = {"baseline": Baseline, "current": Current, "counts": Counts}
+
+    verdict: Literal["regression", "changed", "inconclusive", "passed", "not measured"]
+    baseline: Baseline
+    current: Current
+    baseline_label: str | None
+    layer: Literal["bits", "paired", "two_samples"]
+    layer_reason: str
+    equal_to_the_bit: bool
+    first_difference: str
+    goal: str | None
+    changed_inputs: list[str]
+    notes: list[str]
+    manifest_differences: pandas.DataFrame
+    confidence: float | None
+    false_discovery_rate: float | None
+    tests: int
+    counts: Counts
+    trials_to_decide: int | None
+    decision_probability: float | None
+    max_trials_to_decide: float | None
     points: pandas.DataFrame
 
 
@@ -1084,8 +1939,8 @@ class HistoryAnswer(Answer):
           - ``value``: value of the measure, in its unit, with 95 % bounds
           - ``value_low``: lower bound
           - ``value_high``: upper bound
-          - ``comparison``.* (verdict, baseline_created, baseline_commit, baseline, effect, effect_low, effect_high,
-            margin, p): comparison with the baseline
+          - ``comparison``.* (verdict, baseline, effect, effect_low, effect_high, margin, p, baseline_created,
+            baseline_commit): comparison with the baseline
           - ``changed``: changes after which this is the first run
           - ``significant``: changes that are significant since this run
         - ``changes``: changes that are significant
@@ -1359,272 +2214,6 @@ class SensitivityAnswer(Answer):
     points: pandas.DataFrame
 
 
-class Unfinished(Record):
-    """How far the run has come.
-
-    Attributes
-    ----------
-    finished : int
-        Trials that the summary is of.
-    trials : int
-        Trials of the study; the maximum if 'stop' decides.
-    """
-
-    finished: int
-    trials: int
-
-
-class Best(Record):
-    """The point that the headline is of, and its competitors.
-
-    Attributes
-    ----------
-    point : int
-        Number of the design point.
-    label : str
-        Label of the design point.
-    chosen_from : int
-        Points that it is the best of; 1 if it was named.
-    runner_up : int or None
-        Number of the best of the other points.
-    as_good : list[int]
-        Numbers of the points that are not shown to be worse.
-    ends_of_ranges : pandas.DataFrame
-        Swept numbers of the point at an end of their range.
-
-        - ``parameter``: dotted path
-        - ``value``: value at the point, in the unit of the parameter
-        - ``end``: which end of the range it is
-
-    """
-
-    point: int
-    label: str
-    chosen_from: int
-    runner_up: int | None
-    as_good: list[int]
-    ends_of_ranges: pandas.DataFrame
-
-
-class Goal(Record):
-    """Whether the new trials meet the goal.
-
-    Attributes
-    ----------
-    status : Literal["met", "missed", "undecided"]
-        Verdict on the goal.
-    rate : float or None
-        Proportion of moves that meet the goal, with one-sided bounds; with worlds of the worst world.
-    rate_low : float or None
-        Lower bound.
-    rate_high : float or None
-        Upper bound.
-    machines : float or None
-        Proportion of machines that meet the goal, with one-sided bounds; with worlds of the worst world.
-    machines_low : float or None
-        Lower bound.
-    machines_high : float or None
-        Upper bound.
-    rigs_without_miss : int or None
-        Rigs all of whose moves meet the goal.
-    """
-
-    status: Literal["met", "missed", "undecided"]
-    rate: float | None
-    rate_low: float | None
-    rate_high: float | None
-    machines: float | None
-    machines_low: float | None
-    machines_high: float | None
-    rigs_without_miss: int | None
-
-
-class Confirmation(Record):
-    """New trials of the chosen point (--confirm).
-
-    Attributes
-    ----------
-    point : int
-        Number of the design point.
-    seed : int
-        Seed of the new trials.
-    trials : int
-        New trials.
-    zero_count : int
-        New trials that succeeded.
-    success_rate : float or None
-        Their proportion, with bounds unless trials share rigs.
-    success_rate_low : float or None
-        Lower bound.
-    success_rate_high : float or None
-        Upper bound.
-    one_trial_per_rig : bool
-        Whether every new trial has a rig of its own.
-    goal : Goal or None
-        Whether the new trials meet the goal.
-    """
-
-    _records = {"goal": Goal}
-
-    point: int
-    seed: int
-    trials: int
-    zero_count: int
-    success_rate: float | None
-    success_rate_low: float | None
-    success_rate_high: float | None
-    one_trial_per_rig: bool
-    goal: Goal | None
-
-
-class SummaryAnswer(Answer):
-    """Statistics of a study by design point; units and meanings are those of a rotary axis.
-
-    Attributes
-    ----------
-    name : str
-        Name of the study.
-    design : str
-        How trials are drawn.
-    conservative_bounds : bool
-        Whether the design makes bounds wider than needed.
-    confidence : float or None
-        Of all bounds.
-    unfinished : Unfinished or None
-        How far the run has come.
-    best : Best or None
-        The point that the headline is of, and its competitors.
-    points : pandas.DataFrame
-        The design points.
-
-        - ``point``: number of the design point
-        - ``label``: label of the design point
-        - ``axes``: values of the swept parameters; null where one has a distribution
-        - ``goal``.* (status, rate, rate_low, rate_high, machines, machines_low, machines_high, rigs_without_miss):
-          whether the point meets the goal, with bounds of this point alone
-        - ``trials``: trials of the point
-        - ``zero_count``: trials whose worst move ended at zero error
-        - ``one_count``: trials whose worst move ended within one count
-        - ``off_target``: trials whose worst move ended beyond one count without oscillating: neither stable nor shown
-          unstable
-        - ``oscillating``: trials whose worst move ended beyond one count, oscillating
-        - ``nonfinite``: trials with a move that left the finite numbers
-        - ``open_loop``: trials with torque levels in place of targets, which are not judged
-        - ``stable``: trials all of whose moves arrived and stayed within one count
-        - ``arrived``: trials all of whose moves arrived
-        - ``broke_away``: trials in which the hook slid during any move
-        - ``saturated``: trials in which the DAC clipped during any move
-        - ``success_rate``: zero_count as a proportion of trials, NaN of an open-loop study
-        - ``success_rate_low``: lower 95 % bound of success_rate: Clopper-Pearson, with rigs Korn-Graubard
-        - ``success_rate_high``: upper 95 % bound of success_rate: Clopper-Pearson, with rigs Korn-Graubard
-        - ``success_rate_wilson_low``: lower 95 % Wilson bound of success_rate, with rigs for the effective number of
-          trials
-        - ``success_rate_wilson_high``: upper 95 % Wilson bound of success_rate, with rigs for the effective number of
-          trials
-        - ``stable_rate``: stable as a proportion of trials, NaN of an open-loop study
-        - ``stable_rate_low``: lower 95 % bound of stable_rate: Clopper-Pearson, with rigs Korn-Graubard
-        - ``stable_rate_high``: upper 95 % bound of stable_rate: Clopper-Pearson, with rigs Korn-Graubard
-        - ``stable_rate_wilson_low``: lower 95 % Wilson bound of stable_rate, with rigs for the effective number of
-          trials
-        - ``stable_rate_wilson_high``: upper 95 % Wilson bound of stable_rate, with rigs for the effective number of
-          trials
-        - ``settling_time``.* (n, moves, mean, min, p05, p25, median, median_low, median_high, p75, p95, p95_low,
-          p95_high, max, mean_low, mean_high): statistics of settling time
-        - ``jerk_count``.* (n, mean, sd, median, p95, max, total, mean_low, mean_high): statistics of jerk count
-        - ``jerk_interval``.* (n, mean, median): statistics of jerk interval
-        - ``jerk_slowing``.* (moves, slowing, quickening, share, tau): statistics of jerk slowing
-        - ``jerk_agreement``: jerks in the direction of the holding torque as a proportion of all jerks
-        - ``jerk_one_count_share``: jerks of one count as a proportion of all jerks
-        - ``final_settling_time``.* (n, moves, mean, min, p05, p25, median, median_low, median_high, p75, p95, p95_low,
-          p95_high, max, mean_low, mean_high): statistics of final settling time
-        - ``overshoot``.* (n, mean, max): statistics of overshoot
-        - ``holding_torque``.* (n, mean, min, max): statistics of holding torque
-        - ``peak_torque``.* (n, mean, max): statistics of peak torque
-        - ``creep``.* (n, mean, min, max): statistics of creep
-        - ``reversal_depth_max``: largest number of reversal points on the stack
-        - ``final_error``.* (n, mean, median, median_low, median_high, p95, p95_low, p95_high, max): statistics of final
-          error
-        - ``zero_fraction``.* (n, mean): statistics of zero fraction
-        - ``oscillation``.* (n, amplitude_median, period_median): statistics of oscillation
-        - ``true_error``.* (n, mean, rms, max): statistics of true error
-        - ``travel_time``.* (mean, max): statistics of travel time
-        - ``phase_changes``.* (trials, mean, max): statistics of phase changes
-        - ``encoder_disagreement``.* (trials, mean, max): statistics of encoder disagreement
-        - ``rigs``.* (n, success_sd, without_failure, without_failure_low, without_failure_high, worst_5_percent):
-          statistics of rigs
-        - ``stopped``: trials that were ended early, because a move had diverged
-        - ``controller_failed``: trials that the controller ended by giving no finite torque
-        - ``rest_error_rms``.* (n, mean, max, mean_low, mean_high): statistics of rest error rms
-        - ``rest_error_range``.* (n, mean, max, mean_low, mean_high): statistics of rest error range
-        - ``rest_motion_rms``.* (n, mean, max, mean_low, mean_high): statistics of rest motion rms
-        - ``rest_motion_range``.* (n, mean, max, mean_low, mean_high): statistics of rest motion range
-        - ``rest_torque_power``.* (n, mean, max, mean_low, mean_high): statistics of rest torque power
-        - ``rest_torque_noise``.* (n, mean, max, mean_low, mean_high): statistics of rest torque noise
-        - ``step_motion``.* (n, mean, max, mean_low, mean_high): statistics of step motion
-        - ``step_made``.* (rate, rate_low, rate_high): statistics of step made
-        - ``following_error_rms``.* (n, mean, max, mean_low, mean_high): statistics of following error rms
-        - ``following_error_peak``.* (n, mean, max, mean_low, mean_high): statistics of following error peak
-        - ``reversal_spike``.* (n, mean, max, mean_low, mean_high): statistics of reversal spike
-        - ``bands``: statistics by error band
-          - ``band``: largest error of the band, count
-          - ``entry_time``.* (n, moves, mean, min, p05, p25, median, median_low, median_high, p75, p95, p95_low,
-            p95_high, max): statistics of entry time
-          - ``settling_time``.* (n, moves, mean, min, p05, p25, median, median_low, median_high, p75, p95, p95_low,
-            p95_high, max, mean_low, mean_high): statistics of settling time
-          - ``exits``.* (n, mean, sd, p95, max, total, mean_low, mean_high): statistics of exits
-        - ``moves``: counts of trials by move
-          - ``zero_count``: trials with this outcome of the move
-          - ``one_count``: trials with this outcome of the move
-          - ``oscillating``: trials with this outcome of the move
-          - ``nonfinite``: trials with this outcome of the move
-          - ``open_loop``: trials with this outcome of the move
-          - ``off_target``: trials with this outcome of the move
-          - ``stable``: trials whose move has this quality
-          - ``arrived``: trials whose move has this quality
-          - ``broke_away``: trials whose move has this quality
-          - ``saturated``: trials whose move has this quality
-          - ``stopped``: trials whose move has this quality
-          - ``controller_failed``: trials whose move has this quality
-        - ``prediction``.* (trials, stable, unstable, stable_share, unstable_share, verdict): by the paper's criteria
-        - ``observed``: what was observed on the real rig
-        - ``undecided``.* (moves, off_target, still_falling, falling_with_ripple, about_to_arrive, hold_at_least): moves
-          that are neither stable nor shown unstable
-        - ``observed_counts``.* (successes, of, p_value, lowest_p_value, verdict, statement): trials on the real rig
-          against those simulated
-        - ``repeatability``.* (trials, evaluated, zero_repeatability, zero_repeatability_rate,
-          zero_repeatability_rate_low, zero_repeatability_rate_high, true, encoder): values of ISO 230-2
-        - ``stopping``.* (success_rate_low, success_rate_high, confidence, halfwidth, halfwidth_asked,
-          halfwidth_confidence, reached, of_rigs): what the rule that ended the study asked for, and what was reached
-        - ``worlds``.* (n, success, success_rates, goal_rates, goal_status, met, missed, undecided, bad_worlds, rule):
-          the worlds at the point
-        - ``assurance``.* (success_at_least, failure_at_most, rule_of_three, settling_time, statement, rigs): what the
-          trials show of all axes that the manifest describes
-        - ``levels``: the torque levels
-          - ``level``: number of the torque level
-          - ``n``: trials whose motion was not lost, of which the values of the level are
-          - ``nonfinite``: trials whose motion was lost in the level or before
-          - ``torque``: mean torque at the end of the level, N m
-          - ``position``.* (mean, low, high, sd, min, max): statistics of position
-          - ``creep``.* (mean, low, high, sd, min, max): statistics of creep
-          - ``broke_away``: trials in which the hook slid during the level
-          - ``reversal_depth_max``: largest number of reversal points on the stack during the level
-
-    confirmation : Confirmation or None
-        New trials of the chosen point (--confirm).
-    """
-
-    _records = {"unfinished": Unfinished, "best": Best, "confirmation": Confirmation}
-
-    name: str
-    design: str
-    conservative_bounds: bool
-    confidence: float | None
-    unfinished: Unfinished | None
-    best: Best | None
-    points: pandas.DataFrame
-    confirmation: Confirmation | None
-
-
 class Parts(Record):
     """Parts of an array job.
 
@@ -1690,601 +2279,17 @@ class StatusAnswer(Answer):
     parts: Parts | None
 
 
-class ExperimentAnswer(Answer):
-    """The record from which identify tells the friction.
-
-    Attributes
-    ----------
-    name : str
-        Name of the study.
-    axis : Literal["rotary", "linear"]
-        Kind of axis.
-    sample_time : float or None
-        Time between samples, s.
-    samples : int
-        Samples of the record.
-    max_torque : float or None
-        Largest torque or force, N m or N.
-    least_breakaway : float or None
-        Least breakaway of the machines, N m or N.
-    travel : float or None
-        Largest distance from the start on any machine, rad or m.
-    machines : int
-        Machines on which it is safe.
-    protocols : int
-        Protocols that were tried.
-    converged : bool
-        Whether no change of the protocol was better.
-    residuals_passed : bool
-        Whether identify explains the simulated record.
-    segments : pandas.DataFrame
-        Parts of the record.
-
-        - ``to``: torque or force to which it leads linearly, N m or N
-        - ``samples``: its samples
-
-    parameters : pandas.DataFrame
-        What to expect of each parameter.
-
-        - ``key``: dotted path in a manifest
-        - ``guess``: value of the median machine, in the unit
-        - ``unit``: unit of the parameter
-        - ``status``: whether the record determines it
-        - ``low``: lower end of the 95 % interval to expect
-        - ``high``: its upper end
-        - ``told``: machines on which the record determines it
-        - ``narrowest``: least half-width of the interval over the machines, relative
-        - ``widest``: largest half-width of the interval over the machines, relative
-        - ``reason``: why the record does not determine it; empty: it does
-
-    identify : str
-        The command that identifies the record.
-    """
-
-    name: str
-    axis: Literal["rotary", "linear"]
-    sample_time: float | None
-    samples: int
-    max_torque: float | None
-    least_breakaway: float | None
-    travel: float | None
-    machines: int
-    protocols: int
-    converged: bool
-    residuals_passed: bool
-    segments: pandas.DataFrame
-    parameters: pandas.DataFrame
-    identify: str
-
-
-class Errors(Record):
-    """Joint errors of the estimates.
-
-    Attributes
-    ----------
-    parameters : list[str]
-        Names, in the order of the matrices.
-    covariance : list[list[float or None]]
-        Of the errors of logarithms; of n and the time offset themselves.
-    correlation : list[list[float or None]]
-        Of the same errors.
-    """
-
-    parameters: list[str]
-    covariance: list[list[float | None]]
-    correlation: list[list[float | None]]
-
-
-class Residuals(Record):
-    """Checks of the residuals.
-
-    Attributes
-    ----------
-    observations : int
-        Residuals.
-    spread : float or None
-        Root mean square of the residuals over their standard deviations.
-    expected_spread : float or None
-        Its mean over the replicates.
-    spread_chance : float or None
-        Proportion of replicates with at least this spread.
-    runs : float or None
-        Runs of one sign.
-    expected_runs : float or None
-        Their mean over the replicates.
-    runs_chance : float or None
-        Proportion of replicates at least as far off.
-    correlation_length : float or None
-        Correlation length of the residuals, in residuals.
-    expected_correlation_length : float or None
-        Its mean over the replicates.
-    passed : bool
-        Whether encoder and noise explain the residuals.
-    reason : str or None
-        What they do not explain; null: nothing.
-    widening : float or None
-        Factor that widened the intervals.
-    """
-
-    observations: int
-    spread: float | None
-    expected_spread: float | None
-    spread_chance: float | None
-    runs: float | None
-    expected_runs: float | None
-    runs_chance: float | None
-    correlation_length: float | None
-    expected_correlation_length: float | None
-    passed: bool
-    reason: str | None
-    widening: float | None
-
-
-class ResidualLine(Record):
-    """Spectral line of the residuals that a second mass may make.
-
-    Attributes
-    ----------
-    record : str
-        Record with the line.
-    frequency : float or None
-        Its frequency, Hz.
-    """
-
-    record: str
-    frequency: float | None
-
-
-class IdentifyAnswer(Answer):
-    """Friction, damping and inertia from material tests.
-
-    Attributes
-    ----------
-    axis : Literal["rotary", "linear"]
-        Kind of axis.
-    parameters : pandas.DataFrame
-        The parameters.
-
-        - ``name``: name of the parameter
-        - ``key``: dotted path in a manifest; null: it has none
-        - ``unit``: unit of its numbers
-        - ``status``: whether the records determine it
-        - ``value``: estimate, in the unit
-        - ``standard_error``: its standard error, in the unit
-        - ``low``: lower end of its 95 % interval, in the unit
-        - ``high``: upper end of its 95 % interval, in the unit
-        - ``reason``: why it is not identifiable, or kept
-        - ``distribution``: distribution in a manifest whose central 95 % are the interval
-
-    sample_time : float or None
-        Time between samples of the first record, s.
-    correlations : pandas.DataFrame
-        Pairs of parameters whose errors correlate by 0.9 and more.
-
-        - ``one``: a parameter
-        - ``other``: the other one
-        - ``value``: correlation of their errors
-
-    errors : Errors
-        Joint errors of the estimates.
-    records : pandas.DataFrame
-        What each record has of the tests.
-
-        - ``name``: file, and part of it
-        - ``samples``: samples of the record
-        - ``duration``: its duration, s
-        - ``counted``: whether it is read in counts
-        - ``unit``: size of a unit of the readings, rad or m
-        - ``branches``: slow branches of the torque
-        - ``reversals``: reversals of the torque
-        - ``holds``: stretches of constant torque
-        - ``ring_downs``: oscillations that die out after a step
-        - ``misfit``: root mean square of the residuals, in units of the readings
-        - ``noise``: standard deviation of the readings, in their unit
-        - ``excluded``: samples masked by --exclude
-        - ``note``: what was cut out of it
-
-    residuals : Residuals
-        Checks of the residuals.
-    residual_line : ResidualLine or None
-        Spectral line of the residuals that a second mass may make.
-    search_ended : bool
-        Whether the search ended because of --effort.
-    manifest : str
-        The parameters as a fragment of a manifest.
-    """
-
-    _records = {"errors": Errors, "residuals": Residuals, "residual_line": ResidualLine}
-
-    axis: Literal["rotary", "linear"]
-    parameters: pandas.DataFrame
-    sample_time: float | None
-    correlations: pandas.DataFrame
-    errors: Errors
-    records: pandas.DataFrame
-    residuals: Residuals
-    residual_line: ResidualLine | None
-    search_ended: bool
-    manifest: str
-
-
-class IdentifyLawsAnswer(Answer):
-    """Friction laws compared on the same records.
-
-    Attributes
-    ----------
-    kind : str
-        Always laws.
-    axis : Literal["rotary", "linear"]
-        Kind of axis.
-    laws : pandas.DataFrame
-        The laws, the best one first.
-
-        - ``law``: word of the friction law
-        - ``fitted``: fitted numbers, with the time offset
-        - ``misfit``: root mean square of the residuals, rad or m
-        - ``misfit_over_travel``: the same over the travel of the records
-        - ``bic_above_least``: Schwarz's criterion above that of the best law
-        - ``explained``: whether they explain the residuals
-        - ``spread``: root mean square of the residuals over their standard deviations
-        - ``expected_spread``: its mean over replicates
-        - ``widening``: factor that widened the intervals
-        - ``converged``: whether the fit converged
-        - ``parameters``: its parameters
-          - ``name``: name of the parameter
-          - ``key``: dotted path in a manifest; null: it has none
-          - ``unit``: unit of its numbers
-          - ``status``: whether the records determine it
-          - ``value``: estimate, in the unit
-          - ``standard_error``: its standard error, in the unit
-          - ``low``: lower end of its 95 % interval, in the unit
-          - ``high``: upper end of its 95 % interval, in the unit
-          - ``reason``: why it is not identifiable, or kept
-          - ``distribution``: distribution in a manifest whose central 95 % are the interval
-        - ``manifest``: the law as a fragment of a manifest
-
-    readings : int
-        Readings of all records.
-    effective_readings : float or None
-        Those that count as independent in BIC.
-    sample_time : float or None
-        Time between samples, s.
-    records : pandas.DataFrame
-        The records.
-
-        - ``name``: file, and part of it
-        - ``samples``: samples of the record
-        - ``excluded``: samples masked by --exclude
-        - ``note``: what was cut out of it
-
-    manifest : str
-        The parameters as a fragment of a manifest.
-    """
-
-    kind: str
-    axis: Literal["rotary", "linear"]
-    laws: pandas.DataFrame
-    readings: int
-    effective_readings: float | None
-    sample_time: float | None
-    records: pandas.DataFrame
-    manifest: str
-
-
-class Correlation(Record):
-    """Correlation of the errors of the fitted parameters.
-
-    Attributes
-    ----------
-    parameters : list[str]
-        Names, in the order of the matrix.
-    matrix : list[list[float or None]]
-        Correlations.
-    """
-
-    parameters: list[str]
-    matrix: list[list[float | None]]
-
-
-class IdentifySlidingAnswer(Answer):
-    """Inertia and friction of an axis from its sliding motion.
-
-    Attributes
-    ----------
-    kind : str
-        Always sliding.
-    axis : Literal["rotary", "linear"]
-        Kind of axis.
-    parameters : pandas.DataFrame
-        The parameters.
-
-        - ``name``: name of the parameter
-        - ``key``: dotted path in a manifest; null: it has none
-        - ``unit``: unit of its numbers
-        - ``status``: whether the records determine it
-        - ``value``: estimate, in the unit
-        - ``standard_error``: its standard error, in the unit
-        - ``low``: lower end of its 95 % interval, in the unit
-        - ``high``: upper end of its 95 % interval, in the unit
-        - ``reason``: why it is not identifiable, or kept
-        - ``distribution``: distribution in a manifest whose central 95 % are the interval
-
-    correlation : Correlation
-        Correlation of the errors of the fitted parameters.
-    records : pandas.DataFrame
-        What was used of each record.
-
-        - ``name``: file, and part of it
-        - ``samples``: samples of the record
-        - ``duration``: its duration, s
-        - ``resolution``: step of the readings, rad or m
-        - ``presliding_travel``: travel after a standstill or a reversal in which the friction is below its level of
-          sliding, which was left out, rad or m
-        - ``strokes``: strokes of the record
-        - ``windows``: windows of the fit
-        - ``used``: samples in the windows
-        - ``min_velocity``: least speed, rad/s or m/s
-        - ``max_velocity``: largest speed, rad/s or m/s
-
-    misfit : float or None
-        Root mean square of the residuals, in steps of the readings.
-    unexplained_torque : float or None
-        Its root mean square over the windows, N m or N.
-    torque : float or None
-        Root mean square of the torque in the strokes, N m or N.
-    manifest : str
-        The parameters as a fragment of a manifest.
-    """
-
-    _records = {"correlation": Correlation}
-
-    kind: str
-    axis: Literal["rotary", "linear"]
-    parameters: pandas.DataFrame
-    correlation: Correlation
-    records: pandas.DataFrame
-    misfit: float | None
-    unexplained_torque: float | None
-    torque: float | None
-    manifest: str
-
-
-class Baseline(Record):
-    """The file of the baseline.
-
-    Attributes
-    ----------
-    path : str
-        Path of the file.
-    name : str
-        Name of the study.
-    zerocount_version : str
-        Version of the program.
-    git_commit : str
-        Commit of the program.
-    engine : str
-        Engine that simulated the trials.
-    created : str
-        Time of the run, UTC.
-    seed : int
-        Seed of the study.
-    trials : int
-        Trials per design point.
-    """
-
-    path: str
-    name: str
-    zerocount_version: str
-    git_commit: str
-    engine: str
-    created: str
-    seed: int
-    trials: int
-
-
-class Current(Record):
-    """The file that is compared with it.
-
-    Attributes
-    ----------
-    path : str
-        Path of the file.
-    name : str
-        Name of the study.
-    zerocount_version : str
-        Version of the program.
-    git_commit : str
-        Commit of the program.
-    engine : str
-        Engine that simulated the trials.
-    created : str
-        Time of the run, UTC.
-    seed : int
-        Seed of the study.
-    trials : int
-        Trials per design point.
-    """
-
-    path: str
-    name: str
-    zerocount_version: str
-    git_commit: str
-    engine: str
-    created: str
-    seed: int
-    trials: int
-
-
-class Counts(Record):
-    """Number of verdicts.
-
-    Attributes
-    ----------
-    passed : int
-        Judgements that passed.
-    regression : int
-        Worse, or a requirement that is not met.
-    changed : int
-        Better, where every change fails.
-    inconclusive : int
-        Judgements that are open.
-    not_measured : int
-        Judgements without enough values.
-    worse : int
-        Measures that are worse.
-    better : int
-        Measures that are better.
-    equivalent : int
-        Measures that are equivalent.
-    not_worse : int
-        Measures that are better or equivalent.
-    undecided : int
-        Measures whose change is open.
-    """
-
-    passed: int
-    regression: int
-    changed: int
-    inconclusive: int
-    not_measured: int
-    worse: int
-    better: int
-    equivalent: int
-    not_worse: int
-    undecided: int
-
-
-class CompareAnswer(Answer):
-    """Whether a study is as good as its baseline.
-
-    Attributes
-    ----------
-    verdict : Literal["regression", "changed", "inconclusive", "passed", "not measured"]
-        Verdict of the gate.
-    baseline : Baseline
-        The file of the baseline.
-    current : Current
-        The file that is compared with it.
-    baseline_label : str or None
-        Label of the baseline's point, where two points of one file are compared.
-    layer : Literal["bits", "paired", "two_samples"]
-        What the files have in common.
-    layer_reason : str
-        Why they are compared so.
-    equal_to_the_bit : bool
-        Whether every dataset is equal to the bit.
-    first_difference : str
-        First dataset that differs, with the place; empty if not searched for.
-    goal : str or None
-        The goal by which the points are judged.
-    changed_inputs : list[str]
-        Drawn parameters whose values differ on the same draws.
-    notes : list[str]
-        What else the reader should know.
-    manifest_differences : pandas.DataFrame
-        Keys whose values differ; a value is empty where its key is absent.
-
-        - ``key``: dotted path
-        - ``baseline``: value in the baseline
-        - ``current``: value in the file
-
-    confidence : float or None
-        Confidence of each bound.
-    false_discovery_rate : float or None
-        Accepted proportion of false discoveries.
-    tests : int
-        Tests over which the false discoveries are controlled.
-    counts : Counts
-        Number of verdicts.
-    trials_to_decide : int or None
-        Trials per design point that decide the whole.
-    decision_probability : float or None
-        Probability with which these decide.
-    max_trials_to_decide : float or None
-        Trials per design point, the most that were tried.
-    points : pandas.DataFrame
-        The design points.
-
-        - ``label``: label of the design point
-        - ``verdict``: verdict of the gate
-        - ``baseline_point``: number of the point in the baseline
-        - ``current_point``: number of the point in the file
-        - ``baseline_trials``: trials of the baseline
-        - ``current_trials``: trials of the file
-        - ``pairs``: trials that were compared one by one
-        - ``baseline_undecided``.* (moves, off_target, still_falling, falling_with_ripple, about_to_arrive): undecided
-          moves of the baseline
-        - ``current_undecided``.* (moves, off_target, still_falling, falling_with_ripple, about_to_arrive): undecided
-          moves of the file
-        - ``measures``: comparison of each measure
-          - ``measure``: name of the measure
-          - ``unit``: unit of all values
-          - ``verdict``: change that the data show
-          - ``gate``: verdict of the gate
-          - ``baseline``: proportion or mean in the baseline
-          - ``current``: proportion or mean in the file
-          - ``baseline_n``: trials with a value in the baseline
-          - ``current_n``: trials with a value in the file
-          - ``effect``: change for the worse, with one-sided bounds
-          - ``effect_low``: lower bound
-          - ``effect_high``: upper bound
-          - ``margin``: largest accepted effect
-          - ``changed_fails``: whether a change for the better beyond the margin fails too
-          - ``detectable_change``: smallest change for the worse that these trials find
-          - ``test``: test that p is of
-          - ``p``: p-value against a change for the worse
-          - ``adjusted_p``: p after control of the false discoveries
-          - ``improvement_p``: p-value against a change for the better
-          - ``adjusted_improvement_p``: improvement_p after control of the false discoveries
-          - ``trials_to_decide``: trials per design point that decide an inconclusive measure
-          - ``decided_margin``: any larger margin is decided by these trials
-          - ``max_trials_margin``: smallest margin that max_trials_to_decide trials decide
-          - ``note``: reason or remark
-        - ``requirements``: absolute requirements
-          - ``require``: the requirement as it was given
-          - ``quantity``: quantity that is required
-          - ``unit``: unit of the limit and the value
-          - ``verdict``: verdict of the gate
-          - ``limit``: limit of the value
-          - ``value``: value in the file
-          - ``n``: trials or moves that the value is of
-          - ``bounds``: one-sided bounds, low and high: of the value, or of the proportion within the limit of a
-            quantile
-          - ``trials_to_decide``: trials per design point that decide the requirement
-        - ``goal``.* (baseline, current): verdicts on the goal, where the points are judged by one
-
-    """
-
-    _records = {"baseline": Baseline, "current": Current, "counts": Counts}
-
-    verdict: Literal["regression", "changed", "inconclusive", "passed", "not measured"]
-    baseline: Baseline
-    current: Current
-    baseline_label: str | None
-    layer: Literal["bits", "paired", "two_samples"]
-    layer_reason: str
-    equal_to_the_bit: bool
-    first_difference: str
-    goal: str | None
-    changed_inputs: list[str]
-    notes: list[str]
-    manifest_differences: pandas.DataFrame
-    confidence: float | None
-    false_discovery_rate: float | None
-    tests: int
-    counts: Counts
-    trials_to_decide: int | None
-    decision_probability: float | None
-    max_trials_to_decide: float | None
-    points: pandas.DataFrame
-
-
 PlanAnswer = Union[PlanGoalAnswer, PlanPilotAnswer, PlanSuccessAnswer, PlanRigsAnswer, PlanHalfwidthAnswer, PlanEquivalenceAnswer]
 
 
 TYPES: dict[str, type[Answer]] = {
     "check": CheckAnswer,
+    "summary": SummaryAnswer,
     "verify": VerifyAnswer,
+    "experiment": ExperimentAnswer,
+    "identify": IdentifyAnswer,
+    "identify-laws": IdentifyLawsAnswer,
+    "identify-sliding": IdentifySlidingAnswer,
     "judge": JudgeAnswer,
     "learn": LearnAnswer,
     "tune": TuneAnswer,
@@ -2294,6 +2299,7 @@ TYPES: dict[str, type[Answer]] = {
     "parameters": ParametersAnswer,
     "parameters-guides": ParametersGuidesAnswer,
     "jerks": JerksAnswer,
+    "compare": CompareAnswer,
     "history": HistoryAnswer,
     "plan-goal": PlanGoalAnswer,
     "plan-pilot": PlanPilotAnswer,
@@ -2302,13 +2308,7 @@ TYPES: dict[str, type[Answer]] = {
     "plan-halfwidth": PlanHalfwidthAnswer,
     "plan-equivalence": PlanEquivalenceAnswer,
     "sensitivity": SensitivityAnswer,
-    "summary": SummaryAnswer,
     "status": StatusAnswer,
-    "experiment": ExperimentAnswer,
-    "identify": IdentifyAnswer,
-    "identify-laws": IdentifyLawsAnswer,
-    "identify-sliding": IdentifySlidingAnswer,
-    "compare": CompareAnswer,
 }
 
 
@@ -2318,7 +2318,13 @@ class Ask(Protocol):
     @overload
     def __call__(self, command: Literal["check"], /, *operands: Any, **options: Any) -> CheckAnswer: ...
     @overload
+    def __call__(self, command: Literal["summary"], /, *operands: Any, **options: Any) -> SummaryAnswer: ...
+    @overload
     def __call__(self, command: Literal["verify"], /, *operands: Any, **options: Any) -> VerifyAnswer: ...
+    @overload
+    def __call__(self, command: Literal["experiment"], /, *operands: Any, **options: Any) -> ExperimentAnswer: ...
+    @overload
+    def __call__(self, command: Literal["identify"], /, *operands: Any, **options: Any) -> IdentifyAnswer | IdentifyLawsAnswer | IdentifySlidingAnswer: ...
     @overload
     def __call__(self, command: Literal["judge"], /, *operands: Any, **options: Any) -> JudgeAnswer: ...
     @overload
@@ -2336,20 +2342,14 @@ class Ask(Protocol):
     @overload
     def __call__(self, command: Literal["jerks"], /, *operands: Any, **options: Any) -> JerksAnswer: ...
     @overload
+    def __call__(self, command: Literal["compare"], /, *operands: Any, **options: Any) -> CompareAnswer: ...
+    @overload
     def __call__(self, command: Literal["history"], /, *operands: Any, **options: Any) -> HistoryAnswer: ...
     @overload
     def __call__(self, command: Literal["plan"], /, *operands: Any, **options: Any) -> PlanGoalAnswer | PlanPilotAnswer | PlanSuccessAnswer | PlanRigsAnswer | PlanHalfwidthAnswer | PlanEquivalenceAnswer: ...
     @overload
     def __call__(self, command: Literal["sensitivity"], /, *operands: Any, **options: Any) -> SensitivityAnswer: ...
     @overload
-    def __call__(self, command: Literal["summary"], /, *operands: Any, **options: Any) -> SummaryAnswer: ...
-    @overload
     def __call__(self, command: Literal["status"], /, *operands: Any, **options: Any) -> StatusAnswer: ...
-    @overload
-    def __call__(self, command: Literal["experiment"], /, *operands: Any, **options: Any) -> ExperimentAnswer: ...
-    @overload
-    def __call__(self, command: Literal["identify"], /, *operands: Any, **options: Any) -> IdentifyAnswer | IdentifyLawsAnswer | IdentifySlidingAnswer: ...
-    @overload
-    def __call__(self, command: Literal["compare"], /, *operands: Any, **options: Any) -> CompareAnswer: ...
     @overload
     def __call__(self, command: str, /, *operands: Any, **options: Any) -> Answer: ...

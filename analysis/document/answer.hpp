@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "analysis/document/content.hpp"
 #include "analysis/document/description.hpp"
@@ -71,12 +71,6 @@ nlohmann::ordered_json json(const Answer& answer);
 
 /// {…} of these items, likewise.
 nlohmann::ordered_json json(const std::vector<Item>& items, const Members& contents);
-
-/// {…} of the row, likewise.
-template <class Row>
-nlohmann::ordered_json json(const Description<Row>& description, const Row& row) {
-  return json(description.items(), description.members_of(row));
-}
 
 /// The rows of the type's csv_table: RFC 4180 with \n, a line with the names of the columns first. A member
 /// of an object has the name "<object>_<member>", unless its item has a column; an unknown number is `nan`, a

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/document/figure.hpp"
 #include "analysis/text/percent.hpp"
 
 namespace zerocount::document {

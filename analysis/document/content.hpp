@@ -7,9 +7,9 @@
 #include <variant>
 #include <vector>
 
-#include "analysis/document/figure.hpp"
-
 namespace zerocount::document {
+
+struct Figure;  // figure.hpp
 
 /// A number with bounds, all in the unit of the item.
 struct Bounded {

@@ -73,7 +73,8 @@ Figure history_figure(const Series& series, std::size_t number) {
 std::vector<Figure> history_figures(const history::History& history, std::size_t max_figures) {
   std::vector<const Series*> ordered;
   for (const Series& series : history.series) ordered.push_back(&series);
-  std::ranges::stable_partition(ordered, [](const Series* series) { return !series->changes.empty(); });
+  std::stable_partition(ordered.begin(), ordered.end(),
+                        [](const Series* series) { return !series->changes.empty(); });
   ordered.resize(std::min(ordered.size(), max_figures));
   std::vector<Figure> figures;
   for (const Series* const series : ordered) figures.push_back(history_figure(*series, figures.size() + 1));

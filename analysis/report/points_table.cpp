@@ -28,7 +28,7 @@ constexpr std::size_t max_rows = 400;
 
 /// A quantile of settling times with its bounds, of which one may not be reached within the hold.
 std::string quantile_text(Point p, const statistics::Quantile& quantile) {
-  const std::string value = summary_answer::settling_text(p.statistics(), quantile.value);
+  std::string value = summary_answer::settling_text(p.statistics(), quantile.value);
   if (std::isnan(quantile.low) && std::isnan(quantile.high)) return value;
   return fmt::format("{} [{}, {}]", value, std::isnan(quantile.low) ? "0" : text::short_number(quantile.low),
                      summary_answer::settling_text(p.statistics(), quantile.high));
@@ -63,8 +63,8 @@ summary_answer::PointDescription outcome_columns(const summary::StudySummary& su
 /// Quantiles of times with their bounds.
 summary_answer::PointDescription time_columns(const summary::StudySummary& summary) {
   summary_answer::PointDescription columns = summary_answer::labelled_points(summary);
-  const auto add = [&](std::string heading, auto quantile) {
-    columns.value({.heading = std::move(heading), .unit = "s", .numeric = true},
+  const auto add = [&](const std::string& heading, auto quantile) {
+    columns.value({.heading = heading, .unit = "s", .numeric = true},
                   [quantile](Point p) { return quantile_text(p, quantile(p.statistics())); });
   };
   using Statistics = const measures::PointSummary&;

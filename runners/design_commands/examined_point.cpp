@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -29,25 +30,28 @@ study::Study study_in_file(const command_line::Arguments& arguments) {
 
 }  // namespace
 
-ExaminedPoint point_to_examine(const command_line::Arguments& arguments) {
-  const std::string& path = arguments.operands()[0];
-  ExaminedPoint examined{commands::is_results_file(path) ? study_in_file(arguments)
-                                                         : commands::load_study(path, arguments)};
-  const study::Study& study = examined.study;
-  goal::require_targets(study, path);
+std::int64_t named_point(const command_line::Arguments& arguments, const study::Study& study) {
   const std::optional<std::int64_t> point = command_line::point_option(arguments, study.point_labels);
   if (!point && study::point_count(study) > 1)
     throw Failure(ExitCode::bad_input, fmt::format("{}: it has {} design points; expected one with --point",
-                                                   path, study::point_count(study)));
-  examined.point = point.value_or(0);
-  return examined;
+                                                   arguments.operands()[0], study::point_count(study)));
+  return point.value_or(0);
+}
+
+ExaminedPoint point_to_examine(const command_line::Arguments& arguments) {
+  const std::string& path = arguments.operands()[0];
+  study::Study study =
+      commands::is_results_file(path) ? study_in_file(arguments) : commands::load_study(path, arguments);
+  goal::require_targets(study, path);
+  const std::int64_t point = named_point(arguments, study);
+  return {std::move(study), point};
 }
 
 command_line::OptionSpec set_option() {
   return {"set", "KEY=VALUE", "override a manifest key, e.g. controller.delay=1; may be repeated", true};
 }
 
-command_line::OptionSpec examined_point_option() {
+command_line::OptionSpec named_point_option() {
   return {"point", "P", "the design point, by label or number"};
 }
 

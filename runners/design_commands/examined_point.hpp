@@ -15,15 +15,19 @@ struct ExaminedPoint {
   std::int64_t point{0};
 };
 
+/// `--point`, or the only point of the study.
+/// @throws Failure (bad_input) if it has several points and none is named
+std::int64_t named_point(const command_line::Arguments& arguments, const study::Study& study);
+
 /// The point of `MANIFEST|FILE` with `--set` and `--point`.
-/// @throws Failure (bad_input) without targets, or if it has several points and none is named
+/// @throws Failure (bad_input) without targets, or as named_point()
 ExaminedPoint point_to_examine(const command_line::Arguments& arguments);
 
 /// `--set`, of commands with a manifest.
 command_line::OptionSpec set_option();
 
-/// `--point` of point_to_examine().
-command_line::OptionSpec examined_point_option();
+/// `--point` of named_point().
+command_line::OptionSpec named_point_option();
 
 /// @throws Failure (interrupted) where `work` throws Interrupted
 template <class Work>

@@ -1,6 +1,7 @@
 #include "runners/design_commands/goal_plan.hpp"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>

@@ -15,6 +15,7 @@
 #include "runners/commands/command.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/design_commands/design_commands.hpp"
+#include "runners/design_commands/examined_point.hpp"
 #include "runners/design_commands/rare_figure.hpp"
 #include "runners/plugins/hidden_state.hpp"
 #include "runners/rare/rare_answer.hpp"
@@ -51,14 +52,6 @@ constexpr const char* rare_help =
     "\n"
     "Example: zerocount rare my-axis.yaml -o rare.h5\n"
     "         zerocount rare my-axis.yaml -o late.h5 --event 'settling_time > 0.5'\n";
-
-std::int64_t point_to_ask(const command_line::Arguments& arguments, const study::Study& study) {
-  const std::optional<std::int64_t> point = command_line::point_option(arguments, study.point_labels);
-  if (!point && study::point_count(study) > 1)
-    throw Failure(ExitCode::bad_input, fmt::format("{}: it has {} design points; expected one with --point",
-                                                   arguments.operands()[0], study::point_count(study)));
-  return point.value_or(0);
-}
 
 std::optional<std::int64_t> world_to_ask(const command_line::Arguments& arguments,
                                          const study::Study& study) {
@@ -110,7 +103,7 @@ ExitCode rare(const command_line::Arguments& arguments) {
   const study::Study study = commands::load_study(arguments.operands()[0], arguments, {&settings.output, 1});
   const auto threads = static_cast<int>(arguments.whole_number("threads", 1, 4096).value_or(0));
   const rare::Question question = rare::question_of(
-      study, point_to_ask(arguments, study), world_to_ask(arguments, study), event_to_ask(arguments, study));
+      study, named_point(arguments, study), world_to_ask(arguments, study), event_to_ask(arguments, study));
   if (question.coordinates.empty())
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: it draws nothing for each trial; expected distributions, such as "
@@ -137,13 +130,13 @@ commands::Command rare_command() {
            {{"output,o", "FILE", "the file of the weighted trials (required)"},
             answers::format_option(rare_answer().complete_type()),
             {"event", "EVENT", "in place of a missed goal: MEASURE > x, with > >= < or <="},
-            {"point", "P", "the design point, by label or number"},
+            named_point_option(),
             {"world", "W", "the world, of a study with worlds"},
             {"confidence", "C", "of both bounds together (default 0.95)"},
             {"ratio", "R", "how narrow: high at most R times low (default 2)"},
             {"budget", "B", "a number of trials (default 1000000), or a time such as 60s, 5min or 2h"},
             {"threads", "N", "threads to use; default: all cores"},
-            {"set", "KEY=VALUE", "override a manifest key; may be repeated", true},
+            set_option(),
             {"quiet,q", "", "print no progress"},
             command_line::force_option()}},
           "the probability of a failure that plain trials do not see",

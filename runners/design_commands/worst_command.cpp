@@ -225,7 +225,7 @@ commands::Command worst_command() {
            "MANIFEST|FILE",
            {answers::format_option(worst_answer().complete_type()),
             {"output,o", "MANIFEST", "write a manifest of the worst machine in the box"},
-            examined_point_option(),
+            named_point_option(),
             set_option(),
             command_line::force_option()}},
           "the machine that a gain suits worst",

@@ -148,8 +148,11 @@ class RareRun {
   }
 
   void write() const {
+    const document::Description<RareReading> description = rare_description();
+    const document::Members contents =
+        description.members_of(RareReading{answer_, question_, settings_.output});
     write_rare_file(settings_.output, question_, answer_.state, answer_.seconds,
-                    document::json(rare_description(), RareReading{answer_, question_, settings_.output}));
+                    document::json(description.items(), contents));
   }
 
   const Question& question_;

@@ -85,7 +85,7 @@ GuideTables guide_tables() {
   return tables;
 }
 
-document::Description<NumberOfGuide> number_of_guide(std::string quantity) {
+document::Description<NumberOfGuide> number_of_guide(const std::string& quantity) {
   using Of = const NumberOfGuide&;
   constexpr auto digits = document::Notation::three_digits;
   return document::Description<NumberOfGuide>()

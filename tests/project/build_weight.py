@@ -33,7 +33,7 @@ RESERVED = {
     r"unsupported/Eigen/FFT$": {"analysis/record_fit/residual_line.cpp"},
     r"boost/math/distributions/": r"^(core|experiments)/.*\.cpp$|^analysis/statistics/distributions\.cpp$",
     r"(ceres|boost/math|boost/program_options|yaml-cpp)/": r"\.cpp$",
-    r"nlohmann/json\.hpp": r"\.cpp$|^analysis/(text/report_json|measures/summary_section|report/figure)\.hpp$",
+    r"nlohmann/json\.hpp": r"\.cpp$|^analysis/(text/report_json|document/figure)\.hpp$",
 }
 
 

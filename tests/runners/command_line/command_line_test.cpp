@@ -175,7 +175,7 @@ TEST_F(CommandLine, CheckHasARowPerPointAndSaysOnceWhatIsTheSameAtAll) {
                 "sweep: {grid: {controller.ki: [1.0e-5, 2.0e-5, 3.0e-5]}}\n");
   const std::string out = run({"check", "sweep.yaml"}).out;
   EXPECT_EQ(out.find("natural frequency"), out.rfind("natural frequency: ")) << out;
-  EXPECT_TRUE(std::regex_search(out, std::regex("\npoint +integral gain +.*sampled loop"))) << out;
+  EXPECT_TRUE(std::regex_search(out, std::regex("\npoint +integral gain +.*slowest move"))) << out;
   EXPECT_TRUE(std::regex_search(out, std::regex("\npoint +loop +.*gain margin"))) << out;
   for (const char* row : {"\nki=1e-05  1e-05 N m/count", "\nki=2e-05  2e-05 N m/count", "\nki=3e-05  3e-05"})
     EXPECT_NE(out.find(row), std::string::npos) << row << "\n" << out;

@@ -6,8 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "analysis/document/figure.hpp"
 #include "experiments/parameters/study_units.hpp"
 

@@ -77,6 +77,7 @@ std::vector<Figure> history_figures(const history::History& history, std::size_t
                         [](const Series* series) { return !series->changes.empty(); });
   ordered.resize(std::min(ordered.size(), max_figures));
   std::vector<Figure> figures;
+  figures.reserve(ordered.size());
   for (const Series* const series : ordered) figures.push_back(history_figure(*series, figures.size() + 1));
   return figures;
 }

@@ -24,6 +24,7 @@ struct ConditionReading {
 std::vector<ConditionReading> readings(const std::vector<worlds::Condition>& conditions,
                                        const std::vector<worlds::WorldInput>& inputs) {
   std::vector<ConditionReading> readings;
+  readings.reserve(conditions.size());
   for (const worlds::Condition& one : conditions) readings.push_back({one, inputs[one.input]});
   return readings;
 }

@@ -267,6 +267,7 @@ string roughness_text(const LimitCycle& cycle, const HuntingPrediction& hunting)
 
 string cycles_text(const std::vector<LimitCycle>& cycles, const HuntingPrediction& hunting) {
   std::vector<string> texts;
+  texts.reserve(cycles.size());
   for (const LimitCycle& cycle : cycles)
     texts.push_back(fmt::format("amplitude {:.4g} counts, period {:.4g} s{}",
                                 cycle.amplitude / hunting.count_angle, cycle.period,

@@ -40,6 +40,7 @@ struct LimitRow {
 
 std::vector<LimitRow> limit_rows(const std::vector<Limit>& limits) {
   std::vector<LimitRow> rows;
+  rows.reserve(limits.size());
   for (const Limit& one : limits) rows.push_back({one, limits.front()});
   return rows;
 }

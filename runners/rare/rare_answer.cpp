@@ -218,6 +218,7 @@ std::vector<ValueRow> value_rows(Of r) {
   std::vector<PinnedValue> values = r.answer.state.proposal.values;
   std::ranges::stable_sort(values, std::greater<>(), &PinnedValue::weight);
   std::vector<ValueRow> rows;
+  rows.reserve(values.size());
   for (const PinnedValue& one : values) rows.push_back({one, r.question.space.discrete[one.draw]});
   return rows;
 }

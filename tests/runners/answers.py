@@ -87,7 +87,7 @@ QUESTIONS = [
     "parameters",
     "parameters --guides",
     "parameters --manifest axis.yaml",
-    "experiment axis.yaml",
+    "experiment axis.yaml --duration 1.5 --budget 2",
     "identify identification.h5 --point steps --effort 0.1",
     "identify identification.h5 --point steps --model spring --model dahl",
     "identify slide.csv --sliding",

@@ -315,7 +315,10 @@ void add_judgements(Description<StudyComparison>& items) {
 
 document::AnswerDescription<StudyComparison> comparison_answer() {
   document::AnswerDescription<StudyComparison> answer{
-      {.name = "compare", .meaning = "whether a study is as good as its baseline"}, {}};
+      {.name = "compare",
+       .meaning = "whether a study is as good as its baseline",
+       .csv_table = "points.measures"},
+      {}};
   answer.items.headline(verdict_sentence)
       .value(with_words(in_data("verdict", "verdict of the gate"), gate_words()),
              [](Comparison c) { return to_string(c.verdict); });

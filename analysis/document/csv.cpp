@@ -36,15 +36,25 @@ class CsvLine {
     }
   }
 
-  /// Those of the items that are one value.
-  void add_values(const std::vector<Item>& items, const Members* members) {
+  /// Those of the items that are one value, in a row of the table, which holds the table of the line.
+  void add_values(const std::vector<Item>& items, const Members* members, const std::string& table) {
     for (std::size_t i = 0; i < items.size(); ++i) {
       if (is_data(items[i]) && is_one_value(items[i].kind))
         add(items[i], members == nullptr ? Content{} : members->contents[i], items[i].key);
     }
+    outer_tables_.resize(names_.size(), table);
   }
 
-  std::string names() const { return line(names_); }
+  /// A column of an outer table that is named like a later one has the name of its table before its own.
+  std::string names() const {
+    std::vector<std::string> names = names_;
+    for (std::size_t i = 0; i < outer_tables_.size(); ++i) {
+      const auto later = names_.begin() + static_cast<std::ptrdiff_t>(i) + 1;
+      if (std::find(later, names_.end(), names_[i]) != names_.end())
+        names[i] = outer_tables_[i] + "_" + names_[i];
+    }
+    return line(names);
+  }
   std::string cells() const { return line(cells_); }
   std::vector<std::pair<std::string, std::string>> named_cells() const {
     std::vector<std::pair<std::string, std::string>> named;
@@ -93,6 +103,7 @@ class CsvLine {
 
   std::vector<std::string> names_;
   std::vector<std::string> cells_;
+  std::vector<std::string> outer_tables_;  ///< [column] of the columns of outer tables, which stand first
 };
 
 /// Adds the lines of the table that `path` names: keys of tables that hold one another, with dots between.
@@ -106,7 +117,7 @@ void add_lines(std::string& csv, const std::vector<Item>& items, const Members* 
   const auto add_row = [&](const Members* row) {
     CsvLine longer = line;
     if (dot != std::string_view::npos) {
-      longer.add_values(item->members, row);
+      longer.add_values(item->members, row, item->key);
       return add_lines(csv, item->members, row, path.substr(dot + 1), longer);
     }
     longer.add(item->members, row);

@@ -261,7 +261,10 @@ constexpr const char* legend =
 
 AnswerDescription<JerkReport> jerk_answer() {
   AnswerDescription<JerkReport> answer{
-      {.name = "jerks", .meaning = "rate, intervals and trend of the jerks of each design point"}, {}};
+      {.name = "jerks",
+       .meaning = "rate, intervals and trend of the jerks of each design point",
+       .csv_table = "points.rates"},
+      {}};
   answer.items.headline(headline)
       .value(in_data("name", "name of the study"), &JerkReport::name)
       .value({.key = "confidence",

@@ -14,11 +14,11 @@ PageSection answer_section(std::string name, std::string title, const document::
 }
 
 ReportPage answer_page(const document::Answer& answer) {
-  const std::string title = fmt::format("zerocount {}", answer.type.name);
-  return {title,
-          answer.type.meaning,
+  return {answer.type.meaning,
+          "",
           fmt::format("zerocount {}", layout::current_provenance().zerocount_version),
-          {answer_section("answer", "Answer", answer)}};
+          {answer_section("answer", "Answer", answer)},
+          answer.type.name};
 }
 
 }  // namespace zerocount::report

@@ -40,6 +40,12 @@ bool has_figures(const ReportPage& page) {
   return std::ranges::any_of(page.sections, [](const PageSection& one) { return !one.figures.empty(); });
 }
 
+std::string without_scripts_html(const ReportPage& page) {
+  if (!has_figures(page)) return "";
+  return "<noscript><p class=\"warning\">The figures are drawn by JavaScript, which is turned off "
+         "here.</p></noscript>";
+}
+
 /// The scripts of the page, in the order in which they run; none without figures.
 std::vector<std::string> script_sources(const ReportPage& page) {
   if (!has_figures(page)) return {};
@@ -92,7 +98,9 @@ std::string section_html(const PageSection& section) {
   return text + section.html_after + "</section>\n";
 }
 
+/// The links to the sections, of a page with several.
 std::string contents_html(const ReportPage& page) {
+  if (page.sections.size() < 2) return "";
   std::string text;
   for (const PageSection& section : page.sections)
     text += fmt::format("<a href=\"#{}\">{}</a>\n", document::markup(section.name),
@@ -127,7 +135,9 @@ std::string html_page(const ReportPage& page) {
   std::string sections;
   for (const PageSection& section : page.sections) sections += section_html(section);
   const std::vector<std::string> sources = script_sources(page);
-  return filled(embedded_file("page.html"), {{"title", document::markup(page.title)},
+  return filled(embedded_file("page.html"), {{"kind", document::markup(page.kind)},
+                                             {"without-scripts", without_scripts_html(page)},
+                                             {"title", document::markup(page.title)},
                                              {"subtitle", document::markup(page.subtitle)},
                                              {"footer", document::markup(page.footer)},
                                              {"colours", css_colours()},

@@ -22,6 +22,7 @@ struct ReportPage {
   std::string subtitle;  ///< plain text
   std::string footer;    ///< plain text
   std::vector<PageSection> sections;
+  std::string kind{"report"};  ///< the command that wrote it
 };
 
 /// The report as one self-contained HTML document, without network requests.

@@ -372,9 +372,9 @@ std::pair<PointTrials, PointTrials> as_many_moves(const PointTrials& baseline, c
 }  // namespace
 
 std::vector<GateMeasure> judged_measures(const GateRules& rules, const PointTrials& trials) {
-  const JudgedGoal goal = !trials.judged                 ? JudgedGoal::none
-                          : trials.judged->goal.machines ? JudgedGoal::of_machines
-                                                         : JudgedGoal::of_moves;
+  const JudgedGoal goal = !trials.judged                                            ? JudgedGoal::none
+                          : trials.judged->goal.machines && trials.judged->rigs > 0 ? JudgedGoal::of_machines
+                                                                                    : JudgedGoal::of_moves;
   return judged_measures(rules, *trials.table, goal);
 }
 

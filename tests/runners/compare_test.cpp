@@ -53,6 +53,19 @@ TEST_F(Compare, TheSameStudyAgainPasses) {
   EXPECT_EQ(json["verdict"], "passed");
 }
 
+// Without rigs there are no machines to count: the moves are judged.
+TEST_F(Compare, AGoalOnMachinesIsJudgedByMovesWhereTheOtherStudyHasNoRigs) {
+  const std::string goal = "goal: {band: 1, within: 0.03, moves: 0.9";
+  study("rigs", gains("3.5e-5", 60) + goal + ", machines: 0.8}\nrigs: 30\n", {"--force"});
+  study("alone", gains("3.5e-5", 60) + goal + "}\n", {"--force"});
+  for (const ProgramResult& result :
+       {run({"compare", "rigs.h5", "alone.h5"}), run({"compare", "alone.h5", "rigs.h5"})}) {
+    EXPECT_TRUE(result.code == 0 || result.code == 1 || result.code == 3) << result.code << result.err;
+    EXPECT_NE(result.out.find("goal_rate"), std::string::npos) << result.out;
+    EXPECT_EQ(result.out.find("goal_machines"), std::string::npos) << result.out;
+  }
+}
+
 // A gain with which moves come in late fails, although zero counts and jerks would pass it.
 TEST_F(Compare, JudgesAStudyWithAGoalByThatAndNothingElse) {
   const std::string goal = "goal: {band: 1, within: 0.022, moves: 0.9}\n";

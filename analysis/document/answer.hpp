@@ -14,7 +14,7 @@
 
 namespace zerocount::document {
 
-/// What every answer of a kind has in common.
+/// A kind of answers: its name, its version and its items.
 struct AnswerType {
   std::string name;     ///< "answer" in JSON: the command
   std::string meaning;  ///< a phrase without a full stop
@@ -26,7 +26,7 @@ struct AnswerType {
   std::vector<Item> items{};
 };
 
-/// What a command says: the same in every format.
+/// An answer: the contents of the items of its type. Every format is rendered from it.
 struct Answer {
   AnswerType type;
   Members contents;  ///< of type.items
@@ -55,10 +55,10 @@ struct AnswerDescription {
 /// rows.
 std::string text(const Answer& answer);
 
-/// Likewise, as GitHub-flavoured Markdown.
+/// The same for people as GitHub-flavoured Markdown.
 std::string markdown(const Answer& answer);
 
-/// Likewise, as a fragment of HTML, without figures.
+/// The same for people as a fragment of HTML, without figures.
 std::string html(const Answer& answer);
 
 /// The figures of the answer, in their order.

@@ -45,7 +45,7 @@ struct Rows {
   std::vector<Members> rows;
 };
 
-/// What an answer says of one item; std::monostate where it says nothing.
+/// The content of one item; std::monostate if there is none.
 struct Content {
   std::variant<std::monostate, bool, std::int64_t, std::uint64_t, double, Bounded, std::string, Members, List,
                Named, Rows, std::shared_ptr<const Figure>>

@@ -66,7 +66,7 @@ enum class Notation {
   change          ///< with its sign and one decimal: +0.4
 };
 
-/// What the description of an answer says of one item.
+/// The description of one item of an answer.
 struct Item {
   std::string key{};      ///< in JSON, CSV and Python; no two of a level are equal; empty for sentences
   std::string heading{};  ///< for people: the name of a value, the head of a column, the title of a table
@@ -81,7 +81,7 @@ struct Item {
   bool verbatim{false};              ///< a text whose lines are shown as they are, below the heading
   bool common_above{false};          ///< of a table: what all its rows say alike is said once, above it
 
-  // What follows is filled in by the description.
+  // Description sets the members below.
 
   Kind kind{Kind::sentence};
   bool bounded{false};          ///< a number with bounds, "<key>_low" and "<key>_high"

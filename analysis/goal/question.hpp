@@ -25,7 +25,7 @@ struct JudgedPart {
   measures::CountedGoal counted{};     ///< the moves that meet it
 };
 
-/// What a study is judged by. All parts must be met: a study has one of them.
+/// The criteria by which a study is judged. All parts must be met; a study has exactly one part.
 struct Question {
   std::vector<JudgedPart> parts{JudgedPart{}};
   std::int64_t worlds{0};  ///< in each of which it is asked; 0: the study has no worlds

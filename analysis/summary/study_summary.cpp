@@ -16,8 +16,6 @@
 #include "analysis/statistics/unknown.hpp"
 #include "analysis/summary/study_statistics.hpp"
 #include "analysis/summary/summary.hpp"
-#include "analysis/summary/summed_point.hpp"
-#include "analysis/summary/undecided.hpp"
 #include "analysis/worlds/derived_quantities.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/manifest_keys.hpp"
@@ -71,6 +69,14 @@ bool depend_on_order(const study::Study& study) {
   return study.rigs > 0 || study.worlds > 0 || study.design != study::Design::monte_carlo;
 }
 
+/// The points of a summary, as they are completed.
+StudyAccumulator accumulator_of(const study::Study& study, StudySummary& summary, const Wanted& wanted) {
+  return StudyAccumulator(study, wanted, [&summary, wanted](PointResults&& point) {
+    summary.points.push_back(std::move(point.statistics));
+    if (wanted.predictions) summary.predictions.push_back(point.prediction);
+  });
+}
+
 /// The finished trials of a study, file after file in order of rows.
 class TrialsSoFar {
  public:
@@ -78,111 +84,62 @@ class TrialsSoFar {
       : study_(study),
         in_order_(depend_on_order(study)),
         counts_(study.point_labels.size()),
-        predictions_(counts_.size()),
-        statistics_(study, confidence, bootstrap),
-        undecided_(study) {}
+        summary_(summary_without_points(study, confidence)),
+        accumulator_(accumulator_of(
+            study, summary_,
+            {.undecided = true, .predictions = true, .confidence = confidence, .bootstrap = bootstrap})) {}
+  TrialsSoFar(const TrialsSoFar&) = delete;
+  TrialsSoFar& operator=(const TrialsSoFar&) = delete;
 
-  /// Takes the trials that were not taken before. Where trials depend on one another, those that follow them:
-  /// every rig then has as many as there can be, and a design is spread as evenly.
   void add(const std::filesystem::path& path) {
-    const reading::StudyFile shard(path, reading::Require::any_part);
-    for (std::int64_t row = shard.rows().first; row < shard.rows().end();) {
-      const std::int64_t point = row / study_.trials;
-      const std::int64_t end = std::min((point + 1) * study_.trials, shard.rows().end());
-      const std::int64_t next = in_order_ ? point * study_.trials + counts_[static_cast<std::size_t>(point)]
-                                          : std::max(row, next_row_);
-      if (row <= next && next < end) add(shard, point, {next, end - next});
-      row = end;
+    constexpr auto part = reading::Require::any_part;
+    if (study_.kept != study::Kept::trials) {
+      const reading::ResultsFile file(path, part);
+      add(file, false, [&](std::int64_t point, layout::RowRange) { accumulator_.add(file, point); });
+    } else {
+      const reading::StudyFile file(path, part);
+      add(file, true, [&](std::int64_t, layout::RowRange rows) { accumulator_.add(file, rows); });
     }
-    next_row_ = std::max(next_row_, shard.rows().end());
   }
 
-  std::int64_t count() const { return count_; }
-
-  StudySummary summary(double confidence) {
-    StudySummary summary = summary_without_points(study_, confidence);
-    summary.points = statistics_.statistics();
-    shorten(summary, summary.points.size());
-    describe_points(summary, study_, undecided_.moves(), complete_points(summary));
-    predictions_.resize(summary.points.size());
-    summary.predictions = predictions_;
-    summary.unfinished = UnfinishedStudy{count_, study::trial_count(study_), study::point_count(study_)};
-    return summary;
+  /// Nothing where no trial is finished.
+  std::optional<StudySummary> summary() {
+    if (count_ == 0) return std::nullopt;
+    accumulator_.finish();
+    shorten(summary_, summary_.points.size());
+    describe_points(summary_, study_, complete_points(summary_));
+    summary_.unfinished = UnfinishedStudy{count_, study::trial_count(study_), study::point_count(study_)};
+    return std::move(summary_);
   }
 
  private:
-  void add(const reading::StudyFile& shard, std::int64_t point, layout::RowRange rows) {
-    statistics_.add(shard, rows);
-    undecided_.add(shard, rows);
-    const auto index = static_cast<std::size_t>(point);
-    predictions_[index] = predictions_[index] + theory::prediction_of(study_, rows);
-    counts_[index] += rows.count;
-    count_ += rows.count;
+  /// Takes the trials that were not taken before. Where trials depend on one another, those that follow them:
+  /// every rig then has as many as there can be, and a design is spread as evenly.
+  /// @param divisible whether some trials of a point can be taken without the others
+  template <class Take>
+  void add(const reading::ResultsFile& file, bool divisible, const Take& take) {
+    for (std::int64_t i = 0; i < file.points(); ++i) {
+      const std::int64_t point = file.first_point() + i;
+      const layout::RowRange rows = file.rows_of(point);
+      std::int64_t& count = counts_[static_cast<std::size_t>(point)];
+      const std::int64_t next = in_order_ ? point * study_.trials + count : std::max(rows.first, next_row_);
+      if (next < rows.first || next >= rows.end() || (next > rows.first && !divisible)) continue;
+      const layout::RowRange taken{next, rows.end() - next};
+      take(point, taken);
+      count += taken.count;
+      count_ += taken.count;
+      next_row_ = taken.end();
+    }
   }
 
   const study::Study& study_;
   bool in_order_;
-  std::vector<std::int64_t> counts_;                  ///< [point]
-  std::vector<theory::PointPrediction> predictions_;  ///< [point]
-  std::int64_t count_{0};
-  std::int64_t next_row_{0};  ///< after the rows of all files
-  StudyAccumulator statistics_;
-  UndecidedAccumulator undecided_;
-};
-
-/// The trials finished so far of a study that keeps statistics, file after file in order of rows.
-class SumsSoFar {
- public:
-  SumsSoFar(const study::Study& study, double confidence, bool bootstrap)
-      : study_(study), counts_(study.point_labels.size()), sums_(study, confidence, bootstrap) {}
-
-  /// Takes the points of a file whose trials were not taken before. Where trials depend on one another, those
-  /// whose trials follow them.
-  void add(const std::filesystem::path& path) {
-    const reading::ResultsFile shard(path, reading::Require::any_part);
-    for (std::int64_t i = 0; i < shard.points(); ++i) {
-      const std::int64_t point = shard.first_point() + i;
-      const layout::RowRange rows = shard.rows_of(point);
-      std::int64_t& count = counts_[static_cast<std::size_t>(point)];
-      const std::int64_t next = point * study_.trials + count;
-      if (rows.first < next_row_ || (depend_on_order(study_) && rows.first != next)) continue;
-      sums_.add(shard, point);
-      count += rows.count;
-      count_ += rows.count;
-      next_row_ = rows.end();
-    }
-  }
-
-  std::int64_t count() const { return count_; }
-
-  StudySummary summary(double confidence) {
-    StudySummary summary = summary_without_points(study_, confidence);
-    SummedStudy summed = sums_.sum();
-    summary.points = std::move(summed.points);
-    shorten(summary, summary.points.size());
-    describe_points(summary, study_, summed.undecided, complete_points(summary));
-    summary.predictions = std::move(summed.predictions);
-    summary.unfinished = UnfinishedStudy{count_, study::trial_count(study_), study::point_count(study_)};
-    return summary;
-  }
-
- private:
-  const study::Study& study_;
   std::vector<std::int64_t> counts_;  ///< [point]
-  StudySums sums_;
   std::int64_t count_{0};
   std::int64_t next_row_{0};  ///< after the rows that were taken
+  StudySummary summary_;
+  StudyAccumulator accumulator_;
 };
-
-/// @param pieces of a run that has not ended, in order of rows; @tparam Finished TrialsSoFar or
-/// SumsSoFar
-template <class Finished>
-std::optional<StudySummary> summary_of_pieces(const std::vector<std::filesystem::path>& pieces,
-                                              const study::Study& study, double confidence, bool bootstrap) {
-  Finished trials(study, confidence, bootstrap);
-  for (const std::filesystem::path& path : pieces) trials.add(path);
-  return trials.count() > 0 ? std::optional(trials.summary(confidence)) : std::nullopt;
-}
 
 StudySummary summary_of_pieces(const std::filesystem::path& output, double confidence, bool bootstrap) {
   const std::vector<std::filesystem::path> pieces = shards::finished_pieces(output);
@@ -194,13 +151,11 @@ StudySummary summary_of_pieces(const std::filesystem::path& output, double confi
     throw Failure(ExitCode::bad_data,
                   fmt::format("{}: of another study than the others of {}", path.string(), output.string()));
   }
-  std::optional<StudySummary> summary;
   if (study) {
-    summary = study->kept == study::Kept::trials
-                  ? summary_of_pieces<TrialsSoFar>(pieces, *study, confidence, bootstrap)
-                  : summary_of_pieces<SumsSoFar>(pieces, *study, confidence, bootstrap);
+    TrialsSoFar trials(*study, confidence, bootstrap);
+    for (const std::filesystem::path& path : pieces) trials.add(path);
+    if (std::optional<StudySummary> summary = trials.summary()) return *std::move(summary);
   }
-  if (summary) return *std::move(summary);
   throw Failure(ExitCode::bad_data, fmt::format("{}: no trial of this run is finished yet", output.string()));
 }
 
@@ -233,11 +188,9 @@ StudySummary summary_without_points(const study::Study& study, double confidence
 }
 
 void describe_points(StudySummary& summary, const study::Study& study,
-                     const std::vector<measures::UndecidedMoves>& undecided,
                      std::span<const std::int64_t> numbers) {
   for (std::size_t point = 0; point < summary.points.size(); ++point) {
     summary.points[point].hold = hold_of(study, numbers[point]);
-    summary.points[point].undecided = undecided[point];
     if (study.worlds > 0)
       summary.world_inputs.push_back(inputs_of_worlds(study, numbers[point], summary.points[point]));
   }
@@ -251,10 +204,9 @@ StudySummary summarise(const reading::StudyFile& file, double confidence, bool b
                               file.path().string(), file.moves(), study.moves));
   }
   StudySummary summary = summary_of(file, study, confidence);
-  summary.points = study_statistics(file, study, confidence, bootstrap);
-  UndecidedAccumulator undecided(study);
-  undecided.add(file, file.rows());
-  describe_points(summary, study, undecided.moves(), complete_points(summary));
+  summary.points =
+      study_statistics(file, study, {.undecided = true, .confidence = confidence, .bootstrap = bootstrap});
+  describe_points(summary, study, complete_points(summary));
   if (!study.sequence.empty()) summary.repeatability = iso230::study_repeatability(file, study, confidence);
   summary.stop = study.stop;
   return summary;
@@ -263,11 +215,10 @@ StudySummary summarise(const reading::StudyFile& file, double confidence, bool b
 StudySummary summarise(const reading::ResultsFile& file, double confidence, bool bootstrap) {
   const study::Study study = layout::recorded_study(file.header(), file.path());
   StudySummary summary = summary_of(file, study, confidence);
-  StudySums sums(study, confidence, bootstrap);
+  StudyAccumulator sums = accumulator_of(study, summary, {.confidence = confidence, .bootstrap = bootstrap});
   sums.add(file);
-  SummedStudy summed = sums.sum();
-  summary.points = std::move(summed.points);
-  describe_points(summary, study, summed.undecided, complete_points(summary));
+  sums.finish();
+  describe_points(summary, study, complete_points(summary));
   return summary;
 }
 

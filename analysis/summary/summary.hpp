@@ -69,10 +69,8 @@ std::string observed_at(const StudySummary& summary, std::int64_t point);
 StudySummary summary_without_points(const study::Study& study, double confidence);
 
 /// Adds to the statistics what the study says of their points.
-/// @param undecided [point] @param numbers [point] its number in the study
-void describe_points(StudySummary& summary, const study::Study& study,
-                     const std::vector<measures::UndecidedMoves>& undecided,
-                     std::span<const std::int64_t> numbers);
+/// @param numbers [point] its number in the study
+void describe_points(StudySummary& summary, const study::Study& study, std::span<const std::int64_t> numbers);
 
 /// The summary of a complete results file. What was observed comes from its manifest, what the criteria say
 /// from the columns of its /point: the trials are not drawn again. Every bound is found anew.

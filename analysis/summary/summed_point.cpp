@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -29,15 +28,24 @@ bool is_possible(const UndecidedSums& sums, std::int64_t moves) {
 
 }  // namespace
 
+SummedPoint::SummedPoint(const study::Study& study, std::int64_t point, std::int64_t first_trial,
+                         std::int64_t version, const layout::MeasureTable& table)
+    : study_(&study), point_(point), trials_(measures::move_kind(study, version), table, first_trial) {}
+
 SummedPoint::SummedPoint(const study::Study& study, std::int64_t point, std::int64_t first_trial)
-    : study_(&study),
-      point_(point),
-      trials_(measures::move_kind(study), layout::measure_table(study.features.bands), first_trial) {}
+    : SummedPoint(study, point, first_trial, layout::format_version,
+                  layout::measure_table(study.features.bands)) {}
 
 void SummedPoint::add(std::int64_t row, const trial::TrialOutcome& outcome,
                       std::span<const trial::Jerk> jerks) {
   trials_.add(outcome, jerks);
   undecided_.add(*study_, row, outcome.moves);
+}
+
+void SummedPoint::add_undecided(layout::RowRange rows, std::span<const trial::MoveOutcome> moves) {
+  const std::size_t of_trial = moves.size() / static_cast<std::size_t>(rows.count);
+  for (std::int64_t row = rows.first; row < rows.end(); ++row, moves = moves.subspan(of_trial))
+    undecided_.add(*study_, row, moves.first(of_trial));
 }
 
 SummedPoint& SummedPoint::operator+=(const SummedPoint& next) {
@@ -68,17 +76,9 @@ void SummedPoint::restore(const layout::PointSums& sums) {
 measures::PointSummary SummedPoint::statistics(double confidence, bool bootstrap) const {
   measures::StatisticsOptions options{confidence, {}, study_->stop.has_value()};
   if (bootstrap) options.bootstrap = {study_->seed, static_cast<std::uint32_t>(point_)};
-  return trials_.statistics(options);
-}
-
-StudySums::StudySums(const study::Study& study, double confidence, bool bootstrap, Collected collected,
-                     std::int64_t first_point)
-    : study_(study),
-      confidence_(confidence),
-      bootstrap_(bootstrap),
-      collected_(collected),
-      next_point_(first_point) {
-  statistics::require_confidence(confidence);
+  measures::PointSummary summary = trials_.statistics(options);
+  if (undecided_.counts.moves > 0) summary.undecided = undecided_.moves();
+  return summary;
 }
 
 SummedPoint restored_point(const reading::ResultsFile& file, const study::Study& study, std::int64_t point) {
@@ -91,44 +91,6 @@ SummedPoint restored_point(const reading::ResultsFile& file, const study::Study&
                   fmt::format("{}: design point {}: {}", file.path().string(), point, failure.what()));
   }
   return restored;
-}
-
-void StudySums::add(const reading::ResultsFile& file, std::int64_t point) {
-  const SummedPoint added = restored_point(file, study_, point);
-  while (!point_ || point_->point() < point) begin_point();
-  *point_ += added;
-}
-
-void StudySums::add(const reading::ResultsFile& file) {
-  for (std::int64_t i = 0; i < file.points(); ++i) add(file, file.first_point() + i);
-}
-
-void StudySums::begin_point() {
-  if (point_) end_point();
-  point_.emplace(study_, next_point_++, 0);
-}
-
-void StudySums::end_point() {
-  if (collected_ != Collected::sums) add_statistics();
-  if (collected_ != Collected::statistics) sum_.sums.push_back(point_->sums());
-  point_.reset();
-}
-
-void StudySums::add_statistics() {
-  try {
-    sum_.points.push_back(point_->statistics(confidence_, bootstrap_));
-  } catch (const std::logic_error& error) {  // of a formula whose arguments no trials give
-    throw Failure(ExitCode::bad_data,
-                  fmt::format("design point {}: no statistics follow from its sums, which are damaged ({})",
-                              point_->point(), error.what()));
-  }
-  sum_.predictions.push_back(point_->prediction());
-  sum_.undecided.push_back(point_->undecided());
-}
-
-SummedStudy StudySums::sum() {
-  if (point_) end_point();
-  return std::move(sum_);
 }
 
 }  // namespace zerocount::summary

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <cstdlib>
 
-#include "analysis/measures/trial_value.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "core/theory/slow_approach.hpp"
@@ -94,21 +92,6 @@ measures::UndecidedMoves UndecidedSums::moves() const {
   measures::UndecidedMoves moves = counts;
   if (needed_holds.size > 0)
     moves.advised_hold = statistics::quantile(needed_holds, advised_proportion).value;
-  return moves;
-}
-
-UndecidedAccumulator::UndecidedAccumulator(const study::Study& study)
-    : study_(study), points_(study.point_labels.size()) {}
-
-void UndecidedAccumulator::add(const reading::StudyFile& file, layout::RowRange rows) {
-  measures::visit_trials(file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
-    points_[static_cast<std::size_t>(row / study_.trials)].add(study_, row, moves);
-  });
-}
-
-std::vector<measures::UndecidedMoves> UndecidedAccumulator::moves() const {
-  std::vector<measures::UndecidedMoves> moves;
-  for (const UndecidedSums& point : points_) moves.push_back(point.moves());
   return moves;
 }
 

@@ -2,14 +2,10 @@
 
 #include <cstdint>
 #include <span>
-#include <string>
-#include <vector>
 
 #include "analysis/measures/undecided_moves.hpp"
 #include "analysis/statistics/histogram.hpp"
-#include "analysis/summary/summary.hpp"
 #include "experiments/study/study.hpp"
-#include "results/reading/study_file.hpp"
 
 /// Moves that are off target: stalled, or still on their way when their hold ended. They are undecided,
 /// neither stable nor shown unstable.
@@ -42,23 +38,6 @@ struct UndecidedSums {
   static void transfer(Self& self, Archive& archive) {
     archive(self.counts, self.needed_holds);
   }
-};
-
-/// Counts the undecided moves of a study, from one results file or several.
-class UndecidedAccumulator {
- public:
-  /// @param study stays as long as this.
-  explicit UndecidedAccumulator(const study::Study& study);
-
-  /// @param rows of the file @throws Failure (bad_data) where the file is damaged.
-  void add(const reading::StudyFile& file, layout::RowRange rows);
-
-  /// [point] of the study
-  std::vector<measures::UndecidedMoves> moves() const;
-
- private:
-  const study::Study& study_;
-  std::vector<UndecidedSums> points_;
 };
 
 }  // namespace zerocount::summary

@@ -9,10 +9,8 @@
 #include <utility>
 
 #include "analysis/measures/goal_counts.hpp"
-#include "analysis/measures/trial_value.hpp"
 #include "analysis/summary/chosen_point.hpp"
 #include "analysis/summary/study_statistics.hpp"
-#include "analysis/summary/undecided.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/study_file.hpp"
 #include "results/shards/shard.hpp"
@@ -135,17 +133,12 @@ StudySummary summary_of_points(const StudySummary& summary, const reading::Study
   StudySummary some = summary::summary_without_points(study, summary.confidence);
   some.labels.clear();
   some.axes = summary.axes;
-  std::vector<measures::UndecidedMoves> undecided;
   for (const std::int64_t point : numbers) {
     some.labels.push_back(summary.labels[static_cast<std::size_t>(point)]);
-    some.points.push_back(summary::point_statistics(file, study, point, summary.confidence, bootstrap));
-    summary::UndecidedSums sums;
-    measures::visit_trials(
-        file, file.rows_of(point),
-        [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) { sums.add(study, row, moves); });
-    undecided.push_back(sums.moves());
+    some.points.push_back(summary::point_statistics(
+        file, study, point, {.undecided = true, .confidence = summary.confidence, .bootstrap = bootstrap}));
   }
-  summary::describe_points(some, study, undecided, numbers);
+  summary::describe_points(some, study, numbers);
   return some;
 }
 

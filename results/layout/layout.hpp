@@ -159,13 +159,10 @@ struct WorldCounts {
 /// the first ones.
 struct StoredStatistics {
   std::vector<PointColumn> points;
-  std::vector<StatisticTable> tables;       ///< none twice
-  std::function<void(hdf5::File&)> groups;  ///< writes further groups; may be empty
+  std::vector<StatisticTable> tables;  ///< none twice
   /// [point][rig] trials of which all moves ended with a zero count; empty without rigs
   std::vector<std::vector<std::int64_t>> rig_successes{};
   std::optional<WorldCounts> worlds{};
-  /// The same of the points that follow these, block after block, then nothing; empty where these are all.
-  std::function<std::optional<StoredStatistics>()> more{};
 };
 
 /// Number of angles at which a profile is tabulated, over one revolution, where all trials are on one rotor.

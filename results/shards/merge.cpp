@@ -163,46 +163,6 @@ void write_point_statistics(hdf5::File& file, const study::Study& study,
                               points);
 }
 
-/// Writes the statistics of some design points.
-void write_block(hdf5::File& file, const study::Study& study, const layout::StoredStatistics& statistics,
-                 layout::RowRange points) {
-  write_point_statistics(file, study, statistics, points);
-  for (layout::StatisticTable table : statistics.tables) {
-    for (layout::PointColumn& column : table.columns)
-      column = layout::on_axis(std::move(column), study.units.axis);
-    layout::write_statistic_table(file, table, study::point_count(study), points);
-  }
-  if (statistics.groups) statistics.groups(file);
-  if (!statistics.rig_successes.empty())
-    write_rig_counts(file, study, statistics.rig_successes, points.first);
-  if (statistics.worlds) write_world_counts(file, study, *statistics.worlds, points.first);
-}
-
-/// Writes what is known when all trials have been run, block after block.
-void write_statistics(hdf5::File& file, const study::Study& study, layout::StoredStatistics statistics) {
-  const auto more = std::move(statistics.more);
-  layout::RowRange points{0, study::point_count(study)};
-  for (std::optional<layout::StoredStatistics> block = std::move(statistics); block; block = more()) {
-    if (more) points.count = std::ssize(block->points.at(0).values);
-    write_block(file, study, *block, points);
-    points.first = points.end();
-    if (!more) return;
-  }
-}
-
-/// The statistics from the trials in the file that is being made, which are read while they are written.
-void write_statistics_of(const fs::path& part, hdf5::File& file, const hdf5::WrittenValues& written,
-                         const study::Study& study, const StatisticsOfPoints& statistics,
-                         const layout::MeasureTable* measures) {
-  try {
-    const reading::StudyFile trials(part, reading::Require::unfinished, measures);
-    write_statistics(file, study, statistics(trials));
-  } catch (const Failure&) {
-    hdf5::require_written(part, written);  // if the write failed, report that instead
-    throw;
-  }
-}
-
 /// The shards in order of rows. @throws Failure unless they cover `rows`.
 std::vector<ShardInfo> in_order(std::span<const ShardInfo> shards, layout::RowRange rows,
                                 const fs::path& output) {
@@ -225,22 +185,46 @@ layout::FileHeader first_header(std::span<const fs::path> inputs) {
   return inspect_header(expand(inputs).front());
 }
 
-void merge_shards(std::span<const ShardInfo> shards, const study::Study& study, const fs::path& output,
-                  layout::RowRange rows, const StatisticsOfPoints& statistics, const MergeOptions& options) {
-  const std::vector<ShardInfo> ordered = in_order(shards, rows, output);
-  const bool whole = rows == layout::all_rows(study);
-  const storage::UnfinishedFile part(output);
-  const hdf5::WrittenValues written = write_trials_of(ordered, study, part.path(), rows, options);
-  hdf5::File file = hdf5::File::open_to_change(part.path(), written);
-  if (layout::has_sums(study.kept)) {
-    SummedTrials summed = options.sums_of(ordered);
-    layout::write_sums(file, rows.first / study.trials, summed.sums);
-    if (whole) write_statistics(file, study, std::move(summed.statistics));
-  } else if (whole && statistics) {
-    write_statistics_of(part.path(), file, written, study, statistics, options.measures);
+MergedFile::MergedFile(std::span<const ShardInfo> shards, const study::Study& study, fs::path output,
+                       layout::RowRange rows, const MergeOptions& options)
+    : study_(study),
+      output_(std::move(output)),
+      rows_(rows),
+      measures_(options.measures),
+      shards_(in_order(shards, rows, output_)),
+      part_(output_),
+      written_(write_trials_of(shards_, study, part_.path(), rows, options)),
+      file_(hdf5::File::open_to_change(part_.path(), written_)) {}
+
+const reading::StudyFile& MergedFile::trials() {
+  if (!trials_) trials_.emplace(part_.path(), reading::Require::unfinished, measures_);
+  return *trials_;
+}
+
+void MergedFile::write_sums(std::span<const layout::PointSums> sums) {
+  layout::write_sums(file_, rows_.first / study_.trials, sums);
+}
+
+void MergedFile::write_statistics(const layout::StoredStatistics& statistics) {
+  const auto columns =
+      statistics.points.empty() ? study::point_count(study_) : std::ssize(statistics.points[0].values);
+  const layout::RowRange points{described_, columns};
+  described_ = points.end();
+  write_point_statistics(file_, study_, statistics, points);
+  for (layout::StatisticTable table : statistics.tables) {
+    for (layout::PointColumn& column : table.columns)
+      column = layout::on_axis(std::move(column), study_.units.axis);
+    layout::write_statistic_table(file_, table, study::point_count(study_), points);
   }
-  layout::mark_finished(file);
-  finish_results(output, file.close());
+  if (!statistics.rig_successes.empty())
+    write_rig_counts(file_, study_, statistics.rig_successes, points.first);
+  if (statistics.worlds) write_world_counts(file_, study_, *statistics.worlds, points.first);
+}
+
+void MergedFile::finish() {
+  trials_.reset();
+  layout::mark_finished(file_);
+  finish_results(output_, file_.close());
 }
 
 }  // namespace zerocount::shards

@@ -1,12 +1,13 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <vector>
 
 #include "experiments/study/study.hpp"
+#include "results/hdf5/hdf5.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/layout.hpp"
 #include "results/layout/point_sums.hpp"
@@ -15,20 +16,9 @@
 #include "results/shards/concatenate.hpp"
 #include "results/shards/rig_tables.hpp"
 #include "results/shards/shard.hpp"
+#include "results/storage/durable_file.hpp"
 
 namespace zerocount::shards {
-
-/// Computes the statistics of the design points from a file that holds all trials but is not finished.
-using StatisticsOfPoints = std::function<layout::StoredStatistics(const reading::StudyFile&)>;
-
-/// The sums of consecutive trials, and the statistics computed from them.
-struct SummedTrials {
-  std::vector<layout::PointSums> sums;  ///< [point, from that of the first trial]
-  layout::StoredStatistics statistics;  ///< of all trials of the study; otherwise empty
-};
-
-/// Adds the sums of shards, which are in order of rows.
-using SumsOfTrials = std::function<SummedTrials(std::span<const ShardInfo>)>;
 
 struct MergeOptions {
   layout::Provenance provenance{layout::current_provenance()};
@@ -36,7 +26,6 @@ struct MergeOptions {
   /// the rows stored in the shards to them.
   Renumbering renumber{};
   const layout::MeasureTable* measures{nullptr};  ///< null: those of this program, with the study's bands
-  SumsOfTrials sums_of{};                         ///< needed if the study does not keep every trial
   std::stop_token stop{};                         ///< interrupts the merge
 };
 
@@ -49,17 +38,52 @@ std::vector<ShardInfo> merge_inputs(std::span<const std::filesystem::path> input
 /// The header of the first file of `inputs`. Its manifest and overrides define the study to merge.
 layout::FileHeader first_header(std::span<const std::filesystem::path> inputs);
 
-/// Joins shards into the results file `output` with the trials `rows` of the study: all of them, or a part.
+/// The results file with the trials `rows` of a study, all or a part, which is made of shards.
+///
+///     MergedFile file(shards, study, output, rows);   joins their tables
+///     file.write_sums(…)                              if the study does not keep every trial
+///     file.write_statistics(…)                        of all points, if it is the whole study
+///     file.finish();                                  the file appears
 ///
 /// The shards, as returned by list_shards or merge_inputs, must cover `rows` exactly. Memory does not grow
 /// with their number. The bytes of every dataset depend only on the study and `rows`. `output` appears when
 /// it is complete on the disk, and replaces an existing file. Its git_commit is that of options.provenance,
 /// or that of a shard whose build had uncommitted changes.
-/// @param statistics called once if the file holds every trial of the whole study
-/// @throws Failure: bad_data for gaps, overlaps and damaged shards; machine_failed with the path and the
-/// reason if the file cannot be written; interrupted if options.stop was requested.
-void merge_shards(std::span<const ShardInfo> shards, const study::Study& study,
-                  const std::filesystem::path& output, layout::RowRange rows,
-                  const StatisticsOfPoints& statistics, const MergeOptions& options = {});
+class MergedFile {
+ public:
+  /// @param study stays as long as this
+  /// @throws Failure: bad_data for gaps, overlaps and damaged shards; machine_failed with the path and the
+  /// reason if the file cannot be written; interrupted if options.stop was requested. The others likewise.
+  MergedFile(std::span<const ShardInfo> shards, const study::Study& study, std::filesystem::path output,
+             layout::RowRange rows, const MergeOptions& options = {});
+
+  const std::vector<ShardInfo>& shards() const { return shards_; }  ///< in order of rows
+  bool is_whole() const { return rows_ == layout::all_rows(study_); }
+  /// The trials, which can be read although the file is unfinished, if it keeps every one.
+  const reading::StudyFile& trials();
+
+  /// @param sums [point, from that of the first trial]
+  void write_sums(std::span<const layout::PointSums> sums);
+  /// Of the points that follow those written before.
+  void write_statistics(const layout::StoredStatistics& statistics);
+  hdf5::File& file() { return file_; }  ///< for further groups
+
+  /// @throws Failure (machine_failed) if what was written is not in the file: the reason why it cannot be
+  /// read
+  void require_written() const { hdf5::require_written(part_.path(), written_); }
+  void finish();
+
+ private:
+  const study::Study& study_;
+  std::filesystem::path output_;
+  layout::RowRange rows_;
+  const layout::MeasureTable* measures_;
+  std::vector<ShardInfo> shards_;
+  storage::UnfinishedFile part_;
+  hdf5::WrittenValues written_;
+  hdf5::File file_;
+  std::optional<reading::StudyFile> trials_;
+  std::int64_t described_{0};  ///< points with statistics
+};
 
 }  // namespace zerocount::shards

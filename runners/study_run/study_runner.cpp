@@ -13,9 +13,11 @@
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "analysis/iso230/repeatability_file.hpp"
 #include "analysis/measures/point_columns.hpp"
+#include "analysis/summary/stored_statistics.hpp"
 #include "analysis/summary/study_statistics.hpp"
-#include "analysis/summary/summed_point.hpp"
+#include "core/failure/failure.hpp"
 #include "core/trial/trial.hpp"
 #include "results/layout/table_io.hpp"
 #include "results/shards/merge.hpp"
@@ -149,21 +151,39 @@ void run_blocks(const study::Study& study, std::span<const layout::RowRange> ran
   tbb::task_arena(threads).execute(pipeline);
 }
 
-shards::SummedTrials sum_shards(std::span<const shards::ShardInfo> shards, const study::Study& study,
-                                layout::RowRange rows) {
-  const bool whole = rows == layout::all_rows(study);
-  summary::StudySums sums(study, statistics::summary_confidence, false,
-                          whole ? summary::Collected::both : summary::Collected::sums,
-                          rows.first / study.trials);
-  for (const shards::ShardInfo& shard : shards)
-    sums.add(reading::ResultsFile(shard.path, reading::Require::any_part));
-  summary::SummedStudy summed = sums.sum();
-  shards::SummedTrials trials{std::move(summed.sums), {}};
-  if (whole) {
-    trials.statistics = summary::stored_statistics(summed.points, study, summed.predictions,
-                                                   layout::measure_table(study.features.bands));
+/// Writes the sums of all shards, and of the whole study the statistics that follow from them.
+void write_summed(shards::MergedFile& file, const study::Study& study, layout::RowRange rows) {
+  std::vector<layout::PointSums> sums;
+  std::vector<measures::PointSummary> points;
+  std::vector<theory::PointPrediction> predictions;
+  summary::StudyAccumulator accumulator(
+      study, {.statistics = file.is_whole(), .sums = true, .first_point = rows.first / study.trials},
+      [&](summary::PointResults&& point) {
+        sums.push_back(std::move(point.sums));
+        predictions.push_back(point.prediction);
+        if (file.is_whole()) points.push_back(std::move(point.statistics));
+      });
+  for (const shards::ShardInfo& shard : file.shards())
+    accumulator.add(reading::ResultsFile(shard.path, reading::Require::any_part));
+  accumulator.finish();
+  file.write_sums(sums);
+  if (!file.is_whole()) return;
+  file.write_statistics(
+      summary::stored_statistics(points, study, predictions, layout::measure_table(study.features.bands)));
+}
+
+/// Writes the statistics of all trials in the file.
+void write_statistics(shards::MergedFile& file, const study::Study& study,
+                      std::span<const theory::PointPrediction> predictions) {
+  try {
+    summary::take_stored_statistics(
+        file.trials(), study, predictions,
+        [&](const layout::StoredStatistics& block) { file.write_statistics(block); });
+    if (!study.sequence.empty()) iso230::write_repeatability(file.file(), study);
+  } catch (const Failure&) {
+    file.require_written();
+    throw;
   }
-  return trials;
 }
 
 /// Bytes of the statistics of the points that are written together, when all trials have been run.
@@ -238,14 +258,11 @@ FinishedTrials run_trials(const study::Study& study, std::span<const layout::Row
 
 void assemble(std::span<const shards::ShardInfo> shards, const study::Study& study,
               const std::filesystem::path& output, layout::RowRange rows, const AssembleSettings& settings) {
-  const auto statistics = [&](const reading::StudyFile& file) {
-    return summary::stored_statistics(file, study, settings.predictions);
-  };
-  shards::MergeOptions options{.renumber = settings.renumber, .stop = settings.stop};
-  options.sums_of = [&](std::span<const shards::ShardInfo> ordered) {
-    return sum_shards(ordered, study, rows);
-  };
-  shards::merge_shards(shards, study, output, rows, statistics, options);
+  shards::MergedFile file(shards, study, output, rows,
+                          {.renumber = settings.renumber, .stop = settings.stop});
+  if (layout::has_sums(study.kept)) write_summed(file, study, rows);
+  if (!layout::has_sums(study.kept) && file.is_whole()) write_statistics(file, study, settings.predictions);
+  file.finish();
 }
 
 }  // namespace zerocount::study_run

@@ -55,14 +55,14 @@ FinishedTrials run_trials(const study::Study& study, std::span<const layout::Row
                           const std::stop_token& stop);
 
 struct AssembleSettings {
-  std::span<const theory::PointPrediction> predictions{};  ///< see summary::stored_statistics
+  std::span<const theory::PointPrediction> predictions{};  ///< see theory::study_predictions
   shards::Renumbering renumber{};                          ///< see shards::MergeOptions
   std::stop_token stop{};
 };
 
 /// Joins shards into the results file `output`. A file with the whole study gets the statistics of all design
 /// points.
-/// @throws Failure; see merge_shards.
+/// @throws Failure; see MergedFile.
 void assemble(std::span<const shards::ShardInfo> shards, const study::Study& study,
               const std::filesystem::path& output, layout::RowRange rows,
               const AssembleSettings& settings = {});

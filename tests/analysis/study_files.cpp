@@ -5,8 +5,8 @@
 #include <string>
 
 #include "core/hash/sha256.hpp"
-#include "results/shards/merge.hpp"
 #include "results/shards/shard.hpp"
+#include "tests/support/merged_file.hpp"
 
 namespace zerocount::testing {
 
@@ -101,7 +101,7 @@ void write_study_file(const std::filesystem::path& path, const study::Study& stu
 }
 
 void write_study_file(const std::filesystem::path& path, const study::Study& study,
-                      const std::vector<TrialRecord>& trials, const shards::StatisticsOfPoints& statistics,
+                      const std::vector<TrialRecord>& trials, const testing::StatisticsOfPoints& statistics,
                       const layout::MeasureTable& measures) {
   std::vector<shards::TrialResult> results(trials.size());
   for (std::size_t row = 0; row < trials.size(); ++row) {
@@ -114,7 +114,7 @@ void write_study_file(const std::filesystem::path& path, const study::Study& stu
   const std::filesystem::path shard = path.string() + ".shard.h5";
   shards::write_shard(shard, study, rows, results, {}, {.measures = &measures});
   const std::vector<shards::ShardInfo> shards{{shard, rows}};
-  shards::merge_shards(shards, study, path, rows, statistics, {.measures = &measures});
+  testing::merge_shards(shards, study, path, rows, statistics, {.measures = &measures});
 }
 
 }  // namespace zerocount::testing

@@ -7,7 +7,7 @@
 #include "core/trial/outcome.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"
-#include "results/shards/merge.hpp"
+#include "tests/support/merged_file.hpp"
 
 namespace zerocount::testing {
 
@@ -32,7 +32,7 @@ void write_study_file(const std::filesystem::path& path, const study::Study& stu
                       const std::vector<TrialRecord>& trials,
                       const std::vector<layout::PointColumn>& statistics = {});
 void write_study_file(const std::filesystem::path& path, const study::Study& study,
-                      const std::vector<TrialRecord>& trials, const shards::StatisticsOfPoints& statistics,
+                      const std::vector<TrialRecord>& trials, const testing::StatisticsOfPoints& statistics,
                       const layout::MeasureTable& measures = layout::measure_table());
 
 }  // namespace zerocount::testing

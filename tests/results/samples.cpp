@@ -11,6 +11,7 @@
 #include "core/hash/sha256.hpp"
 #include "experiments/study/plan.hpp"
 #include "results/layout/header.hpp"
+#include "tests/support/merged_file.hpp"
 
 namespace zerocount::testing {
 namespace {
@@ -228,7 +229,7 @@ layout::StoredStatistics sample_statistics(const reading::StudyFile& file) {
     count.values.push_back(static_cast<double>(trials));
     settling.values.push_back(sum / arrived);
   }
-  return {{count, settling}, {sample_table(file)}, {}, sample_rig_successes(file)};
+  return {{count, settling}, {sample_table(file)}, sample_rig_successes(file)};
 }
 
 /// The largest holding torque of every move at every design point.
@@ -252,8 +253,8 @@ std::filesystem::path write_sample_file(const std::filesystem::path& directory, 
   const std::filesystem::path path = directory / "sample.h5";
   const std::vector<shards::ShardInfo> shards =
       write_sample_shards(layout::shards_directory(path), study, layout::all_rows(study), size);
-  shards::merge_shards(shards, study, path, layout::all_rows(study), sample_statistics,
-                       {sample_provenance()});
+  testing::merge_shards(shards, study, path, layout::all_rows(study), sample_statistics,
+                        {sample_provenance()});
   return path;
 }
 
@@ -300,7 +301,7 @@ std::filesystem::path write_file_in_worlds(const std::filesystem::path& director
     if (!has_goal) stored.worlds->goal_met.clear();
     return stored;
   };
-  shards::merge_shards(shards, study, path, layout::all_rows(study), statistics, {sample_provenance()});
+  testing::merge_shards(shards, study, path, layout::all_rows(study), statistics, {sample_provenance()});
   return path;
 }
 

@@ -12,6 +12,7 @@
 #include "core/hash/sha256.hpp"
 #include "results/storage/checksum_trailer.hpp"
 #include "tests/analysis/study_files.hpp"
+#include "tests/support/merged_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace zerocount::testing {
@@ -327,7 +328,7 @@ TEST(Draws, RiseInTheSameOrderThroughAnotherDistribution) {
     }
     shards::write_shard(folder / (name + ".shard"), study, {0, std::ssize(results)}, results);
     const std::vector<shards::ShardInfo> shards{{folder / (name + ".shard"), {0, 2 * trials}}};
-    shards::merge_shards(shards, study, folder / name, {0, 2 * trials}, {});
+    testing::merge_shards(shards, study, folder / name, {0, 2 * trials}, {});
     return reading::StudyFile(folder / name);
   };
   const auto draw = [](std::int64_t row) { return static_cast<double>((row * 37 + 11) % 101); };

@@ -7,7 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "analysis/summary/study_statistics.hpp"
+#include "analysis/iso230/repeatability_file.hpp"
+#include "analysis/summary/stored_statistics.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "results/shards/merge.hpp"
 
@@ -57,9 +58,11 @@ void write_sequence_file(const std::filesystem::path& path, const study::Study& 
   const std::filesystem::path shard = path.string() + ".shard.h5";
   shards::write_shard(shard, study, {0, std::ssize(results)}, results);
   const layout::RowRange rows{0, static_cast<std::int64_t>(results.size())};
-  shards::merge_shards(
-      std::vector<shards::ShardInfo>{{shard, rows}}, study, path, rows,
-      [&study](const reading::StudyFile& file) { return summary::stored_statistics(file, study); });
+  shards::MergedFile file(std::vector<shards::ShardInfo>{{shard, rows}}, study, path, rows);
+  summary::take_stored_statistics(
+      file.trials(), study, {}, [&](const layout::StoredStatistics& block) { file.write_statistics(block); });
+  if (!study.sequence.empty()) iso230::write_repeatability(file.file(), study);
+  file.finish();
 }
 
 }  // namespace zerocount::testing

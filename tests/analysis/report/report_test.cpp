@@ -12,7 +12,7 @@
 
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/report/report_figures.hpp"
-#include "analysis/summary/study_statistics.hpp"
+#include "analysis/summary/stored_statistics.hpp"
 #include "analysis/summary/summary.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "tests/analysis/report/run_studies.hpp"
@@ -430,7 +430,10 @@ TEST(ReportPage, DoesNotGrowWithTheTrials) {
     trials.back().outcome.moves.front().jerk_count = std::ssize(jerks);
   }
   testing::write_study_file(folder / "many.h5", study, trials, [&](const reading::StudyFile& file) {
-    return summary::stored_statistics(file, study);
+    layout::StoredStatistics stored;
+    summary::take_stored_statistics(file, study, {},
+                                    [&](const layout::StoredStatistics& only) { stored = only; });
+    return stored;
   });
   const std::string page = html_page(study_report(reading::StudyFile(folder / "many.h5")).page);
   EXPECT_LT(page.size(), 2000000U);

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "analysis/summary/study_statistics.hpp"
+#include "analysis/summary/stored_statistics.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "results/shards/merge.hpp"
@@ -42,9 +42,10 @@ study::Study run_study_file(const std::filesystem::path& path, const std::string
   const std::filesystem::path shard = path.string() + ".shard.h5";
   shards::write_shard(shard, study, {0, std::ssize(results)}, results);
   const layout::RowRange rows{0, study::trial_count(study)};
-  shards::merge_shards(
-      std::vector<shards::ShardInfo>{{shard, rows}}, study, path, rows,
-      [&study](const reading::StudyFile& file) { return summary::stored_statistics(file, study); });
+  shards::MergedFile file(std::vector<shards::ShardInfo>{{shard, rows}}, study, path, rows);
+  summary::take_stored_statistics(
+      file.trials(), study, {}, [&](const layout::StoredStatistics& block) { file.write_statistics(block); });
+  file.finish();
   return study;
 }
 

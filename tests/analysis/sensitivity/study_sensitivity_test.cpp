@@ -12,8 +12,8 @@
 #include "analysis/sensitivity/sensitivity.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
-#include "results/shards/merge.hpp"
 #include "results/shards/shard.hpp"
+#include "tests/support/merged_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace zerocount::sensitivity {
@@ -65,8 +65,8 @@ class MadeUpStudy {
     const layout::RowRange rows{0, study::trial_count(study)};
     shards::write_shard(folder_ / "shard.h5", study, {0, std::ssize(results)}, results);
     const std::vector<shards::ShardInfo> shards{{folder_ / "shard.h5", rows}};
-    shards::merge_shards(shards, study, folder_ / "study.h5", rows,
-                         [](const reading::StudyFile&) { return layout::StoredStatistics{}; });
+    testing::merge_shards(shards, study, folder_ / "study.h5", rows,
+                          [](const reading::StudyFile&) { return layout::StoredStatistics{}; });
   }
 
   StudySensitivity ask(const SensitivityQuestion& question = {}) const {

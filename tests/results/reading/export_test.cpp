@@ -8,6 +8,7 @@
 #include "results/reading/csv.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
+#include "tests/support/merged_file.hpp"
 
 namespace zerocount::testing {
 namespace {
@@ -135,7 +136,7 @@ TEST(ExportOfAPart, HasItsOwnTrialsOnly) {
   const study::Study study = sample_study();
   const layout::RowRange rows{30, 25};
   const auto shards = write_sample_shards(directory / "shards", study, rows, 10);
-  shards::merge_shards(shards, study, directory / "part.h5", rows, {});
+  testing::merge_shards(shards, study, directory / "part.h5", rows, {});
   reading::export_csv(reading::StudyFile(directory / "part.h5", reading::Require::any_part),
                       directory / "csv");
   const auto trials = read_table(directory.path() / "csv" / "trials.csv");

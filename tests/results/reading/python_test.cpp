@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/results/samples.hpp"
+#include "tests/support/merged_file.hpp"
 
 namespace zerocount::testing {
 namespace {
@@ -42,7 +43,7 @@ TEST(Python, OpensAFileWhoseTablesAreEmpty) {
   }
   shards::write_shard(directory / "shard.h5", study, {0, std::ssize(results)}, results);
   const std::vector<shards::ShardInfo> shards{{directory / "shard.h5", {0, 4}}};
-  shards::merge_shards(shards, study, directory / "empty.h5", {0, 4}, {});
+  testing::merge_shards(shards, study, directory / "empty.h5", {0, 4}, {});
   expect_python_opens(directory / "empty.h5", directory / "output");
 }
 

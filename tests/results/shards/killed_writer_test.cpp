@@ -9,8 +9,8 @@
 #include <unistd.h>
 
 #include "results/layout/header.hpp"
-#include "results/shards/merge.hpp"
 #include "tests/results/samples.hpp"
+#include "tests/support/merged_file.hpp"
 #include "tests/support/raw_hdf5.hpp"
 
 namespace zerocount::testing {
@@ -70,8 +70,8 @@ void expect_whole_shards(int rounds) {
     const std::filesystem::path output = directory / fmt::format("resumed{}.h5", round);
     std::filesystem::create_directory(shards);
     killed += kill_until_finished(shards, study, random);
-    shards::merge_shards(shards::list_shards(shards, study).shards, study, output, layout::all_rows(study),
-                         sample_statistics, {sample_provenance()});
+    testing::merge_shards(shards::list_shards(shards, study).shards, study, output, layout::all_rows(study),
+                          sample_statistics, {sample_provenance()});
     EXPECT_EQ(stored_datasets(output), stored_datasets(reference));
   }
   EXPECT_GE(killed, rounds / 2);
@@ -95,8 +95,8 @@ TEST(KilledWriter, OfAMergeLeavesNoOutputOrAWholeOne) {
   for (int repetition = 0; repetition < 15; ++repetition) {
     const std::chrono::microseconds delay(random() % 60000);
     finishes_before(delay, [&] {
-      shards::merge_shards(shards, study, output, layout::all_rows(study), sample_statistics,
-                           {sample_provenance()});
+      testing::merge_shards(shards, study, output, layout::all_rows(study), sample_statistics,
+                            {sample_provenance()});
     });
     if (!std::filesystem::exists(output)) continue;
     EXPECT_EQ(stored_datasets(output), stored_datasets(reference));

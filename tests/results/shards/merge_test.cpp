@@ -14,6 +14,7 @@
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
 #include "tests/results/walk.hpp"
+#include "tests/support/merged_file.hpp"
 #include "tests/support/raw_hdf5.hpp"
 
 namespace zerocount::testing {
@@ -37,8 +38,8 @@ std::vector<shards::ShardInfo> random_shards(const fs::path& directory, const st
 }
 
 fs::path merged(const fs::path& path, const study::Study& study, std::span<const shards::ShardInfo> shards) {
-  shards::merge_shards(shards, study, path, layout::all_rows(study), sample_statistics,
-                       {sample_provenance()});
+  testing::merge_shards(shards, study, path, layout::all_rows(study), sample_statistics,
+                        {sample_provenance()});
   return path;
 }
 
@@ -141,12 +142,10 @@ TEST(Merge, KeepsTablesOfStatisticsAndFurtherGroups) {
   const TemporaryFolder directory;
   const study::Study study = sample_study(3, 40, 2);
   const auto shards = write_sample_shards(directory / "shards", study, layout::all_rows(study), 50);
-  const shards::StatisticsOfPoints statistics = [](const reading::StudyFile& file) {
-    layout::StoredStatistics stored = sample_statistics(file);
-    stored.groups = [](hdf5::File& output) { output.create_group("further").set_integer("answer", 42); };
-    return stored;
-  };
-  shards::merge_shards(shards, study, directory / "all.h5", layout::all_rows(study), statistics);
+  shards::MergedFile merged(shards, study, directory / "all.h5", layout::all_rows(study));
+  merged.write_statistics(sample_statistics(merged.trials()));
+  merged.file().create_group("further").set_integer("answer", 42);
+  merged.finish();
   const reading::StudyFile file(directory / "all.h5");
   const std::vector<layout::StatisticTable> tables = file.statistic_tables();
   ASSERT_EQ(tables.size(), 1U);
@@ -164,13 +163,14 @@ TEST(Merge, RefusesATableOfStatisticsThatIsNotOfItsPoints) {
   const TemporaryFolder directory;
   const study::Study study = sample_study(3, 40, 2);
   const auto shards = write_sample_shards(directory / "shards", study, layout::all_rows(study), 50);
-  const shards::StatisticsOfPoints statistics = [](const reading::StudyFile& file) {
+  const testing::StatisticsOfPoints statistics = [](const reading::StudyFile& file) {
     layout::StoredStatistics stored = sample_statistics(file);
     stored.tables[0].columns[0].values.pop_back();
     return stored;
   };
-  EXPECT_THROW(shards::merge_shards(shards, study, directory / "all.h5", layout::all_rows(study), statistics),
-               std::invalid_argument);
+  EXPECT_THROW(
+      testing::merge_shards(shards, study, directory / "all.h5", layout::all_rows(study), statistics),
+      std::invalid_argument);
 }
 
 TEST(Merge, KeepsOnlyTheColumnsOfSampleRecordsThatTheStudyHas) {
@@ -264,7 +264,7 @@ TEST(Merge, JoinsPartsAsItJoinsShards) {
     parts.push_back(directory / ("part" + std::to_string(rows.first) + ".h5"));
     const auto pieces =
         write_sample_shards(directory / ("shards" + std::to_string(rows.first)), study, rows, 20);
-    shards::merge_shards(pieces, study, parts.back(), rows, sample_statistics, {sample_provenance()});
+    testing::merge_shards(pieces, study, parts.back(), rows, sample_statistics, {sample_provenance()});
     const reading::StudyFile part(parts.back(), reading::Require::any_part);
     EXPECT_FALSE(part.header().complete);
     EXPECT_TRUE(part.statistics().empty());
@@ -301,7 +301,7 @@ TEST(Merge, OfAStudyWithoutAxesInputsProfilesJerksOrOverrides) {
   }
   shards::write_shard(directory / "shard.h5", study, {0, std::ssize(results)}, results);
   const std::vector<shards::ShardInfo> shards{{directory / "shard.h5", {0, 5}}};
-  shards::merge_shards(shards, study, directory / "all.h5", {0, 5}, {});
+  testing::merge_shards(shards, study, directory / "all.h5", {0, 5}, {});
   const reading::StudyFile file(directory / "all.h5");
   expect_sound(file.path());
   EXPECT_EQ(file.jerk_count(), 0);
@@ -319,7 +319,7 @@ TEST(Merge, RefusesGapsOverlapsAndShardsOutside) {
       write_sample_shards(directory / "shards", study, layout::all_rows(study), 40);
   const fs::path output = directory / "all.h5";
   const auto merge = [&](const std::vector<shards::ShardInfo>& given, layout::RowRange rows) {
-    return [&, given, rows] { shards::merge_shards(given, study, output, rows, {}); };
+    return [&, given, rows] { testing::merge_shards(given, study, output, rows, {}); };
   };
   expect_failure(ExitCode::bad_data, "trials 40 to 79 are in none", merge({shards[0], shards[2]}, {0, 120}));
   expect_failure(ExitCode::bad_data, "trials 80 to 119 are in none", merge({shards[0], shards[1]}, {0, 120}));
@@ -383,7 +383,7 @@ TEST(Merge, RecordsThatAShardWasMadeFromChangedSources) {
                       {clean});
   shards::write_shard(shards[1].path, study, shards[1].rows, sample_results(study, shards[1].rows), {},
                       {changed});
-  shards::merge_shards(shards, study, directory / "all.h5", layout::all_rows(study), {}, {clean});
+  testing::merge_shards(shards, study, directory / "all.h5", layout::all_rows(study), {}, {clean});
   EXPECT_EQ(reading::StudyFile(directory / "all.h5").header().provenance.git_commit, "a1b2-dirty");
 }
 
@@ -394,14 +394,14 @@ TEST(Merge, ReplacesAnEarlierFileOnlyWhenItIsWhole) {
   const std::string whole = read_bytes(path);
   const std::vector<shards::ShardInfo> shards =
       shards::merge_inputs(std::vector<fs::path>{layout::shards_directory(path)}, study);
-  const shards::StatisticsOfPoints failing = [](const reading::StudyFile&) -> layout::StoredStatistics {
+  const testing::StatisticsOfPoints failing = [](const reading::StudyFile&) -> layout::StoredStatistics {
     throw std::runtime_error("no");
   };
-  EXPECT_THROW(shards::merge_shards(shards, study, path, layout::all_rows(study), failing),
+  EXPECT_THROW(testing::merge_shards(shards, study, path, layout::all_rows(study), failing),
                std::runtime_error);
   EXPECT_TRUE(read_bytes(path) == whole);
   directory.write(path.filename().string(), "an earlier file");
-  shards::merge_shards(shards, study, path, layout::all_rows(study), {});
+  testing::merge_shards(shards, study, path, layout::all_rows(study), {});
   EXPECT_EQ(reading::StudyFile(path).rows(), layout::all_rows(study));
 }
 
@@ -410,10 +410,10 @@ TEST(Merge, LeavesNothingWhereTheStatisticsFail) {
   const study::Study study = sample_study();
   const auto shards = write_sample_shards(directory / "shards", study, layout::all_rows(study), 40);
   const fs::path output = directory / "all.h5";
-  const shards::StatisticsOfPoints failing = [](const reading::StudyFile&) -> layout::StoredStatistics {
+  const testing::StatisticsOfPoints failing = [](const reading::StudyFile&) -> layout::StoredStatistics {
     throw std::runtime_error("no");
   };
-  EXPECT_THROW(shards::merge_shards(shards, study, output, layout::all_rows(study), failing),
+  EXPECT_THROW(testing::merge_shards(shards, study, output, layout::all_rows(study), failing),
                std::runtime_error);
   EXPECT_FALSE(fs::exists(output));
   EXPECT_FALSE(fs::exists(storage::part_of(output)));

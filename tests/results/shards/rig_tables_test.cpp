@@ -8,6 +8,7 @@
 #include "results/reading/export.hpp"
 #include "results/reading/first_difference.hpp"
 #include "tests/results/samples.hpp"
+#include "tests/support/merged_file.hpp"
 #include "tests/support/raw_hdf5.hpp"
 
 namespace zerocount::testing {
@@ -68,7 +69,7 @@ TEST(RigTables, APartHasTheRigsAndNoCounts) {
   const std::vector<shards::ShardInfo> shards =
       write_sample_shards(directory.path() / "shards", study, rows, 20);
   const std::filesystem::path path = directory.path() / "part.h5";
-  shards::merge_shards(shards, study, path, rows, {}, {sample_provenance()});
+  testing::merge_shards(shards, study, path, rows, {}, {sample_provenance()});
   const reading::StudyFile part(path, reading::Require::any_part);
   EXPECT_EQ(part.rigs().value().count, 8);
   EXPECT_TRUE(part.rigs().value().success.empty());

@@ -20,6 +20,7 @@
 #include "results/storage/checksum_trailer.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
+#include "tests/support/merged_file.hpp"
 #include "tests/support/raw_hdf5.hpp"
 
 namespace zerocount::testing {
@@ -82,7 +83,7 @@ TEST(WorldTables, OfAPartHaveNoCounts) {
   const std::vector<shards::ShardInfo> shards =
       write_sample_shards(directory.path() / "shards", study, rows, 20);
   const std::filesystem::path path = directory.path() / "part.h5";
-  shards::merge_shards(shards, study, path, rows, {}, {sample_provenance()});
+  testing::merge_shards(shards, study, path, rows, {}, {sample_provenance()});
   const reading::StoredGroups stored = reading::StudyFile(path, reading::Require::any_part).worlds().value();
   EXPECT_EQ(stored.count, 7);
   EXPECT_EQ(stored.inputs[0].size(), 7U);

@@ -11,10 +11,10 @@
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/export.hpp"
-#include "results/shards/merge.hpp"
 #include "results/storage/durable_file.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
+#include "tests/support/merged_file.hpp"
 
 /// Read by the leak sanitizer, where there is one: the HDF5 library does not free everything of a file that
 /// it could not close.
@@ -106,13 +106,13 @@ TEST_F(FullOutput, FailsAMergeAndKeepsTheShards) {
     expect_full(
         with_file_limit(
             limit,
-            [&] { shards::merge_shards(shards, study, path, layout::all_rows(study), sample_statistics); }),
+            [&] { testing::merge_shards(shards, study, path, layout::all_rows(study), sample_statistics); }),
         path);
     EXPECT_FALSE(fs::exists(path));
     EXPECT_FALSE(fs::exists(storage::part_of(path)));
   }
   EXPECT_EQ(shards::list_shards(directory / "shards", study).shards.size(), shards.size());
-  shards::merge_shards(shards, study, path, layout::all_rows(study), sample_statistics);
+  testing::merge_shards(shards, study, path, layout::all_rows(study), sample_statistics);
 }
 
 TEST_F(FullOutput, FailsAnExport) {
@@ -143,7 +143,8 @@ TEST(UnwritableOutput, IsSaidWithTheReason) {
                  [&] { storage::make_directory(directory / "file"); });
   const auto shards = write_sample_shards(directory / "shards", study, layout::all_rows(study), 40);
   expect_failure(ExitCode::machine_failed, "No such file or directory", [&] {
-    shards::merge_shards(shards, study, directory.path() / "nowhere" / "all.h5", layout::all_rows(study), {});
+    testing::merge_shards(shards, study, directory.path() / "nowhere" / "all.h5", layout::all_rows(study),
+                          {});
   });
 }
 

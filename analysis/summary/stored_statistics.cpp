@@ -1,0 +1,114 @@
+#include "analysis/summary/stored_statistics.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "analysis/measures/point_columns.hpp"
+#include "analysis/summary/observed_comparison.hpp"
+#include "analysis/summary/study_statistics.hpp"
+
+namespace zerocount::summary {
+namespace {
+
+constexpr std::size_t points_at_once = 256;  ///< that are held with all their statistics
+
+/// The trials of the worlds at each point; of an open loop none is judged.
+layout::WorldCounts world_counts(std::span<const measures::PointSummary> points, const study::Study& study) {
+  layout::WorldCounts counts;
+  const auto of_worlds = [&](const std::optional<measures::WorldTrials>& point,
+                             measures::MoveCounts measures::WorldTrials::*which,
+                             std::int64_t measures::MoveCounts::*number) {
+    std::vector<std::int64_t> numbers;
+    if (point) {
+      for (const measures::MoveCounts& world : measures::in_worlds((*point).*which))
+        numbers.push_back(world.*number);
+    }
+    numbers.resize(static_cast<std::size_t>(study.worlds));  // none in an open loop
+    return numbers;
+  };
+  using measures::MoveCounts;
+  using measures::WorldTrials;
+  for (const measures::PointSummary& point : points) {
+    counts.trials.push_back(of_worlds(point.worlds, &WorldTrials::succeeded, &MoveCounts::moves));
+    counts.success.push_back(of_worlds(point.worlds, &WorldTrials::succeeded, &MoveCounts::met));
+    if (study.goal)
+      counts.goal_met.push_back(of_worlds(point.worlds, &WorldTrials::meeting, &MoveCounts::met));
+  }
+  return counts;
+}
+
+/// Appends the statistics of the points that follow.
+void append(layout::StoredStatistics& stored, layout::StoredStatistics&& next) {
+  const auto append_to = [](auto& values, auto& more) {
+    values.insert(values.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+  };
+  for (std::size_t i = 0; i < stored.points.size(); ++i)
+    append_to(stored.points[i].values, next.points[i].values);
+  for (std::size_t i = 0; i < stored.tables.size(); ++i) {
+    for (std::size_t column = 0; column < stored.tables[i].columns.size(); ++column)
+      append_to(stored.tables[i].columns[column].values, next.tables[i].columns[column].values);
+  }
+  append_to(stored.rig_successes, next.rig_successes);
+  if (!stored.worlds) return;
+  append_to(stored.worlds->trials, next.worlds->trials);
+  append_to(stored.worlds->success, next.worlds->success);
+  append_to(stored.worlds->goal_met, next.worlds->goal_met);
+}
+
+}  // namespace
+
+layout::StoredStatistics stored_statistics(std::span<const measures::PointSummary> points,
+                                           const study::Study& study,
+                                           std::span<const theory::PointPrediction> predictions,
+                                           const layout::MeasureTable& table, std::int64_t first) {
+  layout::StoredStatistics stored;
+  stored.points = measures::point_columns(points, study.features, table);
+  for (layout::PointColumn& column : measures::prediction_columns(predictions))
+    stored.points.push_back(std::move(column));
+  for (layout::PointColumn& column : observed_columns(points, study, first))
+    stored.points.push_back(std::move(column));
+  if (study.open_loop) stored.tables.push_back(measures::level_table(points, table));
+  for (std::size_t point = 0; study.rigs > 0 && point < points.size(); ++point) {
+    stored.rig_successes.push_back(points[point].rigs.successes_of_rigs);
+    stored.rig_successes.back().resize(static_cast<std::size_t>(study.rigs));  // empty in an open loop
+  }
+  if (study.worlds > 0) stored.worlds = world_counts(points, study);
+  return stored;
+}
+
+void take_stored_statistics(const reading::StudyFile& file, const study::Study& study,
+                            std::span<const theory::PointPrediction> known,
+                            const std::function<void(const layout::StoredStatistics&)>& take) {
+  const std::vector<theory::PointPrediction> predictions = theory::study_predictions(study, known);
+  std::vector<measures::PointSummary> points;
+  std::optional<layout::StoredStatistics> block;
+  std::int64_t stored = 0;  // points
+  const auto add_to_block = [&] {
+    if (points.empty()) return;
+    layout::StoredStatistics next = stored_statistics(
+        points, study, std::span(predictions).subspan(static_cast<std::size_t>(stored), points.size()),
+        file.table(), stored);
+    if (block) append(*block, std::move(next));
+    if (!block) block = std::move(next);
+    stored += std::ssize(points);
+    points.clear();
+  };
+  StudyAccumulator accumulator(study, {}, [&](PointResults&& point) {
+    points.push_back(std::move(point.statistics));
+    if (points.size() == points_at_once) add_to_block();
+  });
+  require_all_trials(file);
+  for (std::int64_t first = 0; first < study::point_count(study); first += layout::chunk_elements) {
+    const std::int64_t count = std::min(layout::chunk_elements, study::point_count(study) - first);
+    accumulator.add(file, {first * study.trials, count * study.trials});
+    accumulator.finish();
+    add_to_block();
+    take(*std::exchange(block, std::nullopt));
+  }
+}
+
+}  // namespace zerocount::summary

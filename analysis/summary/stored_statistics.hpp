@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+
+#include "analysis/measures/point_statistics.hpp"
+#include "analysis/theory/theory_prediction.hpp"
+#include "experiments/study/study.hpp"
+#include "results/layout/layout.hpp"
+#include "results/reading/study_file.hpp"
+
+/// What a results file stores of its statistics.
+namespace zerocount::summary {
+
+/// The stored statistics of consecutive points: point_columns, prediction_columns, the levels of an open-loop
+/// study, and the counts of rigs and worlds. All bounds have 95 %.
+/// @param points, predictions [point] of all their trials. @param first number of the first point
+layout::StoredStatistics stored_statistics(std::span<const measures::PointSummary> points,
+                                           const study::Study& study,
+                                           std::span<const theory::PointPrediction> predictions,
+                                           const layout::MeasureTable& table, std::int64_t first = 0);
+
+/// Gives those of all points of a file to `take`, in blocks of a chunk of the file: the memory does not grow
+/// with the number of points.
+/// @param file holds all trials of `study`. @param predictions see theory::study_predictions
+void take_stored_statistics(const reading::StudyFile& file, const study::Study& study,
+                            std::span<const theory::PointPrediction> predictions,
+                            const std::function<void(const layout::StoredStatistics&)>& take);
+
+}  // namespace zerocount::summary

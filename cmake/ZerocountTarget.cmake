@@ -157,15 +157,16 @@ function(zerocount_folder)
   endif()
 endfunction()
 
-# zerocount_layer(<folder>...): adds the folders of a layer, lowest first, and a target for all of them, such as zerocount::core.
+# zerocount_layer(<folder>...): adds the folders of a layer, lowest first, with the rooms in them (tuning/race), and a target for all of them, such as zerocount::core.
 function(zerocount_layer)
   get_filename_component(layer "${CMAKE_CURRENT_SOURCE_DIR}" NAME)
   add_library(zerocount_${layer} INTERFACE)
   add_library(zerocount::${layer} ALIAS zerocount_${layer})
   foreach(folder IN LISTS ARGN)
     add_subdirectory(${folder})
-    if(TARGET zerocount::${layer}::${folder})  # the extension of the Python package is no library
-      target_link_libraries(zerocount_${layer} INTERFACE zerocount::${layer}::${folder})
+    string(REPLACE "/" "::" name "${layer}/${folder}")
+    if(TARGET zerocount::${name})  # the extension of the Python package is no library
+      target_link_libraries(zerocount_${layer} INTERFACE zerocount::${name})
     endif()
   endforeach()
 endfunction()

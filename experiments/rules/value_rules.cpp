@@ -252,4 +252,9 @@ std::string first_fault(const study::StudyPlan& plan, std::size_t point) {
   return "";
 }
 
+std::string refusal_of(const study::PointEdit& edit) {
+  const std::string fault = edit.out_of_range();
+  return fault.empty() ? first_fault(edit.plan(), edit.point()) : fault;
+}
+
 }  // namespace zerocount::rules

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "experiments/study/point_edit.hpp"
 #include "experiments/study/point_limits.hpp"
 
 namespace zerocount::rules {
@@ -46,5 +47,9 @@ std::vector<ValueRule> value_rules(const study::StudyPlan& plan);
 /// The first inconsistency between the values of a design point that is an error, "path: what; expected …";
 /// empty if there is none.
 std::string first_fault(const study::StudyPlan& plan, std::size_t point);
+
+/// Why a study with these values at the edited point cannot be simulated: the first value out of its range, or
+/// first_fault(); empty if it can.
+std::string refusal_of(const study::PointEdit& edit);
 
 }  // namespace zerocount::rules

@@ -111,7 +111,7 @@ ExitCode limits(const command_line::Arguments& arguments) {
   const study_run::InterruptionWatch interruption;
   const PointLimits found{examined.study, unless_interrupted([&] {
                             return tuning::limits_of(examined.study,
-                                                     tuning::units_of(examined.study, examined.point),
+                                                     trials::replicates_of(examined.study, examined.point),
                                                      interruption.token());
                           })};
   return answers::print(arguments, limits_answer(), found);

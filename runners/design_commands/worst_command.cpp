@@ -177,7 +177,7 @@ ExitCode worst(const command_line::Arguments& arguments) {
   const study_run::InterruptionWatch interruption;
   const Search search{examined.study, unless_interrupted([&] {
                         return tuning::worst_machines(
-                            examined.study, tuning::units_of(examined.study, examined.point),
+                            examined.study, trials::replicates_of(examined.study, examined.point),
                             folder_of(arguments.operands()[0]), interruption.token());
                       }),
                       output};

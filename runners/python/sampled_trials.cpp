@@ -9,14 +9,13 @@
 #include <vector>
 
 #include "analysis/parallel/parallel.hpp"
-#include "core/batch/batch.hpp"
 #include "core/trial/outcome.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/study/random_variables.hpp"
 #include "results/layout/fields.hpp"
 #include "runners/python/arrays.hpp"
 #include "runners/python/interruptible.hpp"
-#include "runners/study_run/parallel_trials.hpp"
+#include "runners/trials/trial_set.hpp"
 
 namespace zerocount::python {
 namespace {
@@ -25,7 +24,7 @@ namespace d = distributions;
 using Matrix = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Numbers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
 
-constexpr std::size_t trials_at_a_time = 64;
+constexpr std::int64_t trials_at_a_time = 64;
 
 // The form that a distribution has in a manifest.
 py::dict form_of(const d::Uniform& u) {
@@ -102,21 +101,14 @@ std::vector<trial::TrialOutcome> simulated(const study::Study& study, std::int64
                                            const std::stop_token& stop) {
   const study::RandomVariables variables = study::random_variables(study, point);
   const std::size_t width = variables.variables.size();
-  std::vector<trial::TrialOutcome> outcomes(numbers.size());
-  const std::size_t blocks = (numbers.size() + trials_at_a_time - 1) / trials_at_a_time;
-  study_run::for_each_with_engine(blocks, [&](std::size_t block, batch::BatchEngine& engine) {
-    const std::size_t first = block * trials_at_a_time;
-    const std::size_t count = std::min(trials_at_a_time, numbers.size() - first);
-    std::vector<trial::TrialParameters> trials;
-    for (std::size_t i = first; i < first + count; ++i) {
-      const study::GivenDraws draws =
-          study::draws_with(study, variables, x.subspan(i * width, width), numbers[i]);
-      trials.push_back(study::study_trial(study, point, 0, draws).parameters);
-    }
-    std::vector<trial::TrialOutcome> some = study_run::outcomes_of(trials, engine, stop);
-    std::move(some.begin(), some.end(), outcomes.begin() + static_cast<std::ptrdiff_t>(first));
-  });
-  return outcomes;
+  const auto draw = [&](std::int64_t number) {
+    const auto i = static_cast<std::size_t>(number);
+    const study::GivenDraws draws =
+        study::draws_with(study, variables, x.subspan(i * width, width), numbers[i]);
+    return study::study_trial(study, point, 0, draws).parameters;
+  };
+  return trials::results_of(std::ssize(numbers), trials_at_a_time, draw, stop,
+                            [](const trial::TrialOutcome& outcome) { return outcome; });
 }
 
 /// {measure: [trial, move]} of trials with these values.

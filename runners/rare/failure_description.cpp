@@ -152,7 +152,7 @@ std::vector<FailureInput> failure_inputs(const Question& question, const Estimat
 }
 
 std::optional<CarryingMachines> carrying_machines(const Question& question, const EstimatorState& state,
-                                                  double probability, const std::stop_token& stop) {
+                                                  double probability, const trials::Effort& effort) {
   const auto of_machine = std::ranges::count_if(question.coordinates, &study::RandomCoordinate::of_machine);
   const std::vector<const WeightedTrial*> failed = drawn_failures(state, examined_machines);
   if (failed.empty() || of_machine == 0 || of_machine == std::ssize(question.coordinates) ||
@@ -161,7 +161,7 @@ std::optional<CarryingMachines> carrying_machines(const Question& question, cons
   NumberSource numbers(designs::random_key(question.study.seed, "rare/machines"));
   std::vector<study::GivenDraws> draws;
   for (const WeightedTrial* trial : failed) add_moves(question, *trial, state.trials, numbers, draws);
-  const std::vector<PointResult> results = run_trials(question, draws, stop);
+  const std::vector<PointResult> results = run_trials(question, draws, effort);
   std::vector<double> rates;
   CarryingMachines machines{std::ssize(failed), static_cast<std::int64_t>(moves_of_machine)};
   for (std::size_t i = 0; i < failed.size(); ++i) {

@@ -2,11 +2,10 @@
 
 #include <cstdint>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
-#include "analysis/rare/estimator.hpp"
+#include "runners/rare/estimator.hpp"
 #include "runners/rare/rare_question.hpp"
 
 namespace zerocount::rare {
@@ -46,6 +45,6 @@ struct CarryingMachines {
 /// failure, or where machines and moves are not told apart.
 /// @throws trial::Interrupted
 std::optional<CarryingMachines> carrying_machines(const Question& question, const EstimatorState& state,
-                                                  double probability, const std::stop_token& stop);
+                                                  double probability, const trials::Effort& effort);
 
 }  // namespace zerocount::rare

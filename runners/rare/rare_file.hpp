@@ -7,8 +7,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "analysis/rare/estimator.hpp"
 #include "results/layout/header.hpp"
+#include "runners/rare/estimator.hpp"
 #include "runners/rare/rare_question.hpp"
 
 namespace zerocount::rare {

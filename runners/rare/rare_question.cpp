@@ -5,23 +5,12 @@
 #include <utility>
 
 #include "analysis/statistics/unknown.hpp"
-#include "core/batch/batch.hpp"
-#include "runners/study_run/parallel_trials.hpp"
+#include "runners/trials/trial_set.hpp"
 
 namespace zerocount::rare {
 namespace {
 
-constexpr std::size_t trials_at_once = 128;  // by one thread
-
-void run_part(const Question& question, std::span<const study::GivenDraws> draws,
-              std::span<PointResult> results, batch::BatchEngine& engine, const std::stop_token& stop) {
-  std::vector<trial::TrialParameters> trials;
-  trials.reserve(draws.size());
-  for (const study::GivenDraws& one : draws)
-    trials.push_back(study::study_trial(question.study, question.point, 0, one).parameters);
-  const std::vector<trial::TrialOutcome> outcomes = study_run::outcomes_of(trials, engine, stop);
-  for (std::size_t i = 0; i < outcomes.size(); ++i) results[i] = result_of(question, outcomes[i].moves);
-}
+constexpr std::int64_t trials_at_once = 128;  // by one thread
 
 }  // namespace
 
@@ -58,22 +47,21 @@ PointResult result_of(const Question& question, std::span<const trial::MoveOutco
 }
 
 std::vector<PointResult> run_trials(const Question& question, std::span<const study::GivenDraws> draws,
-                                    const std::stop_token& stop) {
-  std::vector<PointResult> results(draws.size());
-  const std::size_t parts = (draws.size() + trials_at_once - 1) / trials_at_once;
-  study_run::for_each_with_engine(parts, [&](std::size_t part, batch::BatchEngine& engine) {
-    const std::size_t first = part * trials_at_once;
-    const std::size_t count = std::min(trials_at_once, draws.size() - first);
-    run_part(question, draws.subspan(first, count), std::span(results).subspan(first, count), engine, stop);
-  });
-  return results;
+                                    const trials::Effort& effort) {
+  const auto draw = [&](std::int64_t i) {
+    const study::GivenDraws& given = draws[static_cast<std::size_t>(i)];
+    return study::study_trial(question.study, question.point, 0, given).parameters;
+  };
+  return trials::results_of(
+      std::ssize(draws), trials_at_once, draw, effort,
+      [&](const trial::TrialOutcome& outcome) { return result_of(question, outcome.moves); });
 }
 
-Simulation simulation_of(const Question& question, const std::stop_token& stop) {
-  return [&question, stop](std::span<const TrialPoint> points) {
+Simulation simulation_of(const Question& question, const trials::Effort& effort) {
+  return [&question, effort](std::span<const TrialPoint> points) {
     std::vector<study::GivenDraws> draws;
     for (const TrialPoint& point : points) draws.push_back(draws_at(question, point));
-    return run_trials(question, draws, stop);
+    return run_trials(question, draws, effort);
   };
 }
 

@@ -3,14 +3,14 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "analysis/measures/move_event.hpp"
-#include "analysis/rare/proposal.hpp"
-#include "analysis/rare/trial_point.hpp"
 #include "experiments/study/random_coordinates.hpp"
 #include "experiments/study/study.hpp"
+#include "runners/rare/proposal.hpp"
+#include "runners/rare/trial_point.hpp"
+#include "runners/trials/effort.hpp"
 
 /// The probability of a rare failure of the moves of a study: trials by their random coordinates, the results
 /// file, and the report.
@@ -41,9 +41,9 @@ PointResult result_of(const Question& question, std::span<const trial::MoveOutco
 /// Runs trials with these random numbers on all cores; the results in their order.
 /// @throws trial::Interrupted
 std::vector<PointResult> run_trials(const Question& question, std::span<const study::GivenDraws> draws,
-                                    const std::stop_token& stop);
+                                    const trials::Effort& effort);
 
 /// Runs trials on all cores. @param question outlives it
-Simulation simulation_of(const Question& question, const std::stop_token& stop);
+Simulation simulation_of(const Question& question, const trials::Effort& effort);
 
 }  // namespace zerocount::rare

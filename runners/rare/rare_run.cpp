@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -18,7 +17,6 @@
 #include "runners/rare/rare_answer.hpp"
 #include "runners/rare/rare_file.hpp"
 #include "runners/status/status.hpp"
-#include "runners/study_run/deadline.hpp"
 
 namespace zerocount::rare {
 namespace {
@@ -59,9 +57,11 @@ std::optional<RareRecord> earlier_record(const Question& question, const RareSet
 class RareRun {
  public:
   RareRun(const Question& question, const RareSettings& settings, const std::stop_token& stop)
-      : question_(question), settings_(settings), stop_(stop), line_(settings.quiet), on_stop_(stop, [this] {
-          end_.request_stop();
-        }) {
+      : question_(question),
+        settings_(settings),
+        whole_(stop),
+        effort_(whole_.share({}, settings.seconds)),
+        line_(settings.quiet) {
     answer_.confidence = settings.confidence;
     answer_.max_trials = settings.max_trials;
     answer_.max_seconds = settings.seconds;
@@ -70,16 +70,12 @@ class RareRun {
       earlier_seconds_ = earlier->seconds;
       next_write_ += earlier_seconds_;
     }
-    if (settings.seconds) {
-      deadline_.emplace(std::chrono::duration<double>(*settings.seconds));
-      on_deadline_.emplace(deadline_->token(), [this] { end_.request_stop(); });
-    }
   }
 
   RareAnswer run() {
     const EstimatorSettings settings = estimator_settings();
     try {
-      const Simulation simulate = simulation_of(question_, end_.get_token());
+      const Simulation simulate = simulation_of(question_, effort_);
       estimate(
           answer_.state, settings,
           [&](std::span<const TrialPoint> points) {
@@ -92,7 +88,7 @@ class RareRun {
     }
     answer_.estimate = answer_of(answer_.state, settings);
     answer_.seconds = elapsed();
-    if (stop_.stop_requested()) {
+    if (whole_.is_interrupted()) {
       if (answer_.state.learned) write();
       throw Failure(ExitCode::interrupted,
                     answer_.state.learned
@@ -126,7 +122,7 @@ class RareRun {
     line_.show([&] { return progress_text(answer_of(state, estimator_settings()), state); });
     if (state.learned && elapsed() > next_write_) write_meanwhile(state);
     const bool has_trials = !settings_.max_trials || trials_ < *settings_.max_trials;
-    return has_trials && !end_.stop_requested();
+    return has_trials && !effort_.is_spent();
   }
 
   /// Keeps the trials so far. Writing takes a tenth of the time at most.
@@ -141,7 +137,7 @@ class RareRun {
   void describe() {
     try {
       answer_.inputs = failure_inputs(question_, answer_.state);
-      answer_.machines = carrying_machines(question_, answer_.state, answer_.estimate.probability, stop_);
+      answer_.machines = carrying_machines(question_, answer_.state, answer_.estimate.probability, whole_);
     } catch (const trial::Interrupted&) {
       answer_.machines.reset();  // the answer does not rest on them
     }
@@ -157,17 +153,14 @@ class RareRun {
 
   const Question& question_;
   const RareSettings& settings_;
-  std::stop_token stop_;
+  trials::Effort whole_;
+  trials::Effort effort_;  ///< with the limit of time
   status::StatusLine line_;
   Clock::time_point start_{Clock::now()};
   double earlier_seconds_{0.0};
   double next_write_{seconds_between_writes};  ///< s, by elapsed()
   std::int64_t trials_{0};                     ///< of this run
   RareAnswer answer_;
-  std::stop_source end_;
-  std::optional<study_run::Deadline> deadline_;
-  std::stop_callback<std::function<void()>> on_stop_;
-  std::optional<std::stop_callback<std::function<void()>>> on_deadline_;
 };
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/rare/estimator.hpp"
+#include "runners/rare/estimator.hpp"
 #include "runners/rare/failure_description.hpp"
 #include "runners/rare/rare_question.hpp"
 

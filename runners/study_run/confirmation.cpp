@@ -2,27 +2,22 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_reduce.h>
 
 #include "core/failure/failure.hpp"
-#include "experiments/designs/random_key.hpp"
 #include "results/layout/header.hpp"
-#include "runners/study_run/trial_runner.hpp"
+#include "runners/trials/trial_set.hpp"
+#include "runners/trials/variant.hpp"
 
 namespace zerocount::study_run {
 namespace {
 
 constexpr std::int64_t trials_at_once = 256;
-constexpr unsigned seed_bits = 52;  // readable as a double everywhere
-
-std::uint64_t fresh_seed(std::uint64_t seed) {
-  return random::random_bits({designs::random_key(seed, "confirmation"), 0}, 0, random::Draw::trial) >>
-         (64U - seed_bits);
-}
 
 /// The study of the file with `trials` independent trials at each point and another seed.
 study::Study fresh_study(const reading::ResultsFile& file, std::int64_t trials,
@@ -34,50 +29,35 @@ study::Study fresh_study(const reading::ResultsFile& file, std::int64_t trials,
                               "a study with targets",
                               file.path().string()));
   }
-  layout::FileHeader header = file.header();
-  const auto set = [&](const std::string& key, auto value) {
-    header.overrides.push_back(fmt::format("{}={}", key, value));
-  };
-  set("seed", fresh_seed(recorded.seed));
   const std::int64_t each = recorded.goal && recorded.rigs > 0 ? recorded.trials / recorded.rigs : 1;
   const std::int64_t least = std::max<std::int64_t>(recorded.worlds, 2);
   const std::int64_t per_world = std::max<std::int64_t>(recorded.worlds, 1);
   const std::int64_t rigs = std::max(least, trials / each / per_world * per_world);
-  if (recorded.rigs == 0) trials = std::max(trials, recorded.worlds);
-  if (recorded.rigs > 0) {
-    set("rigs", rigs);
-    trials = rigs * each;
-  }
-  set("trials", trials);
-  set("design", "monte_carlo");
+  const trials::Replicates fresh = recorded.rigs > 0 ? trials::Replicates{rigs, each}
+                                                     : trials::Replicates{std::max(trials, recorded.worlds)};
+  layout::FileHeader header = file.header();
+  header.trials = fresh.trials();
+  header.overrides.push_back(fmt::format("seed={}", trials::fresh_seed(recorded.seed, "confirmation")));
+  for (std::string& one : trials::overrides_for(recorded, fresh)) header.overrides.push_back(std::move(one));
   if (recorded.stop) {
-    set("stop.min_trials", trials);
-    set("stop.max_trials", trials);
+    header.overrides.push_back(fmt::format("stop.min_trials={}", header.trials));
+    header.overrides.push_back(fmt::format("stop.max_trials={}", header.trials));
   }
-  if (!recorded.retained_trials.empty()) set("retain", "{trials: []}");
-  header.trials = trials;
   return layout::recorded_study(header, file.path(), std::move(plugin));
 }
 
-/// What is counted of the trials of `rows`.
-summary_answer::Confirmation counted_in(const study::Study& study, layout::RowRange rows) {
+/// What is counted of the trials from `first` on.
+summary_answer::Confirmation counted_in(const study::Study& study, std::int64_t first,
+                                        std::span<const trial::TrialOutcome> outcomes) {
   const std::optional<measures::CountedGoal> goal = measures::counted_goal(study);
   summary_answer::Confirmation counts;
   if (goal) counts.goal.emplace().worlds = study.worlds;
-  for (const shards::TrialResult& result : TrialRunner(study).run(rows)) {
-    counts.successes += trial::succeeded(result.outcome.moves) ? 1 : 0;
-    if (goal)
-      measures::count_moves(*counts.goal, *goal, result.row % study.trials, study.rigs, result.outcome.moves);
+  for (const trial::TrialOutcome& outcome : outcomes) {
+    counts.successes += trial::succeeded(outcome.moves) ? 1 : 0;
+    if (goal) measures::count_moves(*counts.goal, *goal, first, study.rigs, outcome.moves);
+    ++first;
   }
   return counts;
-}
-
-summary_answer::Confirmation sum_of(summary_answer::Confirmation sum,
-                                    const summary_answer::Confirmation& part) {
-  sum.successes += part.successes;
-  if (sum.goal && part.goal) *sum.goal += *part.goal;
-  if (!sum.goal) sum.goal = part.goal;
-  return sum;
 }
 
 }  // namespace
@@ -92,14 +72,18 @@ summary_answer::Confirmation confirm_point(const reading::ResultsFile& file, std
                               "expected its path with --plugin",
                               file.path().string(), study.plugin->description.name));
   }
-  const auto count = [&](const oneapi::tbb::blocked_range<std::int64_t>& part,
-                         summary_answer::Confirmation sum) {
-    return sum_of(std::move(sum),
-                  counted_in(study, {point * study.trials + part.begin(), part.end() - part.begin()}));
-  };
-  summary_answer::Confirmation confirmation =
-      oneapi::tbb::parallel_reduce(oneapi::tbb::blocked_range<std::int64_t>(0, study.trials, trials_at_once),
-                                   summary_answer::Confirmation{}, count, sum_of);
+  const trials::TrialSet set = trials::numbered_trials(study.trials, trials_at_once, [&](std::int64_t index) {
+    return study::study_trial(study, point, index).parameters;
+  });
+  std::vector<summary_answer::Confirmation> blocks(set.blocks);
+  trials::run(set, {}, [&](std::size_t block, std::span<const trial::TrialOutcome> outcomes) {
+    blocks[block] = counted_in(study, static_cast<std::int64_t>(block) * trials_at_once, outcomes);
+  });
+  summary_answer::Confirmation confirmation = std::move(blocks.front());
+  for (std::size_t i = 1; i < blocks.size(); ++i) {
+    confirmation.successes += blocks[i].successes;
+    if (confirmation.goal) *confirmation.goal += *blocks[i].goal;
+  }
   confirmation.point = point;
   confirmation.seed = study.seed;
   confirmation.trials = study.trials;

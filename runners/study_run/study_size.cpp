@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <iterator>
 #include <span>
 #include <string>
@@ -18,11 +17,11 @@
 #include "results/shards/shard.hpp"
 #include "results/storage/durable_file.hpp"
 #include "runners/study_run/cost.hpp"
-#include "runners/study_run/deadline.hpp"
 #include "runners/study_run/shard_writer.hpp"
 #include "runners/study_run/study_runner.hpp"
 #include "runners/study_run/trial_runner.hpp"
 #include "runners/study_run/turn_clock.hpp"
+#include "runners/trials/effort.hpp"
 
 namespace zerocount::study_run {
 namespace {
@@ -35,7 +34,7 @@ constexpr std::int64_t sampled_places = 8;
 
 /// For the sampled trials, and for those with traces. Where none ends in time, a trial without jerks stands
 /// for them.
-constexpr std::chrono::seconds sampling_limit{2};
+constexpr double sampling_limit = 2.0;  // s
 
 shards::TrialResult trial_without_jerks(const study::Study& study) {
   shards::TrialResult trial;
@@ -46,7 +45,7 @@ shards::TrialResult trial_without_jerks(const study::Study& study) {
 
 /// Trials from several places of the study, numbered from 0, without sample records.
 std::vector<shards::TrialResult> sampled_trials(const study::Study& study) {
-  const Deadline deadline(sampling_limit);
+  const trials::Effort limited = trials::Effort().share({}, sampling_limit);
   const std::int64_t rows = study::trial_count(study);
   const auto wanted = std::clamp(static_cast<std::int64_t>(max_sampled_samples / samples_per_trial(study)),
                                  std::int64_t{1}, std::min(max_sampled_trials, rows));
@@ -56,7 +55,7 @@ std::vector<shards::TrialResult> sampled_trials(const study::Study& study) {
   try {
     for (std::int64_t place = 0; place < places; ++place) {
       const std::int64_t first = rows / places * place;
-      std::vector<shards::TrialResult> here = runner.run({first, wanted / places}, deadline.token());
+      std::vector<shards::TrialResult> here = runner.run({first, wanted / places}, limited.stop());
       trials.insert(trials.end(), std::make_move_iterator(here.begin()), std::make_move_iterator(here.end()));
     }
   } catch (const trial::Interrupted&) {

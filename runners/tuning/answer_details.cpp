@@ -2,9 +2,9 @@
 
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "analysis/measures/goal_counts.hpp"
-#include "core/failure/failure.hpp"
 #include "runners/tuning/limits.hpp"
 
 namespace zerocount::tuning {
@@ -58,12 +58,8 @@ std::vector<Room> room_of(const TunedStudy& tuned) {
       return at;
     };
     const auto holds = [&](double share) {
-      try {
-        return seems_met(tuned, variant_of(tuned.study, overrides_of(tuned.free, values(share))), nullptr);
-      } catch (const Failure& failure) {
-        if (failure.code() != ExitCode::bad_input) throw;
-        return false;  // such values together are not allowed
-      }
+      const std::optional<study::Study> study = at_values(tuned.study, tuned.free, values(share));
+      return study && seems_met(tuned, *study, nullptr);
     };
     // Outwards in steps, because the goal may be lost and met again farther off.
     const auto end = [&](double to) {

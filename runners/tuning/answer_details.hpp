@@ -8,7 +8,7 @@
 #include "runners/tuning/unit_runner.hpp"
 
 /// Properties of the tuned values, by simulation of the units of the search. None of them is proven.
-/// All functions throw trial::Interrupted and Spent.
+/// All functions throw trial::Interrupted and trials::Spent.
 namespace zerocount::tuning {
 
 /// The tuned study on the units of the search.
@@ -16,9 +16,9 @@ struct TunedStudy {
   const study::Study& study;
   std::span<const study::FreeParameter> free;
   const Values& gains;
-  Units units;
+  trials::Replicates units;
   std::int64_t count;  ///< of these units, that a point is simulated on
-  Effort effort;
+  trials::Effort effort;
 };
 
 /// Range of a free parameter, the others as tuned, in which the goal seems to be met.

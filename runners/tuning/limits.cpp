@@ -15,12 +15,11 @@ std::string refusal_of(std::initializer_list<const Idealisation*> together, cons
   for (const Idealisation* one : together) {
     if (!one->refusal.empty()) return one->refusal;
   }
-  const std::string fault = at.out_of_range();
-  return fault.empty() ? rules::first_fault(at.plan(), at.point()) : fault;
+  return rules::refusal_of(at);
 }
 
 Limit limit_of(std::initializer_list<const Idealisation*> together, const study::Study& study,
-               const Units& units, const Effort& effort) {
+               const trials::Replicates& units, const trials::Effort& effort) {
   study::PointEdit at(study, units.point);
   Limit limit;
   for (const Idealisation* one : together) {
@@ -50,13 +49,14 @@ bool is_lower(const Limit& a, const Limit& b) {
 
 }  // namespace
 
-double rate_of(const study::Study& study, const Units& units, std::int64_t count, const Change* change,
-               const Effort& effort) {
+double rate_of(const study::Study& study, const trials::Replicates& units, std::int64_t count,
+               const Change* change, const trials::Effort& effort) {
   const Candidate candidate{{}, {}, results_of(study, units, count, change, effort)};
   return estimate_of(aim_of(study), candidate, units.count).rate;
 }
 
-std::vector<Limit> limits_of(const study::Study& study, const Units& units, const Effort& effort) {
+std::vector<Limit> limits_of(const study::Study& study, const trials::Replicates& units,
+                             const trials::Effort& effort) {
   const std::vector<Idealisation> all = idealisations_of(study, units.point);
   std::vector<Limit> limits{{"none", rate_of(study, units, units.count, nullptr, effort)}};
   for (const Idealisation& one : all) limits.push_back(limit_of({&one}, study, units, effort));

@@ -17,13 +17,14 @@ struct Limit {
 
 /// Rate of the goal (Estimate::rate) on the first `count` units.
 /// @param change null: none
-double rate_of(const study::Study& study, const Units& units, std::int64_t count, const Change* change,
-               const Effort& effort);
+double rate_of(const study::Study& study, const trials::Replicates& units, std::int64_t count,
+               const Change* change, const trials::Effort& effort);
 
 /// Rates of the goal on all units, with each cause of failures switched off that a trial of the point can
 /// have, and with the best pair of them, if that is better than each alone. The first entry is "none". A
 /// change that makes a study which its manifest could not describe is not simulated.
-/// @throws trial::Interrupted, Spent
-std::vector<Limit> limits_of(const study::Study& study, const Units& units, const Effort& effort);
+/// @throws trial::Interrupted, trials::Spent
+std::vector<Limit> limits_of(const study::Study& study, const trials::Replicates& units,
+                             const trials::Effort& effort);
 
 }  // namespace zerocount::tuning

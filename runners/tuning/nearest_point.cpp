@@ -6,7 +6,6 @@
 
 #include "analysis/parallel/parallel.hpp"
 #include "analysis/statistics/spread_over.hpp"
-#include "core/failure/failure.hpp"
 #include "core/trial/trial.hpp"
 
 namespace zerocount::tuning {
@@ -26,8 +25,9 @@ study::LoopMargins part_of(const study::LoopMargins& margins, double part) {
 
 class NearestSearch {
  public:
-  NearestSearch(const LoopExaminer& examiner, const std::function<study::Study(const Values&)>& candidate,
-                bool slides, const std::stop_token& stop)
+  NearestSearch(const LoopExaminer& examiner,
+                const std::function<std::optional<study::Study>(const Values&)>& candidate, bool slides,
+                const std::stop_token& stop)
       : examiner_(examiner), candidate_(candidate), slides_(slides), stop_(stop) {}
 
   /// The points whose critical machines keep these margins.
@@ -35,11 +35,8 @@ class NearestSearch {
     std::vector<char> kept(points.size(), 0);
     parallel::for_each_index(points.size(), [&](std::size_t i) {
       if (stop_.stop_requested()) throw trial::Interrupted{};
-      try {
-        kept[i] = examiner_.may_keep(candidate_(points[i]), margins, slides_) ? 1 : 0;
-      } catch (const Failure& failure) {
-        if (failure.code() != ExitCode::bad_input) throw;  // such values together are not allowed
-      }
+      const std::optional<study::Study> study = candidate_(points[i]);
+      kept[i] = study && examiner_.may_keep(*study, margins, slides_) ? 1 : 0;
     });
     std::vector<Values> found;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -48,27 +45,25 @@ class NearestSearch {
     return found;
   }
 
-  NearestPoint examined(const Values& values) const {
-    return {values, examiner_.margins_of(candidate_(values), slides_, stop_)};
+  std::optional<NearestPoint> examined(const Values& values) const {
+    const std::optional<study::Study> study = candidate_(values);
+    if (!study) return std::nullopt;
+    return NearestPoint{values, examiner_.margins_of(*study, slides_, stop_)};
   }
 
   /// Of unstable loops the gain margin is the change of the gain that makes them stable.
   std::optional<NearestPoint> least_unstable(const std::vector<Values>& points) const {
     std::optional<NearestPoint> nearest;
     for (const std::int64_t i : statistics::spread_over(std::ssize(points), most_unstable_points)) {
-      try {
-        NearestPoint one = examined(points[static_cast<std::size_t>(i)]);
-        if (!nearest || one.margins.gain < nearest->margins.gain) nearest = std::move(one);
-      } catch (const Failure& failure) {
-        if (failure.code() != ExitCode::bad_input) throw;
-      }
+      std::optional<NearestPoint> one = examined(points[static_cast<std::size_t>(i)]);
+      if (one && (!nearest || one->margins.gain < nearest->margins.gain)) nearest = std::move(one);
     }
     return nearest;
   }
 
  private:
   const LoopExaminer& examiner_;
-  const std::function<study::Study(const Values&)>& candidate_;
+  const std::function<std::optional<study::Study>(const Values&)>& candidate_;
   bool slides_;
   std::stop_token stop_;
 };
@@ -81,10 +76,10 @@ bool keeps(const SmallestMargins& margins, const study::LoopMargins& wanted) {
          margins.delay >= wanted.delay.value_or(margins.delay);
 }
 
-std::optional<NearestPoint> nearest_point(std::span<const Values> tried, const LoopExaminer& examiner,
-                                          const study::LoopMargins& wanted,
-                                          const std::function<study::Study(const Values&)>& candidate,
-                                          bool slides, const std::stop_token& stop) {
+std::optional<NearestPoint> nearest_point(
+    std::span<const Values> tried, const LoopExaminer& examiner, const study::LoopMargins& wanted,
+    const std::function<std::optional<study::Study>(const Values&)>& candidate, bool slides,
+    const std::stop_token& stop) {
   const NearestSearch search(examiner, candidate, slides, stop);
   std::vector<Values> points;
   for (const std::int64_t i : statistics::spread_over(std::ssize(tried), most_points))

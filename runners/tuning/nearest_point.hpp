@@ -5,9 +5,9 @@
 #include <span>
 #include <stop_token>
 
-#include "analysis/tuning/search_space.hpp"
 #include "experiments/study/study.hpp"
 #include "runners/tuning/loop_examiner.hpp"
+#include "runners/tuning/race/search_space.hpp"
 
 namespace zerocount::tuning {
 
@@ -23,12 +23,13 @@ bool keeps(const SmallestMargins& margins, const study::LoopMargins& wanted);
 /// Of the points that keep the largest part of all margins together, the first; where every loop is unstable,
 /// one of those with the smallest gain margin. Nothing without points.
 /// @param tried points whose margins were examined; of many about a thousand are taken
-/// @param candidate the study with such values, of the machines of `examiner`
+/// @param candidate the study with such values, of the machines of `examiner`; nothing where they are not
+/// allowed together
 /// @param slides whether machines slide
 /// @throws trial::Interrupted
-std::optional<NearestPoint> nearest_point(std::span<const Values> tried, const LoopExaminer& examiner,
-                                          const study::LoopMargins& wanted,
-                                          const std::function<study::Study(const Values&)>& candidate,
-                                          bool slides, const std::stop_token& stop);
+std::optional<NearestPoint> nearest_point(
+    std::span<const Values> tried, const LoopExaminer& examiner, const study::LoopMargins& wanted,
+    const std::function<std::optional<study::Study>(const Values&)>& candidate, bool slides,
+    const std::stop_token& stop);
 
 }  // namespace zerocount::tuning

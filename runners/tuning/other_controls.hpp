@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/tuning/search_space.hpp"
 #include "experiments/study/study.hpp"
+#include "runners/tuning/race/search_space.hpp"
 
 namespace zerocount::tuning {
 

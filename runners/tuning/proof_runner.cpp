@@ -2,21 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "analysis/goal/goal_verdict.hpp"
-#include "analysis/tuning/proof.hpp"
 #include "core/failure/failure.hpp"
-#include "core/random/random_numbers.hpp"
-#include "experiments/designs/random_key.hpp"
+#include "experiments/manifest/edited_text.hpp"
+#include "experiments/manifest/load_study.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/study_file.hpp"
 #include "runners/study_run/file_run.hpp"
+#include "runners/tuning/race/proof.hpp"
 #include "runners/tuning/study_search.hpp"
-#include "runners/tuning/tuned_study.hpp"
 
 namespace zerocount::tuning {
 namespace {
@@ -40,6 +41,43 @@ std::int64_t least_units_of(const study::Study& study, std::int64_t each, std::s
   return std::max(least, fewest);
 }
 
+std::string_view key_of(std::string_view entry) {
+  return entry.substr(0, entry.find('='));
+}
+
+/// The entries, the last of each key.
+std::vector<std::string> last_of_each(const std::vector<std::string>& entries) {
+  std::vector<std::string> kept;
+  for (auto one = entries.begin(); one != entries.end(); ++one) {
+    const auto again = [one](const std::string& later) { return key_of(later) == key_of(*one); };
+    if (std::none_of(one + 1, entries.end(), again)) kept.push_back(*one);
+  }
+  return kept;
+}
+
+/// The study with these values ("key=value") written into the text of its manifest, where its comments stay.
+/// Overrides of the study become part of the text too. A value that the text cannot take, such as a list,
+/// stays an override.
+study::Study with_values_in_text(const study::Study& study, const std::vector<std::string>& values) {
+  std::vector<std::string> all = study.overrides;
+  all.insert(all.end(), values.begin(), values.end());
+  std::string text = study.manifest_text;
+  std::vector<std::string> overrides;
+  for (const std::string& one : last_of_each(all)) {
+    const std::string_view key = key_of(one);
+    const std::optional<std::string> edited =
+        manifest::with_override(text, key, std::string_view(one).substr(key.size() + 1));
+    if (edited) {
+      text = *edited;
+    } else {
+      overrides.push_back(one);
+    }
+  }
+  study::Study edited = manifest::parse_study(text, study.name, overrides, manifest::companions_of(study));
+  edited.engine = study.engine;
+  return edited;
+}
+
 bool holds_run(const std::filesystem::path& output, const study::Study& study) {
   std::error_code error;
   if (!std::filesystem::exists(output, error)) return false;
@@ -53,7 +91,7 @@ bool holds_run(const std::filesystem::path& output, const study::Study& study) {
 }
 
 void make_run(const study::Study& study, const std::filesystem::path& output, int threads,
-              const Effort& effort) {
+              const trials::Effort& effort) {
   try {
     study_run::run_to_file(
         {study, output, layout::all_rows(study), threads, true, study_run::ForeignShards::remove, true},
@@ -62,19 +100,13 @@ void make_run(const study::Study& study, const std::filesystem::path& output, in
     if (failure.code() != ExitCode::interrupted || effort.is_interrupted()) throw;
     std::error_code error;
     std::filesystem::remove_all(layout::shards_directory(output), error);
-    throw Spent{};
+    throw trials::Spent{};
   }
 }
 
 }  // namespace
 
-std::uint64_t fresh_seed(std::uint64_t seed, std::string_view purpose) {
-  constexpr unsigned seed_bits = 52;  // readable as a double everywhere
-  return random::random_bits({designs::random_key(seed, purpose), 0}, 0, random::Draw::trial) >>
-         (64U - seed_bits);
-}
-
-measures::MoveCounts counts_of(const study::Study& study, const Units& units,
+measures::MoveCounts counts_of(const study::Study& study, const trials::Replicates& units,
                                std::span<const UnitResult> results) {
   measures::MoveCounts counts;
   counts.worlds = study.worlds;
@@ -113,18 +145,19 @@ std::int64_t proof_units(const study::Study& study, const measures::MoveCounts& 
   // Half as many more are taken below.
   const goal::Needs needs = goal::needs_of(*study.goal, counts, points, 0.5);
   const std::int64_t wanted = needs.trials == 0 ? most / 8 : (study.rigs > 0 ? needs.rigs : needs.trials);
-  return in_equal_worlds(study, std::clamp(wanted + wanted / 2, std::min(least, most), most));
+  return trials::in_equal_worlds(study, std::clamp(wanted + wanted / 2, std::min(least, most), most));
 }
 
 std::int64_t least_proof_trials(const study::Study& study, int attempt) {
   const std::int64_t each = trials_of_machine(study);
-  return in_equal_worlds(study, least_units_of(study, each, correction_of(attempt))) * each;
+  return trials::in_equal_worlds(study, least_units_of(study, each, correction_of(attempt))) * each;
 }
 
-ProofRun run_proof(const study::Study& study, std::vector<std::string> values, const Units& units,
-                   const std::filesystem::path& output, int threads, const Effort& effort) {
-  effort.spend(units.count * units.trials_each);
-  for (const std::string& one : overrides_for(study, units)) values.push_back(one);
+ProofRun run_proof(const study::Study& study, std::vector<std::string> values,
+                   const trials::Replicates& units, const std::filesystem::path& output, int threads,
+                   const trials::Effort& effort) {
+  effort.spend(units.trials());
+  for (const std::string& one : trials::overrides_for(study, units)) values.push_back(one);
   if (layout::has_sums(study.kept)) values.emplace_back("keep=trials");
   ProofRun run{with_values_in_text(study, values), {}};
   if (!holds_run(output, run.study)) make_run(run.study, output, threads, effort);

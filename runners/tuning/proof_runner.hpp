@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "analysis/measures/goal_counts.hpp"
@@ -12,11 +11,8 @@
 
 namespace zerocount::tuning {
 
-/// A seed that follows from the study's, for machines that nothing else uses.
-std::uint64_t fresh_seed(std::uint64_t seed, std::string_view purpose);
-
 /// The counts of the goal in these units.
-measures::MoveCounts counts_of(const study::Study& study, const Units& units,
+measures::MoveCounts counts_of(const study::Study& study, const trials::Replicates& units,
                                std::span<const UnitResult> results);
 
 /// The counts as they would be with `each` trials of every machine, at the same rates.
@@ -40,9 +36,10 @@ struct ProofRun {
 
 /// Runs the study with these values ("key=value") in its text on fresh units, into a results file that keeps
 /// its trials. A file with the same run is not made again.
-/// @throws Failure: interrupted; the finished trials are kept in shards. Spent: the effort ended before, and
-/// nothing is kept.
-ProofRun run_proof(const study::Study& study, std::vector<std::string> values, const Units& units,
-                   const std::filesystem::path& output, int threads, const Effort& effort);
+/// @throws Failure: interrupted; the finished trials are kept in shards. trials::Spent: the effort ended
+/// before, and nothing is kept.
+ProofRun run_proof(const study::Study& study, std::vector<std::string> values,
+                   const trials::Replicates& units, const std::filesystem::path& output, int threads,
+                   const trials::Effort& effort);
 
 }  // namespace zerocount::tuning

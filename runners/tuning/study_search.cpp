@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "analysis/parallel/parallel.hpp"
-#include "core/failure/failure.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/study_table.hpp"
@@ -47,14 +46,14 @@ std::int64_t search_trials_of_machine(const study::Study& study) {
 
 StudySearch::StudySearch(const study::Study& study, std::vector<study::FreeParameter> free,
                          const SearchSize& size, TuningJournal& journal, std::function<double()> elapsed,
-                         Effort effort)
+                         trials::Effort effort)
     : study_(study),
       free_(std::move(free)),
       size_(size),
       units_{size.max_units, search_trials_of_machine(study)},
-      base_(variant_of(study, overrides_for(study, units_))),
-      examined_units_{in_equal_worlds(study, examined_machines), units_.trials_each},
-      examined_base_(variant_of(study, overrides_for(study, examined_units_))),
+      base_(trials::variant_of(study, trials::overrides_for(study, units_))),
+      examined_units_{trials::in_equal_worlds(study, examined_machines), units_.trials_each},
+      examined_base_(trials::variant_of(study, trials::overrides_for(study, examined_units_))),
       examiner_(examined_base_, examined_units_.count),
       journal_(journal),
       elapsed_(std::move(elapsed)),
@@ -77,14 +76,6 @@ SearchResult StudySearch::run(const SearchSettings& settings, std::vector<Values
   problem.admissible = [this](std::span<const Candidate> candidates) { return admissible(candidates); };
   problem.verified = [this](const Candidate& candidate) { return verified(candidate); };
   return search(problem, settings);
-}
-
-study::Study StudySearch::candidate(const Values& values) const {
-  return variant_of(base_, overrides_of(free_, values));
-}
-
-study::Study StudySearch::examined_candidate(const Values& values) const {
-  return variant_of(examined_base_, overrides_of(free_, values));
 }
 
 void StudySearch::evaluate(std::span<Candidate* const> candidates, std::int64_t to) {
@@ -130,15 +121,9 @@ std::vector<bool> StudySearch::admissible(std::span<const Candidate> candidates)
   parallel::for_each_index(unknown.size(), [&](std::size_t k) {
     if (stop_.stop_requested()) return;
     const Candidate& one = candidates[unknown[k]];
-    char& keeps = kept[unknown[k]];
-    try {
-      keeps = examiner_.may_keep(examined_candidate(one.values), study_.tuning->margins, has_slid(one.units))
-                  ? 1
-                  : 0;
-    } catch (const Failure& failure) {
-      if (failure.code() != ExitCode::bad_input) throw;
-      keeps = 0;  // such values together are not allowed
-    }
+    const std::optional<study::Study> study = examined_if_allowed(one.values);
+    const bool keeps = study && examiner_.may_keep(*study, study_.tuning->margins, has_slid(one.units));
+    kept[unknown[k]] = keeps ? 1 : 0;
   });
   if (stop_.stop_requested()) throw trial::Interrupted{};
   for (const std::size_t i : unknown) {

@@ -1,14 +1,15 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <set>
 #include <stop_token>
 #include <utility>
 #include <vector>
 
-#include "analysis/tuning/search.hpp"
 #include "experiments/study/study.hpp"
 #include "runners/tuning/loop_examiner.hpp"
+#include "runners/tuning/race/search.hpp"
 #include "runners/tuning/tuning_journal.hpp"
 #include "runners/tuning/unit_runner.hpp"
 
@@ -27,19 +28,23 @@ class StudySearch {
   /// @param elapsed s that the tuning took so far, for the journal
   /// @param effort of the tuning: its end stops what a search examines at last
   StudySearch(const study::Study& study, std::vector<study::FreeParameter> free, const SearchSize& size,
-              TuningJournal& journal, std::function<double()> elapsed, Effort effort);
+              TuningJournal& journal, std::function<double()> elapsed, trials::Effort effort);
 
   /// @param starts candidates of the first generation beside the manifest's values
   /// @throws trial::Interrupted
   SearchResult run(const SearchSettings& settings, std::vector<Values> starts = {});
 
-  /// The study with these values, on the units of the search.
-  study::Study candidate(const Values& values) const;
+  /// The study with these values, which are allowed together, on the units of the search.
+  study::Study candidate(const Values& values) const { return at_values(base_, free_, values).value(); }
   /// The same on the machines whose margins are examined: 2048, however small the search is.
-  study::Study examined_candidate(const Values& values) const;
+  study::Study examined_candidate(const Values& values) const { return examined_if_allowed(values).value(); }
+  /// Nothing where such values together are not allowed.
+  std::optional<study::Study> examined_if_allowed(const Values& values) const {
+    return at_values(examined_base_, free_, values);
+  }
   const LoopExaminer& examiner() const { return examiner_; }
   LoopExaminer& examiner() { return examiner_; }
-  const Units& units() const { return units_; }
+  const trials::Replicates& units() const { return units_; }
   const std::vector<Values>& examined() const { return examined_; }  ///< points whose margins were examined
   bool some_slid() const { return some_slid_; }                      ///< a candidate that was simulated slid
   /// Trials that were simulated, and the time that they took, s; without those of an earlier run.
@@ -60,9 +65,9 @@ class StudySearch {
   const study::Study& study_;
   std::vector<study::FreeParameter> free_;
   SearchSize size_;
-  Units units_;
+  trials::Replicates units_;
   study::Study base_;
-  Units examined_units_;
+  trials::Replicates examined_units_;
   study::Study examined_base_;
   LoopExaminer examiner_;
   TuningJournal& journal_;
@@ -73,7 +78,7 @@ class StudySearch {
   bool some_slid_{false};
   std::int64_t simulated_{0};
   double simulation_seconds_{0.0};
-  Effort effort_;
+  trials::Effort effort_;
   std::stop_token stop_;  ///< of the search
 };
 

@@ -42,23 +42,23 @@ std::int64_t whole_trials(double trials) {
 
 }  // namespace
 
-std::int64_t affordable_trials(const Effort& effort, double speed) {
+std::int64_t affordable_trials(const trials::Effort& effort, double speed) {
   const double seconds = std::max(effort.seconds_left(), 0.0);
   if (std::isinf(seconds)) return effort.trials_left();
   return std::min(effort.trials_left(), whole_trials(speed * seconds));
 }
 
-double measured_speed(const study::Study& study, const Effort& effort) {
+double measured_speed(const study::Study& study, const trials::Effort& effort) {
   constexpr std::int64_t most_units = 512;
   constexpr double part_of_time = 0.05;
   using Clock = std::chrono::steady_clock;
-  const Units units{in_equal_worlds(study, most_units), search_trials_of_machine(study)};
-  const study::Study measured = variant_of(study, overrides_for(study, units));
-  const Effort part = effort.share({}, part_of_time * effort.seconds_left());
+  const trials::Replicates units{trials::in_equal_worlds(study, most_units), search_trials_of_machine(study)};
+  const study::Study measured = trials::variant_of(study, trials::overrides_for(study, units));
+  const trials::Effort part = effort.share({}, part_of_time * effort.seconds_left());
   double fastest = 0.0;
   for (std::int64_t count = 8; count <= units.count; count *= 2) {
     const Clock::time_point start = Clock::now();
-    const bool ended = within(part, [&] { results_of(measured, units, count, nullptr, part); });
+    const bool ended = trials::within(part, [&] { results_of(measured, units, count, nullptr, part); });
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     const double speed = static_cast<double>(count * units.trials_each) / std::max(seconds, 1e-6);
     if (ended || fastest == 0.0) fastest = std::max(fastest, speed);
@@ -67,7 +67,7 @@ double measured_speed(const study::Study& study, const Effort& effort) {
   return fastest;
 }
 
-SearchPlan plan_search(const study::Study& study, const TuneBudget& budget, const Effort& whole,
+SearchPlan plan_search(const study::Study& study, const TuneBudget& budget, const trials::Effort& whole,
                        double speed) {
   const std::vector<study::FreeParameter>& free = study.tuning->free;
   const std::int64_t each = search_trials_of_machine(study);
@@ -97,13 +97,13 @@ SearchPlan plan_search(const study::Study& study, const TuneBudget& budget, cons
 }
 
 SearchPlan plan_other_search(const study::Study& study, std::span<const study::FreeParameter> free,
-                             const Effort& share, double speed) {
+                             const trials::Effort& share, double speed) {
   const std::int64_t each = search_trials_of_machine(study);
   const std::int64_t judgement = std::min(
       static_cast<std::int64_t>(judgement_part * static_cast<double>(affordable_trials(share, speed))),
       most_units_of_judgement * trials_of_machine(study));
   const std::int64_t trials = affordable_trials(share, speed) - judgement;
-  if (trials < least_search_trials(study, free)) throw Spent{};
+  if (trials < least_search_trials(study, free)) throw trials::Spent{};
   const std::optional<double> seconds = std::isinf(share.seconds_left())
                                             ? std::nullopt
                                             : std::optional((1.0 - judgement_part) * share.seconds_left());
@@ -111,7 +111,7 @@ SearchPlan plan_other_search(const study::Study& study, std::span<const study::F
 }
 
 RestPlan plan_rest(const study::Study& study, std::int64_t points, std::int64_t trials_of_maps,
-                   std::span<const OtherControl> controls, const Effort& effort, double speed) {
+                   std::span<const OtherControl> controls, const trials::Effort& effort, double speed) {
   constexpr std::int64_t most = 1024;
   constexpr std::int64_t least = 64;
   double others = 0.0;
@@ -123,11 +123,11 @@ RestPlan plan_rest(const study::Study& study, std::int64_t points, std::int64_t 
   return {std::clamp((left - trials_of_maps) / each, least, most), trials_of_maps};
 }
 
-std::int64_t units_of_judgement(const study::Study& study, const Effort& share, double speed) {
+std::int64_t units_of_judgement(const study::Study& study, const trials::Effort& share, double speed) {
   const std::int64_t worlds = std::max<std::int64_t>(study.worlds, 1);
-  const std::int64_t most = std::min(in_equal_worlds(study, most_units_of_judgement),
+  const std::int64_t most = std::min(trials::in_equal_worlds(study, most_units_of_judgement),
                                      affordable_trials(share, speed) / trials_of_machine(study));
-  if (most < least_units_of_judgement) throw Spent{};
+  if (most < least_units_of_judgement) throw trials::Spent{};
   return most / worlds * worlds;
 }
 

@@ -4,10 +4,10 @@
 #include <optional>
 #include <span>
 
-#include "analysis/tuning/effort.hpp"
-#include "analysis/tuning/search_size.hpp"
 #include "experiments/study/study.hpp"
+#include "runners/trials/effort.hpp"
 #include "runners/tuning/other_controls.hpp"
+#include "runners/tuning/race/search_size.hpp"
 
 namespace zerocount::tuning {
 
@@ -20,30 +20,30 @@ struct TuneBudget {
 
 /// Trials that an effort is enough for.
 /// @param speed trials/s
-std::int64_t affordable_trials(const Effort& effort, double speed);
+std::int64_t affordable_trials(const trials::Effort& effort, double speed);
 
 /// Trials per second of the study at the values of its manifest, on the units of a search, measured in a
 /// twentieth of the time of the effort.
 /// @throws trial::Interrupted
-double measured_speed(const study::Study& study, const Effort& effort);
+double measured_speed(const study::Study& study, const trials::Effort& effort);
 
 /// A search and its part of the effort.
 struct SearchPlan {
   SearchSize size;
-  Effort effort;
+  trials::Effort effort;
 };
 
 /// Plans the search of a tuning: half of the budget, and so much less that the smallest proof is possible.
 /// @param speed trials/s; infinite without a limit of time
 /// @throws Failure if the budget is not enough for a search and a proof: bad_input for trials; inconclusive
 /// for time, which depends on the machine
-SearchPlan plan_search(const study::Study& study, const TuneBudget& budget, const Effort& whole,
+SearchPlan plan_search(const study::Study& study, const TuneBudget& budget, const trials::Effort& whole,
                        double speed);
 
 /// Plans the search for another control, and its judgement on new machines.
-/// @throws Spent if the effort is not enough for both
+/// @throws trials::Spent if the effort is not enough for both
 SearchPlan plan_other_search(const study::Study& study, std::span<const study::FreeParameter> free,
-                             const Effort& share, double speed);
+                             const trials::Effort& share, double speed);
 
 /// How what follows the proof shares the effort that is left.
 struct RestPlan {
@@ -54,10 +54,10 @@ struct RestPlan {
 /// As many units for each of so many points as leave the effort for all of them, for the smallest search of
 /// each of the other controls, and for the maps if they are affordable beside these.
 RestPlan plan_rest(const study::Study& study, std::int64_t points, std::int64_t trials_of_maps,
-                   std::span<const OtherControl> controls, const Effort& effort, double speed);
+                   std::span<const OtherControl> controls, const trials::Effort& effort, double speed);
 
-/// Units on which another control is judged: 1000, or as many as the effort is enough for.
-/// @throws Spent if these are fewer than 50
-std::int64_t units_of_judgement(const study::Study& study, const Effort& share, double speed);
+/// trials::Replicates on which another control is judged: 1000, or as many as the effort is enough for.
+/// @throws trials::Spent if these are fewer than 50
+std::int64_t units_of_judgement(const study::Study& study, const trials::Effort& share, double speed);
 
 }  // namespace zerocount::tuning

@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "analysis/tuning/proof.hpp"
 #include "core/failure/failure.hpp"
 #include "core/hash/sha256.hpp"
 #include "core/trial/trial.hpp"
@@ -18,6 +17,7 @@
 #include "runners/study_run/progress.hpp"
 #include "runners/tuning/other_controls.hpp"
 #include "runners/tuning/proof_runner.hpp"
+#include "runners/tuning/race/proof.hpp"
 #include "runners/tuning/study_search.hpp"
 #include "runners/tuning/tuning_journal.hpp"
 
@@ -75,7 +75,7 @@ TunedValues named_values(const std::vector<study::FreeParameter>& free, const Va
 }
 
 /// Trials per second of the study; infinite without a limit of time.
-double speed_of(const study::Study& study, const TuneBudget& budget, const Effort& effort,
+double speed_of(const study::Study& study, const TuneBudget& budget, const trials::Effort& effort,
                 const TuningJournal& journal) {
   if (!budget.seconds) return std::numeric_limits<double>::infinity();
   return journal.speed() ? *journal.speed() : measured_speed(study, effort);
@@ -116,10 +116,10 @@ class Tuner {
 
  private:
   /// A little of the time is kept back for the start and the end of the program, and for the page.
-  Effort whole_effort(const TuneBudget& budget, const std::stop_token& stop) const {
-    if (!budget.seconds) return Effort(stop).share(budget.trials, {});
+  trials::Effort whole_effort(const TuneBudget& budget, const std::stop_token& stop) const {
+    if (!budget.seconds) return trials::Effort(stop).share(budget.trials, {});
     const double page = settings_.maps ? std::min(0.8, 0.2 * *budget.seconds) : 0.0;
-    return Effort(stop).share({}, 0.97 * *budget.seconds - 0.05 - page - journal_.seconds());
+    return trials::Effort(stop).share({}, 0.97 * *budget.seconds - 0.05 - page - journal_.seconds());
   }
 
   /// Seconds, those of interrupted runs included.
@@ -142,7 +142,7 @@ class Tuner {
   void find_nearest() {
     answer_.nearest = nearest_point(
         search_.examined(), search_.examiner(), study_.tuning->margins,
-        [this](const Values& values) { return search_.examined_candidate(values); }, search_.some_slid(),
+        [this](const Values& values) { return search_.examined_if_allowed(values); }, search_.some_slid(),
         effort_.stop());
     if (answer_.nearest && keeps(answer_.nearest->margins, study_.tuning->margins))
       answer_.status = goal::Status::undecided;
@@ -212,13 +212,13 @@ class Tuner {
       return proof_units(study_, counts, each, correction, most_proof_trials());
     };
     problem.run = [&](const Attempt& attempt) -> std::optional<measures::MoveCounts> {
-      const Units units{attempt.units, each};
+      const trials::Replicates units{attempt.units, each};
       line_.show([&] { return fmt::format("proof {}: {} trials", attempt.number, units.count * each); });
       std::vector<std::string> values =
           overrides_of(answer_.free, result_.finalists[attempt.finalist].values);
-      values.push_back(
-          fmt::format("seed={}", fresh_seed(study_.seed, fmt::format("tuning, proof {}", attempt.number))));
-      const bool ended = within(effort_, [&] {
+      values.push_back(fmt::format(
+          "seed={}", trials::fresh_seed(study_.seed, fmt::format("tuning, proof {}", attempt.number))));
+      const bool ended = trials::within(effort_, [&] {
         run = run_proof(study_, std::move(values), units, settings_.output, settings_.threads, effort_);
       });
       if (!ended) return std::nullopt;
@@ -264,7 +264,7 @@ class Tuner {
   /// Finds a part of the answer that is not proven; one for which the effort is not enough is named.
   void find_part(const std::string& name, const std::function<void()>& work) {
     line_.show([&] { return "proven; " + name; });
-    const bool ended = !effort_.stop().stop_requested() && within(effort_, work);
+    const bool ended = !effort_.stop().stop_requested() && trials::within(effort_, work);
     if (effort_.is_interrupted()) throw trial::Interrupted{};
     if (!ended) answer_.left_out.push_back(name);
   }
@@ -301,8 +301,9 @@ class Tuner {
     }
     add_alternatives(controls);
     find_part("limits", [&] {
-      const Units units = units_of_limits();
-      answer_.limits = limits_of(variant_of(tuned, overrides_for(tuned, units)), units, effort_);
+      const trials::Replicates units = units_of_limits();
+      const study::Study of_limits = trials::variant_of(study_, trials::overrides_for(study_, units));
+      answer_.limits = limits_of(at_values(of_limits, answer_.free, answer_.gains).value(), units, effort_);
     });
     if (settings_.maps) find_part("maps", [&] { answer_.maps = maps_of(details, search_.examiner()); });
   }
@@ -318,10 +319,10 @@ class Tuner {
   }
 
   /// All units of the search, with a budget those of the details.
-  Units units_of_limits() const {
-    const Units& all = search_.units();
+  trials::Replicates units_of_limits() const {
+    const trials::Replicates& all = search_.units();
     if (!has_budget()) return all;
-    return {std::min(in_equal_worlds(study_, rest_.units), all.count), all.trials_each};
+    return {std::min(trials::in_equal_worlds(study_, rest_.units), all.count), all.trials_each};
   }
 
   void add_alternatives(const std::vector<OtherControl>& controls) {
@@ -336,7 +337,7 @@ class Tuner {
 
   /// One of so many equal parts of what a budget leaves beside limits and maps; without a budget what a
   /// control takes by default.
-  Effort one_of_shares(std::int64_t parts) const {
+  trials::Effort one_of_shares(std::int64_t parts) const {
     if (!has_budget()) return effort_.share(trials_of_alternative, {});
     const std::int64_t later =
         points_of_limits * rest_.units * search_.units().trials_each + rest_.trials_of_maps;
@@ -349,8 +350,9 @@ class Tuner {
   bool has_budget() const { return settings_.budget.trials || settings_.budget.seconds; }
 
   /// @param tuned controls that are tuned already; gets this one
-  void add_alternative(const OtherControl& control, const Effort& effort, std::vector<TunedValues>& tuned) {
-    const study::Study study = variant_of(study_, control.overrides);
+  void add_alternative(const OtherControl& control, const trials::Effort& effort,
+                       std::vector<TunedValues>& tuned) {
+    const study::Study study = trials::variant_of(study_, control.overrides);
     const SearchPlan plan = plan_other_search(study, control.free, effort, speed_);
     StudySearch search(
         study, control.free, plan.size, journal_, [this] { return elapsed(); }, effort);
@@ -360,7 +362,7 @@ class Tuner {
     const SearchResult found = search.run(limits, starts_from(tuned, control.free));
     answer_.points += found.points;
     answer_.trials += found.trials;
-    if (found.finalists.empty() && found.cut) throw Spent{};
+    if (found.finalists.empty() && found.cut) throw trials::Spent{};
     Alternative alternative;
     alternative.name = control.name;
     for (const std::string& name : control.zero) alternative.fixed.emplace_back(name, 0.0);
@@ -375,14 +377,14 @@ class Tuner {
 
   /// Runs it on fresh machines.
   void judge_alternative(const study::Study& study, const std::vector<study::FreeParameter>& free,
-                         const Values& values, const Effort& effort, Alternative& alternative) const {
+                         const Values& values, const trials::Effort& effort, Alternative& alternative) const {
     for (std::size_t i = 0; i < free.size(); ++i) alternative.gains.emplace_back(free[i].name, values[i]);
-    const Units units{units_of_judgement(study, effort, speed_), trials_of_machine(study)};
+    const trials::Replicates units{units_of_judgement(study, effort, speed_), trials_of_machine(study)};
     std::vector<std::string> fresh = overrides_of(free, values);
-    fresh.push_back(fmt::format("seed={}", fresh_seed(study.seed, "tuning, alternative")));
-    for (const std::string& one : overrides_for(study, units)) fresh.push_back(one);
+    fresh.push_back(fmt::format("seed={}", trials::fresh_seed(study.seed, "tuning, alternative")));
+    for (const std::string& one : trials::overrides_for(study, units)) fresh.push_back(one);
     const Candidate candidate{
-        {}, values, results_of(variant_of(study, fresh), units, units.count, nullptr, effort)};
+        {}, values, results_of(trials::variant_of(study, fresh), units, units.count, nullptr, effort)};
     alternative.verdict = goal::judge_goal(*study.goal, counts_of(study, units, candidate.units), 1);
     alternative.criterion = estimate_of(aim_of(study), candidate, units.count).criterion;
   }
@@ -392,7 +394,7 @@ class Tuner {
   Clock::time_point start_{Clock::now()};
   TuningJournal journal_;
   status::StatusLine line_;
-  Effort effort_;
+  trials::Effort effort_;
   double speed_;  ///< trials/s; infinite without a limit of time
   SearchPlan plan_;
   StudySearch search_;

@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "analysis/goal/goal_verdict.hpp"
-#include "analysis/tuning/frontier.hpp"
 #include "experiments/study/study.hpp"
 #include "runners/tuning/answer_details.hpp"
 #include "runners/tuning/limits.hpp"
 #include "runners/tuning/loop_examiner.hpp"
 #include "runners/tuning/nearest_point.hpp"
+#include "runners/tuning/race/frontier.hpp"
 #include "runners/tuning/tune_plan.hpp"
 #include "runners/tuning/tuning_map.hpp"
 #include "runners/tuning/worst_machine.hpp"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/tuning/candidate.hpp"
+#include "runners/tuning/race/candidate.hpp"
 
 namespace zerocount::tuning {
 

@@ -1,8 +1,7 @@
 #include "runners/tuning/tuning_map.hpp"
 
 #include <algorithm>
-
-#include "core/failure/failure.hpp"
+#include <optional>
 
 namespace zerocount::tuning {
 namespace {
@@ -23,23 +22,20 @@ Values values_of_cell(const TunedStudy& tuned, const TuningMap& map, double x, d
 }
 
 void simulate(const TunedStudy& tuned, const LoopExaminer& examiner, const Values& values, MapCell& cell) {
-  try {
-    const study::Study study = variant_of(tuned.study, overrides_of(tuned.free, values));
-    const Candidate candidate{
-        {}, values, results_of(study, tuned.units, units_of_cell, nullptr, tuned.effort)};
-    cell.keeps_margins = examiner.may_keep(study, study.tuning->margins, has_slid(candidate.units));
-    const Estimate estimate = estimate_of(aim_of(study), candidate, units_of_cell);
-    cell.rate = estimate.rate;
-    cell.criterion = estimate.criterion;
-  } catch (const Failure& failure) {
-    if (failure.code() != ExitCode::bad_input) throw;  // such values together are not allowed
-    cell.keeps_margins = false;
-  }
+  const std::optional<study::Study> study = at_values(tuned.study, tuned.free, values);
+  cell.keeps_margins = false;
+  if (!study) return;
+  const Candidate candidate{
+      {}, values, results_of(*study, tuned.units, units_of_cell, nullptr, tuned.effort)};
+  cell.keeps_margins = examiner.may_keep(*study, study->tuning->margins, has_slid(candidate.units));
+  const Estimate estimate = estimate_of(aim_of(*study), candidate, units_of_cell);
+  cell.rate = estimate.rate;
+  cell.criterion = estimate.criterion;
 }
 
 }  // namespace
 
-std::int64_t trials_of_maps(const Units& units, std::size_t free) {
+std::int64_t trials_of_maps(const trials::Replicates& units, std::size_t free) {
   const auto pairs = static_cast<std::int64_t>(free * (free - 1) / 2);
   return pairs * cells_of_side * cells_of_side * std::min(units_of_cell, units.count) * units.trials_each;
 }

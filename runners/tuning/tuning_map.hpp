@@ -27,10 +27,10 @@ struct TuningMap {
 };
 
 /// Trials of the maps of so many free parameters.
-std::int64_t trials_of_maps(const Units& units, std::size_t free);
+std::int64_t trials_of_maps(const trials::Replicates& units, std::size_t free);
 
 /// Maps over all pairs of free parameters.
-/// @throws trial::Interrupted, Spent
+/// @throws trial::Interrupted, trials::Spent
 std::vector<TuningMap> maps_of(const TunedStudy& tuned, const LoopExaminer& examiner);
 
 }  // namespace zerocount::tuning

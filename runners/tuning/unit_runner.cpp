@@ -12,10 +12,8 @@
 #include "analysis/goal/question.hpp"
 #include "analysis/measures/goal_counts.hpp"
 #include "analysis/measures/trial_value.hpp"
-#include "core/batch/batch.hpp"
 #include "core/failure/failure.hpp"
-#include "experiments/manifest/load_study.hpp"
-#include "runners/study_run/parallel_trials.hpp"
+#include "runners/trials/trial_set.hpp"
 
 namespace zerocount::tuning {
 namespace {
@@ -54,17 +52,21 @@ class TrialCounter {
   Criterion criterion_;
 };
 
-void run_part(const Part& part, const Units& units, batch::BatchEngine& engine, const std::stop_token& stop) {
-  const study::Study& study = *part.entry->study;
-  const TrialCounter counter(study);
+std::vector<trial::TrialParameters> trials_of(const Part& part, const trials::Replicates& units) {
   std::vector<trial::TrialParameters> trials;
   for (std::int64_t unit = part.from; unit < part.to; ++unit) {
     for (std::int64_t i = 0; i < units.trials_each; ++i) {
-      trials.push_back(study::study_trial(study, units.point, i * units.count + unit).parameters);
+      trials.push_back(
+          study::study_trial(*part.entry->study, units.point, i * units.count + unit).parameters);
       if (part.entry->change != nullptr) (*part.entry->change)(trials.back());
     }
   }
-  const std::vector<trial::TrialOutcome> outcomes = study_run::outcomes_of(trials, engine, stop);
+  return trials;
+}
+
+void add_outcomes(const Part& part, const trials::Replicates& units,
+                  std::span<const trial::TrialOutcome> outcomes) {
+  const TrialCounter counter(*part.entry->study);
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const auto unit = static_cast<std::size_t>(part.from) + i / static_cast<std::size_t>(units.trials_each);
     counter.add(outcomes[i].moves, (*part.entry->results)[unit]);
@@ -73,34 +75,21 @@ void run_part(const Part& part, const Units& units, batch::BatchEngine& engine, 
 
 }  // namespace
 
-study::Study variant_of(const study::Study& study, const std::vector<std::string>& overrides) {
-  std::vector<std::string> all = study.overrides;
-  all.insert(all.end(), overrides.begin(), overrides.end());
-  return manifest::parse_study(study.manifest_text, study.name, all, manifest::companions_of(study));
+std::vector<std::string> names_of(std::span<const study::FreeParameter> free) {
+  std::vector<std::string> names;
+  for (const study::FreeParameter& one : free) names.push_back(one.name);
+  return names;
+}
+
+std::optional<study::Study> at_values(const study::Study& study, std::span<const study::FreeParameter> free,
+                                      const Values& values) {
+  return trials::with_values(study, names_of(free), values);
 }
 
 std::vector<std::string> overrides_of(std::span<const study::FreeParameter> free, const Values& values) {
   std::vector<std::string> overrides;
   for (std::size_t i = 0; i < free.size(); ++i)
     overrides.push_back(fmt::format("{}={}", free[i].name, values[i]));
-  return overrides;
-}
-
-Units units_of(const study::Study& study, std::int64_t point) {
-  if (study.rigs == 0) return {study.trials, 1, point};
-  return {study.rigs, study.trials / study.rigs, point};
-}
-
-std::int64_t in_equal_worlds(const study::Study& study, std::int64_t units) {
-  if (study.worlds == 0) return units;
-  return (units + study.worlds - 1) / study.worlds * study.worlds;
-}
-
-std::vector<std::string> overrides_for(const study::Study& study, const Units& units) {
-  std::vector<std::string> overrides{fmt::format("trials={}", units.count * units.trials_each),
-                                     "design=monte_carlo"};
-  if (study.rigs > 0) overrides.push_back(fmt::format("rigs={}", units.count));
-  if (!study.retained_trials.empty()) overrides.emplace_back("retain={trials: []}");
   return overrides;
 }
 
@@ -164,29 +153,33 @@ Aim aim_of(const study::Study& study) {
   return {claim.moves, claim.machines, criterion_of(study).quantile, study.worlds};
 }
 
-void run_units(std::span<const UnitsToRun> entries, const Units& units, const std::stop_token& stop) {
+void run_units(std::span<const UnitsToRun> entries, const trials::Replicates& units,
+               const trials::Effort& effort) {
   std::vector<Part> parts;
+  trials::TrialSet set;
   for (const UnitsToRun& entry : entries) {
     entry.results->resize(static_cast<std::size_t>(entry.to));
+    set.count += (entry.to - entry.from) * units.trials_each;
     for (std::int64_t from = entry.from; from < entry.to; from += units_at_once)
       parts.push_back({&entry, from, std::min(from + units_at_once, entry.to)});
   }
-  study_run::for_each_with_engine(parts.size(), [&](std::size_t i, batch::BatchEngine& engine) {
-    run_part(parts[i], units, engine, stop);
+  set.blocks = parts.size();
+  set.draw = [&](std::size_t block) { return trials_of(parts[block], units); };
+  trials::run(set, effort, [&](std::size_t block, std::span<const trial::TrialOutcome> outcomes) {
+    add_outcomes(parts[block], units, outcomes);
   });
 }
 
-std::vector<UnitResult> results_of(const study::Study& study, const Units& units, std::int64_t count,
-                                   const Change* change, const Effort& effort) {
+std::vector<UnitResult> results_of(const study::Study& study, const trials::Replicates& units,
+                                   std::int64_t count, const Change* change, const trials::Effort& effort) {
   std::vector<UnitResult> results;
   const UnitsToRun all{&study, 0, std::min(count, units.count), &results, change};
-  effort.spend(all.to * units.trials_each);
-  run_units({&all, 1}, units, effort.stop());
+  run_units({&all, 1}, units, effort);
   return results;
 }
 
 std::vector<UnitResult> results_in(const reading::StudyFile& file, const study::Study& study,
-                                   const Units& units) {
+                                   const trials::Replicates& units) {
   const TrialCounter counter(study);
   std::vector<UnitResult> results(static_cast<std::size_t>(units.count));
   measures::visit_trials(file, file.rows(), [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {

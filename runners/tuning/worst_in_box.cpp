@@ -9,8 +9,6 @@
 
 #include "analysis/measures/move_event.hpp"
 #include "analysis/statistics/distributions.hpp"
-#include "analysis/tuning/search_space.hpp"
-#include "core/batch/batch.hpp"
 #include "core/failure/failure.hpp"
 #include "core/numerics/normal_distribution.hpp"
 #include "core/random/number_source.hpp"
@@ -19,7 +17,8 @@
 #include "experiments/manifest/point_manifest.hpp"
 #include "experiments/study/machine_inputs.hpp"
 #include "experiments/study/plan.hpp"
-#include "runners/study_run/parallel_trials.hpp"
+#include "runners/trials/trial_set.hpp"
+#include "runners/tuning/race/search_space.hpp"
 
 namespace zerocount::tuning {
 namespace {
@@ -73,14 +72,15 @@ bool are_correlated(const std::vector<study::MachineInput>& inputs, const study:
 
 /// The study with independent draws, as many as are wanted. Its profiles stay.
 study::Study searched_study(const study::Study& study, const std::vector<study::MachineInput>& inputs) {
-  study::Study searched = are_correlated(inputs, *study.plan) ? variant_of(study, {"correlation=[]"}) : study;
+  study::Study searched =
+      are_correlated(inputs, *study.plan) ? trials::variant_of(study, {"correlation=[]"}) : study;
   searched.design = study::Design::monte_carlo;
   return searched;
 }
 
 class MachineSearch {
  public:
-  MachineSearch(const study::Study& study, const Units& units,
+  MachineSearch(const study::Study& study, const trials::Replicates& units,
                 const std::optional<std::filesystem::path>& folder, const std::stop_token& stop)
       : given_(study),
         units_(units),
@@ -254,18 +254,22 @@ class MachineSearch {
   }
 
   void simulate(std::vector<BoxPoint>& points) const {
-    study_run::for_each_with_engine(points.size(), [&](std::size_t p, batch::BatchEngine& engine) {
+    const auto draw = [&](std::size_t p) {
       std::vector<trial::TrialParameters> trials;
       for (std::int64_t i = 0; i < trials_of_search; ++i)
         trials.push_back(trial_of(points[p], given_.trials + i));
-      points[p].result = result_of(trials, engine);
-    });
+      return trials;
+    };
+    trials::run({std::ssize(points) * trials_of_search, points.size(), draw}, stop_,
+                [&](std::size_t p, std::span<const trial::TrialOutcome> outcomes) {
+                  points[p].result = result_of(outcomes);
+                });
   }
 
   /// The moves that meet the goal, and the score of each; the largest double where it was never reached.
-  UnitResult result_of(std::span<const trial::TrialParameters> trials, batch::BatchEngine& engine) const {
+  UnitResult result_of(std::span<const trial::TrialOutcome> outcomes) const {
     UnitResult result;
-    for (const trial::TrialOutcome& outcome : study_run::outcomes_of(trials, engine, stop_)) {
+    for (const trial::TrialOutcome& outcome : outcomes) {
       for (const trial::MoveOutcome& move : outcome.moves) {
         const double score = measures::score_of(measures::MoveScore::event, event_, move);
         ++result.moves;
@@ -348,8 +352,10 @@ class MachineSearch {
       for (std::int64_t i = 0; i < trials_of_verdict; ++i)
         trials.push_back(trial_of(point, given_.trials + trials_of_search + i));
     }
-    batch::BatchEngine engine;
-    const UnitResult result = result_of(trials, engine);
+    UnitResult result;
+    trials::run(
+        {trials_of_verdict, 1, [&](std::size_t) { return trials; }}, stop_,
+        [&](std::size_t, std::span<const trial::TrialOutcome> outcomes) { result = result_of(outcomes); });
     machine.moves = result.moves;
     machine.met = met_share(result);
     const auto latest = std::ranges::max_element(result.values) - result.values.begin();
@@ -358,7 +364,7 @@ class MachineSearch {
   }
 
   study::Study given_;
-  Units units_;
+  trials::Replicates units_;
   std::optional<std::filesystem::path> folder_;
   std::vector<study::MachineInput> inputs_;
   study::Study study_;
@@ -372,7 +378,7 @@ class MachineSearch {
 
 }  // namespace
 
-WorstMachines worst_machines(const study::Study& study, const Units& units,
+WorstMachines worst_machines(const study::Study& study, const trials::Replicates& units,
                              const std::optional<std::filesystem::path>& folder,
                              const std::stop_token& stop) {
   return MachineSearch(study, units, folder, stop).run();

@@ -46,7 +46,7 @@ struct WorstMachines {
 /// machines of the study, at the corners, and at points that fill the box.
 /// @param folder from which the study's manifest names its files; none if it is not a file
 /// @throws trial::Interrupted; Failure (bad_input) if the study draws nothing that differs between machines
-WorstMachines worst_machines(const study::Study& study, const Units& units,
+WorstMachines worst_machines(const study::Study& study, const trials::Replicates& units,
                              const std::optional<std::filesystem::path>& folder, const std::stop_token& stop);
 
 }  // namespace zerocount::tuning

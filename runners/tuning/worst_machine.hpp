@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/tuning/candidate.hpp"
 #include "experiments/study/study.hpp"
+#include "runners/tuning/race/candidate.hpp"
 
 namespace zerocount::tuning {
 

@@ -69,8 +69,8 @@ def problems(root):
             if included not in folders[: folders.index(folder) + 1]:
                 yield f"{name}: includes \"{included}/…\", which is not below {folder}"
         in_folder = len(name.parts) > 2 and str(name) not in WITHOUT_NAMESPACE
-        if in_folder and f"\nnamespace zerocount::{path.parent.name} {{" not in text:
-            yield f"{name}: defines nothing in namespace zerocount::{path.parent.name}"
+        if in_folder and f"\nnamespace zerocount::{name.parts[1]} {{" not in text:  # rooms of a folder share its namespace
+            yield f"{name}: defines nothing in namespace zerocount::{name.parts[1]}"
         if name.parts[0] == "core":
             for header in FORBIDDEN_IN_CORE.findall(text):
                 yield f"{name}: core has no I/O and no threads, but includes <{header[0]}>"

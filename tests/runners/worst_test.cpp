@@ -49,7 +49,7 @@ class Worst : public ::testing::Test {
     EXPECT_EQ(run.err.find("worlds"), std::string::npos) << "nothing differs between worlds: " << run.err;
     const reading::StudyFile file(folder_.path() / "worst.h5");
     const study::Study study = layout::recorded_study(file.header(), "worst.h5");
-    tuning::Units units = tuning::units_of(study, 0);
+    trials::Replicates units = trials::replicates_of(study, 0);
     if (study.rigs == 0) units = {1, study.trials, 0};
     return met_share(
         tuning::results_in(file, study, units)[static_cast<std::size_t>(study.rigs == 0 ? 0 : rig)]);

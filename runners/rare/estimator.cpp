@@ -1,0 +1,547 @@
+#include "runners/rare/estimator.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "analysis/statistics/betting_bounds.hpp"
+#include "analysis/statistics/unknown.hpp"
+#include "core/numerics/normal_distribution.hpp"
+#include "experiments/designs/random_key.hpp"
+#include "runners/rare/splitting.hpp"
+
+namespace zerocount::rare {
+namespace {
+
+constexpr std::size_t plain_at_first = 1000;
+constexpr double common_value = 0.01;              // more probable ones are drawn often enough
+constexpr std::int64_t trials_of_values = 40'000;  // of a discrete draw, shared by its values
+constexpr std::int64_t max_trials_of_value = 10;
+constexpr std::int64_t trials_of_values_at_once = 2000;
+/// Values that are tried again, and how often.
+struct Retrial {
+  std::size_t values;
+  std::int64_t trials;
+};
+constexpr std::array<Retrial, 2> retrials{{{200, 50}, {20, 500}}};
+constexpr std::int64_t min_failures_of_pinned = 2;
+constexpr double enrichment_of_pinned = 5.0;  // of failures at a value, over those of plain trials
+constexpr double share_of_pinned = 0.5;       // of the proposal, beside a mixture
+constexpr std::int64_t enough_plain_failures = 30;
+constexpr int searches_of_first_score = 2;
+constexpr double least_probability = 1e-11;
+constexpr double least_beside_the_best = 0.05;  // of the best score's probability
+constexpr int most_pilots = 8;
+constexpr std::size_t pilot_trials = 2000;
+constexpr double enough_pilot_failures = 100.0;  // independent ones
+constexpr double least_share_of_searched = 0.5;  // of splitting's failures, beside those of pilots
+constexpr double cap_of_no_use = 0.5;            // plain trials have 1
+constexpr double narrow_cap = 30.0;              // of the weights, over the probability
+constexpr std::size_t drawn_at_once = 500;
+constexpr std::size_t most_drawn = 2'000'000;  // some hundred bytes each
+constexpr double natural_share = 0.1;
+constexpr double share_of_levels = 0.35;
+constexpr double share_of_new = 0.4;  // of the mixture, after a failure that it did not foresee
+constexpr double cap_beyond_usual = 2.0;
+constexpr double quantile_of_cap = 0.998;  // of the likelihood ratio of failures
+constexpr std::int64_t most_learnings = 8;
+constexpr double steps_per_independent_point = 5.0;  // of a Markov chain
+constexpr double disagreement = 10.0;                // of splitting and the bounds
+
+std::vector<double> positive_values(const EstimatorState& state) {
+  std::vector<double> values;
+  for (const WeightedTrial& trial : state.drawn) {
+    if (trial.failed > 0.0) values.push_back(trial.weight * trial.failed);
+  }
+  return values;
+}
+
+/// Confidence of the bounds of one proposal: the error probabilities of all have the sum that is allowed. The
+/// first has most of it, then the plain trials that follow a proposal of no use.
+double confidence_of(const EstimatorState& state, double confidence) {
+  const double part = state.learnings <= 1 ? 0.7
+                      : state.proposal.is_natural()
+                          ? 0.2
+                          : 0.1 * std::ldexp(1.0, static_cast<int>(1 - state.learnings));
+  return 1.0 - (1.0 - confidence) * part;
+}
+
+bool is_narrow(const statistics::ConfidenceInterval& bounds, double ratio) {
+  return bounds.low > 0.0 && bounds.high <= ratio * bounds.low;
+}
+
+/// Whether splitting along the first score found failures of a far larger probability than the bounds allow,
+/// each time that it found some. Along the others it may end with copies of a few failures, whose number says
+/// little.
+bool splitting_disagrees(const EstimatorState& state, double high) {
+  const auto is_meant = [](const ScoreSearch& search) { return search.score == 0 && search.reached; };
+  return std::ranges::any_of(state.searches, is_meant) &&
+         std::ranges::none_of(state.searches, [&](const ScoreSearch& search) {
+           return is_meant(search) && search.probability <= disagreement * high;
+         });
+}
+
+/// Scales the weights of components to a sum.
+void scale_weights(std::vector<NormalComponent>& components, double sum) {
+  double all = 0.0;
+  for (const NormalComponent& one : components) all += one.weight;
+  for (NormalComponent& one : components) one.weight *= sum / all;
+}
+
+/// The mixture of two fits, of which the second has this share if there is a first.
+std::vector<NormalComponent> mixed(std::vector<NormalComponent> first, std::vector<NormalComponent> second,
+                                   double share) {
+  scale_weights(first, second.empty() ? 1.0 : 1.0 - share);
+  scale_weights(second, first.empty() ? 1.0 : share);
+  std::ranges::move(second, std::back_inserter(first));
+  return first;
+}
+
+/// A value of a discrete draw, and what its last trials showed.
+struct TriedValue {
+  PinnedValue value;
+  std::vector<double> scores;  ///< [score] the largest; −∞: not known
+
+  void take(std::span<const PointResult> results) {
+    value.trials = std::ssize(results);
+    value.failures = std::ranges::count_if(results, [](const PointResult& one) { return one.failed > 0.0; });
+    scores.assign(results.front().scores.size(), -std::numeric_limits<double>::infinity());
+    for (const PointResult& one : results) {
+      for (std::size_t i = 0; i < scores.size(); ++i) scores[i] = std::fmax(scores[i], one.scores[i]);
+    }
+  }
+};
+
+/// Those with most failures, and by turns those with the largest value of each score.
+std::vector<TriedValue> most_suspicious(const std::vector<TriedValue>& tried, std::size_t count,
+                                        std::size_t scores) {
+  if (tried.size() <= count) return tried;
+  std::vector<std::size_t> order(tried.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::vector<bool> chosen(tried.size(), false);
+  std::vector<TriedValue> found;
+  const auto take_first = [&](std::size_t most, const auto& is_wanted) {
+    for (std::size_t i = 0; i < order.size() && most > 0 && found.size() < count; ++i) {
+      if (chosen[order[i]] || !is_wanted(tried[order[i]])) continue;
+      chosen[order[i]] = true;
+      found.push_back(tried[order[i]]);
+      --most;
+    }
+  };
+  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return tried[i].value.failures; });
+  take_first(count, [](const TriedValue& one) { return one.value.failures > 0; });
+  const std::size_t of_each = (count - found.size() + scores - 1) / scores;
+  for (std::size_t score = 0; score < scores; ++score) {
+    std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return tried[i].scores[score]; });
+    take_first(of_each, [](const TriedValue&) { return true; });
+  }
+  return found;
+}
+
+class Estimator {
+ public:
+  Estimator(EstimatorState& state, const EstimatorSettings& settings, const Simulation& simulate,
+            const std::function<bool(const EstimatorState&)>& go_on)
+      : state_(state), settings_(settings), simulate_(simulate), go_on_(go_on) {}
+
+  Estimate run() {
+    if (!state_.learned && !learn()) return answer_of(state_, settings_);
+    estimate_by_drawing();
+    if (!state_.proposal.is_natural() && has_failed(answer_of(state_, settings_).status) && go_on_(state_)) {
+      draw_plainly();
+      state_.drawn.clear();
+      ++state_.learnings;
+      estimate_by_drawing();
+    }
+    return answer_of(state_, settings_);
+  }
+
+ private:
+  /// Whether the learned proposal is of no use.
+  static bool has_failed(EstimateStatus status) {
+    return status == EstimateStatus::not_covered || status == EstimateStatus::too_many;
+  }
+
+  void estimate_by_drawing() {
+    while (!answer_of(state_, settings_).narrow) {
+      if (state_.drawn.size() >= most_drawn || !go_on_(state_)) return;
+      draw_more();
+      if (!is_covered() && !learn_again()) return;
+    }
+  }
+
+  NumberSource numbers_for(std::string_view use, std::uint32_t stream = 0) const {
+    return NumberSource(designs::random_key(settings_.seed, fmt::format("rare/{}", use)), stream);
+  }
+
+  double ratio_at(std::span<const double> z) const {
+    return likelihood_ratio(settings_.space, state_.proposal, z);
+  }
+
+  std::vector<PointResult> run_trials(std::span<const TrialPoint> points) {
+    std::vector<PointResult> results = simulate_(points);
+    state_.trials += std::ssize(points);
+    return results;
+  }
+
+  bool learn() {
+    if (state_.plain_trials > 0) ++state_.searched;  // a search anew has other random numbers
+    state_.searches.clear();
+    state_.proposal = {};
+    state_.learnings = 0;
+    run_plain();
+    if (!try_values()) return false;
+    if (std::ssize(searched_.z) < enough_plain_failures && !search_all()) return false;
+    const bool nothing_to_change = settings_.space.unordered.size() == settings_.space.coordinates;
+    if (state_.proposal.values.empty() && (searched_.z.empty() || nothing_to_change)) {
+      draw_plainly();
+      return true;
+    }
+    NumberSource numbers = numbers_for("pilot", static_cast<std::uint32_t>(state_.searched));
+    fit(numbers);
+    double probability = 0.0;
+    for (int round = 0; round < most_pilots; ++round) {
+      if (!go_on_(state_)) return false;
+      probability = run_pilot(numbers);
+      fit(numbers);
+      state_.cap = cap_beyond_usual * std::max(usual_largest(pilots_.z.empty() ? searched_ : pilots_),
+                                               max_ratio_of_pinned(state_.proposal));
+      if (state_.cap < narrow_cap * probability) break;
+    }
+    for (const std::vector<double>& z : plain_failing_)
+      state_.cap = std::max(state_.cap, cap_beyond_usual * ratio_at(z));
+    state_.learned = true;
+    state_.learnings = 1;
+    if (state_.cap >= cap_of_no_use) draw_plainly();
+    return true;
+  }
+
+  /// Goes on with plain trials.
+  void draw_plainly() {
+    state_.proposal = {};
+    state_.cap = 1.0;
+    state_.learned = true;
+    state_.learnings = std::max<std::int64_t>(state_.learnings, 1);
+  }
+
+  std::vector<TrialPoint> numbered(std::vector<std::vector<double>> points) const {
+    std::vector<TrialPoint> trials;
+    trials.reserve(points.size());
+    for (std::vector<double>& z : points)
+      trials.push_back({std::move(z), state_.trials + std::ssize(trials)});
+    return trials;
+  }
+
+  /// Trials of their own distribution: where failures are common, they are enough to learn from.
+  void run_plain() {
+    NumberSource numbers = numbers_for("plain", static_cast<std::uint32_t>(state_.searched));
+    std::vector<std::vector<double>> points;
+    for (std::size_t i = 0; i < plain_at_first; ++i)
+      points.push_back(numbers.normals(settings_.space.coordinates));
+    const std::vector<TrialPoint> trials = numbered(std::move(points));
+    const std::vector<PointResult> results = run_trials(trials);
+    for (std::size_t i = 0; i < trials.size(); ++i) {
+      if (results[i].failed > 0.0) searched_.add(trials[i].z, results[i].failed);
+    }
+    state_.plain_trials += std::ssize(trials);
+    state_.plain_failures += std::ssize(searched_.z);
+    plain_failing_ = searched_.z;
+  }
+
+  /// Trials at every value of each discrete draw, whatever its probability: a value that fails need not be
+  /// near others that do. Values with frequent failures become pinned values of the proposal.
+  /// @return whether it came to an end in the budget
+  bool try_values() {
+    if (std::ssize(searched_.z) >= enough_plain_failures) return true;
+    for (std::size_t draw = 0; draw < settings_.space.discrete.size(); ++draw) {
+      if (settings_.space.discrete[draw].values() <= max_tried_values && !try_values_of(draw)) return false;
+    }
+    double sum = 0.0;
+    for (const PinnedValue& one : state_.proposal.values) sum += one.weight;
+    for (PinnedValue& one : state_.proposal.values) one.weight /= sum;
+    return true;
+  }
+
+  /// The values that look worst are tried again, ever more often.
+  bool try_values_of(std::size_t draw) {
+    NumberSource numbers =
+        numbers_for(fmt::format("values/{}", draw), static_cast<std::uint32_t>(state_.searched));
+    std::vector<TriedValue> tried;
+    for (PinnedValue& value : pinned_values(settings_.space, draw)) {
+      if (value.probability < common_value) tried.push_back({std::move(value), {}});
+    }
+    if (tried.empty()) return true;
+    const std::int64_t each =
+        std::clamp<std::int64_t>(trials_of_values / std::ssize(tried), 1, max_trials_of_value);
+    if (!run_tried(tried, each, numbers)) return false;
+    for (const Retrial& retrial : retrials) {
+      tried = most_suspicious(tried, retrial.values, settings_.scores);
+      if (!run_tried(tried, retrial.trials, numbers)) return false;
+    }
+    const double usual =
+        static_cast<double>(state_.plain_failures) / static_cast<double>(state_.plain_trials);
+    for (TriedValue& one : tried) {
+      PinnedValue& value = one.value;
+      const double rate = static_cast<double>(value.failures) / static_cast<double>(value.trials);
+      if (value.failures < min_failures_of_pinned || rate < enrichment_of_pinned * usual) continue;
+      value.weight = rate * value.probability;
+      state_.proposal.values.push_back(std::move(value));
+    }
+    return true;
+  }
+
+  /// Runs so many trials at each value. @return whether it came to an end in the budget
+  bool run_tried(std::vector<TriedValue>& values, std::int64_t trials_of_each, NumberSource& numbers) {
+    const auto at_once =
+        static_cast<std::size_t>(std::max<std::int64_t>(trials_of_values_at_once / trials_of_each, 1));
+    for (std::size_t first = 0; first < values.size(); first += at_once) {
+      if (!go_on_(state_)) return false;
+      const std::span part = std::span(values).subspan(first, std::min(at_once, values.size() - first));
+      std::vector<std::vector<double>> points;
+      for (const TriedValue& one : part) {
+        for (std::int64_t i = 0; i < trials_of_each; ++i)
+          points.push_back(draw_pinned(settings_.space, one.value, numbers));
+      }
+      const std::vector<PointResult> results = run_trials(numbered(std::move(points)));
+      const auto count = static_cast<std::size_t>(trials_of_each);
+      for (std::size_t i = 0; i < part.size(); ++i)
+        part[i].take(std::span(results).subspan(i * count, count));
+    }
+    return true;
+  }
+
+  /// Splitting along all scores. @return whether it came to an end in the budget
+  bool search_all() {
+    double best = 0.0;
+    auto stream = static_cast<std::uint32_t>(state_.searched) << 8U;
+    for (std::size_t score = 0; score < settings_.scores; ++score) {
+      const int repeated = score == 0 ? searches_of_first_score : 1;
+      for (int i = 0; i < repeated; ++i) {
+        NumberSource numbers = numbers_for("splitting", stream++);
+        const SplittingResult found = split(
+            {.coordinates = settings_.space.coordinates,
+             .unordered = settings_.space.unordered,
+             .score = score,
+             .least = std::max(least_probability, least_beside_the_best * best),
+             .first_number = state_.trials},
+            [&, plain = true](std::span<const TrialPoint> points) mutable {
+              return run_beside_pinned(points, std::exchange(plain, false));
+            },
+            numbers, [&] { return go_on_(state_); });
+        state_.plain_trials += found.plain_trials;
+        state_.plain_failures += std::ssize(found.plain_failing);
+        state_.searches.push_back({score, found.reached, found.probability, found.levels, found.trials});
+        for (const TrialPoint& point : found.plain_failing) {
+          searched_.add(point.z, 1.0);
+          plain_failing_.push_back(point.z);
+        }
+        if (!go_on_(state_)) return false;
+        if (!found.reached) continue;
+        best = std::max(best, found.probability);
+        add_points(found, numbers);
+      }
+    }
+    return true;
+  }
+
+  /// Runs trials of a search for failures other than those at pinned values, which lead nowhere there.
+  /// @param plain they are drawn from their own distribution
+  std::vector<PointResult> run_beside_pinned(std::span<const TrialPoint> points, bool plain) {
+    std::vector<PointResult> results = run_trials(points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!is_pinned(settings_.space, state_.proposal, points[i].z)) continue;
+      if (plain && results[i].failed > 0.0) {
+        ++state_.plain_failures;
+        plain_failing_.push_back(points[i].z);
+      }
+      results[i] = {0.0, std::vector<double>(settings_.scores, statistics::unknown)};
+    }
+    return results;
+  }
+
+  void add_points(const SplittingResult& found, NumberSource& numbers) {
+    const double each = 1.0 / steps_per_independent_point;
+    for (const TrialPoint& point : found.failing) searched_.add(point.z, each);
+    for (const std::vector<TrialPoint>& level : found.above) {
+      WeightedPoints points;
+      for (const TrialPoint& point : level) points.add(changed_part(settings_.space, point.z), 1.0);
+      levels_.push_back(fitted_normal(points, numbers));
+    }
+  }
+
+  /// Gives the points the sum of weights `size`.
+  static void balance(WeightedPoints& points, double size) {
+    const double sum = std::accumulate(points.weights.begin(), points.weights.end(), 0.0);
+    for (double& weight : points.weights) weight *= size / sum;
+  }
+
+  /// Those points that no pinned value explains, as normal components see them.
+  WeightedPoints unexplained(const WeightedPoints& points) const {
+    WeightedPoints found;
+    for (std::size_t i = 0; i < points.z.size(); ++i) {
+      if (!is_pinned(settings_.space, state_.proposal, points.z[i]))
+        found.add(changed_part(settings_.space, points.z[i]), points.weights[i]);
+    }
+    return found;
+  }
+
+  /// Beside the pinned values, the mixture of the failures of the pilots, and those of splitting as far as
+  /// the pilots have few; and of the levels.
+  void fit(NumberSource& numbers) {
+    WeightedPoints points = unexplained(pilots_);
+    WeightedPoints searched = unexplained(searched_);
+    const double effective = effective_size(points.weights);
+    if (!searched.z.empty())
+      balance(searched, std::max(least_share_of_searched * effective,
+                                 std::max(1.0, enough_pilot_failures - effective)));
+    for (std::size_t i = 0; i < searched.z.size(); ++i) points.add(searched.z[i], searched.weights[i]);
+    set_components(points.z.empty() ? levels_
+                                    : mixed(fitted_mixture(points, numbers), levels_, share_of_levels));
+  }
+
+  /// Sets the normal components beside the pinned values. Where every failure is at a pinned value there are
+  /// none.
+  void set_components(std::vector<NormalComponent> components) {
+    Proposal& proposal = state_.proposal;
+    proposal.natural = natural_share;
+    proposal.components = std::move(components);
+    proposal.pinned = proposal.values.empty() ? 0.0 : proposal.components.empty() ? 1.0 : share_of_pinned;
+  }
+
+  std::vector<WeightedTrial> draw_trials(std::size_t count, NumberSource& numbers) {
+    std::vector<std::vector<double>> points;
+    std::vector<bool> natural;
+    for (std::size_t i = 0; i < count; ++i) {
+      DrawnPoint point = draw(settings_.space, state_.proposal, numbers);
+      points.push_back(std::move(point.z));
+      natural.push_back(point.natural);
+    }
+    std::vector<TrialPoint> trials = numbered(std::move(points));
+    const std::vector<PointResult> results = run_trials(trials);
+    std::vector<WeightedTrial> drawn;
+    for (std::size_t i = 0; i < count; ++i) {
+      state_.plain_trials += natural[i] ? 1 : 0;
+      state_.plain_failures += natural[i] && results[i].failed > 0.0 ? 1 : 0;
+      const double weight = ratio_at(trials[i].z);
+      drawn.push_back({std::move(trials[i]), weight, results[i].failed});
+    }
+    return drawn;
+  }
+
+  /// @return the probability by these trials
+  double run_pilot(NumberSource& numbers) {
+    WeightedPoints found;
+    double sum = 0.0;
+    for (const WeightedTrial& trial : draw_trials(pilot_trials, numbers)) {
+      const double part = trial.weight * trial.failed;
+      sum += part;
+      if (part > 0.0 && !is_pinned(settings_.space, state_.proposal, trial.point.z))
+        found.add(trial.point.z, part);
+    }
+    if (!found.z.empty()) balance(found, effective_size(found.weights));
+    for (std::size_t i = 0; i < found.z.size(); ++i) pilots_.add(found.z[i], found.weights[i]);
+    return sum / static_cast<double>(pilot_trials);
+  }
+
+  /// A likelihood ratio that 99.8 % of the failures do not exceed, by the weights of these points.
+  double usual_largest(const WeightedPoints& points) const {
+    std::vector<std::pair<double, double>> ratios;
+    for (std::size_t i = 0; i < points.z.size(); ++i)
+      ratios.emplace_back(ratio_at(points.z[i]), points.weights[i]);
+    std::ranges::sort(ratios);
+    double left = quantile_of_cap * std::accumulate(points.weights.begin(), points.weights.end(), 0.0);
+    for (const auto& [ratio, weight] : ratios) {
+      left -= weight;
+      if (left <= 0.0) return ratio;
+    }
+    return ratios.empty() ? 0.0 : ratios.back().first;
+  }
+
+  void draw_more() {
+    NumberSource numbers = numbers_for(fmt::format("drawn/{}", state_.learnings),
+                                       static_cast<std::uint32_t>(state_.drawn.size() / drawn_at_once));
+    const std::size_t count =
+        std::max(drawn_at_once, state_.drawn.size() / drawn_at_once / 8 * drawn_at_once);
+    std::ranges::move(draw_trials(count, numbers), std::back_inserter(state_.drawn));
+  }
+
+  bool is_covered() const {
+    return std::ranges::none_of(
+        state_.drawn, [&](const WeightedTrial& trial) { return trial.weight * trial.failed > state_.cap; });
+  }
+
+  bool learn_again() {
+    if (state_.learnings >= most_learnings) return false;
+    WeightedPoints found;
+    for (const WeightedTrial& trial : state_.drawn) {
+      if (trial.failed > 0.0) found.add(trial.point.z, trial.weight * trial.failed);
+    }
+    const WeightedPoints unforeseen = unexplained(found);
+    if (unforeseen.z.empty()) return false;
+    NumberSource numbers = numbers_for("again", static_cast<std::uint32_t>(state_.learnings));
+    set_components(
+        mixed(std::move(state_.proposal.components), fitted_mixture(unforeseen, numbers), share_of_new));
+    for (const std::vector<double>& z : found.z)
+      state_.cap = std::max(state_.cap, cap_beyond_usual * ratio_at(z));
+    state_.drawn.clear();
+    ++state_.learnings;
+    return true;
+  }
+
+  EstimatorState& state_;
+  const EstimatorSettings& settings_;
+  const Simulation& simulate_;
+  const std::function<bool(const EstimatorState&)>& go_on_;
+  WeightedPoints searched_;                         ///< failures found by plain trials and splitting
+  std::vector<std::vector<double>> plain_failing_;  ///< those of plain trials
+  WeightedPoints pilots_;  ///< those of pilots that no pinned value explains; the sum of weights is their
+                           ///< effective size
+  std::vector<NormalComponent> levels_;  ///< a normal distribution of each level of splitting
+};
+
+}  // namespace
+
+Estimate answer_of(const EstimatorState& state, const EstimatorSettings& settings) {
+  Estimate answer;
+  answer.plain_high =
+      statistics::clopper_pearson(state.plain_failures, state.plain_trials, settings.confidence).high;
+  answer.bounds = {0.0, answer.plain_high};
+  if (!state.learned) return answer;
+  const std::vector<double> values = positive_values(state);
+  if (state.drawn.empty()) return answer;
+  answer.bounds = statistics::betting_bounds(values, std::ssize(state.drawn), state.cap,
+                                             confidence_of(state, settings.confidence));
+  answer.probability =
+      std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(state.drawn.size());
+  answer.bounds.high = std::min(answer.bounds.high, 1.0);
+  const bool exceeds = std::ranges::any_of(values, [&](double value) { return value > state.cap; });
+  answer.narrow = !exceeds && is_narrow(answer.bounds, settings.ratio);
+  const bool natural = state.proposal.is_natural();
+  if (exceeds || (!natural && answer.narrow && splitting_disagrees(state, answer.bounds.high))) {
+    answer.status = EstimateStatus::not_covered;
+  } else if (answer.narrow) {
+    answer.status = EstimateStatus::estimated;
+  } else if (natural && state.plain_failures == 0) {
+    answer.status = EstimateStatus::no_failure;
+  } else if (state.drawn.size() >= most_drawn) {
+    answer.status = EstimateStatus::too_many;
+  }
+  if (answer.status != EstimateStatus::estimated)
+    answer.bounds.high = std::max(answer.bounds.high, answer.plain_high);
+  return answer;
+}
+
+Estimate estimate(EstimatorState& state, const EstimatorSettings& settings, const Simulation& simulate,
+                  const std::function<bool(const EstimatorState&)>& go_on) {
+  return Estimator(state, settings, simulate, go_on).run();
+}
+
+}  // namespace zerocount::rare

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "experiments/study/discrete_draws.hpp"
+#include "runners/rare/normal_mixture.hpp"
+#include "runners/rare/trial_point.hpp"
+
+namespace zerocount::rare {
+
+/// The independent standard normal coordinates of a trial, and what is drawn from them in discrete steps.
+struct TrialSpace {
+  std::size_t coordinates{0};
+  std::vector<study::DiscreteDraw> discrete{};
+  /// Coordinates in which near points have nothing in common, in ascending order: those of discrete draws
+  /// that are neither ordered nor correlated.
+  std::vector<std::size_t> unordered{};
+};
+
+TrialSpace trial_space(std::size_t coordinates, std::vector<study::DiscreteDraw> discrete);
+
+/// Trials of which one discrete draw has one value; all else has its own distribution.
+struct PinnedValue {
+  std::size_t draw{0};  ///< of TrialSpace::discrete
+  std::int64_t value{0};
+  double probability{1.0};           ///< of the value
+  double weight{1.0};                ///< among the pinned values of a proposal; they sum to 1
+  std::int64_t failures{0};          ///< of the trials by which it was chosen
+  std::int64_t trials{0};            ///< likewise
+  std::vector<std::int64_t> rows{};  ///< of the value
+};
+
+/// All values of a discrete draw.
+std::vector<PinnedValue> pinned_values(const TrialSpace& space, std::size_t draw);
+
+/// The distribution from which trials are drawn in place of their own: with the probability `natural` their
+/// own; otherwise with the probability `pinned` at one of the pinned values, else from a mixture of normal
+/// distributions of the coordinates that are not unordered, whose weights sum to 1.
+struct Proposal {
+  double natural{1.0};
+  double pinned{0.0};
+  std::vector<PinnedValue> values{};
+  std::vector<NormalComponent> components{};
+
+  bool is_natural() const { return values.empty() && components.empty(); }
+};
+
+/// The coordinates that normal components change.
+std::vector<double> changed_part(const TrialSpace& space, std::span<const double> z);
+
+/// Whether the point has one of the pinned values.
+bool is_pinned(const TrialSpace& space, const Proposal& proposal, std::span<const double> z);
+
+/// Density of the trials' own distribution over that of the proposal, at most 1/natural.
+double likelihood_ratio(const TrialSpace& space, const Proposal& proposal, std::span<const double> z);
+
+/// The largest likelihood ratio of a point with a pinned value; 0 without one.
+double max_ratio_of_pinned(const Proposal& proposal);
+
+struct DrawnPoint {
+  std::vector<double> z;
+  bool natural{false};  ///< from the trials' own distribution
+};
+
+DrawnPoint draw(const TrialSpace& space, const Proposal& proposal, NumberSource& numbers);
+
+/// A point of the trials' own distribution with this value.
+std::vector<double> draw_pinned(const TrialSpace& space, const PinnedValue& pinned, NumberSource& numbers);
+
+}  // namespace zerocount::rare

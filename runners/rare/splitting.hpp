@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "runners/rare/trial_point.hpp"
+
+namespace zerocount::rare {
+
+/// Settings of multilevel splitting.
+struct SplittingSettings {
+  std::size_t coordinates{0};
+  std::vector<std::size_t> unordered{};  ///< TrialSpace::unordered
+  std::size_t score{0};                  ///< of PointResult::scores, that is driven up
+  std::size_t particles{600};            ///< trials of a level
+  int steps{3};                          ///< of the Markov chain between two levels
+  double least{1e-11};           ///< ends without a failure where the probability of the level is below this
+  std::int64_t first_number{0};  ///< of the trials
+};
+
+/// The result of splitting along one score.
+struct SplittingResult {
+  bool reached{false};      ///< enough trials of the last level fail
+  double probability{1.0};  ///< of the last level; of a failure if it was reached. Without a bound
+  int levels{0};
+  std::int64_t trials{0};
+  std::int64_t plain_trials{0};  ///< of them those at the beginning, drawn from their own distribution
+  std::vector<TrialPoint> plain_failing;  ///< of these, those with a move that failed
+  std::vector<TrialPoint> failing;        ///< approximately distributed as trials that fail
+  /// [level] likewise of trials above each level, from the first on.
+  std::vector<std::vector<TrialPoint>> above;
+};
+
+/// Multilevel splitting (subset simulation) towards larger values of one score: the level is the score that a
+/// fifth of the trials exceed; these are copied, and moved by steps of a Markov chain that keeps the
+/// distribution above the level, z' = √(1 − β²)·z + β·ξ; an unordered
+/// coordinate is kept, or drawn anew in one of five steps. The number of a trial is drawn anew in every other
+/// step. Sources: Au and Beck, Estimation of small failure probabilities in high dimensions by subset
+/// simulation, Probabilistic Engineering Mechanics 16 (2001); Papaioannou et al., MCMC algorithms for subset
+/// simulation, ibid. 41 (2015).
+/// @param go_on asked before each level; false ends without a result
+SplittingResult split(const SplittingSettings& settings, const Simulation& simulate, NumberSource& numbers,
+                      const std::function<bool()>& go_on);
+
+}  // namespace zerocount::rare

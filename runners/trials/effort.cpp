@@ -1,0 +1,101 @@
+#include "runners/trials/effort.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <limits>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+namespace zerocount::trials {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Times beyond a century are none: a clock cannot hold them.
+constexpr double longest = 3e9;  // s
+
+}  // namespace
+
+struct Effort::Account {
+  std::shared_ptr<Account> whole;  ///< null: there is none
+  std::int64_t limit{std::numeric_limits<std::int64_t>::max()};
+  std::int64_t spent{0};
+  std::optional<Clock::time_point> end;
+  std::stop_token stopped;  ///< by the whole, or from outside
+  std::stop_source over;    ///< by the time
+  std::optional<std::stop_callback<std::function<void()>>> passes_on;
+  std::jthread timer;  ///< the last member: it ends before the others
+
+  void start_timer() {
+    passes_on.emplace(stopped, [this] { over.request_stop(); });
+    timer = std::jthread([this](const std::stop_token& done) {
+      std::mutex mutex;
+      std::unique_lock lock(mutex);
+      std::condition_variable_any nothing;
+      nothing.wait_until(lock, done, *end, [] { return false; });
+      if (!done.stop_requested()) over.request_stop();
+    });
+  }
+};
+
+Effort::Effort(std::stop_token stop) : account_(std::make_shared<Account>()) {
+  account_->stopped = std::move(stop);
+}
+
+Effort::Effort(std::shared_ptr<Account> account) : account_(std::move(account)) {}
+
+Effort Effort::share(std::optional<std::int64_t> trials, std::optional<double> seconds) const {
+  auto account = std::make_shared<Account>();
+  account->whole = account_;
+  account->stopped = stop();
+  if (trials) account->limit = *trials;
+  if (seconds) {
+    account->end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                      std::chrono::duration<double>(std::clamp(*seconds, 0.0, longest)));
+    account->start_timer();
+  }
+  return Effort(std::move(account));
+}
+
+std::int64_t Effort::trials_left() const {
+  std::int64_t left = std::numeric_limits<std::int64_t>::max();
+  for (const Account* one = account_.get(); one != nullptr; one = one->whole.get())
+    left = std::min(left, one->limit - one->spent);
+  return left;
+}
+
+double Effort::seconds_left() const {
+  double left = std::numeric_limits<double>::infinity();
+  for (const Account* one = account_.get(); one != nullptr; one = one->whole.get()) {
+    if (one->end) left = std::min(left, std::chrono::duration<double>(*one->end - Clock::now()).count());
+  }
+  return left;
+}
+
+bool Effort::is_spent() const {
+  return trials_left() <= 0 || seconds_left() <= 0.0 || stop().stop_requested();
+}
+
+bool Effort::is_interrupted() const {
+  const Account* outermost = account_.get();
+  while (outermost->whole) outermost = outermost->whole.get();
+  return outermost->stopped.stop_requested();
+}
+
+std::int64_t Effort::spent_trials() const {
+  return account_->spent;
+}
+
+void Effort::spend(std::int64_t trials) const {
+  if (trials > trials_left()) throw Spent{};
+  for (Account* one = account_.get(); one != nullptr; one = one->whole.get()) one->spent += trials;
+}
+
+std::stop_token Effort::stop() const {
+  return account_->end ? account_->over.get_token() : account_->stopped;
+}
+
+}  // namespace zerocount::trials

@@ -1,0 +1,41 @@
+#include "runners/trials/trial_set.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include <oneapi/tbb/enumerable_thread_specific.h>
+
+#include "analysis/parallel/parallel.hpp"
+#include "core/batch/batch.hpp"
+
+namespace zerocount::trials {
+
+TrialSet numbered_trials(std::int64_t count, std::int64_t block,
+                         std::function<trial::TrialParameters(std::int64_t number)> draw) {
+  const auto draw_block = [count, block, draw = std::move(draw)](std::size_t number) {
+    const std::int64_t first = static_cast<std::int64_t>(number) * block;
+    std::vector<trial::TrialParameters> trials;
+    for (std::int64_t i = first; i < std::min(first + block, count); ++i) trials.push_back(draw(i));
+    return trials;
+  };
+  return {count, static_cast<std::size_t>((count + block - 1) / block), draw_block};
+}
+
+void run(const TrialSet& set, const Effort& effort, const TakeBlock& take) {
+  effort.spend(set.count);
+  const std::stop_token stop = effort.stop();
+  oneapi::tbb::enumerable_thread_specific<std::unique_ptr<batch::BatchEngine>> engines(
+      [] { return std::make_unique<batch::BatchEngine>(); });
+  parallel::for_each_index(set.blocks, [&](std::size_t block) {
+    const std::vector<trial::TrialParameters> trials = set.draw(block);
+    std::vector<const trial::TrialParameters*> parameters;
+    parameters.reserve(trials.size());
+    for (const trial::TrialParameters& one : trials) parameters.push_back(&one);
+    std::vector<trial::TrialOutcome> outcomes(trials.size());
+    engines.local()->run(parameters, outcomes, {.jerk = {}, .sample = {}, .stop = stop});
+    take(block, outcomes);
+  });
+}
+
+}  // namespace zerocount::trials

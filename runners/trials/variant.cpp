@@ -1,0 +1,55 @@
+#include "runners/trials/variant.hpp"
+
+#include <fmt/format.h>
+
+#include "core/random/random_numbers.hpp"
+#include "experiments/designs/random_key.hpp"
+#include "experiments/manifest/load_study.hpp"
+#include "experiments/rules/value_rules.hpp"
+#include "experiments/study/point_edit.hpp"
+
+namespace zerocount::trials {
+
+std::uint64_t fresh_seed(std::uint64_t seed, std::string_view purpose) {
+  constexpr unsigned seed_bits = 52;
+  return random::random_bits({designs::random_key(seed, purpose), 0}, 0, random::Draw::trial) >>
+         (64U - seed_bits);
+}
+
+study::Study variant_of(const study::Study& study, const std::vector<std::string>& overrides) {
+  std::vector<std::string> all = study.overrides;
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  return manifest::parse_study(study.manifest_text, study.name, all, manifest::companions_of(study));
+}
+
+std::optional<study::Study> with_values(const study::Study& study, std::span<const std::string> parameters,
+                                        std::span<const double> values) {
+  study::PointEdit edit(study, 0);
+  for (std::size_t i = 0; i < parameters.size(); ++i) edit.set(parameters[i], values[i]);
+  if (!rules::refusal_of(edit).empty()) return std::nullopt;
+  // A goal that the hold of the study has time for must keep it (manifest/goal).
+  const auto has_time = [&](const study::PointEdit& at) {
+    return !study.goal || at.limits("command.hold").low >= study.goal->within;
+  };
+  if (!has_time(edit) && has_time(study::PointEdit(study, 0))) return std::nullopt;
+  return edit.study();
+}
+
+Replicates replicates_of(const study::Study& study, std::int64_t point) {
+  if (study.rigs == 0) return {study.trials, 1, point};
+  return {study.rigs, study.trials / study.rigs, point};
+}
+
+std::int64_t in_equal_worlds(const study::Study& study, std::int64_t count) {
+  if (study.worlds == 0) return count;
+  return (count + study.worlds - 1) / study.worlds * study.worlds;
+}
+
+std::vector<std::string> overrides_for(const study::Study& study, const Replicates& replicates) {
+  std::vector<std::string> overrides{fmt::format("trials={}", replicates.trials()), "design=monte_carlo"};
+  if (study.rigs > 0) overrides.push_back(fmt::format("rigs={}", replicates.count));
+  if (!study.retained_trials.empty()) overrides.emplace_back("retain={trials: []}");
+  return overrides;
+}
+
+}  // namespace zerocount::trials

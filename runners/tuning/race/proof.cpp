@@ -1,0 +1,49 @@
+#include "runners/tuning/race/proof.hpp"
+
+#include <utility>
+
+namespace zerocount::tuning {
+namespace {
+
+/// The attempt after one with this result; nothing if there is none worth making.
+std::optional<Attempt> next_attempt(const ProofProblem& problem, const ProvenFinalist& last) {
+  const Attempt& before = last.attempt;
+  const std::size_t correction = correction_of(before.number + 1);
+  switch (last.verdict.status) {
+    case goal::Status::met:
+      return std::nullopt;
+    case goal::Status::undecided: {
+      const std::int64_t units = problem.more_units(last.counts, correction);
+      if (units <= before.units) return std::nullopt;
+      return Attempt{before.number + 1, before.finalist, units};
+    }
+    case goal::Status::missed:
+      break;
+  }
+  const std::size_t finalist = before.finalist + 1;
+  if (finalist >= problem.promising.size() || !problem.promising[finalist]) return std::nullopt;
+  return Attempt{before.number + 1, finalist, problem.first_units(finalist, correction)};
+}
+
+}  // namespace
+
+std::size_t correction_of(int attempt) {
+  return attempt == 1 ? 2 : 4;
+}
+
+std::optional<ProvenFinalist> prove(const ProofProblem& problem) {
+  std::optional<ProvenFinalist> proven;
+  std::optional<Attempt> attempt = Attempt{1, 0, problem.first_units(0, correction_of(1))};
+  while (attempt) {
+    std::optional<measures::MoveCounts> counts = problem.run(*attempt);
+    if (!counts) break;
+    proven = ProvenFinalist{*attempt, std::move(*counts), {}};
+    proven->verdict = goal::judge_goal(problem.goal, proven->counts, correction_of(attempt->number));
+    if (problem.rejects(*attempt)) proven->verdict.status = goal::Status::missed;
+    if (attempt->number == max_attempts || !problem.goes_on()) break;
+    attempt = next_attempt(problem, *proven);
+  }
+  return proven;
+}
+
+}  // namespace zerocount::tuning

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "analysis/goal/goal_verdict.hpp"
+#include "analysis/measures/goal_counts.hpp"
+#include "experiments/study/study.hpp"
+
+namespace zerocount::tuning {
+
+/// One run of a finalist on units that neither the search nor another attempt has seen.
+struct Attempt {
+  int number{1};
+  std::size_t finalist{0};
+  std::int64_t units{0};
+};
+
+/// Attempts at most. The error probability α of the goal's confidence is divided among them, 1/2, 1/4, 1/4,
+/// so that the claim of whichever succeeds is false with probability α at most, however the finalists were
+/// found.
+inline constexpr int max_attempts = 3;
+
+/// The number of points for which judge_goal() corrects at this attempt: the reciprocal of its part of α.
+std::size_t correction_of(int attempt);
+
+struct ProofProblem {
+  study::Goal goal;
+  std::vector<bool> promising;  ///< [finalist] whether it seems to meet the goal; the best first
+  /// trials::Replicates that are expected to decide the goal with this correction, by the results of the
+  /// search.
+  std::function<std::int64_t(std::size_t finalist, std::size_t correction)> first_units;
+  /// trials::Replicates that are expected to decide it, by the results of an attempt.
+  std::function<std::int64_t(const measures::MoveCounts&, std::size_t correction)> more_units;
+  /// Nothing if the effort ended before the attempt.
+  std::function<std::optional<measures::MoveCounts>(const Attempt&)> run;
+  /// Whether the last run shows that the finalist does not keep a condition; it misses the goal then.
+  std::function<bool(const Attempt&)> rejects;
+  std::function<bool()> goes_on;  ///< whether the effort is enough for another attempt
+};
+
+/// The last attempt and its verdict.
+struct ProvenFinalist {
+  Attempt attempt;
+  measures::MoveCounts counts;
+  goal::Verdict verdict;
+};
+
+/// Proves the best finalist. One that misses the goal is followed by the next; one that stays undecided is
+/// run again on more units, if more are expected to decide. Nothing if the effort ended before the first
+/// attempt.
+std::optional<ProvenFinalist> prove(const ProofProblem& problem);
+
+}  // namespace zerocount::tuning

@@ -1,0 +1,338 @@
+#include "runners/tuning/race/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "core/random/number_source.hpp"
+#include "experiments/designs/random_key.hpp"
+
+namespace zerocount::tuning {
+namespace {
+
+constexpr double error_of_dropping = 0.01;
+constexpr int tries_of_candidate = 60;       // draws for one admissible candidate
+constexpr std::size_t places_at_once = 32;   // to be examined
+constexpr double first_step = 0.15;          // in the unit cube
+constexpr double step_ratio = 0.8;           // from generation to generation
+constexpr int patience = 4;                  // generations without improvement
+constexpr double least_improvement = 0.005;  // of the criterion
+constexpr double examining = 0.3;            // of the time left, at most, to find candidates of a generation
+
+class Search {
+ public:
+  Search(const SearchProblem& problem, const SearchSettings& settings)
+      : problem_(problem),
+        settings_(settings),
+        numbers_{designs::random_key(settings.seed, "tuning"), 0},
+        step_(first_step) {}
+
+  SearchResult run() {
+    first_generation();
+    int without = 0;
+    while (!population_.empty()) {
+      tell();
+      if (!goes_on()) break;
+      const Estimate before = best_estimate();
+      next_generation();
+      if (population_.empty()) break;
+      without = improves(before, best_estimate()) ? 0 : without + 1;
+      if (without >= patience) {
+        result_.converged = true;
+        break;
+      }
+    }
+    return finish();
+  }
+
+ private:
+  std::size_t index_below(std::size_t size) {
+    return std::min(static_cast<std::size_t>(numbers_.uniform() * static_cast<double>(size)), size - 1);
+  }
+
+  /// Adds the places that are admissible and new, up to `wanted` of them.
+  void add_admissible(const std::vector<Place>& places, std::size_t wanted, std::vector<Candidate>& to) {
+    std::vector<Candidate> drawn;
+    for (const Place& place : places) {
+      Values at = values_at(problem_.free, place);
+      if (!tried_.insert(at).second) continue;
+      drawn.push_back({place_of(problem_.free, at), at, {}});
+    }
+    keep_admissible(drawn);
+    for (Candidate& one : drawn) {
+      if (to.size() == wanted) return;
+      to.push_back(std::move(one));
+    }
+  }
+
+  void keep_admissible(std::vector<Candidate>& candidates) const {
+    const std::vector<bool> admissible = problem_.admissible(candidates);
+    std::vector<Candidate> kept;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      if (admissible[i]) kept.push_back(std::move(candidates[i]));
+    }
+    candidates = std::move(kept);
+  }
+
+  /// Calls `add` until it has found a generation, or some candidates in a part of the time.
+  void find(std::vector<Candidate>& candidates, const std::function<bool()>& add) {
+    const double end = (1.0 - examining) * settings_.effort.seconds_left();
+    const bool ended = trials::within(settings_.effort, [&] {
+      while (add() && (candidates.empty() || !(settings_.effort.seconds_left() < end))) {
+      }
+    });
+    result_.cut = result_.cut || !ended;
+  }
+
+  void first_generation() {
+    const auto wanted = static_cast<std::size_t>(problem_.size.first_candidates);
+    std::vector<double> start;
+    for (std::size_t i = 0; i < problem_.free.size(); ++i) start.push_back(numbers_.uniform());
+    std::vector<Candidate> candidates;
+    std::vector<Place> places;
+    for (const Values& values : problem_.starts) places.push_back(place_of(problem_.free, values));
+    find(candidates, [&] {
+      add_admissible(places, wanted, candidates);
+      return false;
+    });
+    for (const std::vector<std::size_t>& face : problem_.faces)
+      spread(candidates, start, face,
+             candidates.size() + static_cast<std::size_t>(problem_.size.face_candidates));
+    const std::size_t on_faces =
+        problem_.faces.size() * static_cast<std::size_t>(problem_.size.face_candidates);
+    spread(candidates, start, {}, wanted + std::min(candidates.size(), on_faces));
+    race(std::move(candidates));
+  }
+
+  /// Adds candidates that are evenly spread over a face, up to `wanted` of all.
+  void spread(std::vector<Candidate>& candidates, const std::vector<double>& start,
+              const std::vector<std::size_t>& face, std::size_t wanted) {
+    if (wanted <= candidates.size()) return;
+    std::int64_t drawn = 0;
+    const auto most = static_cast<std::int64_t>(wanted - candidates.size()) * tries_of_candidate;
+    find(candidates, [&] {
+      std::vector<Place> places;
+      for (std::size_t i = 0; i < places_at_once; ++i) {
+        places.push_back(spread_place(start, drawn++));
+        for (const std::size_t parameter : face) places.back()[parameter] = 0.0;
+      }
+      add_admissible(places, wanted, candidates);
+      return candidates.size() < wanted && drawn < most;
+    });
+  }
+
+  /// A place near an elite, moved along the difference of two others: their spread knows the direction of a
+  /// narrow valley.
+  Place place_near_elites(double step) {
+    const std::size_t elites = population_.size();
+    const double u = numbers_.uniform();
+    const Place& centre = population_[static_cast<std::size_t>(u * u * static_cast<double>(elites))].place;
+    const Place& from = population_[index_below(elites)].place;
+    const Place& to = population_[index_below(elites)].place;
+    const double along = numbers_.uniform() < 0.7 ? 0.8 * numbers_.uniform() : 0.0;
+    Place place;
+    for (std::size_t i = 0; i < centre.size(); ++i) {
+      const double moved = centre[i] + along * (to[i] - from[i]) + step * numbers_.normal();
+      place.push_back(std::clamp(moved, 0.0, 1.0));
+    }
+    return place;
+  }
+
+  /// Where few places are admissible, they are near those that are: each try takes shorter steps.
+  void next_generation() {
+    std::vector<Candidate> candidates;
+    const auto wanted = static_cast<std::size_t>(problem_.size.candidates);
+    int tries = 0;
+    find(candidates, [&] {
+      std::vector<Place> places;
+      for (std::size_t i = candidates.size(); i < wanted; ++i)
+        places.push_back(place_near_elites(step_ / (1.0 + 0.2 * tries)));
+      add_admissible(places, wanted, candidates);
+      return ++tries < tries_of_candidate && candidates.size() < wanted;
+    });
+    race(std::move(candidates));
+    step_ *= step_ratio;
+  }
+
+  /// Lets the candidates race with the population; the best of all become the population.
+  void race(std::vector<Candidate> candidates) {
+    ++result_.generations;
+    result_.points += std::ssize(candidates);
+    for (Candidate& one : population_) candidates.push_back(std::move(one));
+    population_.clear();
+    std::int64_t units = std::min(problem_.size.first_units, problem_.size.max_units);
+    const bool ended = trials::within(settings_.effort, [&] {
+      while (!candidates.empty()) {
+        run_units(candidates, units);
+        keep_admissible(candidates);
+        sort_by_merit(candidates, units);
+        verify_leaders(candidates);
+        if (candidates.empty()) return;
+        drop(candidates, units);
+        if (units == problem_.size.max_units) return;
+        units = std::min(2 * units, problem_.size.max_units);
+      }
+    });
+    if (!ended) {
+      result_.cut = true;
+      keep_those_with_most_units(candidates);
+    }
+    const auto elites = static_cast<std::size_t>(problem_.size.elites);
+    if (candidates.size() > elites) candidates.resize(elites);
+    population_ = std::move(candidates);
+  }
+
+  /// Runs the candidates that are behind, in their order, and drops those for which no trials are left.
+  /// @throws trials::Spent if none are left for the first of them
+  void run_units(std::vector<Candidate>& candidates, std::int64_t units) {
+    std::vector<Candidate*> behind;
+    std::int64_t trials = 0;
+    for (Candidate& one : candidates) {
+      const std::int64_t missing = (units - std::ssize(one.units)) * problem_.trials_of_unit;
+      if (missing <= 0) continue;
+      if (trials + missing > settings_.effort.trials_left()) {
+        if (behind.empty()) throw trials::Spent{};
+        break;
+      }
+      behind.push_back(&one);
+      trials += missing;
+    }
+    settings_.effort.spend(trials);
+    result_.trials += trials;
+    problem_.evaluate(behind, units);
+    std::erase_if(candidates, [units](const Candidate& one) { return std::ssize(one.units) < units; });
+  }
+
+  /// Few units make candidates look better than they are: those with fewer than others are dropped.
+  void keep_those_with_most_units(std::vector<Candidate>& candidates) {
+    std::int64_t most = 1;
+    for (const Candidate& one : candidates) most = std::max(most, std::ssize(one.units));
+    std::erase_if(candidates, [most](const Candidate& one) { return std::ssize(one.units) < most; });
+    sort_by_merit(candidates, most);
+  }
+
+  void sort_by_merit(std::vector<Candidate>& candidates, std::int64_t units) {
+    std::vector<std::pair<Estimate, std::size_t>> order;
+    order.reserve(candidates.size());
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      order.emplace_back(estimate_of(problem_.aim, candidates[i], units), i);
+      Estimate& latest = estimates_[candidates[i].values];
+      if (order.back().first.units >= latest.units) latest = order.back().first;
+    }
+    std::ranges::stable_sort(
+        order, [this](const auto& a, const auto& b) { return is_better(problem_.aim, a.first, b.first); });
+    std::vector<Candidate> sorted;
+    sorted.reserve(candidates.size());
+    for (const auto& [estimate, i] : order) sorted.push_back(std::move(candidates[i]));
+    candidates = std::move(sorted);
+  }
+
+  /// Removes candidates that do not keep all conditions, until as many as become the population lead that do:
+  /// others are dropped because of these.
+  void verify_leaders(std::vector<Candidate>& candidates) {
+    const auto wanted = static_cast<std::size_t>(problem_.size.elites);
+    for (std::size_t i = 0; i < std::min(wanted, candidates.size());) {
+      if (problem_.verified(candidates[i])) {
+        ++i;
+        continue;
+      }
+      candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(i));
+      keep_admissible(candidates);
+    }
+  }
+
+  /// Drops the candidates that cannot win: those that surely miss the goal, and those that are surely later
+  /// than one that surely meets it. Of the others the better half stays at each doubling of the units, as in
+  /// successive halving, so that a race between equals ends: by turns the best and the most reliable, because
+  /// few units make fast points look as if they met the goal.
+  void drop(std::vector<Candidate>& candidates, std::int64_t units) const {
+    const Aim& aim = problem_.aim;
+    std::vector<std::size_t> by_rate(candidates.size());
+    std::vector<Estimate> estimates;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      by_rate[i] = i;
+      estimates.push_back(estimate_of(aim, candidates[i], units));
+    }
+    std::ranges::stable_sort(
+        by_rate, [&](std::size_t a, std::size_t b) { return estimates[a].rate > estimates[b].rate; });
+    const Candidate& reliable = candidates[by_rate.front()];
+    const auto sure = std::ranges::find_if(
+        candidates, [&](const Candidate& one) { return surely_meets(aim, one, error_of_dropping); });
+    const auto stays = [&](const Candidate& one) {
+      return !surely_misses(aim, one, reliable, error_of_dropping) &&
+             (sure == candidates.end() || &one == &*sure ||
+              !surely_later(aim, one, *sure, error_of_dropping));
+    };
+    const auto most = static_cast<std::size_t>(most_after(problem_.size, units));
+    std::vector<char> chosen(candidates.size(), 0);
+    std::size_t count = 0;
+    const auto choose = [&](std::size_t i) {
+      if (count == most || chosen[i] != 0 || !stays(candidates[i])) return;
+      chosen[i] = 1;
+      ++count;
+    };
+    for (std::size_t place = 0; place < candidates.size(); ++place) {
+      choose(place);
+      choose(by_rate[place]);
+    }
+    std::vector<Candidate> left;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      if (chosen[i] != 0) left.push_back(std::move(candidates[i]));
+    }
+    candidates = std::move(left);
+  }
+
+  Estimate best_estimate() const {
+    return estimate_of(problem_.aim, population_.front(), problem_.size.max_units);
+  }
+
+  bool improves(const Estimate& before, const Estimate& now) const {
+    const bool met = seems_to_meet(problem_.aim, before);
+    if (met != seems_to_meet(problem_.aim, now)) return !met;
+    if (met) return now.criterion < before.criterion * (1.0 - least_improvement);
+    return now.rate > before.rate + 0.001;
+  }
+
+  void tell() const {
+    if (!settings_.tell) return;
+    settings_.tell(
+        {result_.generations, result_.points, result_.trials, &population_.front(), best_estimate()});
+  }
+
+  /// A generation of which no candidate can end its race is not begun.
+  bool goes_on() const {
+    return result_.generations < settings_.generations && !settings_.effort.is_spent() &&
+           settings_.effort.trials_left() >= problem_.size.max_units * problem_.trials_of_unit;
+  }
+
+  SearchResult finish() {
+    // Every finalist is to be fit for the proof.
+    for (Candidate& one : population_) {
+      if (problem_.verified(one)) result_.finalists.push_back(std::move(one));
+    }
+    for (const Candidate& one : result_.finalists)
+      result_.estimates.push_back(estimate_of(problem_.aim, one, problem_.size.max_units));
+    result_.tried.reserve(estimates_.size());
+    for (const auto& [values, estimate] : estimates_) result_.tried.push_back({values, estimate});
+    return std::move(result_);
+  }
+
+  const SearchProblem& problem_;
+  const SearchSettings& settings_;
+  random::NumberSource numbers_;
+  double step_;
+  std::set<Values> tried_;
+  std::map<Values, Estimate> estimates_;  ///< of all that were simulated
+  std::vector<Candidate> population_;     ///< the best first
+  SearchResult result_;
+};
+
+}  // namespace
+
+SearchResult search(const SearchProblem& problem, const SearchSettings& settings) {
+  return Search(problem, settings).run();
+}
+
+}  // namespace zerocount::tuning

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "experiments/study/tuning.hpp"
+#include "runners/trials/effort.hpp"
+#include "runners/tuning/race/candidate.hpp"
+#include "runners/tuning/race/frontier.hpp"
+#include "runners/tuning/race/search_size.hpp"
+
+/// Iterated racing (López-Ibáñez et al., "The irace package", Operations Research Perspectives 3, 2016): a
+/// generation of candidates is drawn around the best of those before it, and races over units that are the
+/// same for all of them. A candidate that cannot win is dropped after few units.
+namespace zerocount::tuning {
+
+/// The problem as the search sees it.
+struct SearchProblem {
+  std::vector<study::FreeParameter> free;
+  Aim aim;
+  std::vector<Values> starts{};  ///< candidates of the first generation, such as the manifest's values
+  /// Faces of the ranges on which the first generation seeks too, each the free parameters that are at their
+  /// low ends: a control with fewer blocks, which may be the better one, and the only admissible one.
+  std::vector<std::vector<std::size_t>> faces{};
+  SearchSize size{};
+  std::int64_t trials_of_unit{1};
+
+  /// Appends the results of the units up to `to` to every candidate; to none of them if it throws
+  /// trial::Interrupted, because the time is over.
+  std::function<void(std::span<Candidate* const>, std::int64_t to)> evaluate;
+  /// [candidate] whether it may be tried at all, or go on after what its units did. Cheap: called for many
+  /// candidates.
+  std::function<std::vector<bool>(std::span<const Candidate>)> admissible;
+  /// Whether a candidate keeps all conditions, also those that are costly to examine. Called for candidates
+  /// that lead; what `admissible` says may become stricter by it.
+  std::function<bool(const Candidate&)> verified;
+};
+
+/// Progress of a search.
+struct SearchProgress {
+  int generation{0};
+  std::int64_t points{0};
+  std::int64_t trials{0};
+  const Candidate* best{nullptr};
+  Estimate estimate{};
+};
+
+struct SearchSettings {
+  std::uint64_t seed{0};
+  int generations{30};
+  trials::Effort effort{};                            ///< the search spends its trials
+  std::function<void(const SearchProgress&)> tell{};  ///< called after each generation
+};
+
+struct SearchResult {
+  std::vector<Candidate> finalists;  ///< the best first; none if no candidate is admissible
+  std::vector<Estimate> estimates;   ///< [finalist] by all units
+  std::vector<TriedPoint> tried;     ///< all that were simulated
+  std::int64_t points{0};            ///< candidates that were simulated
+  std::int64_t trials{0};
+  int generations{0};
+  bool converged{false};  ///< the last generations improved nothing
+  bool cut{false};        ///< the effort ended within a generation
+};
+
+/// Seeks the best values within the effort. Where that ends within a race, the candidates with the most units
+/// stay.
+/// @throws trial::Interrupted
+SearchResult search(const SearchProblem& problem, const SearchSettings& settings);
+
+}  // namespace zerocount::tuning

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace zerocount::tuning {
+
+/// Numbers of candidates and units of a search. A race begins with all candidates on the first units. At each
+/// doubling of the units fewer stay, so that every round costs about the same.
+struct SearchSize {
+  std::int64_t first_candidates{96};  ///< of the first generation, which fills the ranges
+  std::int64_t face_candidates{0};    ///< of it, for each face (SearchProblem::faces)
+  std::int64_t candidates{32};        ///< of each later generation
+  std::int64_t elites{8};             ///< that a generation leaves to the next
+  std::int64_t first_units{64};
+  std::int64_t max_units{2048};
+};
+
+/// Candidates at most that stay in a race after `units` units.
+std::int64_t most_after(const SearchSize& size, std::int64_t units);
+
+/// trials::Replicates that a race of the first generation runs at most, over all candidates.
+std::int64_t first_race_units(const SearchSize& size, std::size_t faces);
+
+/// What the size of a search depends on, beside the effort.
+struct SearchScope {
+  std::size_t free{1};           ///< parameters
+  std::size_t faces{0};          ///< SearchProblem::faces
+  std::int64_t max_units{2048};  ///< of the largest search
+  std::int64_t worlds{0};        ///< each is to have some units; 0: none
+};
+
+/// The largest search whose first generation takes at most half of so many units; the smallest one if there
+/// is none.
+SearchSize search_size(const SearchScope& scope, std::int64_t units);
+
+/// The smallest search that finds something.
+SearchSize smallest_search(const SearchScope& scope);
+
+}  // namespace zerocount::tuning

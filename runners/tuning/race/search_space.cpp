@@ -1,0 +1,54 @@
+#include "runners/tuning/race/search_space.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace zerocount::tuning {
+namespace {
+
+/// The nearest number with four significant digits.
+double shortened(double value) {
+  if (value == 0.0 || !std::isfinite(value)) return value;
+  const double unit = std::pow(10.0, 3.0 - std::floor(std::log10(std::abs(value))));
+  return std::round(value * unit) / unit;
+}
+
+}  // namespace
+
+Values values_at(std::span<const study::FreeParameter> free, const Place& place) {
+  Values values;
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    const study::FreeParameter& one = free[i];
+    const double share = std::clamp(place[i], 0.0, 1.0);
+    const double value = one.logarithmic ? one.low * std::pow(one.high / one.low, share)
+                                         : one.low + (one.high - one.low) * share;
+    values.push_back(std::clamp(one.whole ? std::round(value) : shortened(value), one.low, one.high));
+  }
+  return values;
+}
+
+Place place_of(std::span<const study::FreeParameter> free, const Values& values) {
+  Place place;
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    const study::FreeParameter& one = free[i];
+    const double value = std::clamp(values[i], one.low, one.high);
+    place.push_back(one.logarithmic ? std::log(value / one.low) / std::log(one.high / one.low)
+                                    : (value - one.low) / (one.high - one.low));
+  }
+  return place;
+}
+
+Place spread_place(std::span<const double> start, std::int64_t i) {
+  double g = 2.0;
+  for (int step = 0; step < 60; ++step) g = std::pow(1.0 + g, 1.0 / static_cast<double>(start.size() + 1));
+  Place place;
+  double ratio = 1.0;
+  for (const double first : start) {
+    ratio /= g;
+    const double value = first + static_cast<double>(i) * ratio;
+    place.push_back(value - std::floor(value));
+  }
+  return place;
+}
+
+}  // namespace zerocount::tuning

@@ -1,0 +1,125 @@
+// A study with other values is the same, to the bit, as the one whose manifest has these values.
+#include "runners/trials/variant.hpp"
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+
+#include "core/failure/failure.hpp"
+#include "core/trial/trial.hpp"
+#include "experiments/manifest/load_study.hpp"
+#include "experiments/study/plan.hpp"
+#include "experiments/study/point_limits.hpp"
+
+namespace zerocount::trials {
+namespace {
+
+const char* const manifests[] = {
+    "zerocount: 1\nname: rotary\nseed: 4\ntrials: 8\ncommand: {targets: [12], hold: 0.2}\n"
+    "friction: {k1: {lognormal: {median: 110, cv: 0.2}}}\ncontroller: {ki: 3.85e-5, delay: 1}\n"
+    "goal: {band: 1, within: 0.15, moves: 0.9}\n",
+    "zerocount: 1\nname: si\nseed: 5\ntrials: 8\nrigs: 4\ncommand: {targets: [500], hold: 0.2}\n"
+    "plant: {presliding_damping: 0.2, sliding_damping: 1.0e-3}\n"
+    "friction: {model: lugre, alpha: {uniform: [0.5, 2]}}\n"
+    "controller: {units: si, sample_rate: 4000, kp: 3.0, ki: 40, kd: 0.02}\n"
+    "encoder: {fine_errors: {noise: 0.1}}\n",
+    "zerocount: 1\nname: two phases\nseed: 6\ntrials: 8\ncommand: {targets: [200], hold: 0.2}\n"
+    "controller: {ki: 2.0e-5, coarse: {coarse_beyond: 40, fine_within: 10, kp: 1.0e-4, ki: 2.0e-5}}\n",
+};
+
+/// The study whose manifest has these values; nothing where they are refused.
+std::optional<study::Study> parsed(const study::Study& study, const std::vector<std::string>& names,
+                                   const std::vector<double>& values, std::string& refusal) {
+  std::vector<std::string> overrides;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    overrides.push_back(fmt::format("{}={}", names[i], values[i]));
+  try {
+    return variant_of(study, overrides);
+  } catch (const Failure& failure) {
+    refusal = failure.what();
+    return std::nullopt;
+  }
+}
+
+double value_of(const study::Study& study, const std::string& name) {
+  const std::vector<std::string_view> names{name};
+  return study.plan->base[study::slots_named(study.plan->table, names).front()].number;
+}
+
+/// The numbers of the study that have one value, and an effect.
+std::vector<std::string> one_numbers(const study::Study& study) {
+  std::vector<std::string> names;
+  const study::StudyPlan& plan = *study.plan;
+  std::string refusal;
+  for (std::size_t slot = 0; slot < plan.base.size(); ++slot) {
+    const parameters::Parameter& row = plan.table.rows[slot];
+    const bool number =
+        row.kind == parameters::ParameterKind::real || row.kind == parameters::ParameterKind::whole_number;
+    const std::string name(row.name);
+    if (number && plan.base[slot].kind == study::Value::Kind::number &&
+        parsed(study, {name}, {plan.base[slot].number}, refusal))
+      names.push_back(name);
+  }
+  return names;
+}
+
+double other_value(const study::Study& study, const std::string& name, std::mt19937& random) {
+  const double value = value_of(study, name);
+  std::normal_distribution<double> normal;
+  if (value == 0.0 || std::isnan(value)) return std::exp(-6.0 + 4.0 * normal(random));
+  const double scaled = value * std::exp(0.5 * normal(random));
+  return value == std::round(value) ? std::round(scaled) : scaled;
+}
+
+std::vector<double> motion_of(const study::Study& study, std::int64_t trial) {
+  std::vector<double> motion;
+  trial::TrialObservers observers;
+  observers.sample = [&](const trial::SampleRecord& sample) {
+    motion.insert(motion.end(), {sample.theta, sample.torque, static_cast<double>(sample.count)});
+  };
+  trial::run_trial(study::study_trial(study, 0, trial).parameters, observers);
+  return motion;
+}
+
+TEST(Variant, WithValuesIsTheStudyWhoseManifestHasThem) {
+  std::mt19937 random(3);
+  int allowed = 0, refused = 0;
+  for (const char* const text : manifests) {
+    const study::Study study = manifest::parse_study(text, "test");
+    const std::vector<std::string> all = one_numbers(study);
+    for (int i = 0; i < 60; ++i) {
+      std::vector<std::string> names;
+      std::vector<double> values;
+      for (std::size_t k = 0; k < 1 + random() % 3; ++k) {
+        names.push_back(all[random() % all.size()]);
+        values.push_back(other_value(study, names.back(), random));
+      }
+      const std::optional<study::Study> edited = with_values(study, names, values);
+      std::string refusal;
+      const std::optional<study::Study> expected = parsed(study, names, values, refusal);
+      SCOPED_TRACE(fmt::format("{}: {} = {}: {}", study.name, fmt::join(names, ", "), fmt::join(values, ", "),
+                               refusal));
+      if (refusal.find("it has no effect") != std::string::npos) continue;  // such a manifest is a mistake
+      ASSERT_EQ(edited.has_value(), expected.has_value());
+      (edited ? allowed : refused) += 1;
+      if (edited && expected) {
+        EXPECT_EQ(motion_of(*edited, i % 8), motion_of(*expected, i % 8));
+      }
+    }
+  }
+  EXPECT_GT(allowed, 60);
+  EXPECT_GT(refused, 5);
+}
+
+TEST(Variant, AFreshSeedDiffersForEachPurpose) {
+  EXPECT_NE(fresh_seed(1, "confirmation"), fresh_seed(1, "tuning, proof 1"));
+  EXPECT_EQ(fresh_seed(1, "confirmation"), fresh_seed(1, "confirmation"));
+  for (std::uint64_t seed = 0; seed < 100; ++seed) EXPECT_LT(fresh_seed(seed, "x"), std::uint64_t{1} << 52U);
+}
+
+}  // namespace
+}  // namespace zerocount::trials

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "core/random/random_numbers.hpp"
+#include "experiments/study/study.hpp"
+#include "runners/tuning/race/search.hpp"
+
+namespace zerocount::tuning {
+
+/// A problem of two parameters in [0, 1] with a known truth: the rate of the goal falls with the distance
+/// from `reliable`, the settling time with that from `fast`.
+struct MadeUpProblem {
+  std::uint64_t seed{1};
+  double highest_rate{0.99};
+  double fall{0.4};  ///< of the rate per squared distance
+  Values reliable{0.3, 0.6};
+  Values fast{0.7, 0.4};
+  study::Goal goal{.within = 1.0, .moves = 0.95};
+
+  static double squared_distance(const Values& a, const Values& b) {
+    return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]);
+  }
+  double rate(const Values& at) const { return highest_rate - fall * squared_distance(at, reliable); }
+  double typical_time(const Values& at) const { return 0.01 + squared_distance(at, fast); }
+
+  double uniform(std::uint64_t stream, std::uint64_t unit, const Values& at) const {
+    const auto hash = [](double x) { return static_cast<std::uint64_t>(x * 1e9); };
+    return random::open_uniform(
+        random::random_bits({{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(stream)}, 0},
+                            unit + (hash(at[0]) << 20U) + (hash(at[1]) << 42U), random::Draw::trial));
+  }
+
+  /// The result of a unit: half of its luck is the machine's, the same at all points, half that of the point.
+  UnitResult result(const Values& at, std::uint64_t unit) const {
+    const Values everywhere{0.0, 0.0};
+    const auto normal = [&](std::uint64_t stream, const Values& place) {
+      const double u = uniform(stream, unit, place);
+      return std::sqrt(-2.0 * std::log(u)) *
+             std::cos(2.0 * std::numbers::pi * uniform(stream + 1, unit, place));
+    };
+    const double luck = std::sqrt(0.5) * (normal(1, everywhere) + normal(3, at));
+    const bool met = 0.5 * std::erfc(luck / std::sqrt(2.0)) < rate(at);
+    return {1, met ? 1 : 0, {typical_time(at) * std::exp(0.3 * normal(5, everywhere))}};
+  }
+
+  SearchProblem problem(std::int64_t units) const {
+    SearchProblem problem;
+    problem.free = {{.name = "x", .low = 0.0, .high = 1.0}, {.name = "y", .low = 0.0, .high = 1.0}};
+    problem.aim = {.moves = goal.moves, .quantile = 0.95};
+    problem.size = search_size({.free = problem.free.size(), .max_units = units}, std::int64_t{1} << 40);
+    problem.evaluate = [this](std::span<Candidate* const> candidates, std::int64_t to) {
+      for (Candidate* one : candidates) {
+        while (std::ssize(one->units) < to) one->units.push_back(result(one->values, one->units.size()));
+      }
+    };
+    problem.admissible = [](std::span<const Candidate> candidates) {
+      return std::vector<bool>(candidates.size(), true);
+    };
+    problem.verified = [](const Candidate&) { return true; };
+    return problem;
+  }
+};
+
+}  // namespace zerocount::tuning

@@ -1,0 +1,128 @@
+// Claims of a proof hold, however the finalists were found; the rate of the best of a search does not.
+#include "runners/tuning/race/proof.hpp"
+
+#include <gtest/gtest.h>
+
+#include "runners/tuning/race/search.hpp"
+#include "tests/runners/tuning/race/made_up_problem.hpp"
+
+namespace zerocount::tuning {
+namespace {
+
+measures::MoveCounts counts_of(const MadeUpProblem& truth, const Values& at, std::uint64_t first,
+                               std::int64_t units) {
+  measures::MoveCounts counts;
+  for (std::int64_t i = 0; i < units; ++i) {
+    const UnitResult unit = truth.result(at, first + static_cast<std::uint64_t>(i));
+    counts.moves += unit.moves;
+    counts.met += unit.met;
+    counts.of_trials.add(unit.met, unit.moves);
+  }
+  return counts;
+}
+
+TEST(Proof, ItsClaimsHoldAndThoseOfTheSearchDoNot) {
+  constexpr int repetitions = 200;
+  int wrong_claims = 0;
+  int wrong_bounds = 0;
+  int wrong_bounds_of_search = 0;
+  int claims = 0;
+  for (int repetition = 0; repetition < repetitions; ++repetition) {
+    // The rate is nearly the same everywhere, about what the goal asks for: the search picks lucky points.
+    const auto seed = static_cast<std::uint64_t>(repetition + 1);
+    const MadeUpProblem truth{.seed = seed, .highest_rate = 0.94 + 0.00015 * repetition, .fall = 0.01};
+    const SearchResult found = search(truth.problem(256), {.seed = seed, .generations = 4});
+    ASSERT_FALSE(found.finalists.empty());
+
+    ProofProblem problem;
+    problem.goal = truth.goal;
+    for (const Estimate& one : found.estimates)
+      problem.promising.push_back(seems_to_meet({.moves = truth.goal.moves}, one));
+    problem.first_units = [](std::size_t, std::size_t) { return std::int64_t{2000}; };
+    problem.more_units = [](const measures::MoveCounts&, std::size_t) { return std::int64_t{6000}; };
+    problem.run = [&](const Attempt& attempt) -> std::optional<measures::MoveCounts> {
+      const auto first = static_cast<std::uint64_t>(attempt.number) << 16U;
+      return counts_of(truth, found.finalists[attempt.finalist].values, first, attempt.units);
+    };
+    problem.rejects = [](const Attempt&) { return false; };
+    problem.goes_on = [] { return true; };
+    const ProvenFinalist proven = prove(problem).value();
+    const Values& at = found.finalists[proven.attempt.finalist].values;
+    claims += proven.verdict.status == goal::Status::met ? 1 : 0;
+    wrong_claims += proven.verdict.status == goal::Status::met && truth.rate(at) < truth.goal.moves ? 1 : 0;
+    wrong_bounds += proven.verdict.moves.low > truth.rate(at) ? 1 : 0;
+
+    const Values& best = found.finalists.front().values;
+    const goal::Verdict of_search = goal::judge_goal(truth.goal, counts_of(truth, best, 0, 256), 1);
+    wrong_bounds_of_search += of_search.moves.low > truth.rate(best) ? 1 : 0;
+  }
+  std::cout << claims << " claims, " << wrong_claims << " of them wrong; bounds wrong: " << wrong_bounds
+            << " of the proof, " << wrong_bounds_of_search << " of the best of the search\n";
+  EXPECT_GT(claims, repetitions / 4);
+  EXPECT_LE(wrong_claims, repetitions / 20);
+  EXPECT_LE(wrong_bounds, repetitions / 20);
+  EXPECT_GT(wrong_bounds_of_search, repetitions / 10);
+}
+
+TEST(Proof, AttemptsShareTheErrorProbability) {
+  double sum = 0.0;
+  for (int attempt = 1; attempt <= max_attempts; ++attempt)
+    sum += 1.0 / static_cast<double>(correction_of(attempt));
+  EXPECT_DOUBLE_EQ(sum, 1.0);
+}
+
+TEST(Proof, GoesOnToTheNextFinalistAfterAMissAndToMoreUnitsWhenUndecided) {
+  std::vector<Attempt> attempts;
+  ProofProblem problem;
+  problem.goal = {.within = 1.0, .moves = 0.95};
+  problem.promising = {true, true};
+  problem.first_units = [](std::size_t, std::size_t) { return std::int64_t{1000}; };
+  problem.more_units = [](const measures::MoveCounts&, std::size_t) { return std::int64_t{4000}; };
+  problem.goes_on = [] { return true; };
+  problem.rejects = [](const Attempt&) { return false; };
+  problem.run = [&](const Attempt& attempt) -> std::optional<measures::MoveCounts> {
+    attempts.push_back(attempt);
+    const double rate = attempt.finalist == 0 ? 0.8 : attempt.units == 1000 ? 0.955 : 0.97;
+    measures::MoveCounts counts;
+    for (std::int64_t i = 0; i < attempt.units; ++i) {
+      const bool met = static_cast<double>(i) < rate * static_cast<double>(attempt.units);
+      ++counts.moves;
+      counts.met += met ? 1 : 0;
+      counts.of_trials.add(met ? 1 : 0, 1);
+    }
+    return counts;
+  };
+  const ProvenFinalist proven = prove(problem).value();
+  ASSERT_EQ(attempts.size(), 3U);
+  EXPECT_EQ(attempts[1].finalist, 1U);
+  EXPECT_EQ(attempts[2].finalist, 1U);
+  EXPECT_EQ(attempts[2].units, 4000);
+  EXPECT_EQ(proven.verdict.status, goal::Status::met);
+}
+
+// Such as margins of the sliding loop, where only the proof slides.
+TEST(Proof, GoesOnToTheNextFinalistWhereItRejectsOneThatMeetsTheGoal) {
+  ProofProblem problem;
+  problem.goal = {.within = 1.0, .moves = 0.95};
+  problem.promising = {true, true};
+  problem.first_units = [](std::size_t, std::size_t) { return std::int64_t{1000}; };
+  problem.goes_on = [] { return true; };
+  problem.run = [](const Attempt& attempt) -> std::optional<measures::MoveCounts> {
+    measures::MoveCounts counts;
+    for (std::int64_t i = 0; i < attempt.units; ++i) {
+      ++counts.moves;
+      ++counts.met;
+      counts.of_trials.add(1, 1);
+    }
+    return counts;
+  };
+  problem.rejects = [](const Attempt& attempt) { return attempt.finalist == 0; };
+  const ProvenFinalist proven = prove(problem).value();
+  EXPECT_EQ(proven.attempt.finalist, 1U);
+  EXPECT_EQ(proven.verdict.status, goal::Status::met);
+  problem.promising = {true};
+  EXPECT_EQ(prove(problem).value().verdict.status, goal::Status::missed);
+}
+
+}  // namespace
+}  // namespace zerocount::tuning

@@ -1,0 +1,165 @@
+// The search, on problems with a known truth.
+#include "runners/tuning/race/search.hpp"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "tests/runners/tuning/race/made_up_problem.hpp"
+
+namespace zerocount::tuning {
+namespace {
+
+/// The smallest time of a dense grid among the points whose rate reaches the goal.
+double best_time(const MadeUpProblem& truth) {
+  double best = 1.0;
+  constexpr int steps = 400;
+  for (int i = 0; i <= steps; ++i) {
+    for (int j = 0; j <= steps; ++j) {
+      const Values at{static_cast<double>(i) / steps, static_cast<double>(j) / steps};
+      if (truth.rate(at) >= truth.goal.moves) best = std::min(best, truth.typical_time(at));
+    }
+  }
+  return best;
+}
+
+trials::Effort effort_of(std::int64_t trials) {
+  return trials::Effort().share(trials, {});
+}
+
+TEST(Search, FindsTheFastestPointThatMeetsTheGoal) {
+  int found = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const MadeUpProblem truth{.seed = seed};
+    const SearchResult result = search(truth.problem(2048), {.seed = seed, .effort = effort_of(200'000)});
+    ASSERT_FALSE(result.finalists.empty());
+    const Values& best = result.finalists.front().values;
+    found += truth.typical_time(best) <= 1.3 * best_time(truth) && truth.rate(best) >= 0.944 ? 1 : 0;
+  }
+  EXPECT_GE(found, 17);
+}
+
+TEST(Search, RunsMostTrialsWhereTheDecisionIsOpen) {
+  const MadeUpProblem truth;
+  const SearchResult result = search(truth.problem(2048), {.seed = 1});
+  EXPECT_LT(result.trials, result.points * 2048 / 2);
+}
+
+// An effort of any size is kept to the trial, and a smaller one makes a smaller search.
+TEST(Search, SpendsNoMoreThanItsEffort) {
+  const MadeUpProblem truth;
+  std::int64_t last = 0;
+  for (std::int64_t trials = 500; trials < 60'000; trials = trials * 3 / 2) {
+    SearchProblem problem = truth.problem(2048);
+    problem.size = search_size({.free = 2}, trials);
+    const trials::Effort whole = trials::Effort().share(trials + 77, {});
+    const SearchResult result = search(problem, {.seed = 3, .effort = whole.share(trials, {})});
+    EXPECT_LE(result.trials, trials);
+    EXPECT_EQ(result.trials, whole.spent_trials());
+    EXPECT_GT(result.trials, last / 2);
+    last = result.trials;
+    ASSERT_FALSE(result.finalists.empty()) << trials;
+    for (const Candidate& one : result.finalists)
+      EXPECT_EQ(one.units.size(), result.finalists.front().units.size()) << "compared on equal units";
+  }
+}
+
+// Trials that end within a race: the candidates are judged by the units that all of them had.
+TEST(Search, WithTooFewTrialsForARaceKeepsThoseWithTheMostUnits) {
+  const MadeUpProblem truth;
+  for (std::int64_t trials = 64; trials < 40'000; trials = 2 * trials + 1) {
+    const SearchResult result = search(truth.problem(2048), {.seed = 4, .effort = effort_of(trials)});
+    EXPECT_LE(result.trials, trials);
+    ASSERT_FALSE(result.finalists.empty());
+    EXPECT_TRUE(result.cut);
+    for (const Candidate& one : result.finalists)
+      EXPECT_EQ(one.units.size(), result.finalists.front().units.size());
+  }
+}
+
+// A tuned point that no evenly spread candidate is near: the search is worse than it only by chance.
+TEST(Search, IsNotWorseThanItsStarts) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const MadeUpProblem truth{.seed = seed, .highest_rate = 0.99, .fall = 4e4, .reliable = {0.123, 0.877}};
+    SearchProblem problem = truth.problem(512);
+    problem.starts = {{0.123, 0.877}};
+    const SearchResult result = search(problem, {.seed = seed, .effort = effort_of(20'000)});
+    ASSERT_FALSE(result.finalists.empty());
+    EXPECT_GE(truth.rate(result.finalists.front().values), 0.94);
+  }
+}
+
+// A control with fewer blocks may be the only one that is admissible: a face of the ranges.
+TEST(Search, FindsWhatIsAdmissibleOnAFaceOnly) {
+  const MadeUpProblem truth{.reliable = {0.0, 0.6}, .fast = {0.0, 0.4}};
+  SearchProblem problem = truth.problem(512);
+  problem.size = search_size({.free = 2, .faces = 1, .max_units = 512}, 20'000);
+  problem.admissible = [](std::span<const Candidate> candidates) {
+    std::vector<bool> kept;
+    for (const Candidate& one : candidates) kept.push_back(one.values[0] <= 1e-4);
+    return kept;
+  };
+  EXPECT_TRUE(search(problem, {.seed = 2, .effort = effort_of(20'000)}).finalists.empty());
+  problem.faces = {{0}};
+  const SearchResult result = search(problem, {.seed = 2, .effort = effort_of(20'000)});
+  ASSERT_FALSE(result.finalists.empty());
+  EXPECT_EQ(result.finalists.front().values[0], 0.0);
+  EXPECT_NEAR(result.finalists.front().values[1], 0.4, 0.15);
+}
+
+TEST(Search, DependsOnTheSeedAlone) {
+  const MadeUpProblem truth;
+  const SearchResult a = search(truth.problem(512), {.seed = 5, .effort = effort_of(50'000)});
+  const SearchResult b = search(truth.problem(512), {.seed = 5, .effort = effort_of(50'000)});
+  const SearchResult c = search(truth.problem(512), {.seed = 6, .effort = effort_of(50'000)});
+  EXPECT_EQ(a.finalists.front().values, b.finalists.front().values);
+  EXPECT_EQ(a.trials, b.trials);
+  EXPECT_NE(a.finalists.front().values, c.finalists.front().values);
+}
+
+// A condition that only the leading candidates are held against, as the margins of all machines are.
+TEST(Search, KeepsConditionsThatAreCostlyToExamine) {
+  const MadeUpProblem truth;
+  SearchProblem problem = truth.problem(512);
+  problem.verified = [](const Candidate& one) { return one.values[0] <= 0.4; };
+  const SearchResult result = search(problem, {.seed = 2, .effort = effort_of(100'000)});
+  ASSERT_FALSE(result.finalists.empty());
+  for (const Candidate& one : result.finalists) EXPECT_LE(one.values[0], 0.4);
+}
+
+// Fast candidates that fail such a condition must not drive out the slower ones that keep it.
+TEST(Search, FindsWhatKeepsACostlyConditionWhereFewOfTheBestDo) {
+  const MadeUpProblem truth;
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+    SearchProblem problem = truth.problem(512);
+    problem.verified = [](const Candidate& one) { return one.values[0] <= 0.05; };
+    const SearchResult result = search(problem, {.seed = seed, .effort = effort_of(100'000)});
+    ASSERT_FALSE(result.finalists.empty()) << seed;
+    for (const Candidate& one : result.finalists) EXPECT_LE(one.values[0], 0.05) << seed;
+  }
+}
+
+TEST(Search, WithoutAnAdmissiblePointFindsNothing) {
+  const MadeUpProblem truth;
+  SearchProblem problem = truth.problem(512);
+  problem.admissible = [](std::span<const Candidate> candidates) {
+    return std::vector<bool>(candidates.size(), false);
+  };
+  EXPECT_TRUE(search(problem, {.seed = 2}).finalists.empty());
+}
+
+TEST(SearchSpace, ValuesHaveFourDigitsAndStayInTheirRanges) {
+  const std::vector<study::FreeParameter> free{{.name = "a", .low = 1e-6, .high = 1e-3, .logarithmic = true},
+                                               {.name = "b", .low = 0.0, .high = 12.0, .whole = true}};
+  for (std::int64_t i = 0; i < 200; ++i) {
+    const Values values = values_at(free, spread_place(std::vector<double>{0.1, 0.2}, i));
+    EXPECT_GE(values[0], 1e-6);
+    EXPECT_LE(values[0], 1e-3);
+    EXPECT_EQ(values[1], std::round(values[1]));
+    EXPECT_EQ(values_at(free, place_of(free, values)), values);
+  }
+  EXPECT_EQ(values_at(free, {0.0, 1.0}), (Values{1e-6, 12.0}));
+}
+
+}  // namespace
+}  // namespace zerocount::tuning

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "runners/study_run/progress.hpp"
+#include "runners/status/progress.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -39,7 +39,7 @@ void StageProgress::print_until_end() {
     if (stage_.empty()) continue;
     line_.show([this] {
       const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-      return fmt::format("{}: {}, {}", verb_, stage_, study_run::duration_text(elapsed.count()));
+      return fmt::format("{}: {}, {}", verb_, stage_, status::duration_text(elapsed.count()));
     });
   }
 }

@@ -22,9 +22,9 @@
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/plugins/hidden_state.hpp"
-#include "runners/study_run/progress.hpp"
-#include "runners/study_run/study_runner.hpp"
-#include "runners/study_run/trial_runner.hpp"
+#include "runners/status/progress.hpp"
+#include "runners/trials/study_runner.hpp"
+#include "runners/trials/trial_runner.hpp"
 
 namespace zerocount::design_commands {
 namespace {
@@ -103,7 +103,7 @@ comparison::PointTrials run_point(const study::Study& study, std::int64_t point,
     const std::int64_t first = static_cast<std::int64_t>(block) * pilot_block;
     const std::int64_t count = std::min(pilot_block, trials - first);
     for (const shards::TrialResult& result :
-         study_run::TrialRunner(study).run({point * study.trials + first, count})) {
+         trials::TrialRunner(study).run({point * study.trials + first, count})) {
       blocks[block].insert(blocks[block].end(), result.outcome.moves.begin(), result.outcome.moves.end());
     }
   });
@@ -162,8 +162,8 @@ EquivalencePlan plan_of(const command_line::Arguments& arguments) {
   plan.pilot = study.rigs > 0 ? study.trials : std::min(study.trials, pilot_trials);
   const std::int64_t units = study.rigs > 0 ? study.rigs : plan.pilot;
   comparison::ForecastSamples samples({units, units}, true);
-  study_run::Progress progress(study::point_count(study) * plan.pilot, 0, study_run::samples_per_trial(study),
-                               false);
+  status::Progress progress(study::point_count(study) * plan.pilot, 0, trials::samples_per_trial(study),
+                            false);
   for (std::int64_t i = 0; i < study::point_count(study); ++i) {
     samples.add(planned_point(plan, study.point_labels[static_cast<std::size_t>(i)],
                               run_point(study, i, plan.pilot)));

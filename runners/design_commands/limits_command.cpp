@@ -13,7 +13,7 @@
 #include "runners/commands/command.hpp"
 #include "runners/design_commands/design_commands.hpp"
 #include "runners/design_commands/examined_point.hpp"
-#include "runners/study_run/interruption.hpp"
+#include "runners/status/interruption.hpp"
 
 namespace zerocount::design_commands {
 namespace {
@@ -108,7 +108,7 @@ document::AnswerDescription<PointLimits> limits_answer() {
 
 ExitCode limits(const command_line::Arguments& arguments) {
   const ExaminedPoint examined = point_to_examine(arguments);
-  const study_run::InterruptionWatch interruption;
+  const status::InterruptionWatch interruption;
   const PointLimits found{examined.study, unless_interrupted([&] {
                             return tuning::limits_of(examined.study,
                                                      trials::replicates_of(examined.study, examined.point),

@@ -20,9 +20,9 @@
 #include "runners/plugins/hidden_state.hpp"
 #include "runners/rare/rare_answer.hpp"
 #include "runners/rare/rare_run.hpp"
+#include "runners/status/interruption.hpp"
 #include "runners/status/status.hpp"
-#include "runners/study_run/interruption.hpp"
-#include "runners/study_run/study_runner.hpp"
+#include "runners/trials/study_runner.hpp"
 
 namespace zerocount::design_commands {
 namespace {
@@ -109,10 +109,10 @@ ExitCode rare(const command_line::Arguments& arguments) {
                   fmt::format("{}: it draws nothing for each trial; expected distributions, such as "
                               "friction.k1: {{lognormal: {{median: 110, cv: 0.1}}}}",
                               arguments.operands()[0]));
-  const parallel::ThreadLimit limit(study_run::threads_to_use(threads));
+  const parallel::ThreadLimit limit(trials::threads_to_use(threads));
   commands::print_warnings(study);
   plugins::require_no_hidden_state(study);
-  const study_run::InterruptionWatch interruption;
+  const status::InterruptionWatch interruption;
   const storage::OutputLock lock(settings.output);
   commands::print_fallback_lock(lock, settings.output);
   storage::require_replaceable(settings.output);

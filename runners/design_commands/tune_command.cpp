@@ -22,11 +22,11 @@
 #include "runners/design_commands/design_commands.hpp"
 #include "runners/design_commands/examined_point.hpp"
 #include "runners/design_commands/tune_answer.hpp"
+#include "runners/forecast/engine_use.hpp"
 #include "runners/plugins/hidden_state.hpp"
+#include "runners/status/interruption.hpp"
 #include "runners/status/status.hpp"
-#include "runners/study_run/engine_use.hpp"
-#include "runners/study_run/interruption.hpp"
-#include "runners/study_run/study_runner.hpp"
+#include "runners/trials/study_runner.hpp"
 #include "runners/tuning/tuner.hpp"
 
 namespace zerocount::design_commands {
@@ -122,12 +122,12 @@ ExitCode tune(const command_line::Arguments& arguments) {
   const bool in_html = arguments.choice("format") == "html";
   settings.maps = page || in_html;
   if (settings.maps) report::require_drawing_libraries();
-  const parallel::ThreadLimit limit(study_run::threads_to_use(settings.threads));
+  const parallel::ThreadLimit limit(trials::threads_to_use(settings.threads));
   commands::print_warnings(study);
-  const std::string engine = study_run::engine_text(study_run::points_on_reference(study));
+  const std::string engine = forecast::engine_text(forecast::points_on_reference(study));
   if (!engine.empty() && !settings.quiet) status::tell("{}\n", engine);
   plugins::require_no_hidden_state(study);
-  const study_run::InterruptionWatch interruption;
+  const status::InterruptionWatch interruption;
   const storage::OutputLock lock(settings.output);
   storage::require_replaceable(settings.output);
   commands::print_fallback_lock(lock, settings.output);

@@ -16,7 +16,7 @@
 #include "runners/commands/study_argument.hpp"
 #include "runners/design_commands/design_commands.hpp"
 #include "runners/design_commands/examined_point.hpp"
-#include "runners/study_run/interruption.hpp"
+#include "runners/status/interruption.hpp"
 #include "runners/tuning/worst_in_box.hpp"
 
 namespace zerocount::design_commands {
@@ -174,7 +174,7 @@ ExitCode worst(const command_line::Arguments& arguments) {
   const std::optional<std::filesystem::path> output = command_line::text_place(arguments, "output");
   if (output) command_line::require_places(arguments, {arguments.operands()[0]}, {*output});
   const ExaminedPoint examined = point_to_examine(arguments);
-  const study_run::InterruptionWatch interruption;
+  const status::InterruptionWatch interruption;
   const Search search{examined.study, unless_interrupted([&] {
                         return tuning::worst_machines(
                             examined.study, trials::replicates_of(examined.study, examined.point),

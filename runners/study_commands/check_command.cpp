@@ -16,13 +16,13 @@
 #include "runners/answers/answer_format.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/study_argument.hpp"
+#include "runners/forecast/cost.hpp"
+#include "runners/forecast/engine_use.hpp"
+#include "runners/forecast/study_size.hpp"
 #include "runners/plugins/hidden_state.hpp"
+#include "runners/status/progress.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_commands/study_commands.hpp"
-#include "runners/study_run/cost.hpp"
-#include "runners/study_run/engine_use.hpp"
-#include "runners/study_run/progress.hpp"
-#include "runners/study_run/study_size.hpp"
 #include "runners/tuning/unit_runner.hpp"
 
 namespace zerocount::study_commands {
@@ -64,8 +64,8 @@ struct PointLoop {
 
 struct Plan {
   const study::Study& study;
-  study_run::StudyCost cost;
-  study_run::StudySize size;
+  forecast::StudyCost cost;
+  forecast::StudySize size;
   std::vector<PointReading> points;  ///< the first ones
 
   std::int64_t all_points() const { return study::point_count(study); }
@@ -94,7 +94,7 @@ std::string plan_headline(const Plan& plan) {
   const study::Study& study = plan.study;
   return fmt::format("{}: {} × {} trials = {} trials, {} each, in about {}", study.name,
                      counted(plan.all_points(), "design point"), study.trials, study::trial_count(study),
-                     counted(study.moves, "move"), study_run::duration_text(plan.cost.seconds()));
+                     counted(study.moves, "move"), status::duration_text(plan.cost.seconds()));
 }
 
 /// How the trials of a point belong to rigs and worlds, and what may end them, a line each.
@@ -122,14 +122,14 @@ std::string trials_text(const Plan& plan) {
 }
 
 std::string cost_text(const Plan& plan) {
-  const std::string engine = study_run::engine_text(study_run::points_on_reference(plan.study));
+  const std::string engine = forecast::engine_text(forecast::points_on_reference(plan.study));
   return fmt::format(
       "{:.4g} samples at {:.0f} ns: about {} on {}\n{}{}results file about {}; while it runs up to {} on the "
       "disk and {} of memory",
-      plan.cost.samples, 1e9 * plan.cost.seconds_per_sample, study_run::duration_text(plan.cost.seconds()),
+      plan.cost.samples, 1e9 * plan.cost.seconds_per_sample, status::duration_text(plan.cost.seconds()),
       counted(plan.cost.cores, "core"), engine, engine.empty() ? "" : "\n",
-      study_run::bytes_text(plan.size.file_bytes), study_run::bytes_text(plan.disk_bytes()),
-      study_run::bytes_text(plan.size.memory_bytes));
+      forecast::bytes_text(plan.size.file_bytes), forecast::bytes_text(plan.disk_bytes()),
+      forecast::bytes_text(plan.size.memory_bytes));
 }
 
 /// Over what the theory is.
@@ -203,7 +203,7 @@ document::Description<PointReading> point_description() {
 
 document::Description<Plan> plan_description() {
   using document::in_data;
-  using study_run::StudyCost;
+  using forecast::StudyCost;
   using Of = const Plan&;
   document::Description<Plan> plan;
   plan.headline(plan_headline)
@@ -323,7 +323,7 @@ ExitCode check(const command_line::Arguments& arguments) {
   const std::int64_t all = study::point_count(study);
   const std::int64_t shown = arguments.has("all-points") ? all : std::min(all, points_shown);
   return answers::print(
-      arguments, check_answer().of({study, study_run::measure_cost(study), study_run::measure_size(study),
+      arguments, check_answer().of({study, forecast::measure_cost(study), forecast::measure_size(study),
                                     examined_points(study, shown)}));
 }
 

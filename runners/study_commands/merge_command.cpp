@@ -11,7 +11,7 @@
 #include "runners/commands/command.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_commands/study_commands.hpp"
-#include "runners/study_run/study_runner.hpp"
+#include "runners/study_run/assembly.hpp"
 
 namespace zerocount::study_commands {
 namespace {

@@ -17,18 +17,18 @@
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/study_argument.hpp"
+#include "runners/forecast/engine_use.hpp"
+#include "runners/forecast/study_size.hpp"
 #include "runners/plugins/hidden_state.hpp"
+#include "runners/status/interruption.hpp"
+#include "runners/status/progress.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_commands/study_commands.hpp"
 #include "runners/study_run/earlier_shards.hpp"
-#include "runners/study_run/engine_use.hpp"
 #include "runners/study_run/existing_output.hpp"
 #include "runners/study_run/file_run.hpp"
-#include "runners/study_run/interruption.hpp"
-#include "runners/study_run/progress.hpp"
-#include "runners/study_run/stopping_run.hpp"
-#include "runners/study_run/study_runner.hpp"
-#include "runners/study_run/study_size.hpp"
+#include "runners/study_run/sequential_run.hpp"
+#include "runners/trials/study_runner.hpp"
 
 namespace zerocount::study_commands {
 namespace {
@@ -120,16 +120,16 @@ study_run::ForeignShards foreign_shards(const RunRequest& request) {
 
 ExitCode run(const command_line::Arguments& arguments) {
   const RunRequest request = run_request(arguments);
-  const parallel::ThreadLimit limit(study_run::threads_to_use(request.threads));
+  const parallel::ThreadLimit limit(trials::threads_to_use(request.threads));
   commands::print_warnings(request.study);
   if (request.study.plugin && !request.quiet) {
     status::tell("the controller is the plugin {} {}\n", request.study.plugin->description.name,
                  request.study.plugin->description.version);
   }
-  const std::string engine = study_run::engine_text(study_run::points_on_reference(request.study));
+  const std::string engine = forecast::engine_text(forecast::points_on_reference(request.study));
   if (!engine.empty() && !request.quiet) status::tell("{}\n", engine);
   plugins::require_no_hidden_state(request.study);
-  const study_run::InterruptionWatch interruption;
+  const status::InterruptionWatch interruption;
   const storage::OutputLock lock(request.output);
   commands::print_fallback_lock(lock, request.output);
   const study_run::ExistingUse existing =
@@ -151,7 +151,7 @@ ExitCode run(const command_line::Arguments& arguments) {
                            existing, interruption.token());
     return ExitCode::success;
   }
-  return study_run::run_until_sure(request.study, request.output,
+  return study_run::run_sequential(request.study, request.output,
                                    {request.threads, request.quiet, foreign_shards(request)},
                                    interruption.token());
 }

@@ -18,8 +18,8 @@
 #include "runners/commands/command.hpp"
 #include "runners/run_status/run_status.hpp"
 #include "runners/standard_output/standard_output.hpp"
+#include "runners/status/progress.hpp"
 #include "runners/study_commands/study_commands.hpp"
-#include "runners/study_run/progress.hpp"
 
 namespace zerocount::study_commands {
 namespace {
@@ -60,7 +60,7 @@ std::string headline(Status s) {
   }
   if (status.running && status.rate > 0.0) {
     text +=
-        fmt::format(", {:.4g} trials/s, {} to go", status.rate, study_run::duration_text(status.remaining()));
+        fmt::format(", {:.4g} trials/s, {} to go", status.rate, status::duration_text(status.remaining()));
   }
   return text;
 }

@@ -11,8 +11,8 @@
 #include "runners/answers/answer_format.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/plugin_option.hpp"
+#include "runners/status/interruption.hpp"
 #include "runners/study_commands/study_commands.hpp"
-#include "runners/study_run/interruption.hpp"
 #include "runners/verification/verification.hpp"
 
 namespace zerocount::study_commands {
@@ -125,7 +125,7 @@ ExitCode verify(const command_line::Arguments& arguments) {
   if (settings.trials == 0 && arguments.has("seed"))
     arguments.refuse("option '--seed' needs trials to run again, but '--trials' is 0");
   settings.plugin = commands::plugin_option(arguments);
-  const study_run::InterruptionWatch interruption;  // so that no temporary folder is left behind
+  const status::InterruptionWatch interruption;  // so that no temporary folder is left behind
   settings.stop = interruption.token();
   const std::vector<std::filesystem::path> operands(arguments.operands().begin(), arguments.operands().end());
   const Reports reports = verification::verify(operands, settings);

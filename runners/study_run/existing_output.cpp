@@ -8,14 +8,30 @@
 
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/manifest_keys.hpp"
+#include "experiments/manifest/manifest_values.hpp"
 #include "results/layout/header.hpp"
+#include "results/layout/recorded_values.hpp"
 #include "results/reading/results_file.hpp"
-#include "runners/study_run/study_differences.hpp"
+#include "runners/study_run/sequential_run.hpp"
 
 namespace zerocount::study_run {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Differences between the study of a results file and this one. The final number of trials of a stopping
+/// rule is ignored; defaults that changed since the file was written are included.
+/// @param path of the file, for messages
+std::vector<manifest::ManifestDifference> study_differences(const fs::path& path, layout::FileHeader header,
+                                                            const study::Study& study) {
+  if (study.stop && !header.overrides.empty() && header.overrides.back().starts_with(decided_key))
+    header.overrides.pop_back();
+  manifest::ManifestValues there = layout::manifest_values(header, path.string());
+  manifest::ManifestValues here = layout::manifest_values(
+      layout::make_header(study, layout::FileKind::study, layout::all_rows(study), {}), study.name);
+  layout::write_changed_defaults(there, header.version, here, layout::format_version);
+  return manifest::manifest_differences(there, here);
+}
 
 [[noreturn]] void refuse(const fs::path& output, std::string_view what) {
   throw Failure(ExitCode::bad_input, fmt::format("{}: {}; --force replaces it, or give another name with -o",

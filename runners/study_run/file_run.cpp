@@ -10,11 +10,12 @@
 #include "results/reading/study_file.hpp"
 #include "results/shards/shard.hpp"
 #include "results/storage/durable_file.hpp"
+#include "runners/forecast/study_size.hpp"
+#include "runners/status/progress.hpp"
 #include "runners/status/status.hpp"
+#include "runners/study_run/assembly.hpp"
 #include "runners/study_run/extension.hpp"
-#include "runners/study_run/progress.hpp"
-#include "runners/study_run/study_runner.hpp"
-#include "runners/study_run/study_size.hpp"
+#include "runners/trials/study_runner.hpp"
 
 namespace zerocount::study_run {
 namespace {
@@ -24,7 +25,7 @@ EarlierShards prepare_shards(const FileRun& request, const std::filesystem::path
                              ExistingUse existing) {
   EarlierShards earlier = earlier_shards(directory, request.study, request.wanted, request.foreign);
   const std::int64_t missing = layout::total_rows(shards::missing_ranges(earlier.usable, request.wanted));
-  if (request.check_room) require_room(request.output, request.study, missing);
+  if (request.check_room) forecast::require_room(request.output, request.study, missing);
   storage::make_directory(directory);
   if (existing != ExistingUse::extend) return earlier;
   const reading::StudyFile file(request.output);
@@ -49,12 +50,13 @@ void run_to_file(const FileRun& request, ExistingUse existing, const std::stop_t
   const std::vector<layout::RowRange> missing = shards::missing_ranges(earlier.usable, wanted);
   const std::int64_t kept = wanted.count - layout::total_rows(missing);
 
-  Progress progress(wanted.count, kept, samples_per_trial(request.study), request.quiet);
+  status::Progress progress(wanted.count, kept, trials::samples_per_trial(request.study), request.quiet);
   std::int64_t done = kept;
-  RunSettings settings;
+  trials::RunSettings settings;
   settings.threads = request.threads;
   settings.finished = [&](std::int64_t trials) { progress.update(done += trials); };
-  const FinishedTrials finished = run_trials(request.study, missing, directory, settings, stop);
+  const trials::FinishedTrials finished =
+      trials::run_trials(request.study, missing, directory, settings, stop);
   progress.finish(done);
 
   if (done < wanted.count) {

@@ -11,8 +11,8 @@
 #include "results/reading/first_difference.hpp"
 #include "results/shards/shard.hpp"
 #include "results/storage/durable_file.hpp"
-#include "runners/study_run/study_runner.hpp"
-#include "runners/study_run/temporary_folder.hpp"
+#include "runners/study_run/assembly.hpp"
+#include "runners/verification/temporary_folder.hpp"
 
 namespace zerocount::verification {
 namespace {
@@ -49,7 +49,7 @@ void check_rebuilt(CheckReport& report, const reading::ResultsFile& file, const 
       check.detail = fmt::format("format version {} had others", file.header().version);
       return;
     }
-    const study_run::TemporaryFolder folder;
+    const verification::TemporaryFolder folder;
     const std::filesystem::path rebuilt = folder.path() / "rebuilt.h5";
     const std::array<shards::ShardInfo, 1> trials{{{file.path(), file.rows()}}};
     make(trials, study, rebuilt, file.rows(), report.stop);

@@ -13,7 +13,7 @@
 
 #include "results/layout/layout.hpp"
 #include "runners/study_run/recorded_trials.hpp"
-#include "runners/study_run/trial_runner.hpp"
+#include "runners/trials/trial_runner.hpp"
 
 namespace zerocount::verification {
 namespace {
@@ -55,8 +55,8 @@ template <class Take>
 void run_in_tasks(const study::Study& study, std::span<const std::int64_t> rows, const std::stop_token& stop,
                   const Take& take) {
   const std::vector<layout::RowRange> ranges = ranges_of(rows);
-  oneapi::tbb::enumerable_thread_specific<study_run::TrialRunner> runners(
-      [&study] { return study_run::TrialRunner(study); });
+  oneapi::tbb::enumerable_thread_specific<trials::TrialRunner> runners(
+      [&study] { return trials::TrialRunner(study); });
   for (std::size_t first = 0; first < ranges.size(); first += tasks_at_once) {
     require_no_stop(stop);
     const std::size_t count = std::min(tasks_at_once, ranges.size() - first);

@@ -8,7 +8,7 @@
 
 #include "core/batch/batch.hpp"
 #include "core/trial/trial.hpp"
-#include "runners/study_run/trial_runner.hpp"
+#include "runners/trials/trial_runner.hpp"
 #include "runners/verification/replay.hpp"
 
 namespace zerocount::verification {
@@ -61,7 +61,7 @@ std::optional<Parting> parting_of_engines(const trial::TrialParameters& paramete
 TracedTrial compare_with_record(const reading::ResultsFile& file, const study::Study& study,
                                 const shards::TrialResult& traced) {
   const layout::RowRange row{traced.row, 1};
-  const std::vector<shards::TrialResult> again = study_run::TrialRunner(study).run(row);
+  const std::vector<shards::TrialResult> again = trials::TrialRunner(study).run(row);
   TracedTrial result{differences_from_record(file, again.front(), equality_of(file.header())), std::nullopt};
   if (result.differences.empty() && !differences_from_record(file, traced, Equality::rounded).empty())
     result.parting = parting_of_engines(

@@ -5,7 +5,7 @@
 
 #include <fmt/core.h>
 
-#include "runners/study_run/study_runner.hpp"
+#include "runners/trials/study_runner.hpp"
 #include "tests/benchmarks/registration.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -23,8 +23,8 @@ void time_run(benchmark::State& state, const study::Study& study, int threads) {
     state.PauseTiming();
     const TemporaryFolder folder;
     state.ResumeTiming();
-    study_run::run_trials(study, {&rows, 1}, folder.path(), {threads, {}}, {});
-    samples += study_run::samples_per_trial(study) * static_cast<double>(rows.count);
+    trials::run_trials(study, {&rows, 1}, folder.path(), {threads, {}}, {});
+    samples += trials::samples_per_trial(study) * static_cast<double>(rows.count);
   }
   count_samples(state, samples);
 }

@@ -13,7 +13,7 @@
 #include "results/layout/header.hpp"
 #include "results/reading/results_file.hpp"
 #include "results/shards/merge.hpp"
-#include "runners/study_run/study_runner.hpp"
+#include "runners/study_run/assembly.hpp"
 #include "tests/fuzz/expectation.hpp"
 #include "tests/fuzz/file_edits.hpp"
 #include "tests/support/temporary_folder.hpp"

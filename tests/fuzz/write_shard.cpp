@@ -8,7 +8,7 @@
 
 #include "experiments/manifest/load_study.hpp"
 #include "results/layout/header.hpp"
-#include "runners/study_run/study_runner.hpp"
+#include "runners/trials/study_runner.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 int main(int count, char** words) {
@@ -20,7 +20,7 @@ int main(int count, char** words) {
     const std::filesystem::path output = arguments.at(0);
     const testing::TemporaryFolder folder;
     const std::vector<layout::RowRange> all{layout::all_rows(study)};
-    const auto shards = study_run::run_trials(study, all, folder.path(), {}, {}).shards;
+    const auto shards = trials::run_trials(study, all, folder.path(), {}, {}).shards;
     std::filesystem::copy_file(shards.at(0).path, output, std::filesystem::copy_options::overwrite_existing);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "write_shard: %s\n", error.what());

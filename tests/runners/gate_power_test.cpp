@@ -11,7 +11,7 @@
 #include "analysis/comparison/measure_comparison.hpp"
 #include "analysis/comparison/point_trials.hpp"
 #include "experiments/manifest/load_study.hpp"
-#include "runners/study_run/trial_runner.hpp"
+#include "runners/trials/trial_runner.hpp"
 
 namespace zerocount::testing {
 namespace {
@@ -40,7 +40,7 @@ std::vector<comparison::PointTrials> trials_of(const std::vector<std::string>& s
   std::vector<comparison::PointTrials> points;
   for (std::int64_t point = 0; point < study::point_count(study); ++point) {
     std::vector<trial::MoveOutcome> outcomes;
-    for (const shards::TrialResult& result : study_run::TrialRunner(study).run({point * trials, trials})) {
+    for (const shards::TrialResult& result : trials::TrialRunner(study).run({point * trials, trials})) {
       outcomes.push_back(result.outcome.moves.front());
     }
     points.push_back(comparison::gather_trials(outcomes, 1));

@@ -10,7 +10,7 @@
 
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/study/study.hpp"
-#include "runners/study_run/study_runner.hpp"
+#include "runners/trials/study_runner.hpp"
 #include "tests/support/odeint_trial.hpp"
 
 namespace zerocount::testing {
@@ -44,7 +44,7 @@ Histogram tally_of_study(double ki, int trials) {
   EXPECT_EQ(study::study_trial(study, 0, 0).parameters.controller.ki, ki);
   Histogram histogram;
   for (std::int64_t row = 0; row < study.trials; ++row) {
-    const trial::MoveOutcome move = study_run::run_study_trial(study, row).outcome.moves[0];
+    const trial::MoveOutcome move = trials::run_study_trial(study, row).outcome.moves[0];
     ++histogram.trials;
     histogram.zero_count += move.outcome == trial::Outcome::zero_count;
     histogram.stable += move.stable;

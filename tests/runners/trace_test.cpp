@@ -10,8 +10,8 @@
 #include "results/layout/header.hpp"
 #include "results/reading/study_file.hpp"
 #include "results/shards/shard.hpp"
-#include "runners/study_run/study_runner.hpp"
-#include "runners/study_run/trial_runner.hpp"
+#include "runners/study_run/assembly.hpp"
+#include "runners/trials/trial_runner.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/version_1_file.hpp"
 
@@ -126,7 +126,7 @@ TEST_F(Trace, ReplaysAFileOfFormatVersion1WithTheDefaultsOfItsTime) {
 
 TEST_F(Trace, ReportsAReplayThatIsNotTheRecordedTrial) {
   const study::Study study = manifest::load_study(folder_.path() / "study.yaml");
-  std::vector<shards::TrialResult> results = study_run::TrialRunner(study).run(layout::all_rows(study));
+  std::vector<shards::TrialResult> results = trials::TrialRunner(study).run(layout::all_rows(study));
   results[3].outcome.moves[0].holding_torque += 2.4e-4;
   const std::filesystem::path shard = folder_.path() / "shard.h5";
   shards::write_shard(shard, study, {0, std::ssize(results)}, results);

@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/manifest/load_study.hpp"
-#include "runners/study_run/study_runner.hpp"
+#include "runners/trials/study_runner.hpp"
 #include "runners/verification/rerun.hpp"
 #include "runners/verification/verification.hpp"
 #include "tests/runners/program.hpp"
@@ -77,7 +77,7 @@ class Verify : public ::testing::Test {
     const std::int64_t size = study::trial_count(study) / pieces;
     for (std::int64_t piece = 0; piece < pieces; ++piece) {
       const std::vector<layout::RowRange> rows{{piece * size, size}};
-      study_run::run_trials(study, rows, shards, {}, {});
+      trials::run_trials(study, rows, shards, {}, {});
     }
     return shards;
   }

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-namespace zerocount::study_run {
+namespace zerocount::verification {
 
 /// A temporary folder; the destructor removes it with its contents.
 class TemporaryFolder {
@@ -19,4 +19,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace zerocount::study_run
+}  // namespace zerocount::verification

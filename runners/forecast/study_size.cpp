@@ -1,4 +1,4 @@
-#include "runners/study_run/study_size.hpp"
+#include "runners/forecast/study_size.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,14 +16,14 @@
 #include "results/layout/layout.hpp"
 #include "results/shards/shard.hpp"
 #include "results/storage/durable_file.hpp"
-#include "runners/study_run/cost.hpp"
-#include "runners/study_run/shard_writer.hpp"
-#include "runners/study_run/study_runner.hpp"
-#include "runners/study_run/trial_runner.hpp"
-#include "runners/study_run/turn_clock.hpp"
+#include "runners/forecast/cost.hpp"
 #include "runners/trials/effort.hpp"
+#include "runners/trials/shard_writer.hpp"
+#include "runners/trials/study_runner.hpp"
+#include "runners/trials/trial_runner.hpp"
+#include "runners/trials/turn_clock.hpp"
 
-namespace zerocount::study_run {
+namespace zerocount::forecast {
 namespace {
 
 namespace fs = std::filesystem;
@@ -47,10 +47,11 @@ shards::TrialResult trial_without_jerks(const study::Study& study) {
 std::vector<shards::TrialResult> sampled_trials(const study::Study& study) {
   const trials::Effort limited = trials::Effort().share({}, sampling_limit);
   const std::int64_t rows = study::trial_count(study);
-  const auto wanted = std::clamp(static_cast<std::int64_t>(max_sampled_samples / samples_per_trial(study)),
-                                 std::int64_t{1}, std::min(max_sampled_trials, rows));
+  const auto wanted =
+      std::clamp(static_cast<std::int64_t>(max_sampled_samples / trials::samples_per_trial(study)),
+                 std::int64_t{1}, std::min(max_sampled_trials, rows));
   const std::int64_t places = std::min(sampled_places, wanted);
-  TrialRunner runner(study);
+  trials::TrialRunner runner(study);
   std::vector<shards::TrialResult> trials;
   try {
     for (std::int64_t place = 0; place < places; ++place) {
@@ -112,7 +113,7 @@ double bytes_of_trial(const study::Study& study, double jerks, const Ratios& rat
 double bytes_of_records(const study::Study& study, const Ratios& ratios) {
   const auto trials = static_cast<double>(std::ssize(study.retained_trials) * study::point_count(study));
   if (trials == 0.0) return 0.0;
-  return trials * samples_per_trial(study) *
+  return trials * trials::samples_per_trial(study) *
          bytes_of_row(layout::trace_table(study.features), ratios, ratios.real);
 }
 
@@ -146,7 +147,8 @@ double table_bytes(const study::Study& study) {
 /// Numbers in the sums of a point, of trials that are numbered from 0.
 double numbers_of_sums(const study::Study& study, std::vector<shards::TrialResult> trials) {
   const auto points = static_cast<std::size_t>((std::ssize(trials) - 1) / study.trials + 1);
-  const KeptBlock block = reduce(study, {std::move(trials), std::vector<theory::PointPrediction>(points)});
+  const trials::KeptBlock block =
+      trials::reduce(study, {std::move(trials), std::vector<theory::PointPrediction>(points)});
   double numbers = 0.0;
   for (const summary::SummedPoint& point : block.sums) {
     const layout::PointSums sums = point.sums();
@@ -181,8 +183,9 @@ double shards_of_run(const study::Study& study, int threads) {
   const std::int64_t points = study::point_count(study);
   const double seconds = measure_cost(study).seconds();
   double turns = 0.0;
-  for (double elapsed = 0.0; elapsed < seconds; elapsed += turn_seconds(elapsed, points, threads)) ++turns;
-  return turns + static_cast<double>(points) / static_cast<double>(max_points_of_shard);
+  for (double elapsed = 0.0; elapsed < seconds; elapsed += trials::turn_seconds(elapsed, points, threads))
+    ++turns;
+  return turns + static_cast<double>(points) / static_cast<double>(trials::max_points_of_shard);
 }
 
 /// The proportion of trials that the study keeps.
@@ -204,7 +207,7 @@ StudySize measure_size(const study::Study& study, int threads) {
   double jerks = 0.0, memory = 0.0;
   for (const shards::TrialResult& trial : trials) {
     jerks += static_cast<double>(trial.jerks.size()) / static_cast<double>(trials.size());
-    memory += static_cast<double>(bytes_of(trial)) / static_cast<double>(trials.size());
+    memory += static_cast<double>(trials::bytes_of(trial)) / static_cast<double>(trials.size());
   }
   const auto points = static_cast<double>(study::point_count(study));
   const double kept = kept_proportion(study, trials) * static_cast<double>(study::trial_count(study));
@@ -216,13 +219,14 @@ StudySize measure_size(const study::Study& study, int threads) {
                     compressed_sums * sums.of_all * points;
   size.shard_bytes =
       bytes_of_descriptions(study) + kept * bytes_of_trial(study, jerks, uncompressed) + raw_records;
-  size.memory_bytes = peak_memory(study, memory, raw_records, threads);
+  size.memory_bytes = trials::peak_memory(study, memory, raw_records, threads);
   if (layout::has_sums(study.kept)) {
     size.shard_bytes +=
-        compressed_sums * sums.of_all * (shards_of_run(study, threads_to_use(threads)) + points);
-    size.memory_bytes += blocks_of_a_thread * std::max(threads, 1) * sums.of_block +
-                         copies * sums.of_all * std::min(points, static_cast<double>(max_points_of_shard)) +
-                         2.0 * sums.of_all * points;
+        compressed_sums * sums.of_all * (shards_of_run(study, trials::threads_to_use(threads)) + points);
+    size.memory_bytes +=
+        blocks_of_a_thread * std::max(threads, 1) * sums.of_block +
+        copies * sums.of_all * std::min(points, static_cast<double>(trials::max_points_of_shard)) +
+        2.0 * sums.of_all * points;
   }
   return size;
 }
@@ -256,4 +260,4 @@ std::string bytes_text(double bytes) {
   return fmt::format("{:.{}f} {}", bytes, bytes < 9.95 && unit > 0 ? 1 : 0, units[unit]);
 }
 
-}  // namespace zerocount::study_run
+}  // namespace zerocount::forecast

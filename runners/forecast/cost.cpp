@@ -1,4 +1,4 @@
-#include "runners/study_run/cost.hpp"
+#include "runners/forecast/cost.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -8,9 +8,9 @@
 
 #include "core/batch/batch.hpp"
 #include "core/trial/trial.hpp"
-#include "runners/study_run/study_runner.hpp"
+#include "runners/trials/study_runner.hpp"
 
-namespace zerocount::study_run {
+namespace zerocount::forecast {
 namespace {
 
 /// The trial, shortened to `max_samples`: the cost per sample of a long trial is at most that of its
@@ -54,7 +54,7 @@ struct BlockSize {
 
 /// The block that takes not much longer than `patience`, by the cost of the beginning of some trials; at most
 /// a million samples, which fill the lanes unless trials are long.
-BlockSize affordable_block(const study::Study& study, double samples_per_trial) {
+BlockSize affordable_block(const study::Study& study, double samples_of_trial) {
   constexpr std::int64_t tried = 4;
   constexpr std::int64_t short_trial = 100;  // samples
   constexpr double speed_of_lanes = 10.0;    // in proportion to trials that are run alone
@@ -68,7 +68,7 @@ BlockSize affordable_block(const study::Study& study, double samples_per_trial) 
   }
   const double affordable = speed_of_lanes * patience * static_cast<double>(short_trial) / slowest;
   const double samples = std::clamp(affordable, static_cast<double>(short_trial), 1e6);
-  return {static_cast<std::int64_t>(std::clamp(samples / samples_per_trial, 1.0, 512.0)),
+  return {static_cast<std::int64_t>(std::clamp(samples / samples_of_trial, 1.0, 512.0)),
           static_cast<std::int64_t>(std::min(samples, 2e5))};
 }
 
@@ -77,7 +77,7 @@ BlockSize affordable_block(const study::Study& study, double samples_per_trial) 
 StudyCost measure_cost(const study::Study& study) {
   constexpr std::int64_t stride = 7919;  // a prime, so that the sample is spread over points and trials
   StudyCost cost;
-  const double per_trial = samples_per_trial(study);
+  const double per_trial = trials::samples_per_trial(study);
   cost.samples = per_trial * static_cast<double>(study::trial_count(study));
   cost.cores = oneapi::tbb::info::default_concurrency();
   const std::int64_t rows = study::trial_count(study);
@@ -105,4 +105,4 @@ StudyCost measure_cost(const study::Study& study) {
   return cost;
 }
 
-}  // namespace zerocount::study_run
+}  // namespace zerocount::forecast

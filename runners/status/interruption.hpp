@@ -3,7 +3,7 @@
 #include <stop_token>
 #include <thread>
 
-namespace zerocount::study_run {
+namespace zerocount::status {
 
 /// Turns SIGINT, SIGTERM, SIGHUP (the terminal has closed), SIGXCPU (the limit of processor time) and SIGUSR1
 /// (the warning of a batch system) into a request to stop during its lifetime. A second SIGINT or SIGTERM
@@ -24,4 +24,4 @@ class InterruptionWatch {
   std::jthread watcher_;
 };
 
-}  // namespace zerocount::study_run
+}  // namespace zerocount::status

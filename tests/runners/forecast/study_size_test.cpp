@@ -1,5 +1,5 @@
 // What a run is expected to take of the disk and of memory, beside what it takes.
-#include "runners/study_run/study_size.hpp"
+#include "runners/forecast/study_size.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -15,7 +15,7 @@
 #include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
 #include "results/shards/shard.hpp"
-#include "runners/study_run/study_runner.hpp"
+#include "runners/trials/study_runner.hpp"
 #include "tests/runners/program.hpp"
 
 namespace zerocount::testing {
@@ -44,16 +44,16 @@ std::vector<std::string> manifests() {
   return all;
 }
 
-TEST(StudySize, IsAboutWhatTheFilesTake) {
+TEST(forecast::StudySize, IsAboutWhatTheFilesTake) {
   for (const std::string& manifest : manifests()) {
-    const TemporaryFolder folder;
+    const verification::TemporaryFolder folder;
     folder.write("study.yaml", manifest);
     const study::Study study = manifest::load_study(folder / "study.yaml", {});
     SCOPED_TRACE(manifest);
-    const study_run::StudySize size = study_run::measure_size(study);
+    const forecast::StudySize size = forecast::measure_size(study);
     fs::create_directory(folder / "shards");
     const std::vector<layout::RowRange> all{layout::all_rows(study)};
-    study_run::run_trials(study, all, folder / "shards", {}, {});
+    trials::run_trials(study, all, folder / "shards", {}, {});
     expect_about(size.shard_bytes, bytes_in(folder / "shards"), "shards");
     const ProgramResult run = zerocount_program({"run", "study.yaml", "-o", "out.h5"}, folder.path());
     ASSERT_EQ(run.code, 0) << run.err;
@@ -62,15 +62,14 @@ TEST(StudySize, IsAboutWhatTheFilesTake) {
 }
 
 // Many more rigs than trials are tried beforehand. Shards are written by the clock, and not judged.
-TEST(StudySize, OfSumsIsAboutWhatTheFileTakes) {
+TEST(forecast::StudySize, OfSumsIsAboutWhatTheFileTakes) {
   for (const std::string& manifest :
        {small_manifest(1500, "keep: statistics\n"), small_manifest(800, "rigs: 50\nkeep: failures\n"),
         small_manifest(6000, "rigs: 3000\nkeep: statistics\n")}) {
-    const TemporaryFolder folder;
+    const verification::TemporaryFolder folder;
     folder.write("study.yaml", manifest);
     SCOPED_TRACE(manifest);
-    const study_run::StudySize size =
-        study_run::measure_size(manifest::load_study(folder / "study.yaml", {}));
+    const forecast::StudySize size = forecast::measure_size(manifest::load_study(folder / "study.yaml", {}));
     ASSERT_EQ(zerocount_program({"run", "study.yaml", "-o", "out.h5"}, folder.path()).code, 0);
     expect_about(size.file_bytes, static_cast<double>(fs::file_size(folder / "out.h5")), "file");
   }
@@ -87,20 +86,20 @@ void expect_memory_of_run(const std::string& manifest) {
 #ifdef ZEROCOUNT_SANITIZED
   GTEST_SKIP() << "sanitizers take memory of their own";
 #endif
-  const TemporaryFolder folder;
+  const verification::TemporaryFolder folder;
   folder.write("study.yaml", manifest);
   const ProgramResult run = zerocount_program({"run", "study.yaml", "-o", "out.h5"}, folder.path());
   ASSERT_EQ(run.code, 0) << run.err;
-  expect_about(study_run::measure_size(manifest::load_study(folder / "study.yaml", {})).memory_bytes,
+  expect_about(forecast::measure_size(manifest::load_study(folder / "study.yaml", {})).memory_bytes,
                peak_of_programs(), "memory");
 }
 
-TEST(StudySize, IsAboutTheMemoryThatARunTakes) {
+TEST(forecast::StudySize, IsAboutTheMemoryThatARunTakes) {
   expect_memory_of_run(small_manifest(12000));
 }
 
 /// Traces of 8000 trials of 1000 samples.
-TEST(StudySize, DISABLED_TheMemoryOfTracesIsBounded) {
+TEST(forecast::StudySize, DISABLED_TheMemoryOfTracesIsBounded) {
   constexpr int trials = 8000;
   std::string numbers = "0";
   for (int trial = 1; trial < trials; ++trial) numbers += ", " + std::to_string(trial);
@@ -111,8 +110,8 @@ TEST(StudySize, DISABLED_TheMemoryOfTracesIsBounded) {
   EXPECT_LT(peak_of_programs(), 0.6 * trials * 1000 * sizeof(trial::SampleRecord));
 }
 
-TEST(StudySize, ARunThatTheDiskCannotHoldIsRefusedBeforeItBegins) {
-  const TemporaryFolder folder;
+TEST(forecast::StudySize, ARunThatTheDiskCannotHoldIsRefusedBeforeItBegins) {
+  const verification::TemporaryFolder folder;
   folder.write("study.yaml", small_manifest(1000000000));
   const ProgramResult run = zerocount_program({"run", "study.yaml", "-o", "out.h5", "-q"}, folder.path());
   EXPECT_EQ(run.code, 5) << run.err;
@@ -125,13 +124,13 @@ TEST(StudySize, ARunThatTheDiskCannotHoldIsRefusedBeforeItBegins) {
   EXPECT_NE(check.out.find("GB"), std::string::npos) << check.out;
 }
 
-TEST(StudySize, IsToldWithTwoDigits) {
-  EXPECT_EQ(study_run::bytes_text(0.0), "0 B");
-  EXPECT_EQ(study_run::bytes_text(999.0), "999 B");
-  EXPECT_EQ(study_run::bytes_text(999.6), "1.0 kB");
-  EXPECT_EQ(study_run::bytes_text(4.44e6), "4.4 MB");
-  EXPECT_EQ(study_run::bytes_text(44.4e9), "44 GB");
-  EXPECT_EQ(study_run::bytes_text(1.5e15), "1500 TB");
+TEST(forecast::StudySize, IsToldWithTwoDigits) {
+  EXPECT_EQ(forecast::bytes_text(0.0), "0 B");
+  EXPECT_EQ(forecast::bytes_text(999.0), "999 B");
+  EXPECT_EQ(forecast::bytes_text(999.6), "1.0 kB");
+  EXPECT_EQ(forecast::bytes_text(4.44e6), "4.4 MB");
+  EXPECT_EQ(forecast::bytes_text(44.4e9), "44 GB");
+  EXPECT_EQ(forecast::bytes_text(1.5e15), "1500 TB");
 }
 
 }  // namespace

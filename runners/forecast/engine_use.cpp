@@ -1,4 +1,4 @@
-#include "runners/study_run/engine_use.hpp"
+#include "runners/forecast/engine_use.hpp"
 
 #include <algorithm>
 
@@ -7,7 +7,7 @@
 
 #include "core/batch/batch.hpp"
 
-namespace zerocount::study_run {
+namespace zerocount::forecast {
 
 PointsOnReference points_on_reference(const study::Study& study) {
   constexpr std::int64_t max_points = 1000;
@@ -32,4 +32,4 @@ std::string engine_text(const PointsOnReference& use) {
                      fmt::join(use.features, ", "));
 }
 
-}  // namespace zerocount::study_run
+}  // namespace zerocount::forecast

@@ -4,7 +4,7 @@
 
 #include "experiments/study/study.hpp"
 
-namespace zerocount::study_run {
+namespace zerocount::forecast {
 
 /// Memory and disk space of a study, estimated from some of its trials.
 struct StudySize {
@@ -26,4 +26,4 @@ void require_room(const std::filesystem::path& output, const study::Study& study
 /// "44 MB", to two significant digits.
 std::string bytes_text(double bytes);
 
-}  // namespace zerocount::study_run
+}  // namespace zerocount::forecast

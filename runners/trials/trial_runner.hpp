@@ -10,7 +10,7 @@
 #include "results/layout/row_range.hpp"
 #include "results/shards/shard.hpp"
 
-namespace zerocount::study_run {
+namespace zerocount::trials {
 
 /// True if the trials with this index, of all points, keep their traces.
 bool is_retained(const study::Study& study, std::int64_t index);
@@ -41,4 +41,4 @@ class TrialRunner {
   std::vector<study::StudyTrial> drawn_;  ///< [slot] trials in work
 };
 
-}  // namespace zerocount::study_run
+}  // namespace zerocount::trials

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cstdint>
 
-namespace zerocount::study_run {
+namespace zerocount::trials {
 
 /// Time that one turn of a point takes, s.
 ///
@@ -43,4 +43,4 @@ class TurnClock {
   Clock::time_point turn_begun_{run_begun_};
 };
 
-}  // namespace zerocount::study_run
+}  // namespace zerocount::trials

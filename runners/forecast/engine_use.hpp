@@ -6,7 +6,7 @@
 
 #include "experiments/study/study.hpp"
 
-namespace zerocount::study_run {
+namespace zerocount::forecast {
 
 /// Design points of a study whose trials the batch engine passes to the reference engine, which is several
 /// times slower.
@@ -23,4 +23,4 @@ PointsOnReference points_on_reference(const study::Study& study);
 /// Empty if no point does.
 std::string engine_text(const PointsOnReference& use);
 
-}  // namespace zerocount::study_run
+}  // namespace zerocount::forecast

@@ -1,4 +1,4 @@
-#include "runners/study_run/temporary_folder.hpp"
+#include "runners/verification/temporary_folder.hpp"
 
 #include <cerrno>
 #include <cstdlib>
@@ -7,7 +7,7 @@
 
 #include "results/storage/durable_file.hpp"
 
-namespace zerocount::study_run {
+namespace zerocount::verification {
 
 TemporaryFolder::TemporaryFolder() {
   std::error_code error;
@@ -23,4 +23,4 @@ TemporaryFolder::~TemporaryFolder() {
   std::filesystem::remove_all(path_, ignored);
 }
 
-}  // namespace zerocount::study_run
+}  // namespace zerocount::verification

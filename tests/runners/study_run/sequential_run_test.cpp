@@ -34,7 +34,7 @@ std::string stopping_manifest() {
   return manifest("stop: {success_rate_halfwidth: 0.08, max_trials: 2000}\n");
 }
 
-class StoppingRun : public ::testing::Test {
+class SequentialRun : public ::testing::Test {
  protected:
   fs::path at(const std::string& name) const { return folder_.path() / name; }
 
@@ -49,7 +49,7 @@ class StoppingRun : public ::testing::Test {
     ASSERT_EQ(result.code, 0) << result.err;
   }
 
-  TemporaryFolder folder_;
+  verification::TemporaryFolder folder_;
 };
 
 std::int64_t successes_among(const reading::StudyFile& file, std::int64_t point, std::int64_t trials) {
@@ -69,7 +69,7 @@ bool narrow(const reading::StudyFile& file, std::int64_t trials) {
   return true;
 }
 
-TEST_F(StoppingRun, EndsAfterTheFirstBlockThatLeavesItSure) {
+TEST_F(SequentialRun, EndsAfterTheFirstBlockThatLeavesItSure) {
   folder_.write("study.yaml", stopping_manifest());
   complete("study.yaml", "out.h5");
   const reading::StudyFile file(at("out.h5"));
@@ -82,7 +82,7 @@ TEST_F(StoppingRun, EndsAfterTheFirstBlockThatLeavesItSure) {
   EXPECT_FALSE(fs::exists(at("out.h5.shards")));
 }
 
-TEST_F(StoppingRun, ComesToTheSameForAnyThreadsAndInterruptions) {
+TEST_F(SequentialRun, ComesToTheSameForAnyThreadsAndInterruptions) {
   folder_.write("study.yaml", stopping_manifest());
   complete("study.yaml", "one.h5", {"--threads", "1"});
   complete("study.yaml", "three.h5", {"--threads", "3"});
@@ -97,7 +97,7 @@ TEST_F(StoppingRun, ComesToTheSameForAnyThreadsAndInterruptions) {
   expect_same_datasets(at("one.h5"), at("cut.h5"));
 }
 
-TEST_F(StoppingRun, SaysWhatItCameToAndWhy) {
+TEST_F(SequentialRun, SaysWhatItCameToAndWhy) {
   folder_.write("study.yaml", stopping_manifest());
   const ProgramResult sure = run("study.yaml", "out.h5");
   const std::string trials = std::to_string(reading::StudyFile(at("out.h5")).header().trials);
@@ -110,13 +110,13 @@ TEST_F(StoppingRun, SaysWhatItCameToAndWhy) {
   EXPECT_EQ(reading::StudyFile(at("few.h5")).header().trials, 120);
 }
 
-TEST_F(StoppingRun, TakesMinTrialsAtLeast) {
+TEST_F(SequentialRun, TakesMinTrialsAtLeast) {
   folder_.write("study.yaml", stopping_manifest());
   complete("study.yaml", "out.h5", {"--set", "stop.min_trials=1020"});
   EXPECT_EQ(reading::StudyFile(at("out.h5")).header().trials, 1050);
 }
 
-TEST_F(StoppingRun, IsNotRunTwiceAndOverwritesNothing) {
+TEST_F(SequentialRun, IsNotRunTwiceAndOverwritesNothing) {
   folder_.write("study.yaml", stopping_manifest());
   complete("study.yaml", "out.h5");
   const ProgramResult again = run("study.yaml", "out.h5");
@@ -126,14 +126,14 @@ TEST_F(StoppingRun, IsNotRunTwiceAndOverwritesNothing) {
   EXPECT_EQ(run("study.yaml", "out.h5", {"--engine", "reference"}).code, 2);
 }
 
-TEST_F(StoppingRun, CannotBeDividedIntoParts) {
+TEST_F(SequentialRun, CannotBeDividedIntoParts) {
   folder_.write("study.yaml", stopping_manifest());
   const ProgramResult result = run("study.yaml", "out.h5", {"--shard", "1/2"});
   EXPECT_EQ(result.code, 2);
   EXPECT_NE(result.err.find("option '--shard': a study with `stop` cannot be divided"), std::string::npos);
 }
 
-TEST_F(StoppingRun, SummaryHasTheBoundsThatHold) {
+TEST_F(SequentialRun, SummaryHasTheBoundsThatHold) {
   folder_.write("study.yaml", stopping_manifest());
   complete("study.yaml", "out.h5");
   const reading::StudyFile file(at("out.h5"));
@@ -151,7 +151,7 @@ TEST_F(StoppingRun, SummaryHasTheBoundsThatHold) {
   }
 }
 
-TEST_F(StoppingRun, SummarySaysWhereTheGoalWasNotReached) {
+TEST_F(SequentialRun, SummarySaysWhereTheGoalWasNotReached) {
   folder_.write("study.yaml", stopping_manifest());
   complete("study.yaml", "few.h5", {"--set", "stop.max_trials=100"});
   const ProgramResult table =
@@ -163,7 +163,7 @@ TEST_F(StoppingRun, SummarySaysWhereTheGoalWasNotReached) {
 
 // With rigs, how well the mean over these rigs is known decides, and all of them have run equally many trials
 // whenever it is looked at.
-TEST_F(StoppingRun, EndsAfterAWholeRoundOfItsRigs) {
+TEST_F(SequentialRun, EndsAfterAWholeRoundOfItsRigs) {
   const std::string rigs = "rigs: 10\n";
   folder_.write("study.yaml", stopping_manifest() + rigs);
   folder_.write("plain.yaml", manifest("") + rigs);
@@ -187,7 +187,7 @@ TEST_F(StoppingRun, EndsAfterAWholeRoundOfItsRigs) {
 }
 
 // What more trials narrowed is the mean over these rigs; of all rigs less is known.
-TEST_F(StoppingRun, SummaryKeepsTheBoundsOfTheseRigsApartFromThoseOfAll) {
+TEST_F(SequentialRun, SummaryKeepsTheBoundsOfTheseRigsApartFromThoseOfAll) {
   folder_.write("study.yaml", stopping_manifest() + "rigs: 10\n");
   complete("study.yaml", "out.h5");
   const ProgramResult result = zerocount_program({"summary", "out.h5", "--format", "json"}, folder_.path());
@@ -208,7 +208,7 @@ TEST_F(StoppingRun, SummaryKeepsTheBoundsOfTheseRigsApartFromThoseOfAll) {
 }
 
 /// Every trial of the file can be run again from it.
-TEST_F(StoppingRun, CanBeReplayedFromItsFile) {
+TEST_F(SequentialRun, CanBeReplayedFromItsFile) {
   folder_.write("study.yaml", stopping_manifest());
   complete("study.yaml", "out.h5");
   const reading::StudyFile file(at("out.h5"));

@@ -1,8 +1,8 @@
-#include "runners/study_run/turns.hpp"
+#include "runners/trials/turns.hpp"
 
 #include <algorithm>
 
-namespace zerocount::study_run {
+namespace zerocount::trials {
 
 Turns::Turns(std::span<const layout::RowRange> ranges, std::int64_t trials) {
   std::int64_t last_point = -1;
@@ -65,4 +65,4 @@ void Turns::choose_point() {
   waiting_.erase(waiting_.begin());
 }
 
-}  // namespace zerocount::study_run
+}  // namespace zerocount::trials

@@ -1,10 +1,10 @@
-#include "runners/study_run/progress.hpp"
+#include "runners/status/progress.hpp"
 
 #include <cmath>
 
 #include <fmt/format.h>
 
-namespace zerocount::study_run {
+namespace zerocount::status {
 namespace {
 
 double seconds(std::chrono::steady_clock::duration duration) {
@@ -52,4 +52,4 @@ std::string duration_text(double seconds) {
   return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
 }
 
-}  // namespace zerocount::study_run
+}  // namespace zerocount::status

@@ -1,4 +1,4 @@
-#include "runners/study_run/interruption.hpp"
+#include "runners/status/interruption.hpp"
 
 #include <csignal>
 #include <ctime>
@@ -7,7 +7,7 @@
 
 #include "core/failure/failure.hpp"
 
-namespace zerocount::study_run {
+namespace zerocount::status {
 namespace {
 
 /// The signals that end a run, without those that the process inherited as ignored, as SIGHUP with nohup.
@@ -54,4 +54,4 @@ InterruptionWatch::~InterruptionWatch() {
   pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
 }
 
-}  // namespace zerocount::study_run
+}  // namespace zerocount::status

@@ -1,12 +1,12 @@
-#include "runners/study_run/trial_runner.hpp"
+#include "runners/trials/trial_runner.hpp"
 
 #include <algorithm>
 #include <utility>
 
 #include "core/trial/trial.hpp"
-#include "runners/study_run/study_runner.hpp"
+#include "runners/trials/study_runner.hpp"
 
-namespace zerocount::study_run {
+namespace zerocount::trials {
 namespace {
 
 study::StudyTrial trial_of_row(const study::Study& study, std::int64_t row) {
@@ -102,4 +102,4 @@ void TrialRunner::run_in_lanes(layout::RowRange rows, const std::stop_token& sto
   for (std::size_t i = 0; i < places.size(); ++i) results[places[i]].outcome = std::move(outcomes[i]);
 }
 
-}  // namespace zerocount::study_run
+}  // namespace zerocount::trials

@@ -11,9 +11,9 @@
 #include "results/layout/header.hpp"
 #include "results/layout/row_range.hpp"
 #include "results/shards/shard.hpp"
-#include "runners/study_run/trial_runner.hpp"
+#include "runners/trials/trial_runner.hpp"
 
-namespace zerocount::study_run {
+namespace zerocount::trials {
 
 /// Memory of a result, bytes.
 std::size_t bytes_of(const shards::TrialResult& result);
@@ -70,4 +70,4 @@ class ShardWriter {
   std::vector<shards::ShardInfo> written_;
 };
 
-}  // namespace zerocount::study_run
+}  // namespace zerocount::trials

@@ -2,7 +2,7 @@
 
 #include "experiments/study/study.hpp"
 
-namespace zerocount::study_run {
+namespace zerocount::forecast {
 
 /// Computing time of a study.
 struct StudyCost {
@@ -17,4 +17,4 @@ struct StudyCost {
 /// Trials are cut at 200 000 samples, or less if those would take longer.
 StudyCost measure_cost(const study::Study& study);
 
-}  // namespace zerocount::study_run
+}  // namespace zerocount::forecast

@@ -10,7 +10,7 @@
 
 #include "results/layout/row_range.hpp"
 
-namespace zerocount::study_run {
+namespace zerocount::trials {
 
 /// The order in which the rows of a sweep run: its points take turns, so that the trials so far compare all
 /// of them.
@@ -56,4 +56,4 @@ class Turns {
   bool at_new_point_{false};
 };
 
-}  // namespace zerocount::study_run
+}  // namespace zerocount::trials

@@ -10,7 +10,7 @@
 
 namespace zerocount::study_run {
 
-struct StoppingRunSettings {
+struct SequentialRunSettings {
   int threads{0};  ///< 0: all cores
   bool quiet{false};
   ForeignShards foreign{ForeignShards::refuse};
@@ -26,7 +26,7 @@ inline constexpr std::string_view decided_key = "stop.max_trials=";
 /// of the study with an additional override of `stop.max_trials` by the final number of trials. An existing
 /// file is replaced.
 /// @throws Failure (interrupted) if `stop` was requested.
-ExitCode run_until_sure(const study::Study& study, const std::filesystem::path& output,
-                        const StoppingRunSettings& settings, const std::stop_token& stop);
+ExitCode run_sequential(const study::Study& study, const std::filesystem::path& output,
+                        const SequentialRunSettings& settings, const std::stop_token& stop);
 
 }  // namespace zerocount::study_run

@@ -1,4 +1,4 @@
-#include "runners/study_run/shard_writer.hpp"
+#include "runners/trials/shard_writer.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -7,7 +7,7 @@
 
 #include "results/layout/table_io.hpp"
 
-namespace zerocount::study_run {
+namespace zerocount::trials {
 namespace {
 
 template <class Value>
@@ -120,4 +120,4 @@ void ShardWriter::write_shard(std::int64_t count) {
   for (const shards::TrialResult& trial : waiting_.trials) bytes_ += bytes_of(trial);
 }
 
-}  // namespace zerocount::study_run
+}  // namespace zerocount::trials

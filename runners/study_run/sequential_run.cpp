@@ -1,4 +1,4 @@
-#include "runners/study_run/stopping_run.hpp"
+#include "runners/study_run/sequential_run.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -9,9 +9,10 @@
 #include "experiments/manifest/load_study.hpp"
 #include "results/reading/study_file.hpp"
 #include "results/storage/durable_file.hpp"
+#include "runners/status/progress.hpp"
 #include "runners/status/status.hpp"
-#include "runners/study_run/progress.hpp"
-#include "runners/study_run/study_runner.hpp"
+#include "runners/study_run/assembly.hpp"
+#include "runners/trials/study_runner.hpp"
 
 namespace zerocount::study_run {
 namespace {
@@ -122,8 +123,8 @@ void assemble_decided(const std::vector<shards::ShardInfo>& shards, const study:
 
 }  // namespace
 
-ExitCode run_until_sure(const study::Study& study, const fs::path& output,
-                        const StoppingRunSettings& settings, const std::stop_token& stop) {
+ExitCode run_sequential(const study::Study& study, const fs::path& output,
+                        const SequentialRunSettings& settings, const std::stop_token& stop) {
   const fs::path directory = layout::shards_directory(output);
   storage::make_directory(directory);
   EarlierShards earlier = earlier_shards(directory, study, layout::all_rows(study), settings.foreign);
@@ -134,8 +135,9 @@ ExitCode run_until_sure(const study::Study& study, const fs::path& output,
     successes.add(shard);
     done += shard.rows.count;
   }
-  Progress progress(study::point_count(study) * study.trials, done, samples_per_trial(study), settings.quiet);
-  RunSettings run;
+  status::Progress progress(study::point_count(study) * study.trials, done, trials::samples_per_trial(study),
+                            settings.quiet);
+  trials::RunSettings run;
   run.threads = settings.threads;
   run.finished = [&](std::int64_t trials) { progress.update(done += trials); };
 
@@ -144,7 +146,7 @@ ExitCode run_until_sure(const study::Study& study, const fs::path& output,
     trials = std::min(trials + study.stop->block, study.trials);
     const std::vector<layout::RowRange> ranges = missing(study, shards, trials);
     const std::int64_t before = done;
-    FinishedTrials finished = run_trials(study, ranges, directory, run, stop);
+    trials::FinishedTrials finished = trials::run_trials(study, ranges, directory, run, stop);
     for (shards::ShardInfo& shard : finished.shards) {
       successes.add(shard);
       shards.push_back(std::move(shard));

@@ -6,7 +6,7 @@
 
 #include "runners/status/status.hpp"
 
-namespace zerocount::study_run {
+namespace zerocount::status {
 
 /// Prints the progress of a run to stderr, and a final line.
 class Progress {
@@ -35,4 +35,4 @@ class Progress {
 /// A duration as text: "850 ms", "12 s", "3 min 20 s", "5 h 02 min".
 std::string duration_text(double seconds);
 
-}  // namespace zerocount::study_run
+}  // namespace zerocount::status

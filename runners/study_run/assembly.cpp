@@ -1,0 +1,61 @@
+#include "runners/study_run/assembly.hpp"
+
+#include <utility>
+#include <vector>
+
+#include "analysis/iso230/repeatability_file.hpp"
+#include "analysis/summary/stored_statistics.hpp"
+#include "analysis/summary/study_statistics.hpp"
+#include "core/failure/failure.hpp"
+#include "results/shards/merge.hpp"
+
+namespace zerocount::study_run {
+namespace {
+
+/// Writes the sums of all shards, and of the whole study the statistics that follow from them.
+void write_summed(shards::MergedFile& file, const study::Study& study, layout::RowRange rows) {
+  std::vector<layout::PointSums> sums;
+  std::vector<measures::PointSummary> points;
+  std::vector<theory::PointPrediction> predictions;
+  summary::StudyAccumulator accumulator(
+      study, {.statistics = file.is_whole(), .sums = true, .first_point = rows.first / study.trials},
+      [&](summary::PointResults&& point) {
+        sums.push_back(std::move(point.sums));
+        predictions.push_back(point.prediction);
+        if (file.is_whole()) points.push_back(std::move(point.statistics));
+      });
+  for (const shards::ShardInfo& shard : file.shards())
+    accumulator.add(reading::ResultsFile(shard.path, reading::Require::any_part));
+  accumulator.finish();
+  file.write_sums(sums);
+  if (!file.is_whole()) return;
+  file.write_statistics(
+      summary::stored_statistics(points, study, predictions, layout::measure_table(study.features.bands)));
+}
+
+/// Writes the statistics of all trials in the file.
+void write_statistics(shards::MergedFile& file, const study::Study& study,
+                      std::span<const theory::PointPrediction> predictions) {
+  try {
+    summary::take_stored_statistics(
+        file.trials(), study, predictions,
+        [&](const layout::StoredStatistics& block) { file.write_statistics(block); });
+    if (!study.sequence.empty()) iso230::write_repeatability(file.file(), study);
+  } catch (const Failure&) {
+    file.require_written();
+    throw;
+  }
+}
+
+}  // namespace
+
+void assemble(std::span<const shards::ShardInfo> shards, const study::Study& study,
+              const std::filesystem::path& output, layout::RowRange rows, const AssembleSettings& settings) {
+  shards::MergedFile file(shards, study, output, rows,
+                          {.renumber = settings.renumber, .stop = settings.stop});
+  if (layout::has_sums(study.kept)) write_summed(file, study, rows);
+  if (!layout::has_sums(study.kept) && file.is_whole()) write_statistics(file, study, settings.predictions);
+  file.finish();
+}
+
+}  // namespace zerocount::study_run

@@ -17,14 +17,13 @@
 #include "analysis/comparison/forecast.hpp"
 #include "analysis/comparison/measure_comparison.hpp"
 #include "analysis/comparison/point_trials.hpp"
-#include "analysis/parallel/parallel.hpp"
 #include "analysis/text/percent.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/plugins/hidden_state.hpp"
 #include "runners/status/progress.hpp"
 #include "runners/trials/study_runner.hpp"
-#include "runners/trials/trial_runner.hpp"
+#include "runners/trials/trial_set.hpp"
 
 namespace zerocount::design_commands {
 namespace {
@@ -97,18 +96,11 @@ study::Study planned_study(const command_line::Arguments& arguments) {
 
 /// The first `trials` trials of a point.
 comparison::PointTrials run_point(const study::Study& study, std::int64_t point, std::int64_t trials) {
-  std::vector<std::vector<trial::MoveOutcome>> blocks(
-      static_cast<std::size_t>((trials + pilot_block - 1) / pilot_block));
-  parallel::for_each_index(blocks.size(), [&](std::size_t block) {
-    const std::int64_t first = static_cast<std::int64_t>(block) * pilot_block;
-    const std::int64_t count = std::min(pilot_block, trials - first);
-    for (const shards::TrialResult& result :
-         trials::TrialRunner(study).run({point * study.trials + first, count})) {
-      blocks[block].insert(blocks[block].end(), result.outcome.moves.begin(), result.outcome.moves.end());
-    }
-  });
+  const auto draw = [&](std::int64_t index) { return study::study_trial(study, point, index).parameters; };
   std::vector<trial::MoveOutcome> outcomes;
-  for (const auto& block : blocks) outcomes.insert(outcomes.end(), block.begin(), block.end());
+  for (const std::vector<trial::MoveOutcome>& moves : trials::results_of(
+           trials, pilot_block, draw, {}, [](const trial::TrialOutcome& outcome) { return outcome.moves; }))
+    outcomes.insert(outcomes.end(), moves.begin(), moves.end());
   comparison::AlsoRead also;
   also.rigs = also.goal_rigs = study.rigs;
   also.worlds = study.worlds;

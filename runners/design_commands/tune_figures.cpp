@@ -18,10 +18,10 @@ using report::datum;
 using tuning::Aim;
 using tuning::Limit;
 using tuning::MapCell;
-using tuning::Place;
 using tuning::TriedPoint;
 using tuning::TuneAnswer;
 using tuning::TuningMap;
+using tuning::UnitCubePoint;
 using tuning::Values;
 using tuning::WorstMachine;
 
@@ -130,15 +130,15 @@ Figure frontier_figure(const TuneAnswer& answer, const study::Study& study) {
 }
 
 Figure room_figure(const TuneAnswer& answer) {
-  const Place tuned = tuning::place_of(answer.free, answer.gains);
+  const UnitCubePoint tuned = tuning::place_of(answer.free, answer.gains);
   Values low = answer.gains;
   Values high = answer.gains;
   for (std::size_t i = 0; i < answer.room.size(); ++i) {
     low[i] = answer.room[i].low;
     high[i] = answer.room[i].high;
   }
-  const Place low_place = tuning::place_of(answer.free, low);
-  const Place high_place = tuning::place_of(answer.free, high);
+  const UnitCubePoint low_place = tuning::place_of(answer.free, low);
+  const UnitCubePoint high_place = tuning::place_of(answer.free, high);
   FigureData data{"room",
                   {{"parameter", "parameter", ""},
                    {"tuned", "tuned", ""},

@@ -17,7 +17,7 @@
 #include "runners/design_commands/design_commands.hpp"
 #include "runners/design_commands/examined_point.hpp"
 #include "runners/status/interruption.hpp"
-#include "runners/tuning/worst_in_box.hpp"
+#include "runners/tuning/worst_machines.hpp"
 
 namespace zerocount::design_commands {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "analysis/document/description.hpp"
-#include "runners/tuning/worst_machine.hpp"
+#include "runners/tuning/worst_machines.hpp"
 
 namespace zerocount::design_commands {
 

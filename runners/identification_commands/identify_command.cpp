@@ -147,7 +147,7 @@ records::SeriesChoice series_choice(const command_line::Arguments& arguments) {
 }
 
 /// The least value of a known parameter.
-double least_known(identification::Coordinate coordinate) {
+double min_known(identification::Coordinate coordinate) {
   if (coordinate == identification::time_offset) return -identification::max_time_offset;
   return coordinate == identification::creep_exponent ? 1.0 : std::numeric_limits<double>::min();
 }
@@ -166,7 +166,7 @@ identification::KnownParameter known_parameter(const command_line::Arguments& ar
   const auto coordinate =
       static_cast<identification::Coordinate>(found - identification::coordinate_keys.begin());
   const double value =
-      command_line::number_from(arguments, "fix", text.substr(equals + 1), least_known(coordinate));
+      command_line::number_from(arguments, "fix", text.substr(equals + 1), min_known(coordinate));
   if (coordinate == identification::time_offset && value > identification::max_time_offset) {
     arguments.refuse(
         fmt::format("option '--fix': a time offset of {:g} samples; expected {:g} to {:g}; "

@@ -37,22 +37,22 @@ constexpr double enrichment_of_pinned = 5.0;  // of failures at a value, over th
 constexpr double share_of_pinned = 0.5;       // of the proposal, beside a mixture
 constexpr std::int64_t enough_plain_failures = 30;
 constexpr int searches_of_first_score = 2;
-constexpr double least_probability = 1e-11;
-constexpr double least_beside_the_best = 0.05;  // of the best score's probability
-constexpr int most_pilots = 8;
+constexpr double min_probability = 1e-11;
+constexpr double min_beside_the_best = 0.05;  // of the best score's probability
+constexpr int max_pilots = 8;
 constexpr std::size_t pilot_trials = 2000;
 constexpr double enough_pilot_failures = 100.0;  // independent ones
-constexpr double least_share_of_searched = 0.5;  // of splitting's failures, beside those of pilots
+constexpr double min_share_of_searched = 0.5;    // of splitting's failures, beside those of pilots
 constexpr double cap_of_no_use = 0.5;            // plain trials have 1
 constexpr double narrow_cap = 30.0;              // of the weights, over the probability
 constexpr std::size_t drawn_at_once = 500;
-constexpr std::size_t most_drawn = 2'000'000;  // some hundred bytes each
+constexpr std::size_t max_drawn = 2'000'000;  // some hundred bytes each
 constexpr double natural_share = 0.1;
 constexpr double share_of_levels = 0.35;
 constexpr double share_of_new = 0.4;  // of the mixture, after a failure that it did not foresee
 constexpr double cap_beyond_usual = 2.0;
 constexpr double quantile_of_cap = 0.998;  // of the likelihood ratio of failures
-constexpr std::int64_t most_learnings = 8;
+constexpr std::int64_t max_learnings = 8;
 constexpr double steps_per_independent_point = 5.0;  // of a Markov chain
 constexpr double disagreement = 10.0;                // of splitting and the bounds
 
@@ -121,8 +121,8 @@ struct TriedValue {
 };
 
 /// Those with most failures, and by turns those with the largest value of each score.
-std::vector<TriedValue> most_suspicious(const std::vector<TriedValue>& tried, std::size_t count,
-                                        std::size_t scores) {
+std::vector<TriedValue> max_suspicious(const std::vector<TriedValue>& tried, std::size_t count,
+                                       std::size_t scores) {
   if (tried.size() <= count) return tried;
   std::vector<std::size_t> order(tried.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -172,7 +172,7 @@ class Estimator {
 
   void estimate_by_drawing() {
     while (!answer_of(state_, settings_).narrow) {
-      if (state_.drawn.size() >= most_drawn || !go_on_(state_)) return;
+      if (state_.drawn.size() >= max_drawn || !go_on_(state_)) return;
       draw_more();
       if (!is_covered() && !learn_again()) return;
     }
@@ -208,7 +208,7 @@ class Estimator {
     NumberSource numbers = numbers_for("pilot", static_cast<std::uint32_t>(state_.searched));
     fit(numbers);
     double probability = 0.0;
-    for (int round = 0; round < most_pilots; ++round) {
+    for (int round = 0; round < max_pilots; ++round) {
       if (!go_on_(state_)) return false;
       probability = run_pilot(numbers);
       fit(numbers);
@@ -283,7 +283,7 @@ class Estimator {
         std::clamp<std::int64_t>(trials_of_values / std::ssize(tried), 1, max_trials_of_value);
     if (!run_tried(tried, each, numbers)) return false;
     for (const Retrial& retrial : retrials) {
-      tried = most_suspicious(tried, retrial.values, settings_.scores);
+      tried = max_suspicious(tried, retrial.values, settings_.scores);
       if (!run_tried(tried, retrial.trials, numbers)) return false;
     }
     const double usual =
@@ -330,7 +330,7 @@ class Estimator {
             {.coordinates = settings_.space.coordinates,
              .unordered = settings_.space.unordered,
              .score = score,
-             .least = std::max(least_probability, least_beside_the_best * best),
+             .least = std::max(min_probability, min_beside_the_best * best),
              .first_number = state_.trials},
             [&, plain = true](std::span<const TrialPoint> points) mutable {
               return run_beside_pinned(points, std::exchange(plain, false));
@@ -400,8 +400,8 @@ class Estimator {
     WeightedPoints searched = unexplained(searched_);
     const double effective = effective_size(points.weights);
     if (!searched.z.empty())
-      balance(searched, std::max(least_share_of_searched * effective,
-                                 std::max(1.0, enough_pilot_failures - effective)));
+      balance(searched,
+              std::max(min_share_of_searched * effective, std::max(1.0, enough_pilot_failures - effective)));
     for (std::size_t i = 0; i < searched.z.size(); ++i) points.add(searched.z[i], searched.weights[i]);
     set_components(points.z.empty() ? levels_
                                     : mixed(fitted_mixture(points, numbers), levels_, share_of_levels));
@@ -479,7 +479,7 @@ class Estimator {
   }
 
   bool learn_again() {
-    if (state_.learnings >= most_learnings) return false;
+    if (state_.learnings >= max_learnings) return false;
     WeightedPoints found;
     for (const WeightedTrial& trial : state_.drawn) {
       if (trial.failed > 0.0) found.add(trial.point.z, trial.weight * trial.failed);
@@ -531,7 +531,7 @@ Estimate answer_of(const EstimatorState& state, const EstimatorSettings& setting
     answer.status = EstimateStatus::estimated;
   } else if (natural && state.plain_failures == 0) {
     answer.status = EstimateStatus::no_failure;
-  } else if (state.drawn.size() >= most_drawn) {
+  } else if (state.drawn.size() >= max_drawn) {
     answer.status = EstimateStatus::too_many;
   }
   if (answer.status != EstimateStatus::estimated)

@@ -12,7 +12,7 @@ namespace zerocount::rare {
 namespace {
 
 constexpr std::size_t usual_trials = 2000;
-constexpr std::size_t most_failures = 2000;
+constexpr std::size_t max_failures = 2000;
 constexpr std::size_t examined_machines = 48;
 constexpr std::size_t moves_of_machine = 64;
 
@@ -123,7 +123,7 @@ void add_moves(const Question& question, const WeightedTrial& failed, std::int64
 
 std::vector<FailureInput> failure_inputs(const Question& question, const EstimatorState& state) {
   const std::vector<const WeightedTrial*> failed =
-      drawn_failures(state, std::min(most_failures, failures_of(state).size()));
+      drawn_failures(state, std::min(max_failures, failures_of(state).size()));
   std::vector<FailureInput> found;
   if (failed.empty()) return found;
   NumberSource numbers(designs::random_key(question.study.seed, "rare/usual"));

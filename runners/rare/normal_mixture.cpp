@@ -14,9 +14,9 @@
 namespace zerocount::rare {
 namespace {
 
-constexpr std::size_t most_components = 8;
-constexpr int most_iterations = 25;
-constexpr std::size_t most_points = 1500;  // to which a mixture is fitted
+constexpr std::size_t max_components = 8;
+constexpr int max_iterations = 25;
+constexpr std::size_t max_tried_points = 1500;  // to which a mixture is fitted
 
 Eigen::VectorXd vector_of(std::span<const double> z) {
   return Eigen::VectorXd::Map(z.data(), std::ssize(z));
@@ -153,7 +153,7 @@ Fit fit_of(const FittedPoints& points, std::size_t count, NumberSource& numbers)
     const Eigen::VectorXd mean = points.z.col(centre);
     fit.components.back().mean = {mean.begin(), mean.end()};
   }
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
     const double before = fit.log_likelihood;
     weights = weights_in(points, fit);
     if (fit.log_likelihood < before + 1e-3) break;
@@ -186,12 +186,12 @@ NormalComponent widened(const NormalComponent& component) {
 FittedPoints fitted_points(const WeightedPoints& points, NumberSource& numbers) {
   const double effective = effective_size(points.weights);
   const std::size_t size = points.z.size();
-  const bool all = size <= most_points;
+  const bool all = size <= max_tried_points;
   std::vector<double> places;  // of the points drawn, in the cumulative weights
-  for (std::size_t i = 0; !all && i < most_points; ++i) places.push_back(numbers.uniform());
+  for (std::size_t i = 0; !all && i < max_tried_points; ++i) places.push_back(numbers.uniform());
   std::ranges::sort(places);
   const double sum = std::accumulate(points.weights.begin(), points.weights.end(), 0.0);
-  const auto count = static_cast<Eigen::Index>(all ? size : most_points);
+  const auto count = static_cast<Eigen::Index>(all ? size : max_tried_points);
   FittedPoints fitted{Eigen::MatrixXd(std::ssize(points.z.front()), count), Eigen::VectorXd(count)};
   double passed = 0.0;
   std::size_t next = 0;
@@ -203,7 +203,7 @@ FittedPoints fitted_points(const WeightedPoints& points, NumberSource& numbers) 
     }
     for (; next < places.size() && (places[next] < passed || i + 1 == size); ++next) {
       fitted.z.col(static_cast<Eigen::Index>(next)) = vector_of(points.z[i]);
-      fitted.weights[static_cast<Eigen::Index>(next)] = effective / static_cast<double>(most_points);
+      fitted.weights[static_cast<Eigen::Index>(next)] = effective / static_cast<double>(max_tried_points);
     }
   }
   return fitted;
@@ -260,7 +260,7 @@ std::vector<NormalComponent> fitted_mixture(const WeightedPoints& points, Number
   const double parameters = 1.0 + size + 0.5 * size * (size + 1.0);
   Fit best;
   double best_criterion = std::numeric_limits<double>::infinity();
-  for (std::size_t count = 1; count <= most_components; ++count) {
+  for (std::size_t count = 1; count <= max_components; ++count) {
     Fit fit = fit_of(fitted, count, numbers);
     const double criterion =
         -2.0 * effective * fit.log_likelihood +

@@ -28,9 +28,9 @@ using document::with_words;
 
 using Of = const RareReading&;
 
-constexpr double least_shift = 0.3;  // of an input that is shown
-constexpr std::size_t most_inputs = 8;
-constexpr std::size_t most_replays = 3;
+constexpr double min_shift = 0.3;  // of an input that is shown
+constexpr std::size_t max_inputs = 8;
+constexpr std::size_t max_replays = 3;
 
 bool is_estimated(const RareAnswer& answer) {
   return answer.estimate.status == EstimateStatus::estimated;
@@ -166,7 +166,7 @@ std::string machines_sentence(Of r) {
 std::string replays_sentence(Of r) {
   const std::vector<WeightedTrial>& drawn = r.answer.state.drawn;
   std::vector<std::string> replays;
-  for (std::size_t i = 0; i < drawn.size() && replays.size() < most_replays; ++i) {
+  for (std::size_t i = 0; i < drawn.size() && replays.size() < max_replays; ++i) {
     if (drawn[i].failed > 0.0) replays.push_back(fmt::format("--trial {}", i));
   }
   if (replays.empty()) return "";
@@ -245,13 +245,13 @@ Description<ValueRow> value_columns() {
 /// The first rows, for people.
 template <class Row>
 std::vector<Row> first_rows(std::vector<Row> rows) {
-  while (rows.size() > most_inputs) rows.pop_back();
+  while (rows.size() > max_inputs) rows.pop_back();
   return rows;
 }
 
 std::vector<FailureInput> shifted_inputs(Of r) {
   std::vector<FailureInput> inputs = r.answer.inputs;
-  std::erase_if(inputs, [](const FailureInput& input) { return std::abs(input.shift) < least_shift; });
+  std::erase_if(inputs, [](const FailureInput& input) { return std::abs(input.shift) < min_shift; });
   return first_rows(std::move(inputs));
 }
 

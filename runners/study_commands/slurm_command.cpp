@@ -139,7 +139,7 @@ study::Study study_to_divide(const command_line::Arguments& arguments, const fs:
 /// Maximum number of elements of an array job of so many parts. For --dry-run on a machine without Slurm, the
 /// maximum of Slurm's default configuration.
 /// @throws Failure (machine_failed) if Slurm is not installed, or does not run arrays.
-std::int64_t largest_array(const command_line::Arguments& arguments, std::int64_t parts) {
+std::int64_t max_array(const command_line::Arguments& arguments, std::int64_t parts) {
   std::int64_t size = cluster::default_max_array_size;
   try {
     size = cluster::max_array_size();
@@ -287,7 +287,7 @@ ExitCode slurm(const command_line::Arguments& arguments) {
   cluster::BatchRequest request = batch_request(arguments, output, study);
   if (!arguments.has("dry-run")) require_no_job(output);
   require_same_division(output, parts);
-  request.job = cluster::array_job(parts, largest_array(arguments, parts));
+  request.job = cluster::array_job(parts, max_array(arguments, parts));
   if (!arguments.has("dry-run")) {
     submit_missing(output, study, request);
     return ExitCode::success;

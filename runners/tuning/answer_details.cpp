@@ -47,11 +47,11 @@ double rate_in_wider_band(const TunedStudy& tuned) {
 }
 
 std::vector<Room> room_of(const TunedStudy& tuned) {
-  const Place place = place_of(tuned.free, tuned.gains);
+  const UnitCubePoint place = place_of(tuned.free, tuned.gains);
   std::vector<Room> room;
   for (std::size_t i = 0; i < tuned.free.size(); ++i) {
     const auto values = [&](double share) {
-      Place moved = place;
+      UnitCubePoint moved = place;
       moved[i] = share;
       Values at = tuned.gains;
       at[i] = values_at(tuned.free, moved)[i];

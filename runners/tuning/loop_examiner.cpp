@@ -17,7 +17,7 @@
 namespace zerocount::tuning {
 namespace {
 
-constexpr std::int64_t most_unlike_machines = 100;
+constexpr std::int64_t max_unlike_machines = 100;
 constexpr int places_on_profile = 64;
 constexpr int stiffnesses = 4;  // from the softest to the stiffest
 constexpr double longest_delay = 10.0;
@@ -154,7 +154,7 @@ LoopExaminer::LoopExaminer(const study::Study& study, std::int64_t machines) {
   const trial::TrialParameters first = study::study_trial(study, 0, 0).parameters;
   if (theory::has_no_linear_loop(first)) return;
   const bool alike = differ_in_stiffness_alone(study, first.friction.model);
-  examined_ = alike ? machines : std::min(machines, most_unlike_machines);
+  examined_ = alike ? machines : std::min(machines, max_unlike_machines);
   machines_.resize(static_cast<std::size_t>(examined_));
   parallel::for_each_index(machines_.size(), [&](std::size_t i) {
     const auto trial = static_cast<std::int64_t>(i);

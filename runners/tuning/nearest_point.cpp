@@ -11,8 +11,8 @@
 namespace zerocount::tuning {
 namespace {
 
-constexpr std::int64_t most_points = 1024;
-constexpr std::int64_t most_unstable_points = 32;
+constexpr std::int64_t max_tried_points = 1024;
+constexpr std::int64_t max_unstable_points = 32;
 constexpr int halvings = 7;
 
 study::LoopMargins part_of(const study::LoopMargins& margins, double part) {
@@ -54,7 +54,7 @@ class NearestSearch {
   /// Of unstable loops the gain margin is the change of the gain that makes them stable.
   std::optional<NearestPoint> least_unstable(const std::vector<Values>& points) const {
     std::optional<NearestPoint> nearest;
-    for (const std::int64_t i : statistics::spread_over(std::ssize(points), most_unstable_points)) {
+    for (const std::int64_t i : statistics::spread_over(std::ssize(points), max_unstable_points)) {
       std::optional<NearestPoint> one = examined(points[static_cast<std::size_t>(i)]);
       if (one && (!nearest || one->margins.gain < nearest->margins.gain)) nearest = std::move(one);
     }
@@ -82,7 +82,7 @@ std::optional<NearestPoint> nearest_point(
     const std::stop_token& stop) {
   const NearestSearch search(examiner, candidate, slides, stop);
   std::vector<Values> points;
-  for (const std::int64_t i : statistics::spread_over(std::ssize(tried), most_points))
+  for (const std::int64_t i : statistics::spread_over(std::ssize(tried), max_tried_points))
     points.push_back(tried[static_cast<std::size_t>(i)]);
   std::vector<Values> nearest = search.that_keep(points, part_of(wanted, 0.0));
   if (nearest.empty()) return search.least_unstable(points);

@@ -25,7 +25,7 @@ namespace {
 constexpr std::int64_t usual_units = 500;  // at least, where the effort is enough for them
 
 /// The fewest units that can meet the goal.
-std::int64_t least_units_of(const study::Study& study, std::int64_t each, std::size_t points) {
+std::int64_t min_units_of(const study::Study& study, std::int64_t each, std::size_t points) {
   std::int64_t least = std::max<std::int64_t>(study.worlds, 1);
   if (study.rigs == 0) {
     for (const goal::Needs& one :
@@ -138,19 +138,19 @@ measures::MoveCounts with_trials_each(measures::MoveCounts counts, std::int64_t 
 }
 
 std::int64_t proof_units(const study::Study& study, const measures::MoveCounts& counts, std::int64_t each,
-                         std::size_t points, std::int64_t most_trials) {
+                         std::size_t points, std::int64_t max_trials) {
   const std::int64_t worlds = std::max<std::int64_t>(study.worlds, 1);
-  const std::int64_t most = std::max<std::int64_t>(most_trials / each / worlds, 1) * worlds;
-  const std::int64_t least = std::max(usual_units, least_units_of(study, each, points));
+  const std::int64_t most = std::max<std::int64_t>(max_trials / each / worlds, 1) * worlds;
+  const std::int64_t least = std::max(usual_units, min_units_of(study, each, points));
   // Half as many more are taken below.
   const goal::Needs needs = goal::needs_of(*study.goal, counts, points, 0.5);
   const std::int64_t wanted = needs.trials == 0 ? most / 8 : (study.rigs > 0 ? needs.rigs : needs.trials);
   return trials::in_equal_worlds(study, std::clamp(wanted + wanted / 2, std::min(least, most), most));
 }
 
-std::int64_t least_proof_trials(const study::Study& study, int attempt) {
+std::int64_t min_proof_trials(const study::Study& study, int attempt) {
   const std::int64_t each = trials_of_machine(study);
-  return trials::in_equal_worlds(study, least_units_of(study, each, correction_of(attempt))) * each;
+  return trials::in_equal_worlds(study, min_units_of(study, each, correction_of(attempt))) * each;
 }
 
 ProofRun run_proof(const study::Study& study, std::vector<std::string> values,

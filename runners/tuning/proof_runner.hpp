@@ -21,12 +21,12 @@ measures::MoveCounts with_trials_each(measures::MoveCounts counts, std::int64_t 
 /// Units with which the proof of a candidate with such counts is expected to be decided, and half as many
 /// more.
 /// @param each trials of a unit @param points from which the bounds have to allow for a choice
-/// @param most_trials limit of the proof, at least least_proof_trials()
+/// @param max_trials limit of the proof, at least min_proof_trials()
 std::int64_t proof_units(const study::Study& study, const measures::MoveCounts& counts, std::int64_t each,
-                         std::size_t points, std::int64_t most_trials);
+                         std::size_t points, std::int64_t max_trials);
 
 /// Trials of the smallest proof in this attempt that can meet the goal, if no move misses it.
-std::int64_t least_proof_trials(const study::Study& study, int attempt);
+std::int64_t min_proof_trials(const study::Study& study, int attempt);
 
 /// A finished run of some units.
 struct ProofRun {

@@ -21,15 +21,15 @@ constexpr double search_part = 0.5;      // of a budget
 constexpr double simulating_part = 0.7;  // of the time of a search; the rest examines margins
 constexpr double spendable_part = 0.9;   // of the time; the rest starts and ends the proof
 constexpr double judgement_part = 0.2;   // of the effort of another control
-constexpr std::int64_t most_units_of_judgement = 1000;
-constexpr std::int64_t least_units_of_judgement = 50;
+constexpr std::int64_t max_units_of_judgement = 1000;
+constexpr std::int64_t min_units_of_judgement = 50;
 
 SearchScope scope_of(const study::Study& study, std::span<const study::FreeParameter> free,
                      std::int64_t units) {
   return {free.size(), zero_sets(free).size(), units, study.worlds};
 }
 
-std::int64_t least_search_trials(const study::Study& study, std::span<const study::FreeParameter> free) {
+std::int64_t min_search_trials(const study::Study& study, std::span<const study::FreeParameter> free) {
   const SearchScope scope = scope_of(study, free, max_units);
   return first_race_units(smallest_search(scope), scope.faces) * search_trials_of_machine(study);
 }
@@ -49,10 +49,11 @@ std::int64_t affordable_trials(const trials::Effort& effort, double speed) {
 }
 
 double measured_speed(const study::Study& study, const trials::Effort& effort) {
-  constexpr std::int64_t most_units = 512;
+  constexpr std::int64_t max_measured_units = 512;
   constexpr double part_of_time = 0.05;
   using Clock = std::chrono::steady_clock;
-  const trials::Replicates units{trials::in_equal_worlds(study, most_units), search_trials_of_machine(study)};
+  const trials::Replicates units{trials::in_equal_worlds(study, max_measured_units),
+                                 search_trials_of_machine(study)};
   const study::Study measured = trials::variant_of(study, trials::overrides_for(study, units));
   const trials::Effort part = effort.share({}, part_of_time * effort.seconds_left());
   double fastest = 0.0;
@@ -74,8 +75,8 @@ SearchPlan plan_search(const study::Study& study, const TuneBudget& budget, cons
   const SearchScope scope = scope_of(study, free, max_units);
   if (!budget.trials && !budget.seconds)
     return {search_size(scope, default_search_trials / each), whole.share(default_search_trials, {})};
-  const std::int64_t search = least_search_trials(study, free);
-  const std::int64_t proof = least_proof_trials(study, 1);  // in its first attempt
+  const std::int64_t search = min_search_trials(study, free);
+  const std::int64_t proof = min_proof_trials(study, 1);  // in its first attempt
   const std::int64_t left = affordable_trials(whole, spendable_part * speed);
   if (left < search + proof) {
     const std::string needs = fmt::format(
@@ -101,9 +102,9 @@ SearchPlan plan_other_search(const study::Study& study, std::span<const study::F
   const std::int64_t each = search_trials_of_machine(study);
   const std::int64_t judgement = std::min(
       static_cast<std::int64_t>(judgement_part * static_cast<double>(affordable_trials(share, speed))),
-      most_units_of_judgement * trials_of_machine(study));
+      max_units_of_judgement * trials_of_machine(study));
   const std::int64_t trials = affordable_trials(share, speed) - judgement;
-  if (trials < least_search_trials(study, free)) throw trials::Spent{};
+  if (trials < min_search_trials(study, free)) throw trials::Spent{};
   const std::optional<double> seconds = std::isinf(share.seconds_left())
                                             ? std::nullopt
                                             : std::optional((1.0 - judgement_part) * share.seconds_left());
@@ -116,7 +117,7 @@ RestPlan plan_rest(const study::Study& study, std::int64_t points, std::int64_t 
   constexpr std::int64_t least = 64;
   double others = 0.0;
   for (const OtherControl& one : controls)
-    others += static_cast<double>(least_search_trials(study, one.free)) / (1.0 - judgement_part);
+    others += static_cast<double>(min_search_trials(study, one.free)) / (1.0 - judgement_part);
   const std::int64_t each = points * search_trials_of_machine(study);
   const std::int64_t left = affordable_trials(effort, speed) - whole_trials(others);
   if ((left - trials_of_maps) / each < least) trials_of_maps = 0;
@@ -125,9 +126,9 @@ RestPlan plan_rest(const study::Study& study, std::int64_t points, std::int64_t 
 
 std::int64_t units_of_judgement(const study::Study& study, const trials::Effort& share, double speed) {
   const std::int64_t worlds = std::max<std::int64_t>(study.worlds, 1);
-  const std::int64_t most = std::min(trials::in_equal_worlds(study, most_units_of_judgement),
+  const std::int64_t most = std::min(trials::in_equal_worlds(study, max_units_of_judgement),
                                      affordable_trials(share, speed) / trials_of_machine(study));
-  if (most < least_units_of_judgement) throw trials::Spent{};
+  if (most < min_units_of_judgement) throw trials::Spent{};
   return most / worlds * worlds;
 }
 

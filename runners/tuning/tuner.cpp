@@ -190,7 +190,7 @@ class Tuner {
 
   /// Limit of the trials of a proof; with a time as budget those of a part of what is left at the speed of
   /// the search, because the proof writes a file too.
-  std::int64_t most_proof_trials() const {
+  std::int64_t max_proof_trials() const {
     constexpr double part = 0.5;
     const std::int64_t most = std::max<std::int64_t>(max_proof_moves / study_.moves, 1);
     return std::min(most, affordable_trials(effort_, part * speed_));
@@ -206,10 +206,10 @@ class Tuner {
     problem.first_units = [&](std::size_t finalist, std::size_t correction) {
       const std::vector<UnitResult>& found = result_.finalists[finalist].units;
       const measures::MoveCounts counts = counts_of(study_, search_.units(), found);
-      return proof_units(study_, with_trials_each(counts, each), each, correction, most_proof_trials());
+      return proof_units(study_, with_trials_each(counts, each), each, correction, max_proof_trials());
     };
     problem.more_units = [&](const measures::MoveCounts& counts, std::size_t correction) {
-      return proof_units(study_, counts, each, correction, most_proof_trials());
+      return proof_units(study_, counts, each, correction, max_proof_trials());
     };
     problem.run = [&](const Attempt& attempt) -> std::optional<measures::MoveCounts> {
       const trials::Replicates units{attempt.units, each};
@@ -231,7 +231,7 @@ class Tuner {
              !search_.examiner().keeps(search_.examined_candidate(finalist.values), study_.tuning->margins,
                                        true, effort_.stop());
     };
-    problem.goes_on = [this] { return most_proof_trials() >= least_proof_trials(study_, max_attempts); };
+    problem.goes_on = [this] { return max_proof_trials() >= min_proof_trials(study_, max_attempts); };
     const std::optional<ProvenFinalist> proven = tuning::prove(problem);
     if (!proven) throw out_of_time("ended in the proof");
     adopt(*proven, std::move(run));
@@ -309,7 +309,7 @@ class Tuner {
   }
 
   void name_edges() {
-    const Place place = place_of(answer_.free, answer_.gains);
+    const UnitCubePoint place = place_of(answer_.free, answer_.gains);
     for (std::size_t i = 0; i < place.size(); ++i) {
       constexpr double close = 0.02;
       if (place[i] > close && place[i] < 1.0 - close) continue;

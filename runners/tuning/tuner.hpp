@@ -18,7 +18,7 @@
 #include "runners/tuning/race/frontier.hpp"
 #include "runners/tuning/tune_plan.hpp"
 #include "runners/tuning/tuning_map.hpp"
-#include "runners/tuning/worst_machine.hpp"
+#include "runners/tuning/worst_machines.hpp"
 
 namespace zerocount::tuning {
 

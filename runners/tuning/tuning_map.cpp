@@ -11,7 +11,7 @@ constexpr std::int64_t units_of_cell = 128;
 
 /// The values of the tuned study with two of them at other places of their ranges.
 Values values_of_cell(const TunedStudy& tuned, const TuningMap& map, double x, double y) {
-  Place place = place_of(tuned.free, tuned.gains);
+  UnitCubePoint place = place_of(tuned.free, tuned.gains);
   place[map.x] = x;
   place[map.y] = y;
   const Values moved = values_at(tuned.free, place);

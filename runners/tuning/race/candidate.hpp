@@ -35,7 +35,7 @@ struct Aim {
 
 /// A point of the search and its results on the units 0, 1, ….
 struct Candidate {
-  Place place;
+  UnitCubePoint place;
   Values values;
   std::vector<UnitResult> units;
 };

@@ -13,13 +13,13 @@ namespace zerocount::tuning {
 namespace {
 
 constexpr double error_of_dropping = 0.01;
-constexpr int tries_of_candidate = 60;       // draws for one admissible candidate
-constexpr std::size_t places_at_once = 32;   // to be examined
-constexpr double first_step = 0.15;          // in the unit cube
-constexpr double step_ratio = 0.8;           // from generation to generation
-constexpr int patience = 4;                  // generations without improvement
-constexpr double least_improvement = 0.005;  // of the criterion
-constexpr double examining = 0.3;            // of the time left, at most, to find candidates of a generation
+constexpr int tries_of_candidate = 60;      // draws for one admissible candidate
+constexpr std::size_t places_at_once = 32;  // to be examined
+constexpr double first_step = 0.15;         // in the unit cube
+constexpr double step_ratio = 0.8;          // from generation to generation
+constexpr int patience = 4;                 // generations without improvement
+constexpr double min_improvement = 0.005;   // of the criterion
+constexpr double examining = 0.3;           // of the time left, at most, to find candidates of a generation
 
 class Search {
  public:
@@ -53,9 +53,10 @@ class Search {
   }
 
   /// Adds the places that are admissible and new, up to `wanted` of them.
-  void add_admissible(const std::vector<Place>& places, std::size_t wanted, std::vector<Candidate>& to) {
+  void add_admissible(const std::vector<UnitCubePoint>& places, std::size_t wanted,
+                      std::vector<Candidate>& to) {
     std::vector<Candidate> drawn;
-    for (const Place& place : places) {
+    for (const UnitCubePoint& place : places) {
       Values at = values_at(problem_.free, place);
       if (!tried_.insert(at).second) continue;
       drawn.push_back({place_of(problem_.free, at), at, {}});
@@ -91,7 +92,7 @@ class Search {
     std::vector<double> start;
     for (std::size_t i = 0; i < problem_.free.size(); ++i) start.push_back(numbers_.uniform());
     std::vector<Candidate> candidates;
-    std::vector<Place> places;
+    std::vector<UnitCubePoint> places;
     for (const Values& values : problem_.starts) places.push_back(place_of(problem_.free, values));
     find(candidates, [&] {
       add_admissible(places, wanted, candidates);
@@ -113,7 +114,7 @@ class Search {
     std::int64_t drawn = 0;
     const auto most = static_cast<std::int64_t>(wanted - candidates.size()) * tries_of_candidate;
     find(candidates, [&] {
-      std::vector<Place> places;
+      std::vector<UnitCubePoint> places;
       for (std::size_t i = 0; i < places_at_once; ++i) {
         places.push_back(spread_place(start, drawn++));
         for (const std::size_t parameter : face) places.back()[parameter] = 0.0;
@@ -125,14 +126,15 @@ class Search {
 
   /// A place near an elite, moved along the difference of two others: their spread knows the direction of a
   /// narrow valley.
-  Place place_near_elites(double step) {
+  UnitCubePoint place_near_elites(double step) {
     const std::size_t elites = population_.size();
     const double u = numbers_.uniform();
-    const Place& centre = population_[static_cast<std::size_t>(u * u * static_cast<double>(elites))].place;
-    const Place& from = population_[index_below(elites)].place;
-    const Place& to = population_[index_below(elites)].place;
+    const UnitCubePoint& centre =
+        population_[static_cast<std::size_t>(u * u * static_cast<double>(elites))].place;
+    const UnitCubePoint& from = population_[index_below(elites)].place;
+    const UnitCubePoint& to = population_[index_below(elites)].place;
     const double along = numbers_.uniform() < 0.7 ? 0.8 * numbers_.uniform() : 0.0;
-    Place place;
+    UnitCubePoint place;
     for (std::size_t i = 0; i < centre.size(); ++i) {
       const double moved = centre[i] + along * (to[i] - from[i]) + step * numbers_.normal();
       place.push_back(std::clamp(moved, 0.0, 1.0));
@@ -146,7 +148,7 @@ class Search {
     const auto wanted = static_cast<std::size_t>(problem_.size.candidates);
     int tries = 0;
     find(candidates, [&] {
-      std::vector<Place> places;
+      std::vector<UnitCubePoint> places;
       for (std::size_t i = candidates.size(); i < wanted; ++i)
         places.push_back(place_near_elites(step_ / (1.0 + 0.2 * tries)));
       add_admissible(places, wanted, candidates);
@@ -265,7 +267,7 @@ class Search {
              (sure == candidates.end() || &one == &*sure ||
               !surely_later(aim, one, *sure, error_of_dropping));
     };
-    const auto most = static_cast<std::size_t>(most_after(problem_.size, units));
+    const auto most = static_cast<std::size_t>(max_after(problem_.size, units));
     std::vector<char> chosen(candidates.size(), 0);
     std::size_t count = 0;
     const auto choose = [&](std::size_t i) {
@@ -291,7 +293,7 @@ class Search {
   bool improves(const Estimate& before, const Estimate& now) const {
     const bool met = seems_to_meet(problem_.aim, before);
     if (met != seems_to_meet(problem_.aim, now)) return !met;
-    if (met) return now.criterion < before.criterion * (1.0 - least_improvement);
+    if (met) return now.criterion < before.criterion * (1.0 - min_improvement);
     return now.rate > before.rate + 0.001;
   }
 

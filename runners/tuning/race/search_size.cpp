@@ -33,7 +33,7 @@ SearchSize size_at(const SearchScope& scope, int step) {
 
 }  // namespace
 
-std::int64_t most_after(const SearchSize& size, std::int64_t units) {
+std::int64_t max_after(const SearchSize& size, std::int64_t units) {
   return std::max(size.elites, 4 * size.candidates * size.first_units / units);
 }
 
@@ -41,7 +41,7 @@ std::int64_t first_race_units(const SearchSize& size, std::size_t faces) {
   std::int64_t candidates = size.first_candidates + static_cast<std::int64_t>(faces) * size.face_candidates;
   std::int64_t total = candidates * size.first_units;
   for (std::int64_t units = size.first_units; units < size.max_units;) {
-    candidates = std::min(candidates, most_after(size, units));
+    candidates = std::min(candidates, max_after(size, units));
     const std::int64_t next = std::min(2 * units, size.max_units);
     total += candidates * (next - units);
     units = next;

@@ -17,7 +17,7 @@ struct SearchSize {
 };
 
 /// Candidates at most that stay in a race after `units` units.
-std::int64_t most_after(const SearchSize& size, std::int64_t units);
+std::int64_t max_after(const SearchSize& size, std::int64_t units);
 
 /// trials::Replicates that a race of the first generation runs at most, over all candidates.
 std::int64_t first_race_units(const SearchSize& size, std::size_t faces);

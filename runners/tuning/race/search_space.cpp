@@ -15,7 +15,7 @@ double shortened(double value) {
 
 }  // namespace
 
-Values values_at(std::span<const study::FreeParameter> free, const Place& place) {
+Values values_at(std::span<const study::FreeParameter> free, const UnitCubePoint& place) {
   Values values;
   for (std::size_t i = 0; i < free.size(); ++i) {
     const study::FreeParameter& one = free[i];
@@ -27,8 +27,8 @@ Values values_at(std::span<const study::FreeParameter> free, const Place& place)
   return values;
 }
 
-Place place_of(std::span<const study::FreeParameter> free, const Values& values) {
-  Place place;
+UnitCubePoint place_of(std::span<const study::FreeParameter> free, const Values& values) {
+  UnitCubePoint place;
   for (std::size_t i = 0; i < free.size(); ++i) {
     const study::FreeParameter& one = free[i];
     const double value = std::clamp(values[i], one.low, one.high);
@@ -38,10 +38,10 @@ Place place_of(std::span<const study::FreeParameter> free, const Values& values)
   return place;
 }
 
-Place spread_place(std::span<const double> start, std::int64_t i) {
+UnitCubePoint spread_place(std::span<const double> start, std::int64_t i) {
   double g = 2.0;
   for (int step = 0; step < 60; ++step) g = std::pow(1.0 + g, 1.0 / static_cast<double>(start.size() + 1));
-  Place place;
+  UnitCubePoint place;
   double ratio = 1.0;
   for (const double first : start) {
     ratio /= g;

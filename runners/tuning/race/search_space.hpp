@@ -9,19 +9,19 @@
 namespace zerocount::tuning {
 
 /// A point of the unit cube: [free parameter] the place in its range, 0 to 1, by its scale.
-using Place = std::vector<double>;
+using UnitCubePoint = std::vector<double>;
 /// [free parameter] the value in the manifest's unit.
 using Values = std::vector<double>;
 
 /// The values at a place, each rounded to four significant digits, or to a whole number, inside its range:
 /// what is simulated is what a user types in.
-Values values_at(std::span<const study::FreeParameter> free, const Place& place);
+Values values_at(std::span<const study::FreeParameter> free, const UnitCubePoint& place);
 
 /// The place of the values, clamped to the ranges.
-Place place_of(std::span<const study::FreeParameter> free, const Values& values);
+UnitCubePoint place_of(std::span<const study::FreeParameter> free, const Values& values);
 
 /// Point i of a sequence that fills the unit cube evenly: the fractional parts of start_d + i·g⁻ᵈ, d = 1, 2,
 /// …, g the root of gᴰ⁺¹ = g + 1 (Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018).
-Place spread_place(std::span<const double> start, std::int64_t i);
+UnitCubePoint spread_place(std::span<const double> start, std::int64_t i);
 
 }  // namespace zerocount::tuning

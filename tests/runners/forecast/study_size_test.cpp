@@ -44,9 +44,9 @@ std::vector<std::string> manifests() {
   return all;
 }
 
-TEST(forecast::StudySize, IsAboutWhatTheFilesTake) {
+TEST(StudySize, IsAboutWhatTheFilesTake) {
   for (const std::string& manifest : manifests()) {
-    const verification::TemporaryFolder folder;
+    const TemporaryFolder folder;
     folder.write("study.yaml", manifest);
     const study::Study study = manifest::load_study(folder / "study.yaml", {});
     SCOPED_TRACE(manifest);
@@ -62,11 +62,11 @@ TEST(forecast::StudySize, IsAboutWhatTheFilesTake) {
 }
 
 // Many more rigs than trials are tried beforehand. Shards are written by the clock, and not judged.
-TEST(forecast::StudySize, OfSumsIsAboutWhatTheFileTakes) {
+TEST(StudySize, OfSumsIsAboutWhatTheFileTakes) {
   for (const std::string& manifest :
        {small_manifest(1500, "keep: statistics\n"), small_manifest(800, "rigs: 50\nkeep: failures\n"),
         small_manifest(6000, "rigs: 3000\nkeep: statistics\n")}) {
-    const verification::TemporaryFolder folder;
+    const TemporaryFolder folder;
     folder.write("study.yaml", manifest);
     SCOPED_TRACE(manifest);
     const forecast::StudySize size = forecast::measure_size(manifest::load_study(folder / "study.yaml", {}));
@@ -86,7 +86,7 @@ void expect_memory_of_run(const std::string& manifest) {
 #ifdef ZEROCOUNT_SANITIZED
   GTEST_SKIP() << "sanitizers take memory of their own";
 #endif
-  const verification::TemporaryFolder folder;
+  const TemporaryFolder folder;
   folder.write("study.yaml", manifest);
   const ProgramResult run = zerocount_program({"run", "study.yaml", "-o", "out.h5"}, folder.path());
   ASSERT_EQ(run.code, 0) << run.err;
@@ -94,12 +94,12 @@ void expect_memory_of_run(const std::string& manifest) {
                peak_of_programs(), "memory");
 }
 
-TEST(forecast::StudySize, IsAboutTheMemoryThatARunTakes) {
+TEST(StudySize, IsAboutTheMemoryThatARunTakes) {
   expect_memory_of_run(small_manifest(12000));
 }
 
 /// Traces of 8000 trials of 1000 samples.
-TEST(forecast::StudySize, DISABLED_TheMemoryOfTracesIsBounded) {
+TEST(StudySize, DISABLED_TheMemoryOfTracesIsBounded) {
   constexpr int trials = 8000;
   std::string numbers = "0";
   for (int trial = 1; trial < trials; ++trial) numbers += ", " + std::to_string(trial);
@@ -110,8 +110,8 @@ TEST(forecast::StudySize, DISABLED_TheMemoryOfTracesIsBounded) {
   EXPECT_LT(peak_of_programs(), 0.6 * trials * 1000 * sizeof(trial::SampleRecord));
 }
 
-TEST(forecast::StudySize, ARunThatTheDiskCannotHoldIsRefusedBeforeItBegins) {
-  const verification::TemporaryFolder folder;
+TEST(StudySize, ARunThatTheDiskCannotHoldIsRefusedBeforeItBegins) {
+  const TemporaryFolder folder;
   folder.write("study.yaml", small_manifest(1000000000));
   const ProgramResult run = zerocount_program({"run", "study.yaml", "-o", "out.h5", "-q"}, folder.path());
   EXPECT_EQ(run.code, 5) << run.err;
@@ -124,7 +124,7 @@ TEST(forecast::StudySize, ARunThatTheDiskCannotHoldIsRefusedBeforeItBegins) {
   EXPECT_NE(check.out.find("GB"), std::string::npos) << check.out;
 }
 
-TEST(forecast::StudySize, IsToldWithTwoDigits) {
+TEST(StudySize, IsToldWithTwoDigits) {
   EXPECT_EQ(forecast::bytes_text(0.0), "0 B");
   EXPECT_EQ(forecast::bytes_text(999.0), "999 B");
   EXPECT_EQ(forecast::bytes_text(999.6), "1.0 kB");

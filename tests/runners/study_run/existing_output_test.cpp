@@ -48,7 +48,7 @@ class ExistingOutput : public ::testing::Test {
     EXPECT_FALSE(fs::exists(at("out.h5.shards")));
   }
 
-  verification::TemporaryFolder folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(ExistingOutput, IsExtendedToWhatARunOfAllItsTrialsGives) {

@@ -49,7 +49,7 @@ class SequentialRun : public ::testing::Test {
     ASSERT_EQ(result.code, 0) << result.err;
   }
 
-  verification::TemporaryFolder folder_;
+  TemporaryFolder folder_;
 };
 
 std::int64_t successes_among(const reading::StudyFile& file, std::int64_t point, std::int64_t trials) {

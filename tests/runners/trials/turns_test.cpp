@@ -41,7 +41,7 @@ TEST_P(TurnsOfRandomSweeps, RunEachRowOfTheRangesOnceAndNoOther) {
   for (const RowRange& range : ranges) {
     for (std::int64_t row = range.first; row < range.end(); ++row) ++wanted[static_cast<std::size_t>(row)];
   }
-  trials::Turns turns(ranges, trials);
+  Turns turns(ranges, trials);
   while (!turns.is_empty()) {
     if (any(0, 3) == 0) turns.end_turn();
     const std::int64_t max_rows = any(1, 50);
@@ -58,7 +58,7 @@ TEST_P(TurnsOfRandomSweeps, RunEachRowOfTheRangesOnceAndNoOther) {
 // A block has rows of one point, or ends where a point ends: tiny points share a block, and no other does.
 TEST_P(TurnsOfRandomSweeps, DivideAPointOnlyInBlocksOfItsOwn) {
   const std::int64_t trials = any(1, 40), points = any(1, 12);
-  trials::Turns turns(random_ranges(random, trials * points), trials);
+  Turns turns(random_ranges(random, trials * points), trials);
   while (!turns.is_empty()) {
     if (any(0, 3) == 0) turns.end_turn();
     const RowRange rows = turns.upcoming(any(1, 50));
@@ -74,7 +74,7 @@ TEST_P(TurnsOfRandomSweeps, KeepPointsWithinATurnOfOneAnother) {
   const std::vector<RowRange> all{{0, trials * points}};
   std::vector<std::int64_t> run(static_cast<std::size_t>(points));
   std::int64_t turn = 0, longest = 0;
-  for (trials::Turns turns(all, trials); !turns.is_empty();) {
+  for (Turns turns(all, trials); !turns.is_empty();) {
     if (any(0, 2) == 0) {
       turns.end_turn();
       turn = 0;
@@ -94,7 +94,7 @@ TEST_P(TurnsOfRandomSweeps, KeepPointsWithinATurnOfOneAnother) {
 TEST_P(TurnsOfRandomSweeps, RunTheTrialsOfAPointInTheirOrder) {
   const std::int64_t trials = any(1, 40), points = any(1, 12);
   std::map<std::int64_t, std::int64_t> last;  // [point] row
-  trials::Turns turns(random_ranges(random, trials * points), trials);
+  Turns turns(random_ranges(random, trials * points), trials);
   while (!turns.is_empty()) {
     if (any(0, 3) == 0) turns.end_turn();
     const RowRange rows = turns.upcoming(any(1, 50));
@@ -109,9 +109,9 @@ TEST_P(TurnsOfRandomSweeps, RunTheTrialsOfAPointInTheirOrder) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, TurnsOfRandomSweeps, ::testing::Range(1U, 41U));
 
-TEST(trials::Turns, OfEqualPointsAreTheirFirstBlocksThenTheirSecondOnes) {
+TEST(Turns, OfEqualPointsAreTheirFirstBlocksThenTheirSecondOnes) {
   std::vector<RowRange> blocks;
-  for (trials::Turns turns(std::vector<RowRange>{{0, 60}}, 20); !turns.is_empty(); turns.end_turn()) {
+  for (Turns turns(std::vector<RowRange>{{0, 60}}, 20); !turns.is_empty(); turns.end_turn()) {
     blocks.push_back(turns.upcoming(8));
     turns.take(8);
     if (blocks.size() == 6) break;
@@ -119,9 +119,9 @@ TEST(trials::Turns, OfEqualPointsAreTheirFirstBlocksThenTheirSecondOnes) {
   EXPECT_EQ(blocks, (std::vector<RowRange>{{0, 8}, {20, 8}, {40, 8}, {8, 8}, {28, 8}, {48, 8}}));
 }
 
-TEST(trials::Turns, OfAContinuedRunBeginWithThePointThatHasFewestTrials) {
+TEST(Turns, OfAContinuedRunBeginWithThePointThatHasFewestTrials) {
   // Run before: all of point 0, half of point 1, nothing of point 2.
-  trials::Turns turns(std::vector<RowRange>{{15, 15}}, 10);
+  Turns turns(std::vector<RowRange>{{15, 15}}, 10);
   EXPECT_EQ(turns.points(), 2);
   EXPECT_EQ(turns.upcoming(4), (RowRange{20, 4}));
 }

@@ -1,4 +1,4 @@
-#include "runners/tuning/worst_in_box.hpp"
+#include "runners/tuning/worst_machines.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,7 @@ constexpr double tail = 0.0005;  // beyond each end of the box
 constexpr std::int64_t trials_of_search = 128;
 constexpr std::int64_t trials_of_verdict = 256;
 constexpr std::size_t worst_rigs = 4;
-constexpr std::size_t most_corners = 64;
+constexpr std::size_t max_corners = 64;
 constexpr std::size_t filling_points = 128;
 constexpr int generations = 8;
 constexpr std::size_t survivors = 8;
@@ -76,6 +76,15 @@ study::Study searched_study(const study::Study& study, const std::vector<study::
       are_correlated(inputs, *study.plan) ? trials::variant_of(study, {"correlation=[]"}) : study;
   searched.design = study::Design::monte_carlo;
   return searched;
+}
+
+/// Number of the move with the largest value.
+std::int64_t latest_move(const UnitResult& unit) {
+  return std::ranges::max_element(unit.values) - unit.values.begin();
+}
+
+double latest(const UnitResult& unit) {
+  return unit.values.empty() ? 0.0 : *std::ranges::max_element(unit.values);
 }
 
 class MachineSearch {
@@ -177,8 +186,8 @@ class MachineSearch {
       for (const double one : place) point.quantiles.push_back(quantile_at(one));
       points.push_back(inside(std::move(point), region));
     };
-    const bool all_corners = size < 16 && (std::size_t{1} << size) <= most_corners;
-    const std::size_t corners = all_corners ? std::size_t{1} << size : most_corners;
+    const bool all_corners = size < 16 && (std::size_t{1} << size) <= max_corners;
+    const std::size_t corners = all_corners ? std::size_t{1} << size : max_corners;
     for (std::size_t corner = 0; corner < corners; ++corner) {
       std::vector<double> place;
       for (std::size_t i = 0; i < size; ++i)
@@ -377,6 +386,28 @@ class MachineSearch {
 };
 
 }  // namespace
+
+WorstMachine worst_machine(const study::Study& study, std::int64_t point,
+                           std::span<const UnitResult> results) {
+  const auto worst = std::ranges::min_element(results, [](const UnitResult& a, const UnitResult& b) {
+    return met_share(a) != met_share(b) ? met_share(a) < met_share(b) : latest(a) > latest(b);
+  });
+  WorstMachine machine{worst - results.begin(), 0, met_share(*worst), {}};
+  const auto machines = std::ssize(results);
+  machine.trial = machine.rig + latest_move(*worst) / study.moves * machines;
+  const bool of_rig =
+      study.rigs > 0 && (!study.rig_columns.empty() || (study.worlds > 0 && !study.world_columns.empty()));
+  const std::vector<study::InputColumn>& columns = of_rig ? study.rig_columns : study.input_columns;
+  const std::vector<double> inputs =
+      of_rig ? study::rig_inputs(study, machine.rig) : study::study_trial(study, point, machine.rig).inputs;
+  for (std::size_t i = 0; i < inputs.size(); ++i) machine.inputs.emplace_back(columns[i].name, inputs[i]);
+  if (of_rig && study.worlds > 0) {
+    const std::vector<double> of_world = study::world_inputs(study, study::world_of(study, machine.rig));
+    for (std::size_t i = 0; i < of_world.size(); ++i)
+      machine.inputs.emplace_back(study.world_columns[i].name, of_world[i]);
+  }
+  return machine;
+}
 
 WorstMachines worst_machines(const study::Study& study, const trials::Replicates& units,
                              const std::optional<std::filesystem::path>& folder,

@@ -7,14 +7,25 @@
 #include <span>
 #include <stop_token>
 #include <string>
+#include <string_view>
 
-#include "core/batch/instruction_set.hpp"
 #include "core/trial/outcome.hpp"
 #include "core/trial/parameters.hpp"
 
 namespace zerocount::batch {
 
-class LaneScheduler;
+struct RunningBatch;
+
+/// Instruction sets of the kernels of the batch engine. All give the same results.
+enum class InstructionSet { portable, avx2, avx512 };
+
+/// Whether this processor has the instruction set and the kernels were built for it.
+bool is_available(InstructionSet instructions);
+
+/// The widest available instruction set.
+InstructionSet widest_instruction_set();
+
+std::string_view name_of(InstructionSet instructions);
 
 /// One sampling instant of a trial in a batch, as SampleRecord has it.
 struct BatchSample {
@@ -74,7 +85,7 @@ class BatchEngine {
            const BatchObservers& observers = {});
 
  private:
-  std::unique_ptr<LaneScheduler> scheduler_;
+  std::unique_ptr<RunningBatch> running_;
 };
 
 }  // namespace zerocount::batch

@@ -111,7 +111,7 @@ void store_contact(BatchState& batch, int lane, LaneTrial& trial) {
   store_contact_parameters(batch, lane, trial.plant->contact(), trial.elongation_tolerance);
 }
 
-void turn(BatchState& batch, int lane, LaneTrial& trial) {
+void reverse(BatchState& batch, int lane, LaneTrial& trial) {
   MotionLanes& m = batch.motion;
   friction::HystereticSpring& spring = trial.plant->spring();
   spring.set_direction(static_cast<int>(m.heading[lane]), m.elongation[lane], m.spring_torque[lane]);
@@ -149,13 +149,6 @@ void end_slide(BatchState& batch, int lane, LaneTrial& trial) {
   load_motion(batch, lane, trial);
   trial.plant->re_stick();
   store_contact(batch, lane, trial);
-}
-
-motion::TorqueCourse present_course(const BatchState& batch, int lane) {
-  const CourseLanes& c = batch.course;
-  const double elapsed = c.piece[lane] - batch.time.time_to_stop[lane];
-  const double lag = c.lag[lane] * numerics::exp(-c.decay[lane] * elapsed);
-  return {c.settled[lane] + lag, c.settled[lane], c.decay[lane]};
 }
 
 bool advance_by_reference(BatchState& batch, int lane, LaneTrial& trial, const motion::TorqueCourse& torque) {

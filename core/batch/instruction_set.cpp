@@ -1,4 +1,5 @@
-#include "core/batch/instruction_set.hpp"
+#include "core/batch/batch.hpp"
+#include "core/batch/kernels.hpp"
 
 namespace zerocount::batch {
 

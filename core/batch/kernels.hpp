@@ -29,6 +29,10 @@ struct Kernels {
   LaneSet (*bristle_rest)(BatchState&, const LaneSet&);
 };
 
+enum class InstructionSet;
+
+const Kernels& kernels_of(InstructionSet instructions);
+
 extern const Kernels portable_kernels;
 #ifdef ZEROCOUNT_X86_KERNELS
 extern const Kernels avx2_kernels;

@@ -17,12 +17,6 @@ motion::Disturbance varying_part(const trial::TrialParameters& p) {
 
 }  // namespace
 
-bool needs_lane_drive(const trial::TrialParameters& p) {
-  const trial::DisturbanceParameters& d = p.disturbance;
-  return p.controller.delay > 0.0 || p.controller.jitter > 0.0 || p.amplifier.bandwidth > 0.0 ||
-         !d.ripple.empty() || !d.vibration.empty() || !d.spectra.empty();
-}
-
 VibrationSeries::VibrationSeries(const std::vector<motion::Vibration>& lines, double sample_time)
     : sample_time_(sample_time) {
   lines_.reserve(lines.size());

@@ -14,10 +14,6 @@
 
 namespace zerocount::batch {
 
-/// Whether something lies between the decided torque and the one on the rotor, or beside it: a delay, an
-/// amplifier, jitter, or a disturbance that varies.
-bool needs_lane_drive(const trial::TrialParameters& parameters);
-
 /// A vibration as its Taylor series about the sampling instants k·T. The sines and cosines of the lines are
 /// turned from sample to sample, and computed anew every 256 samples.
 class VibrationSeries {

@@ -1,9 +1,9 @@
-#include "core/batch/lane_rest.hpp"
-
+// Lanes at rest: creep moves the rotor, and an oscillation has decayed or is known in closed form.
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "core/batch/running_batch.hpp"
 #include "core/loop/formulas.hpp"
 
 namespace zerocount::batch {
@@ -164,19 +164,7 @@ bool follow_creep(BatchState& batch, int lane, LaneTrial& trial, double torque) 
   return true;
 }
 
-}  // namespace
-
-void bring_up_to_date(BatchState& batch, int lane, LaneTrial& trial) {
-  CreepAhead& ahead = trial.ahead;
-  if (ahead.elapsed > 0.0) {
-    const double torque = trial.plant->rest()->torque;
-    trial.plant->advance(motion::constant_torque(torque), ahead.elapsed);
-    store_motion(batch, lane, trial);
-    batch.motion.rest_torque[lane] = torque;
-  }
-  ahead.elapsed = ahead.duration = 0.0;
-}
-
+/// Accounts for `samples` samples with zero error and an unchanged torque.
 void pass_samples(BatchState& batch, int lane, double samples) {
   MeasureLanes& q = batch.measures;
   trial::ArrivalMeasures<double> arrival;
@@ -185,7 +173,10 @@ void pass_samples(BatchState& batch, int lane, double samples) {
   trial::for_each_of_arrival([lane](Lanes& to, double from) { to[lane] = from; }, q, arrival);
 }
 
-bool rest(BatchState& batch, int lane, LaneTrial& trial, const PassedSample& passed) {
+/// See come_to_rest().
+bool rest(RunningBatch& run, int lane) {
+  BatchState& batch = run.state;
+  LaneTrial& trial = run.trial_of(lane);
   TimeLanes& time = batch.time;
   LanePlant& plant = *trial.plant;
   const double torque = batch.motion.torque[lane];
@@ -202,7 +193,7 @@ bool rest(BatchState& batch, int lane, LaneTrial& trial, const PassedSample& pas
     return true;
   }
   std::optional<LanePlant> before;
-  if (passed) before = plant;
+  if (run.observers->sample) before = plant;
 
   const double max_samples = time.samples_to_stop[lane];
   const double sample_time = time.sample_time[lane];
@@ -235,9 +226,9 @@ bool rest(BatchState& batch, int lane, LaneTrial& trial, const PassedSample& pas
     i += ahead;
     to_next = sample_time;
   }
-  for (double j = 1.0; passed && j < i; j += 1.0) {
+  for (double j = 1.0; before && j < i; j += 1.0) {
     before->advance(motion::constant_torque(torque), j == 1.0 ? to_first : sample_time);
-    passed(j, before->theta(), before->creep());
+    report_sample_at_rest(run, lane, j, before->theta(), before->creep());
   }
   pass_samples(batch, lane, i - 1.0);
   store_motion(batch, lane, trial);
@@ -245,6 +236,26 @@ bool rest(BatchState& batch, int lane, LaneTrial& trial, const PassedSample& pas
   time.time_to_stop[lane] = 0.0;
   time.samples_to_stop[lane] = 1.0;
   return true;
+}
+
+}  // namespace
+
+bool come_to_rest(RunningBatch& run, int lane) {
+  const bool rests = rest(run, lane);
+  run.lanes.ahead.erase(lane);
+  if (rests && run.trial_of(lane).ahead.elapsed > 0.0) run.lanes.ahead.insert(lane);
+  return rests;
+}
+
+void bring_up_to_date(BatchState& batch, int lane, LaneTrial& trial) {
+  CreepAhead& ahead = trial.ahead;
+  if (ahead.elapsed > 0.0) {
+    const double torque = trial.plant->rest()->torque;
+    trial.plant->advance(motion::constant_torque(torque), ahead.elapsed);
+    store_motion(batch, lane, trial);
+    batch.motion.rest_torque[lane] = torque;
+  }
+  ahead.elapsed = ahead.duration = 0.0;
 }
 
 }  // namespace zerocount::batch

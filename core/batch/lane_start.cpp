@@ -1,11 +1,11 @@
-// Start of a lane's trial and of its moves.
+// Start of the trials and moves of lanes.
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
 #include <vector>
 
-#include "core/batch/lane_trial.hpp"
+#include "core/batch/running_batch.hpp"
 #include "core/friction/bristle.hpp"
 #include "core/friction/free_motion.hpp"
 #include "core/loop/controller.hpp"
@@ -64,11 +64,6 @@ void start_filters(BlockLanes& b, int lane, const loop::ControllerParameters& co
     put(lane, {&c.b0, &c.b1, &c.b2, &c.a1, &c.a2}, filter.b0, filter.b1, filter.b2, filter.a1, filter.a2);
     put(lane, {&b.filter_states[i].s1, &b.filter_states[i].s2}, 0.0, 0.0);
   }
-}
-
-/// Whether the torque changes from sample to sample for ever, by a dither or a remainder.
-bool never_settles(const trial::TrialParameters& p) {
-  return p.controller.dither.amplitude != 0.0 || p.dac.sigma_delta;
 }
 
 void start_compensators(BlockLanes& b, int lane, const trial::TrialParameters& p) {
@@ -197,89 +192,10 @@ void start_motion(BatchState& batch, int lane, LaneTrial& trial, double resoluti
   }
 }
 
-void start_drive(BatchState& batch, int lane, LaneTrial& trial) {
-  const trial::TrialParameters& p = *trial.parameters;
-  LaneDrive& drive = trial.drive.emplace(p);
-  CourseLanes& c = batch.course;
-  const motion::Disturbance& varying = drive.disturbance();
-  // Without a disturbance that varies the reference lets the rotor rest under a varying torque, too.
-  c.tolerance[lane] = drive.disturbance_varies() ? 0.0 : trial.elongation_tolerance;
-  c.vibrates[lane] = varying.vibration.empty() ? 0.0 : 1.0;
-  store_vibration(batch, lane, drive);
-  c.ripple_count[lane] = static_cast<double>(varying.ripple.size());
-  for (std::size_t i = 0; i < std::size(c.ripples); ++i) {
-    const motion::Ripple ripple = i < varying.ripple.size() ? varying.ripple[i] : motion::Ripple{};
-    RippleLanes& to = c.ripples[i];
-    put(lane, {&to.amplitude, &to.per_angle, &to.sine, &to.cosine}, ripple.amplitude, ripple.per_angle, 0.0,
-        0.0);
-  }
-  if (trial.motion == LaneMotion::contact) trial.plant->disturb(varying);
-}
-
 }  // namespace
 
-void store_vibration(BatchState& batch, int lane, LaneDrive& drive) {
-  const VibrationSeries::Coefficients vibration = drive.vibration();
-  for (std::size_t j = 0; j < vibration.size(); ++j) batch.course.vibration[j][lane] = vibration[j];
-}
-
-void start_piece(BatchState& batch, int lane, LaneTrial& trial) {
-  LaneDrive& drive = *trial.drive;
-  const loop::TorquePiece& piece = drive.piece();
-  CourseLanes& c = batch.course;
-  const double disturbance = batch.loop.disturbance[lane];
-  batch.motion.torque[lane] = piece.course.now + disturbance;
-  c.settled[lane] = piece.course.settled + disturbance;
-  c.lag[lane] = piece.course.now - piece.course.settled;
-  c.decay[lane] = piece.course.rate;
-  c.piece[lane] = piece.duration;
-  c.piece_end[lane] = drive.piece_end();
-  batch.time.samples_to_stop[lane] = 1.0;
-  batch.time.time_to_stop[lane] = piece.duration;
-}
-
-std::optional<LaneMotion> lane_motion(friction::FrictionModel model) {
-  switch (model) {
-    case friction::FrictionModel::presliding:
-    case friction::FrictionModel::spring:
-      return LaneMotion::contact;
-    case friction::FrictionModel::none:
-      return LaneMotion::free;
-    case friction::FrictionModel::dahl:
-    case friction::FrictionModel::lugre:
-      return LaneMotion::bristle;
-    case friction::FrictionModel::coulomb:
-    case friction::FrictionModel::gms:
-      break;
-  }
-  return std::nullopt;
-}
-
-bool remembers(const loop::ControlBlocks& blocks) {
-  // At zero error and without motion, only memory other than the integral can change the torque.
-  return blocks.observer.bandwidth > 0.0 || !blocks.filters.empty() ||
-         std::isfinite(blocks.derivative_cutoff) || std::isfinite(blocks.integrator_leak);
-}
-
-bool remembers(const trial::TrialParameters& p) {
-  return remembers(p.controller.blocks) || never_settles(p);
-}
-
-bool has_blocks(const trial::TrialParameters& parameters) {
-  const loop::ControlBlocks& b = parameters.controller.blocks;
-  return b.structure != loop::ControlStructure::pid || b.deadband.enter >= 0.0 ||
-         std::isfinite(b.integrator_zone) || std::isfinite(b.integrator_leak) ||
-         std::isfinite(b.derivative_cutoff) || !b.filters.empty() || b.observer.bandwidth > 0.0 ||
-         b.error_deadband.band > 0.0 || b.hold.enter >= 0.0 || b.standstill.band >= 0.0 ||
-         never_settles(parameters);
-}
-
-void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t number,
-                 const trial::TrialParameters& parameters, trial::TrialOutcome& outcome) {
-  const trial::TrialParameters& p = parameters;
-  trial.parameters = &parameters;
-  trial.number = number;
-  trial.outcome = &outcome;
+void start_trial(BatchState& batch, int lane, LaneTrial& trial) {
+  const trial::TrialParameters& p = *trial.parameters;
   trial.move = 0;
   trial.first_sample = 0;
   trial.reported_jerks = 0;
@@ -323,7 +239,7 @@ void start_move(BatchState& batch, int lane, LaneTrial& trial) {
   for (Lanes* of : {&q.in_jerk, &q.change, &q.first_error, &q.theta, &q.extension, &q.slid})
     (*of)[lane] = 0.0;
   q.max_error[lane] = p.verdict.stop ? p.verdict.limit : infinity;
-  if (trial.loop) trial.loop->start_move(trial.move, trial.first_sample);
+  if (trial.loop) trial.loop->start_move(trial.move, p.command.targets[trial.move], trial.first_sample);
   trial.breakaways = 0;
   const bool has_contact = trial.motion == LaneMotion::contact;
   trial.slid_at_start = has_contact && batch.motion.slide_direction[lane] != 0.0;
@@ -332,27 +248,30 @@ void start_move(BatchState& batch, int lane, LaneTrial& trial) {
   trial.last_half.start(timing.samples);
 }
 
-trial::MoveOutcome end_of_move(const BatchState& batch, int lane, LaneTrial& trial, bool stopped) {
-  const trial::TrialParameters& p = *trial.parameters;
-  const MeasureLanes& q = batch.measures;
-  const LoopLanes& l = batch.loop;
-  trial::MoveEnd end;
-  end.last = {p.command.targets[trial.move],
-              static_cast<std::int64_t>(l.count[lane]),
-              l.decided[lane],
-              false,
-              q.theta[lane],
-              q.extension[lane]};
-  end.broke_away = trial.slid_at_start || trial.breakaways > 0 || q.slid[lane] != 0.0;
-  end.reversal_depth = trial.deepest;
-  end.stopped = stopped;
-  trial.last_half.finish(end.last.count);
-  trial::MoveOutcome outcome = trial::outcome_of_move(trial::move_timing(p, trial.move), measures_of(q, lane),
-                                                      bands_of(q, lane), trial.jerks, trial.last_half, end);
-  const std::int64_t reference = end.last.target + (trial.loop ? trial.loop->reference_offset() : 0);
-  outcome.true_error = trial::true_error(reference, end.last.theta, l.resolution[lane], l.phase[lane]);
-  if (trial.loop) trial.loop->finish(outcome);
-  return outcome;
+void start_next_trial(RunningBatch& run, int lane) {
+  LaneTrial& trial = run.trial_of(lane);
+  for (LaneSet* of : run.lanes.all()) of->erase(lane);
+  while (run.next_trial < run.outcomes.size()) {
+    trial.number = run.next_trial++;
+    trial.parameters = &(*run.source)(trial.number, run.trial_index[lane]);
+    trial.outcome = &run.outcomes[trial.number];
+    if (!runs_in_lanes(*trial.parameters)) {
+      run_scalar(run, trial, 0, 0);
+      continue;
+    }
+    trial.outcome->moves.clear();
+    trial.outcome->moves.reserve(trial.parameters->command.targets.size());
+    start_trial(run.state, lane, trial);
+    run.lanes.active.insert(lane);
+    if (trial.loop) {
+      run.lanes.with_loop.insert(lane);
+    } else if (has_blocks(*trial.parameters)) {
+      run.lanes.with_blocks.insert(lane);
+    }
+    set_motion(run, lane);
+    if (trial.drive && trial.drive->jitters()) begin_piece(run, lane);
+    return;
+  }
 }
 
 }  // namespace zerocount::batch

@@ -1,226 +1,216 @@
-// Motion of the lanes from one sampling instant to the next.
-#include <algorithm>
-#include <cmath>
+// Steps of the lanes from one sampling instant to the next.
 #include <utility>
 
-#include "core/batch/lane_rest.hpp"
-#include "core/batch/lane_scheduler.hpp"
+#include "core/batch/running_batch.hpp"
 #include "core/friction/free_motion.hpp"
-#include "core/numerics/elementary_functions.hpp"
 
 namespace zerocount::batch {
+namespace {
 
-/// Computes the present torque of lanes in which it varies, and its series.
-void LaneScheduler::follow_torques(const LaneSet& lanes) {
-  CourseLanes& c = batch_.course;
-  const MotionLanes& m = batch_.motion;
-  for_each_lane(lanes, [&](int lane) {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(c.ripple_count[lane]); ++i) {
-      const double theta = m.slide_direction[lane] != 0.0
-                               ? m.theta[lane]
-                               : m.hook[lane] + m.elongation[lane] + m.extension[lane];
-      const double angle =
-          c.ripples[i].per_angle[lane] * theta + trial_of(lane).drive->disturbance().ripple[i].phase;
-      c.ripples[i].sine[lane] = numerics::sin(angle);
-      c.ripples[i].cosine[lane] = numerics::cos(angle);
-    }
-  });
-  kernels_.course(batch_, lanes);
+/// Advances the lane to its next stop by the scalar plant. Runs its trial anew if the motion does not stay
+/// finite. @returns whether it does.
+bool follow_reference(RunningBatch& run, int lane) {
+  const bool varies = run.lanes.varying.contains(lane);
+  const motion::TorqueCourse torque =
+      varies ? present_course(run.state, lane) : motion::constant_torque(run.state.motion.torque[lane]);
+  if (advance_by_reference(run.state, lane, run.trial_of(lane), torque)) return true;
+  fall_back_to_scalar(run, lane);
+  return false;
 }
 
-void LaneScheduler::move_sticking() {
-  const LaneSet lanes = sticking_.without(kernels_.lanes_at_stop(batch_));
-  if (lanes.empty() && waiting_.empty()) return;
-  wake_ahead(lanes);
-  const LaneSet varying = lanes.in_both(varying_);
-  int stepped = move_sticking(lanes.without(varying), kernels_.constant);
-  if (!varying.empty()) {
-    follow_torques(varying);
-    stepped += move_sticking(varying, kernels_.varying);
-  }
-  // Few lanes at a time meet an event: they wait until there are enough of them, or no others to move.
-  constexpr int enough = 16;
-  const int count = waiting_.count();
-  if (count == 0 || (count < enough && stepped > count)) return;
-  locate_events();
+/// Applies the rest rule. @returns whether the lane was at rest; then it is at a sampling instant.
+bool rests(RunningBatch& run, int lane) {
+  if (!run.lanes.varying.contains(lane)) return come_to_rest(run, lane);
+  follow_reference(run, lane);
+  if (run.lanes.active.contains(lane)) set_motion(run, lane);
+  return true;
 }
 
 /// Brings the plants of lanes up to date whose rest ends because the torque has changed.
-void LaneScheduler::wake_ahead(const LaneSet& lanes) {
-  if (ahead_.empty()) return;
-  for_each_lane(lanes.in_both(ahead_), [&](int lane) {
-    if (!varying_.contains(lane) && batch_.motion.torque[lane] == batch_.motion.rest_torque[lane]) return;
-    bring_up_to_date(batch_, lane, trial_of(lane));
-    ahead_.erase(lane);
+void wake_ahead(RunningBatch& run, const LaneSet& lanes) {
+  if (run.lanes.ahead.empty()) return;
+  const MotionLanes& m = run.state.motion;
+  for_each_lane(lanes.in_both(run.lanes.ahead), [&](int lane) {
+    if (!run.lanes.varying.contains(lane) && m.torque[lane] == m.rest_torque[lane]) return;
+    bring_up_to_date(run.state, lane, run.trial_of(lane));
+    run.lanes.ahead.erase(lane);
   });
 }
 
+/// Handles the events at the start of a step. Removes the lanes that do not take the step from `lanes`.
+void start_sticking_steps(RunningBatch& run, LaneSet& lanes) {
+  BatchState& batch = run.state;
+  for (int i = 0; i < batch.event_count; ++i) {
+    const int lane = batch.event_lanes[i];
+    const int events = batch.events[lane];
+    LaneTrial& trial = run.trial_of(lane);
+    if ((events & creep_off) != 0) end_creep(batch, lane, trial);
+    if ((events & may_rest) != 0 && rests(run, lane)) {
+      lanes.erase(lane);
+    } else if ((events & breakaway) != 0) {
+      start_slide(batch, lane, trial);
+      set_motion(run, lane);
+      lanes.erase(lane);
+    } else if (batch.motion.heading[lane] != batch.motion.direction[lane]) {
+      reverse(batch, lane, trial);
+    }
+  }
+}
+
+/// Handles the events at the end of a step.
+void end_sticking_steps(RunningBatch& run) {
+  if (run.observers->sample) report_passed_samples(run);
+  BatchState& batch = run.state;
+  for (int i = 0; i < batch.event_count; ++i) {
+    const int lane = batch.event_lanes[i];
+    const int events = batch.events[lane];
+    LaneTrial& trial = run.trial_of(lane);
+    if ((events & meets_event) != 0) {
+      run.lanes.sticking.erase(lane);
+      run.lanes.waiting.insert(lane);
+      continue;
+    }
+    if ((events & closure) != 0) close_loop(batch, lane, trial);
+    if ((events & creep_on) != 0) batch.motion.creeping[lane] = 1.0;
+    if ((events & creep_off) != 0) end_creep(batch, lane, trial);
+    if ((events & breakaway) != 0) start_slide(batch, lane, trial);
+    if ((events & beyond_kernel) != 0 && !follow_reference(run, lane)) continue;
+    set_motion(run, lane);
+  }
+}
+
 /// @returns the number of lanes that took a step.
-int LaneScheduler::move_sticking(LaneSet lanes, const MotionKernels& kernels) {
-  kernels.stick_start(batch_, lanes);
-  prepare_steps(lanes);
-  kernels.stick_step(batch_, lanes);
-  end_sticking_steps();
+int step_sticking(RunningBatch& run, LaneSet lanes, const MotionKernels& kernels) {
+  kernels.stick_start(run.state, lanes);
+  start_sticking_steps(run, lanes);
+  kernels.stick_step(run.state, lanes);
+  end_sticking_steps(run);
   return lanes.count();
 }
 
 /// Takes the steps of the waiting lanes up to their events.
-void LaneScheduler::locate_events() {
-  const LaneSet with_events = std::exchange(waiting_, {});
-  for_each_lane(with_events, [&](int lane) { sticking_.insert(lane); });
-  const LaneSet varying = with_events.in_both(varying_);
-  kernels_.constant.stick_event(batch_, with_events.without(varying));
-  end_sticking_steps();
+void locate_events(RunningBatch& run) {
+  const LaneSet lanes = std::exchange(run.lanes.waiting, {});
+  for_each_lane(lanes, [&](int lane) { run.lanes.sticking.insert(lane); });
+  const LaneSet varying = lanes.in_both(run.lanes.varying);
+  run.kernels.constant.stick_event(run.state, lanes.without(varying));
+  end_sticking_steps(run);
   if (varying.empty()) return;
-  kernels_.varying.stick_event(batch_, varying);
-  end_sticking_steps();
+  run.kernels.varying.stick_event(run.state, varying);
+  end_sticking_steps(run);
 }
 
-/// Advances the lane to its next stop by the scalar plant. @returns whether the motion stayed finite.
-bool LaneScheduler::follow_reference(int lane, LaneTrial& trial) {
-  return advance_by_reference(batch_, lane, trial,
-                              varying_.contains(lane) ? present_course(batch_, lane)
-                                                      : motion::constant_torque(batch_.motion.torque[lane]));
-}
-
-/// Handles the events at the start of a step. Removes the lanes that do not take the step from `lanes`.
-void LaneScheduler::prepare_steps(LaneSet& lanes) {
-  for (int i = 0; i < batch_.event_count; ++i) {
-    const int lane = batch_.event_lanes[i];
-    const int events = batch_.events[lane];
-    LaneTrial& trial = trial_of(lane);
-    if ((events & creep_off) != 0) end_creep(batch_, lane, trial);
-    if ((events & may_rest) != 0 && come_to_rest(lane)) {
-      lanes.erase(lane);
-    } else if ((events & breakaway) != 0) {
-      start_slide(batch_, lane, trial);
-      set_moving(lane);
-      lanes.erase(lane);
-    } else if (batch_.motion.heading[lane] != batch_.motion.direction[lane]) {
-      turn(batch_, lane, trial);
-    }
+void end_sliding_steps(RunningBatch& run) {
+  for (int i = 0; i < run.state.event_count; ++i) {
+    const int lane = run.state.event_lanes[i];
+    const int events = run.state.events[lane];
+    if ((events & velocity_zero) != 0) end_slide(run.state, lane, run.trial_of(lane));
+    if ((events & beyond_kernel) != 0 && !follow_reference(run, lane)) continue;
+    set_motion(run, lane);
   }
 }
 
-/// @returns whether the lane was at rest; then it is at a sampling instant.
-bool LaneScheduler::come_to_rest(int lane) {
-  LaneTrial& trial = trial_of(lane);
-  if (varying_.contains(lane)) {
-    if (!follow_reference(lane, trial)) fall_back_to_scalar(lane);
-    if (!is_idle(lane)) set_moving(lane);
-    return true;
-  }
-  PassedSample passed;
-  if (observers_->sample) {
-    passed = [&, samples = static_cast<std::int64_t>(batch_.measures.samples[lane])](
-                 double number, double theta, const friction::CreepState& creep) {
-      const std::int64_t k = trial.first_sample + samples - 1 + static_cast<std::int64_t>(number);
-      observers_->sample({trial.number, k, static_cast<std::int64_t>(batch_.loop.count[lane]),
-                          static_cast<std::int64_t>(batch_.loop.code[lane]), theta, creep.extension,
-                          creep.hardening});
-    };
-  }
-  const bool rests = rest(batch_, lane, trial, passed);
-  ahead_.erase(lane);
-  if (rests && trial.ahead.elapsed > 0.0) ahead_.insert(lane);
-  return rests;
+void step_sliding(RunningBatch& run, const LaneSet& lanes, const MotionKernels& kernels) {
+  const LaneSet fast = lanes.in_both(run.kernels.fast_lanes(run.state));
+  kernels.slide_fast(run.state, fast);
+  end_sliding_steps(run);
+  kernels.slide_slow(run.state, lanes.without(fast));
+  end_sliding_steps(run);
 }
 
-/// Handles the events at the end of a step.
-void LaneScheduler::end_sticking_steps() {
-  if (observers_->sample) record_passed();
-  for (int i = 0; i < batch_.event_count; ++i) {
-    const int lane = batch_.event_lanes[i];
-    const int events = batch_.events[lane];
-    LaneTrial& trial = trial_of(lane);
-    if ((events & meets_event) != 0) {
-      sticking_.erase(lane);
-      waiting_.insert(lane);
-      continue;
-    }
-    if ((events & closure) != 0) close_loop(batch_, lane, trial);
-    if ((events & creep_on) != 0) batch_.motion.creeping[lane] = 1.0;
-    if ((events & creep_off) != 0) end_creep(batch_, lane, trial);
-    if ((events & breakaway) != 0) start_slide(batch_, lane, trial);
-    if ((events & beyond_kernel) != 0 && !follow_reference(lane, trial)) {
-      fall_back_to_scalar(lane);
-      continue;
-    }
-    set_moving(lane);
-  }
+/// Runs the lanes anew that the last kernel could not follow.
+void rerun_lost_lanes(RunningBatch& run) {
+  for (int i = 0; i < run.state.event_count; ++i) fall_back_to_scalar(run, run.state.event_lanes[i]);
 }
 
-void LaneScheduler::move_sliding() {
-  const LaneSet lanes = sliding_.without(kernels_.lanes_at_stop(batch_));
-  if (lanes.empty()) return;
-  const LaneSet varying = lanes.in_both(varying_);
-  move_sliding(lanes.without(varying), kernels_.constant);
-  if (varying.empty()) return;
-  follow_torques(varying);
-  move_sliding(varying, kernels_.varying);
+void step_bristles(RunningBatch& run, const LaneSet& lanes, const MotionKernels& kernels) {
+  const LaneSet fast = lanes.in_both(run.kernels.fast_lanes(run.state));
+  kernels.bristle_fast(run.state, fast);
+  rerun_lost_lanes(run);
+  kernels.bristle_slow(run.state, lanes.without(fast));
+  rerun_lost_lanes(run);
 }
 
-void LaneScheduler::move_sliding(const LaneSet& lanes, const MotionKernels& kernels) {
-  const LaneSet fast = lanes.in_both(kernels_.fast_lanes(batch_));
-  kernels.slide_fast(batch_, fast);
-  end_sliding_steps();
-  kernels.slide_slow(batch_, lanes.without(fast));
-  end_sliding_steps();
-}
-
-void LaneScheduler::end_sliding_steps() {
-  for (int i = 0; i < batch_.event_count; ++i) {
-    const int lane = batch_.event_lanes[i];
-    const int events = batch_.events[lane];
-    LaneTrial& trial = trial_of(lane);
-    if ((events & velocity_zero) != 0) end_slide(batch_, lane, trial);
-    if ((events & beyond_kernel) != 0 && !follow_reference(lane, trial)) {
-      fall_back_to_scalar(lane);
-      continue;
-    }
-    set_moving(lane);
-  }
-}
-
-void LaneScheduler::move_bristles() {
-  if (bristles_.empty()) return;
-  const LaneSet lanes = bristles_.without(kernels_.lanes_at_stop(batch_));
-  const LaneSet varying = lanes.in_both(varying_);
-  move_bristles(kernels_.bristle_rest(batch_, lanes.without(varying)), kernels_.constant);
-  if (varying.empty()) return;
-  follow_torques(varying);
-  move_bristles(varying, kernels_.varying);
-}
-
-void LaneScheduler::move_bristles(const LaneSet& lanes, const MotionKernels& kernels) {
-  const LaneSet fast = lanes.in_both(kernels_.fast_lanes(batch_));
-  kernels.bristle_fast(batch_, fast);
-  rerun_lost_lanes();
-  kernels.bristle_slow(batch_, lanes.without(fast));
-  rerun_lost_lanes();
-}
-
-/// Runs the lanes that the last kernel could not follow by the reference.
-void LaneScheduler::rerun_lost_lanes() {
-  for (int i = 0; i < batch_.event_count; ++i) fall_back_to_scalar(batch_.event_lanes[i]);
-}
-
-void LaneScheduler::move_free() {
-  if (free_.empty()) return;
-  const LaneSet lanes = free_.without(kernels_.lanes_at_stop(batch_));
-  const LaneSet part = lanes.in_both(part_);
-  const LaneSet varying = lanes.in_both(varying_).without(part);
-  kernels_.constant.free(batch_, lanes.without(part).without(varying));
-  if (!varying.empty()) kernels_.varying.free(batch_, varying);
-  for_each_lane(part, [&](int lane) {
-    MotionLanes& m = batch_.motion;
+/// Moves lanes without friction through a part of a sample.
+void move_free_part(RunningBatch& run, const LaneSet& lanes) {
+  MotionLanes& m = run.state.motion;
+  TimeLanes& time = run.state.time;
+  for_each_lane(lanes, [&](int lane) {
     const friction::FreeMotion end =
-        friction::free_motion(trial_of(lane).parameters->plant, {m.theta[lane], m.omega[lane]},
-                              present_course(batch_, lane), batch_.time.time_to_stop[lane]);
+        friction::free_motion(run.trial_of(lane).parameters->plant, {m.theta[lane], m.omega[lane]},
+                              present_course(run.state, lane), time.time_to_stop[lane]);
     m.theta[lane] = end.theta;
     m.omega[lane] = end.omega;
-    batch_.time.time_to_stop[lane] = 0.0;
+    time.time_to_stop[lane] = 0.0;
   });
+}
+
+LaneSet between_stops(const RunningBatch& run, const LaneSet& lanes) {
+  return lanes.without(run.kernels.lanes_at_stop(run.state));
+}
+
+}  // namespace
+
+void move_sticking(RunningBatch& run) {
+  const LaneSet lanes = between_stops(run, run.lanes.sticking);
+  if (lanes.empty() && run.lanes.waiting.empty()) return;
+  wake_ahead(run, lanes);
+  const LaneSet varying = lanes.in_both(run.lanes.varying);
+  int stepped = step_sticking(run, lanes.without(varying), run.kernels.constant);
+  if (!varying.empty()) {
+    follow_torques(run, varying);
+    stepped += step_sticking(run, varying, run.kernels.varying);
+  }
+  // Few lanes at a time meet an event: they wait until there are enough of them, or no others to move.
+  constexpr int enough = 16;
+  const int waiting = run.lanes.waiting.count();
+  if (waiting > 0 && (waiting >= enough || waiting >= stepped)) locate_events(run);
+}
+
+void move_sliding(RunningBatch& run) {
+  const LaneSet lanes = between_stops(run, run.lanes.sliding);
+  if (lanes.empty()) return;
+  const LaneSet varying = lanes.in_both(run.lanes.varying);
+  step_sliding(run, lanes.without(varying), run.kernels.constant);
+  if (varying.empty()) return;
+  follow_torques(run, varying);
+  step_sliding(run, varying, run.kernels.varying);
+}
+
+void move_bristles(RunningBatch& run) {
+  if (run.lanes.bristles.empty()) return;
+  const LaneSet lanes = between_stops(run, run.lanes.bristles);
+  const LaneSet varying = lanes.in_both(run.lanes.varying);
+  step_bristles(run, run.kernels.bristle_rest(run.state, lanes.without(varying)), run.kernels.constant);
+  if (varying.empty()) return;
+  follow_torques(run, varying);
+  step_bristles(run, varying, run.kernels.varying);
+}
+
+void move_free(RunningBatch& run) {
+  if (run.lanes.free.empty()) return;
+  const LaneSet lanes = between_stops(run, run.lanes.free);
+  const LaneSet part = lanes.in_both(run.lanes.part);
+  const LaneSet varying = lanes.in_both(run.lanes.varying).without(part);
+  run.kernels.constant.free(run.state, lanes.without(part).without(varying));
+  if (!varying.empty()) run.kernels.varying.free(run.state, varying);
+  move_free_part(run, part);
+}
+
+void set_motion(RunningBatch& run, int lane) {
+  LaneStates& lanes = run.lanes;
+  switch (run.trial_of(lane).motion) {
+    case LaneMotion::bristle:
+      return lanes.bristles.insert(lane);
+    case LaneMotion::free:
+      return lanes.free.insert(lane);
+    case LaneMotion::contact:
+      break;
+  }
+  const bool slides = run.state.motion.slide_direction[lane] != 0.0;
+  lanes.waiting.erase(lane);
+  (slides ? lanes.sticking : lanes.sliding).erase(lane);
+  (slides ? lanes.sliding : lanes.sticking).insert(lane);
 }
 
 }  // namespace zerocount::batch

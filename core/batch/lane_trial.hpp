@@ -8,6 +8,7 @@
 #include "core/batch/batch_state.hpp"
 #include "core/batch/lane_drive.hpp"
 #include "core/batch/lane_loop.hpp"
+#include "core/batch/lane_needs.hpp"
 #include "core/plant/plant.hpp"
 #include "core/trial/jerks.hpp"
 #include "core/trial/last_half.hpp"
@@ -18,12 +19,6 @@ namespace zerocount::batch {
 
 /// The scalar plant of a lane with a hook.
 using LanePlant = plant::PlantWith<friction::PreslidingFriction>;
-
-/// How the kernels move a lane, by its friction law.
-enum class LaneMotion { contact, bristle, free };
-
-/// Empty for a law that the kernels lack.
-std::optional<LaneMotion> lane_motion(friction::FrictionModel model);
 
 /// The motion of a lane that creeps at rest and is sampled all the time, over some samples ahead and without
 /// its residual oscillation. Its plant stands where they begin.
@@ -61,10 +56,11 @@ struct LaneTrial {
   std::int64_t reported_jerks{0};  ///< of the trial
   trial::LastHalf last_half;       ///< of this move
 
-  std::optional<LaneLoop> loop;  ///< of a trial that needs one
-
+  std::optional<LaneLoop> loop;    ///< of a trial that needs one
   std::optional<LaneDrive> drive;  ///< of a trial that needs one
 };
+
+// The contact between batch state and plant. (contact_changes.cpp)
 
 /// Copies the lane's motion from the batch state into its plant.
 void load_motion(const BatchState& batch, int lane, LaneTrial& trial);
@@ -73,8 +69,8 @@ void store_motion(BatchState& batch, int lane, LaneTrial& trial);
 /// store_motion(), and the contact's parameters, which a slide or a scalar step may have changed.
 void store_contact(BatchState& batch, int lane, LaneTrial& trial);
 
-// Changes of the contact, as PreslidingFriction makes them.
-void turn(BatchState& batch, int lane, LaneTrial& trial);
+// Changes of the contact, as PreslidingFriction makes them. (contact_changes.cpp)
+void reverse(BatchState& batch, int lane, LaneTrial& trial);
 void close_loop(BatchState& batch, int lane, LaneTrial& trial);
 void end_creep(BatchState& batch, int lane, LaneTrial& trial);
 void start_slide(BatchState& batch, int lane, LaneTrial& trial);
@@ -83,39 +79,24 @@ void end_slide(BatchState& batch, int lane, LaneTrial& trial);
 /// that varies. @returns whether the motion stayed finite.
 bool advance_by_reference(BatchState& batch, int lane, LaneTrial& trial, const motion::TorqueCourse& torque);
 
-/// Sets the vibration of the lane's torque to its series about the last sample.
-void store_vibration(BatchState& batch, int lane, LaneDrive& drive);
-/// Sets the torque of the lane to the present piece of its drive, and its next stop to the end of that.
-void start_piece(BatchState& batch, int lane, LaneTrial& trial);
-/// The torque on the rotor from now on, without a disturbance that varies: of a lane whose torque varies.
+/// Starts the trial that `trial` names, with its first move, in the lane. (lane_start.cpp)
+void start_trial(BatchState& batch, int lane, LaneTrial& trial);
+void start_move(BatchState& batch, int lane, LaneTrial& trial);
+
+/// Starts the drive of a trial that needs one. (lane_torque.cpp)
+void start_drive(BatchState& batch, int lane, LaneTrial& trial);
+/// The torque on the rotor from now on in a lane where it varies, without a disturbance that varies.
+/// (lane_torque.cpp)
 motion::TorqueCourse present_course(const BatchState& batch, int lane);
 
-/// The measures of one lane.
-inline trial::RunningMeasures<double> measures_of(const MeasureLanes& lanes, int lane) {
-  trial::RunningMeasures<double> measures;
-  trial::for_each_measure([lane](double& to, const Lanes& from) { to = from[lane]; }, measures, lanes);
-  return measures;
+/// Advances the plant of a lane at rest to where the lane is. (lane_rest.cpp)
+void bring_up_to_date(BatchState& batch, int lane, LaneTrial& trial);
+
+/// θ of the rotor, rad.
+inline double theta_of(const BatchState& batch, int lane) {
+  const MotionLanes& m = batch.motion;
+  return m.slide_direction[lane] != 0.0 ? m.theta[lane]
+                                        : m.hook[lane] + m.elongation[lane] + m.extension[lane];
 }
-
-/// The measures of its error bands.
-inline std::array<trial::BandMeasures<double>, trial::max_error_bands> bands_of(const MeasureLanes& lanes,
-                                                                                int lane) {
-  std::array<trial::BandMeasures<double>, trial::max_error_bands> bands;
-  for (std::size_t b = 0; b < bands.size(); ++b) {
-    const BandLanes& band = lanes.bands[b];
-    bands[b] = {band.last_outside[lane], band.entry[lane], band.exits[lane]};
-  }
-  return bands;
-}
-
-/// Whether the controller has blocks beyond the PID law.
-bool has_blocks(const trial::TrialParameters& parameters);
-
-/// Starts the trial in the lane.
-void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t number,
-                 const trial::TrialParameters& parameters, trial::TrialOutcome& outcome);
-void start_move(BatchState& batch, int lane, LaneTrial& trial);
-/// The outcome of the move that ends now. @param stopped it has diverged.
-trial::MoveOutcome end_of_move(const BatchState& batch, int lane, LaneTrial& trial, bool stopped);
 
 }  // namespace zerocount::batch

@@ -32,7 +32,6 @@ class Rig {
       : sample_time_(1.0 / p.controller.sample_rate),
         clock_(p.controller, p.randomness),
         measurement_(p.encoder, p.initial.encoder_phase, p.initial.position, p.randomness, sample_time_),
-        converter_(p.dac),
         drive_(p.dac, p.amplifier, p.controller.delay, sample_time_, p.randomness, p.controller.jitter > 0.0),
         encoder_place_(motion::has_load(p.plant) ? p.plant.load.encoder : motion::EncoderPlace::motor),
         plant_(p.plant, p.friction, plant_start(p), motion_tolerance(measurement_.fine_resolution())) {
@@ -67,27 +66,13 @@ class Rig {
   /// The angle that the encoders read last: of the rotor, or of the load, rad.
   double last_measured() const { return last_measured_; }
 
-  /// Applies the wanted torque (N m) at t_k through the converter; completes `record`.
-  void drive(double torque, SampleRecord& record) {
-    output_ = converter_.convert(torque);
-    drive_again(record);
-  }
-
-  /// Whether the controller runs at sample k.
-  bool controller_runs(std::int64_t k) const { return clock_.runs(k); }
-
-  /// drive() with the code of the sample before, 0 at the first.
-  void drive_again(SampleRecord& record) {
-    drive_.send(record.k, output_, late_);
-    record.code = output_.code;
-    record.torque = output_.torque;
+  /// Sends the converter's output at t_k; completes `record`.
+  void drive(const loop::DacOutput& output, SampleRecord& record) {
+    drive_.send(record.k, output, late_);
+    clipped_ = output.clipped;
+    record.code = output.code;
+    record.torque = output.torque;
     record.drive_torque = drive_.torque();
-  }
-
-  /// drive() with the controller's torque. The trial ends if it is not finite.
-  void drive_wanted(double torque, SampleRecord& record) {
-    controller_failed_ = !std::isfinite(torque);
-    drive(controller_failed_ ? 0.0 : torque, record);
   }
 
   /// Applies the torque (N m) at t_k to the motor, past the converter; completes `record`.
@@ -97,21 +82,22 @@ class Rig {
     record.drive_torque = drive_.torque();
   }
 
+  /// Ends the trial after this sample: the controller has failed.
+  void fail() { failed_ = true; }
+
   /// Lets the plant move until the next sample.
   void hold() {
     for (const loop::TorquePiece& piece : drive_.pieces())
       plant_.advance(piece.course, piece.duration, plant::max_steps_of_sample);
   }
 
-  /// Whether the controller's torque and the motion are still finite, and the motion within the counters'
-  /// range.
+  /// Whether the controller has not failed, and the motion is finite and within the counters' range.
   bool readable() const {
     const double finest = std::min(measurement_.fine_resolution(), measurement_.coarse_resolution());
-    return !controller_failed_ && plant_.finite() && std::abs(plant_.theta()) < max_counts * finest;
+    return !failed_ && plant_.finite() && std::abs(plant_.theta()) < max_counts * finest;
   }
 
-  bool controller_failed() const { return controller_failed_; }  ///< its torque was not finite
-  bool clipped() const { return output_.clipped; }  ///< the converter was out of range at this sample
+  bool clipped() const { return clipped_; }  ///< the converter was out of range at this sample
   const loop::Measurement& measurement() const { return measurement_; }
   AnyPlant& plant() { return plant_; }
 
@@ -120,13 +106,12 @@ class Rig {
   loop::SampleClock clock_;
   loop::Lateness late_{};  // of this sample and the next
   loop::Measurement measurement_;
-  loop::Converter converter_;
-  loop::DacOutput output_{};  // of the last sample
   loop::Drive drive_;
   motion::EncoderPlace encoder_place_;
   double last_measured_{0.0};
   AnyPlant plant_;
-  bool controller_failed_{false};
+  bool clipped_{false};
+  bool failed_{false};
 };
 
 }  // namespace zerocount::trial

@@ -1,13 +1,9 @@
 #pragma once
 
-#include <optional>
-
-#include "core/loop/controller.hpp"
-#include "core/loop/reference.hpp"
 #include "core/trial/divergence.hpp"
-#include "core/trial/motion_measures.hpp"
 #include "core/trial/move_measures.hpp"
 #include "core/trial/rig.hpp"
+#include "core/trial/sampled_loop.hpp"
 #include "core/trial/torque_ramp.hpp"
 #include "core/trial/trial.hpp"
 
@@ -74,65 +70,35 @@ MoveOutcome run_move(Rig<AnyPlant>& rig, const MoveTiming& timing, const Verdict
 template <class AnyPlant>
 TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& observers) {
   Rig<AnyPlant> rig(p);
-  const double resolution = rig.measurement().fine_resolution();
-  loop::Controller controller(p.controller, {rig.measurement().fine_per_coarse(), resolution},
-                              p.initial.integral,
-                              {{loop::lowest_torque(p.dac), loop::highest_torque(p.dac)}, p.dac.resolution});
+  SampledLoop loop(p, rig.measurement());
   TrialOutcome outcome;
   std::int64_t first = 0;
-  std::int64_t from = 0;
-  double torque_in_force = 0.0;
-  const loop::Dither& dither = p.controller.dither;
-  std::optional<std::int64_t> last_target;  // at the last sample at which the controller ran
   bool stopped = false;
-  std::optional<MotionMeasures> motion_measures;
-  if (p.verdict.motion) motion_measures.emplace(p, resolution);
   for (std::size_t m = 0; m < p.command.targets.size() && !stopped; ++m) {
-    const std::int64_t target = p.command.targets[m];
-    const loop::Reference reference(p.command.profile, from, target, resolution);
     const MoveTiming timing = move_timing(p, m);
-    const std::int64_t changes_before = controller.phase_changes();
-    if (motion_measures) motion_measures->start_move(target, timing.samples);
-    const auto decide_torque = [&](std::int64_t i, SampleRecord& record) {
-      const double t = static_cast<double>(i) * timing.sample_time;
-      record.reference = reference.at(t);
-      record.target = reference.is_sine() ? record.reference : target;
-      record.error = record.target - record.count;
-      record.phase = controller.phase();
-      if (!rig.controller_runs(record.k)) return rig.drive_again(record);
-      const loop::EncoderReading reading{record.count, record.coarse_count};
-      loop::ReferenceMotion motion = reference.motion_at(t);
-      if (p.controller.user.plugin) motion.position = reference.exact_at(t);
-      const bool new_target = last_target && *last_target != target;
-      last_target = target;
-      const double wanted =
-          controller.update(record.reference, reading, torque_in_force, motion, new_target) +
-          loop::dither_torque(dither.amplitude, dither.frequency, p.controller.sample_rate,
-                              static_cast<double>(record.k));
-      rig.drive_wanted(wanted, record);
-      record.phase = controller.phase();
-      torque_in_force = record.torque;
-    };
-    std::int64_t last_reference = target;
+    const std::int64_t target = p.command.targets[m];
+    std::int64_t last_target = target;
+    loop.start_move(m);
     const auto decide = [&](std::int64_t i, SampleRecord& record) {
-      decide_torque(i, record);
-      last_reference = record.target;
-      if (motion_measures)
-        motion_measures->add({i, record.error, rig.last_measured(), record.torque}, reference);
+      const SampledLoop::Decision decision =
+          loop.decide(record.k, i, {record.count, record.coarse_count}, rig.last_measured());
+      record.reference = decision.reference;
+      record.target = last_target = decision.target;
+      record.error = record.target - record.count;
+      record.phase = loop.phase();
+      rig.drive(decision.output, record);
+      if (loop.failed()) rig.fail();
     };
     MoveOutcome move =
         run_move(rig, timing, p.verdict, static_cast<std::int64_t>(m), first, target, observers, decide);
-    move.phase_changes = controller.phase_changes() - changes_before;
-    move.travel_time = reference.travel_time();
-    move.controller_failed = rig.controller_failed();
     if (move.outcome != Outcome::nonfinite) {
-      move.true_error = true_error(last_reference, rig.last_measured(), resolution, p.initial.encoder_phase);
+      move.true_error = true_error(last_target, rig.last_measured(), rig.measurement().fine_resolution(),
+                                   p.initial.encoder_phase);
     }
-    if (motion_measures) motion_measures->finish(move);
+    loop.finish(move);
     outcome.moves.push_back(move);
     stopped = move.stopped;
     first += timing.samples;
-    from = target;
   }
   outcome.moves.resize(p.command.targets.size(), move_not_run());
   return outcome;
@@ -142,6 +108,7 @@ TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& obse
 template <class AnyPlant>
 TrialOutcome apply_torques(const TrialParameters& p, const TrialObservers& observers) {
   Rig<AnyPlant> rig(p);
+  loop::Converter converter(p.dac);
   const TorqueCommand& command = p.command.torque;
   TrialOutcome outcome;
   std::int64_t first = 0;
@@ -155,7 +122,7 @@ TrialOutcome apply_torques(const TrialParameters& p, const TrialObservers& obser
       if (command.through == TorquePath::exact) {
         rig.drive_exactly(torque, record);
       } else {
-        rig.drive(torque, record);
+        rig.drive(converter.convert(torque), record);
       }
     };
     MoveOutcome move =

@@ -1,4 +1,4 @@
-#include "core/batch/instruction_set.hpp"
+#include "core/batch/batch.hpp"
 
 #include <set>
 

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+
+#include "core/friction/friction_model.hpp"
+#include "core/trial/parameters.hpp"
+
+/// What a lane needs to run a trial.
+namespace zerocount::batch {
+
+/// How the kernels move a lane, by its friction law.
+enum class LaneMotion { contact, bristle, free };
+
+/// Empty for a law that the kernels lack.
+std::optional<LaneMotion> lane_motion(friction::FrictionModel model);
+
+/// Whether the controller has blocks beyond the PID law.
+bool has_blocks(const trial::TrialParameters& parameters);
+
+/// Whether the torque may change for ever while the error stays 0: by filters, a leak, a dither or a
+/// remainder.
+bool remembers(const trial::TrialParameters& parameters);
+
+/// Whether the sampled loop of the trial has a feature that the sampling kernels lack: errors of an encoder
+/// or of the converter, missed samples, two phases, the coarse encoder, a reference with a profile, a plugin,
+/// measures of the true motion, or more filters than they have.
+bool needs_lane_loop(const trial::TrialParameters& parameters);
+
+/// Whether the torque of a LaneLoop stays while count and error stay 0, the controller having run at this
+/// sample and the one before: in the fine phase of two.
+bool is_steady_at_zero(const trial::TrialParameters& parameters);
+
+/// Whether something lies between the decided torque and the one on the rotor, or beside it: a delay, an
+/// amplifier, jitter, or a disturbance that varies.
+bool needs_lane_drive(const trial::TrialParameters& parameters);
+
+}  // namespace zerocount::batch

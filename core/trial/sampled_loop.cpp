@@ -1,0 +1,56 @@
+#include "core/trial/sampled_loop.hpp"
+
+#include <cmath>
+
+namespace zerocount::trial {
+
+SampledLoop::SampledLoop(const TrialParameters& p, const loop::Measurement& measurement)
+    : p_(p),
+      sample_time_(1.0 / p.controller.sample_rate),
+      clock_(p.controller, p.randomness),
+      controller_(p.controller, {measurement.fine_per_coarse(), measurement.fine_resolution()},
+                  p.initial.integral,
+                  {{loop::lowest_torque(p.dac), loop::highest_torque(p.dac)}, p.dac.resolution}),
+      converter_(p.dac),
+      resolution_(measurement.fine_resolution()) {
+  if (p.verdict.motion) motion_.emplace(p, resolution_);
+}
+
+void SampledLoop::start_move(std::size_t number) {
+  const std::int64_t from = number == 0 ? 0 : target_;
+  target_ = p_.command.targets[number];
+  reference_.emplace(p_.command.profile, from, target_, resolution_);
+  phase_changes_before_ = controller_.phase_changes();
+  if (motion_) motion_->start_move(target_, samples_of_move(p_, number));
+}
+
+SampledLoop::Decision SampledLoop::decide(std::int64_t k, std::int64_t i, const loop::EncoderReading& reading,
+                                          double theta) {
+  const double t = static_cast<double>(i) * sample_time_;
+  const std::int64_t reference = reference_->at(t);
+  const std::int64_t target = reference_->is_sine() ? reference : target_;
+  const bool runs = clock_.runs(k);
+  if (runs) {
+    loop::ReferenceMotion motion = reference_->motion_at(t);
+    if (p_.controller.user.plugin) motion.position = reference_->exact_at(t);
+    const bool new_target = last_target_ && *last_target_ != target_;
+    last_target_ = target_;
+    const loop::Dither& dither = p_.controller.dither;
+    const double torque = controller_.update(reference, reading, output_.torque, motion, new_target) +
+                          loop::dither_torque(dither.amplitude, dither.frequency, p_.controller.sample_rate,
+                                              static_cast<double>(k));
+    failed_ = !std::isfinite(torque);
+    output_ = converter_.convert(failed_ ? 0.0 : torque);
+  }
+  if (motion_) motion_->add({i, target - reading.fine, theta, output_.torque}, *reference_);
+  return {reference, target, output_, runs, t >= reference_->duration()};
+}
+
+void SampledLoop::finish(MoveOutcome& outcome) {
+  outcome.travel_time = reference_->travel_time();
+  outcome.phase_changes = controller_.phase_changes() - phase_changes_before_;
+  outcome.controller_failed = failed_;
+  if (motion_) motion_->finish(outcome);
+}
+
+}  // namespace zerocount::trial

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "core/loop/controller.hpp"
+#include "core/loop/dac.hpp"
+#include "core/loop/measurement.hpp"
+#include "core/loop/reference.hpp"
+#include "core/loop/sample_clock.hpp"
+#include "core/trial/motion_measures.hpp"
+#include "core/trial/outcome.hpp"
+#include "core/trial/parameters.hpp"
+
+namespace zerocount::trial {
+
+/// The closed loop of a trial at its sampling instants, from the counts of the encoders to the code of the
+/// converter, with the measures of a move that follow from it. The batch engine uses it too
+/// (batch::LaneLoop).
+///
+///   start_move(m):  the reference goes from target m − 1, 0 at first, to target m
+///   decide(i):      r ← reference at i·T
+///                   if the controller runs:  code ← convert(controller(r, counts) + dither)
+///                   else:                    code as at the sample before, 0 at first
+///   finish(m):      travel time, changes of the phase, measures of the true motion
+class SampledLoop {
+ public:
+  /// @param measurement by whose encoders the counts are read.
+  SampledLoop(const TrialParameters& parameters, const loop::Measurement& measurement);
+
+  /// @param number of the move; moves come in order.
+  void start_move(std::size_t number);
+
+  struct Decision {
+    std::int64_t reference;  ///< that the controller follows, counts
+    /// From which the error is measured, counts: the move's, or the reference if that moves for ever.
+    std::int64_t target;
+    loop::DacOutput output;
+    bool ran;      ///< the controller has run at this sample
+    bool arrived;  ///< the reference stays at the target from now on
+  };
+  /// @param k number of the sample from the start of the trial. @param i from the start of the move.
+  /// @param theta angle that the encoders have read, rad.
+  Decision decide(std::int64_t k, std::int64_t i, const loop::EncoderReading& reading, double theta);
+
+  loop::ControlPhase phase() const { return controller_.phase(); }
+  /// Whether the controller's torque was not finite at the last sample, where a torque of 0 was converted.
+  bool failed() const { return failed_; }
+
+  /// Ends the move. @param outcome of the move, complete but for what is measured here.
+  void finish(MoveOutcome& outcome);
+
+ private:
+  const TrialParameters& p_;
+  double sample_time_;
+  loop::SampleClock clock_;
+  loop::Controller controller_;
+  loop::Converter converter_;
+  double resolution_;  // of the fine encoder, rad
+  std::optional<loop::Reference> reference_{};
+  std::optional<MotionMeasures> motion_{};
+  std::int64_t target_{0};
+  std::optional<std::int64_t> last_target_{};  // at the last sample at which the controller ran
+  loop::DacOutput output_{};                   // of that sample
+  bool failed_{false};
+  std::int64_t phase_changes_before_{0};
+};
+
+}  // namespace zerocount::trial

@@ -87,7 +87,7 @@ struct alignas(64) FreeLanes {
 struct alignas(64) TimeLanes {
   Lanes time_to_stop;     ///< to the next stop, s
   Lanes samples_to_stop;  ///< including the one at the stop
-  Lanes longest_step;     ///< 1/ωn with ωn² = (k1 + k2)/J, s
+  Lanes time_scale;       ///< 1/ωn with ωn² = (k1 + k2)/J, s
   Lanes next_step;        ///< step that is expected to be accurate, s
   Lanes steps;            ///< tried since the last stop
   Lanes sample_time;      ///< T, s
@@ -115,7 +115,7 @@ struct alignas(64) LoopLanes {
   Lanes steady;       ///< the torque will stay as long as the count does
   Lanes driven;       ///< a LaneDrive lies between the decided torque and the rotor
   Lanes disturbance;  ///< constant torque on the rotor beside the motor's, N m
-  // Of lanes with a LaneLoop, decided at this sample:
+  // Decided by the LaneLoop at this sample; other lanes do not use it:
   Lanes given_count;
   Lanes given_code;
   Lanes given_torque;   ///< of the converter, N m
@@ -125,7 +125,7 @@ struct alignas(64) LoopLanes {
 
 inline constexpr int max_lane_filters = 4;
 
-/// The controller's blocks. A lane whose trial has none keeps those of an earlier trial, unused.
+/// The controller's blocks. Lanes without blocks do not use it.
 struct alignas(64) BlockLanes {
   loop::IntegralConstants<Lanes> integral;
   Lanes inside;      ///< IntegralState::inside
@@ -156,7 +156,7 @@ struct alignas(64) BlockLanes {
 };
 
 inline constexpr int max_lane_ripples = 8;
-/// Of the Taylor series of a vibration over a sample. Up to half the sample rate, x = 2πf·T ≤ π, its
+/// Order of the Taylor series of a vibration over a sample. Up to half the sample rate, x = 2πf·T ≤ π, its
 /// truncation error is x²⁵/25! = 2e-13 of the amplitude.
 inline constexpr int vibration_order = 24;
 
@@ -167,8 +167,8 @@ struct RippleLanes {
   Lanes sine, cosine;  ///< at the present θ
 };
 
-/// The torque on the rotor where it varies: settled + lag·exp(−decay·t) + vibration + ripples. A lane whose
-/// torque does not vary keeps that of an earlier time, unused.
+/// The torque on the rotor where it varies: settled + lag·exp(−decay·t) + vibration + ripples. Lanes
+/// whose torque is constant do not use it.
 struct alignas(64) CourseLanes {
   Lanes settled;    ///< what the motor's torque approaches, and the constant disturbance, N m
   Lanes lag;        ///< of the motor's torque at the start of the piece, N m

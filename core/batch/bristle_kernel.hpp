@@ -131,9 +131,9 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
   VelocityStep<P> step;
   step.time_to_stop = time_to_stop;
   step.h = h;
-  step.left_out = (last_terms_of(travel) + last_terms_of(velocity)) + last_terms_of(deflection);
+  step.truncation_error = (last_terms_of(travel) + last_terms_of(velocity)) + last_terms_of(deflection);
   step.allowed = at.load(time.tolerance) * (h * at.load(time.sample_rate));
-  step.inexact = ~(step.left_out <= step.allowed);
+  step.inexact = ~(step.truncation_error <= step.allowed);
   const P velocity_start = select(from_zero, velocity[1], velocity[0]);
   const P velocity_end = sum_of(velocity, batch_order);
   step.halts = velocity_start * velocity_end < zero;
@@ -141,8 +141,8 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
   P signed_part[batch_order + 1];
   for (int k = 0; k < batch_order; ++k) signed_part[k] = select(from_zero, velocity[k + 1], velocity[k]);
   signed_part[batch_order] = select(from_zero, zero, velocity[batch_order]);
-  Mask unfit = ~step.halts & ~cannot_turn(signed_part[0], velocity_end, signed_part[1],
-                                          curvature_bound(signed_part, batch_order));
+  Mask unfit = ~step.halts & ~keeps_sign(signed_part[0], velocity_end, signed_part[1],
+                                         curvature_bound(signed_part, batch_order));
   if constexpr (Varies) {
     unfit = unfit | (step.halts & ~crosses_once(signed_part, batch_order));
     // A rotor that nothing moves keeps still.

@@ -46,7 +46,7 @@ void store_contact_parameters(BatchState& batch, int lane, const friction::Frict
   batch.time.tolerance[lane] = step_tolerance(batch, lane, contact.k1, reference_tolerance);
   c.k1[lane] = contact.k1;
   c.stiffest[lane] = contact.k1 + contact.k2;
-  batch.time.longest_step[lane] = 1.0 / std::sqrt(c.stiffest[lane] * c.per_inertia[lane]);
+  batch.time.time_scale[lane] = 1.0 / std::sqrt(c.stiffest[lane] * c.per_inertia[lane]);
   c.alpha[lane] = contact.alpha;
   c.max_creep_ratio[lane] = 8.0 * contact.alpha * c.damping[lane] / contact.k1;
   c.per_lambda[lane] = 1.0 / contact.lambda;
@@ -134,7 +134,7 @@ void end_creep(BatchState& batch, int lane, LaneTrial& trial) {
                                       m.spring_torque[lane], m.elongation[lane]);
 }
 
-void start_slide(BatchState& batch, int lane, LaneTrial& trial) {
+void break_away(BatchState& batch, int lane, LaneTrial& trial) {
   stop_at_next_sample(batch, lane);
   load_motion(batch, lane, trial);
   const double motion = batch.motion.omega[lane] != 0.0
@@ -145,7 +145,7 @@ void start_slide(BatchState& batch, int lane, LaneTrial& trial) {
   store_contact(batch, lane, trial);
 }
 
-void end_slide(BatchState& batch, int lane, LaneTrial& trial) {
+void re_stick(BatchState& batch, int lane, LaneTrial& trial) {
   load_motion(batch, lane, trial);
   trial.plant->re_stick();
   store_contact(batch, lane, trial);

@@ -14,7 +14,7 @@ struct ControlInput {
   Mask counted;         ///< there has been a sample before
 };
 
-/// What the compensators make of a sample.
+/// Output of the compensators at a sample.
 template <class P>
 struct Compensated {
   using Mask = typename P::Mask;

@@ -38,8 +38,8 @@ class VibrationSeries {
   std::int64_t last_{-1};
 };
 
-/// The torque on the rotor of a lane from one sample to the next, in pieces: what the reference's Drive makes
-/// of the decided torques, and the disturbance.
+/// The torque on the rotor of a lane from one sample to the next, in pieces: the output of the
+/// reference's Drive for the decided torques, and the disturbance.
 class LaneDrive {
  public:
   explicit LaneDrive(const trial::TrialParameters& parameters);

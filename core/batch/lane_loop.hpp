@@ -23,7 +23,6 @@ class LaneLoop {
   /// trial.
   void start_move(std::size_t number, std::int64_t target, std::int64_t first_sample);
 
-  /// What is decided at a sample.
   struct Decision {
     std::int64_t count;  ///< of the fine encoder, less reference_offset()
     loop::DacOutput dac;

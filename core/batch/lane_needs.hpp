@@ -30,8 +30,8 @@ bool needs_lane_loop(const trial::TrialParameters& parameters);
 /// sample and the one before: in the fine phase of two.
 bool is_steady_at_zero(const trial::TrialParameters& parameters);
 
-/// Whether something lies between the decided torque and the one on the rotor, or beside it: a delay, an
-/// amplifier, jitter, or a disturbance that varies.
+/// Whether the torque on the rotor differs from the decided one: by a delay, an amplifier, jitter, or a
+/// disturbance that varies.
 bool needs_lane_drive(const trial::TrialParameters& parameters);
 
 }  // namespace zerocount::batch

@@ -1,4 +1,4 @@
-// What observers of a batch are told.
+// Reports to the observers of a batch.
 #include <cmath>
 
 #include "core/batch/running_batch.hpp"

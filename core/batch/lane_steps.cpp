@@ -48,7 +48,7 @@ void start_sticking_steps(RunningBatch& run, LaneSet& lanes) {
     if ((events & may_rest) != 0 && rests(run, lane)) {
       lanes.erase(lane);
     } else if ((events & breakaway) != 0) {
-      start_slide(batch, lane, trial);
+      break_away(batch, lane, trial);
       set_motion(run, lane);
       lanes.erase(lane);
     } else if (batch.motion.heading[lane] != batch.motion.direction[lane]) {
@@ -73,7 +73,7 @@ void end_sticking_steps(RunningBatch& run) {
     if ((events & closure) != 0) close_loop(batch, lane, trial);
     if ((events & creep_on) != 0) batch.motion.creeping[lane] = 1.0;
     if ((events & creep_off) != 0) end_creep(batch, lane, trial);
-    if ((events & breakaway) != 0) start_slide(batch, lane, trial);
+    if ((events & breakaway) != 0) break_away(batch, lane, trial);
     if ((events & beyond_kernel) != 0 && !follow_reference(run, lane)) continue;
     set_motion(run, lane);
   }
@@ -104,7 +104,7 @@ void end_sliding_steps(RunningBatch& run) {
   for (int i = 0; i < run.state.event_count; ++i) {
     const int lane = run.state.event_lanes[i];
     const int events = run.state.events[lane];
-    if ((events & velocity_zero) != 0) end_slide(run.state, lane, run.trial_of(lane));
+    if ((events & velocity_zero) != 0) re_stick(run.state, lane, run.trial_of(lane));
     if ((events & beyond_kernel) != 0 && !follow_reference(run, lane)) continue;
     set_motion(run, lane);
   }

@@ -23,12 +23,13 @@ using LanePlant = plant::PlantWith<friction::PreslidingFriction>;
 /// The motion of a lane that creeps at rest and is sampled all the time, over some samples ahead and without
 /// its residual oscillation. Its plant stands where they begin.
 struct CreepAhead {
-  double elapsed{0.0};                 ///< time since its begin, by which the plant lags behind the lane, s
-  double duration{0.0};                ///< s; 0: none
-  std::array<double, 4> elongation{};  ///< coefficients in elapsed/duration, rad; so the others
+  double elapsed{0.0};   ///< time since its start, by which the plant lags behind the lane, s
+  double duration{0.0};  ///< s; 0 if there is no description
+  // Coefficients in elapsed/duration, rad.
+  std::array<double, 4> elongation{};
   std::array<double, 4> extension{};
   std::array<double, 4> hardening{};
-  int samples{0};     ///< taken one by one since the lane came to rest
+  int samples{0};     ///< evaluated one by one since the lane came to rest
   double span{16.0};  ///< samples to describe next time
 };
 
@@ -73,8 +74,8 @@ void store_contact(BatchState& batch, int lane, LaneTrial& trial);
 void reverse(BatchState& batch, int lane, LaneTrial& trial);
 void close_loop(BatchState& batch, int lane, LaneTrial& trial);
 void end_creep(BatchState& batch, int lane, LaneTrial& trial);
-void start_slide(BatchState& batch, int lane, LaneTrial& trial);
-void end_slide(BatchState& batch, int lane, LaneTrial& trial);
+void break_away(BatchState& batch, int lane, LaneTrial& trial);
+void re_stick(BatchState& batch, int lane, LaneTrial& trial);
 /// Advances to the next stop by LanePlant::advance. @param torque on the rotor, N m, without a disturbance
 /// that varies. @returns whether the motion stayed finite.
 bool advance_by_reference(BatchState& batch, int lane, LaneTrial& trial, const motion::TorqueCourse& torque);

@@ -70,9 +70,9 @@ struct RunningBatch {
 //       take_samples             encoders → controller → converter → measures
 //                                a lane that diverges: stop_diverged, start_next_trial
 //       until the next sample    (change_torques where the torque changes before it)
-//         move_sticking          one step; first end_creep, come_to_rest, start_slide or reverse,
-//                                then close_loop, creep on, end_creep or start_slide
-//         or move_sliding        one step; then end_slide
+//         move_sticking          one step; first end_creep, come_to_rest, break_away or reverse,
+//                                then close_loop, creep on, end_creep or break_away
+//         or move_sliding        one step; then re_stick
 //         or move_bristles, move_free
 //     end_moves                  the outcome of the move
 //   start_next_trial

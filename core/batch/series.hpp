@@ -37,8 +37,8 @@ ZEROCOUNT_ALWAYS_INLINE P curvature_bound(const P* c, int order) {
 /// Whether a polynomial surely keeps its sign on [0, 1], given equal signs of its values `at_start` and
 /// `at_end`: it is farther from 0 than its curvature can take it, or monotonic. @param slope at the start.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE typename P::Mask cannot_turn(const P& at_start, const P& at_end, const P& slope,
-                                                     const P& curvature) {
+ZEROCOUNT_ALWAYS_INLINE typename P::Mask keeps_sign(const P& at_start, const P& at_end, const P& slope,
+                                                    const P& curvature) {
   return (min(abs(at_start), abs(at_end)) > curvature * P(0.125)) | (abs(slope) > curvature);
 }
 

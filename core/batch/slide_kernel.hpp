@@ -75,16 +75,16 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
   VelocityStep<P> step;
   step.time_to_stop = time_to_stop;
   step.h = h;
-  step.left_out = last_terms_of(theta) + last_terms_of(velocity);
+  step.truncation_error = last_terms_of(theta) + last_terms_of(velocity);
   step.allowed = at.load(time.tolerance) * (h * at.load(time.sample_rate));
-  step.inexact = ~(step.left_out <= step.allowed);
+  step.inexact = ~(step.truncation_error <= step.allowed);
   const P velocity_end = sum_of(velocity, batch_order);
   step.halts = velocity[0] * velocity_end < zero;
   Mask unfit = one < zero;
   if constexpr (!Fast) {
     const P curvature = curvature_bound(velocity, batch_order);
     unfit = grows_too_much(curve.exponent) |
-            (~step.halts & ~cannot_turn(velocity[0], velocity_end, velocity[1], curvature));
+            (~step.halts & ~keeps_sign(velocity[0], velocity_end, velocity[1], curvature));
     if constexpr (Varies) unfit = unfit | (step.halts & ~crosses_once(velocity, batch_order));
   }
   const Mask beyond = omega * direction <= zero;

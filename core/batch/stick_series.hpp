@@ -113,7 +113,7 @@ ZEROCOUNT_ALWAYS_INLINE void expand_orders(const StickLaw<P>& law, const StickSt
     scaled_torque_end = scaled_torque_end + torque;
     return torque;
   };
-  // The torque that the spring, with the torque `of_spring`, leaves of order k ≥ 1.
+  // Coefficient k ≥ 1 of u − σ, given that of σ.
   const auto unbalanced = [&]([[maybe_unused]] int k, const P& of_spring) __attribute__((always_inline)) {
     if constexpr (Applied::varies) {
       return applied.coefficient(k, velocity) - of_spring;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/batch/lane_group.hpp"
+#include "core/batch/step_control.hpp"
 #include "core/batch/stick_series.hpp"
 
 namespace zerocount::batch {
@@ -14,7 +15,7 @@ struct StickStep {
   P h;             ///< length, s
   P per_h;         ///< 1/h, 1/s
   P time_to_stop;  ///< to the next stop, s
-  P longest_step;  ///< 1/ωn, s
+  P time_scale;    ///< 1/ωn, s
   P length;        ///< unit of the series' lengths: −s/(softening rate), rad
   P torque_unit;   ///< unit of scaled_torque: J/h²·length, N m
 
@@ -33,22 +34,22 @@ struct StickStep {
   StickSeries<P> series;
 
   // Step control.
-  P forced_rate;      ///< bound of dxs/dt·h that a varying torque adds, by the softening length
-  Mask reverses;      ///< dxs/dt changes its sign
-  Mask reverses_too;  ///< the step ends at that reversal
+  P forced_rate;          ///< bound of dxs/dt·h that a varying torque adds, by the softening length
+  Mask reverses;          ///< dxs/dt changes its sign
+  Mask ends_at_reversal;  ///< the step ends at that reversal
   Mask too_long;
-  Mask inexact;    ///< too long by the truncation error
-  P last_terms;    ///< of elongation and velocity, rad
-  P allowed;       ///< truncation error allowed in the full step, rad
-  P left_out;      ///< truncation error at x, rad
-  P allowed_at_x;  ///< `allowed` for the part of the step up to x, rad
-  P rate_start;    ///< dxs/dt·h, or where that is zero its slope, by the softening length
-  P rate_end;      ///< dxs/dt·h after the whole step, by the softening length
+  Mask inexact;        ///< too long by the truncation error
+  P last_terms;        ///< of elongation and velocity, rad
+  P allowed;           ///< truncation error allowed in the full step, rad
+  P truncation_error;  ///< truncation error at x, rad
+  P allowed_at_x;      ///< `allowed` for the part of the step up to x, rad
+  P rate_start;        ///< dxs/dt·h, or where that is zero its slope, by the softening length
+  P rate_end;          ///< dxs/dt·h after the whole step, by the softening length
 
   // The part that is used.
   P x;                  ///< the fraction of the full step that is used
   P event;              ///< LaneEvent at the end of it
-  Mask meets;           ///< the step has an event that this kernel does not locate
+  Mask has_event;       ///< the step has an event that this kernel does not locate
   Mask beyond;          ///< the kernel cannot take the step
   P torque;             ///< σ at its end, N m
   P elongation_change;  ///< of xs, rad
@@ -89,12 +90,12 @@ ZEROCOUNT_ALWAYS_INLINE void begin_step(const BatchState& batch, const At& at, S
   const TimeLanes& time = batch.time;
   step.here = at.taking_part();
   step.time_to_stop = at.load(time.time_to_stop);
-  step.longest_step = at.load(time.longest_step);
+  step.time_scale = at.load(time.time_scale);
   step.at_reversal = to_mask(at.load(batch.motion.at_reversal));
   // The step must have at most one zero of dxs/dt; between two lies half a period of the stiffest spring.
-  const P longest = step.longest_step * select(step.at_reversal, P(4.5), P(3.0));
+  const P longest = step.time_scale * select(step.at_reversal, P(4.5), P(3.0));
   const P h = min(min(at.load(time.next_step), step.time_to_stop), longest);
-  step.h = select((h < step.time_to_stop) & (step.time_to_stop < P(1.4) * h), step.time_to_stop * P(0.5), h);
+  step.h = without_short_remainder(h, step.time_to_stop);
   step.per_h = P(1.0) / step.h;
 }
 
@@ -179,7 +180,7 @@ ZEROCOUNT_ALWAYS_INLINE P allowed_error(const BatchState& batch, const At& at, c
   constexpr double of_amplitude = 4e-6;
   const TimeLanes& time = batch.time;
   const StickSeries<P>& s = step.series;
-  const P ratio = step.longest_step * step.per_h;
+  const P ratio = step.time_scale * step.per_h;
   const P amplitude = abs(step.length) * (max(abs(s.rate[0]), abs(s.rate[1]) * ratio) * ratio);
   const P least = P(0.1) * at.load(time.rest);
   const P relative = P(of_amplitude) * max(amplitude, least);
@@ -190,8 +191,8 @@ ZEROCOUNT_ALWAYS_INLINE P allowed_error(const BatchState& batch, const At& at, c
 /// cause two where dxs/dt is as small as the contribution of creep, and a varying torque where it is as small
 /// as what that adds.
 template <bool Varies, class P, class At>
-ZEROCOUNT_ALWAYS_INLINE typename P::Mask may_turn_twice(const BatchState& batch, const At& at,
-                                                        const StickStep<P>& step) {
+ZEROCOUNT_ALWAYS_INLINE typename P::Mask may_reverse_twice(const BatchState& batch, const At& at,
+                                                           const StickStep<P>& step) {
   using Mask = typename P::Mask;
   const StickSeries<P>& s = step.series;
   // Order 1 of creep is order 0 of its rate.
@@ -205,9 +206,9 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask may_turn_twice(const BatchState& batch,
   P g[batch_order + 1];
   for (int k = 0; k < batch_order; ++k) g[k] = select(step.at_reversal, s.rate[k + 1], s.rate[k]);
   g[batch_order] = select(step.at_reversal, P(0.0), s.rate[batch_order]);
-  const Mask turns = ~cannot_turn(g[0], step.rate_end, g[1], curvature_bound(g, batch_order));
-  if constexpr (!Varies) return unsure & turns;
-  return unsure & ((step.reverses & ~crosses_once(g, batch_order)) | (~step.reverses & turns));
+  const Mask may_reverse = ~keeps_sign(g[0], step.rate_end, g[1], curvature_bound(g, batch_order));
+  if constexpr (!Varies) return unsure & may_reverse;
+  return unsure & ((step.reverses & ~crosses_once(g, batch_order)) | (~step.reverses & may_reverse));
 }
 
 /// Locates the reversal, if any, and decides whether the step is short enough.
@@ -221,11 +222,11 @@ ZEROCOUNT_ALWAYS_INLINE void find_reversal(const BatchState& batch, const At& at
   step.reverses = step.rate_start * step.rate_end < P(0.0);
   step.last_terms = abs(step.length) * s.last_terms;
   step.allowed = allowed_error(batch, at, step);
-  step.too_long = grows_too_much(batch, at, step) | may_turn_twice<Varies>(batch, at, step);
+  step.too_long = grows_too_much(batch, at, step) | may_reverse_twice<Varies>(batch, at, step);
   const Mask seeks = step.here & step.reverses & ~step.too_long;
   step.x = P(1.0);
   // The series must be accurate only up to the reversal.
-  step.left_out = step.last_terms;
+  step.truncation_error = step.last_terms;
   step.allowed_at_x = step.allowed;
   if (seeks.any()) {
     step.x =
@@ -235,11 +236,11 @@ ZEROCOUNT_ALWAYS_INLINE void find_reversal(const BatchState& batch, const At& at
     const P fourth = square * square;
     // x to the power of the order − 1
     static_assert(batch_order == 14);
-    step.left_out = step.left_out * (fourth * fourth) * fourth * step.x;
+    step.truncation_error = step.truncation_error * (fourth * fourth) * fourth * step.x;
     step.allowed_at_x = step.allowed * step.x;
   }
-  step.reverses_too = seeks;
-  step.inexact = ~(step.left_out <= step.allowed_at_x);
+  step.ends_at_reversal = seeks;
+  step.inexact = ~(step.truncation_error <= step.allowed_at_x);
   step.too_long = step.too_long | step.inexact;
 }
 
@@ -281,10 +282,10 @@ ZEROCOUNT_ALWAYS_INLINE void evaluate_end(StickStep<P>& step) {
   step.torque = step.torque_unit * s.scaled_torque_end;
   step.elongation_change = step.length * s.elongation_change;
   step.creep_change = step.length * s.creep_change;
-  if (step.reverses_too.any()) end_at(step.x, step.reverses_too, step);
+  if (step.ends_at_reversal.any()) end_at(step.x, step.ends_at_reversal, step);
   evaluate_creep(step);
   // At a reversal only creep moves the rotor.
-  step.velocity = select(step.reverses_too, step.creep_velocity, step.length * s.velocity_end);
+  step.velocity = select(step.ends_at_reversal, step.creep_velocity, step.length * s.velocity_end);
 }
 
 }  // namespace zerocount::batch

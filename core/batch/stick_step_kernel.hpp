@@ -14,7 +14,7 @@ struct StepTiming {
   P passed;                ///< samples within the step
   P elongation;            ///< xs at its end, rad
   P extension;             ///< xp at its end, rad
-  Mask counts;             ///< the count may change within the step: it is not made
+  Mask count_may_change;   ///< within the step, which is then not made
 };
 
 template <class P, class At>
@@ -44,7 +44,7 @@ ZEROCOUNT_ALWAYS_INLINE StepTiming<P> timing_of(const BatchState& batch, const A
   const P highest = (hook + max(start, t.elongation) + max(extension, t.extension)) * per_count + phase;
   // The margin covers rounding errors at the edges.
   const Mask same_count = (lowest - count > P(1e-9)) & (highest - count < P(1.0 - 1e-9));
-  t.counts = (t.passed > zero) & ~same_count & ~step.too_long & ~step.beyond & ~step.meets;
+  t.count_may_change = (t.passed > zero) & ~same_count & ~step.too_long & ~step.beyond & ~step.has_event;
   return t;
 }
 
@@ -56,7 +56,7 @@ ZEROCOUNT_ALWAYS_INLINE void store_time(BatchState& batch, const At& at, const S
   const P one(1.0);
   const P h = step.h;
   const P factor = P(0.85) * rough_power(step.allowed, step.last_terms, 1.0 / batch_order);
-  const P shorter = select(step.inexact, h * min(max(factor, P(0.05)), P(0.8)), h * P(0.5));
+  const P shorter = shorter_step(h, step.inexact, factor);
   // A motion that accelerates will need shorter steps. (A displacement lost in rounding gives no
   // information.)
   const P moved = abs(step.elongation_change);
@@ -64,7 +64,7 @@ ZEROCOUNT_ALWAYS_INLINE void store_time(BatchState& batch, const At& at, const S
                           min(one, rough_power(moved, abs(step.length * step.rate_end), 1.0)));
   // From one reversal to the next it takes about as long as from the one before.
   const P half_oscillation =
-      select(step.at_reversal & step.reverses & (P(4.0) * step.left_out <= step.allowed_at_x),
+      select(step.at_reversal & step.reverses & (P(4.0) * step.truncation_error <= step.allowed_at_x),
              P(1.25) * step.x * h, zero);
   const P longer = max(h * min(max(factor * slower, P(0.3)), P(2.5)), half_oscillation);
   // A step cut short by a stop does not shorten the next one.
@@ -73,10 +73,10 @@ ZEROCOUNT_ALWAYS_INLINE void store_time(BatchState& batch, const At& at, const S
   at.store(time.next_step, select(step.too_long, shorter, select(done, kept, before)));
   const P to_next_sample = step.time_to_stop - (t.samples_to_stop - one) * at.load(time.sample_time);
   at.store(time.time_to_stop,
-           select(done, t.time_to_stop_then, select(t.counts, to_next_sample, step.time_to_stop)));
+           select(done, t.time_to_stop_then, select(t.count_may_change, to_next_sample, step.time_to_stop)));
   at.store(time.samples_to_stop,
-           select(done, t.samples_to_stop_then, select(t.counts, one, t.samples_to_stop)));
-  at.store(time.steps, at.load(time.steps) + select(step.meets, zero, one));
+           select(done, t.samples_to_stop_then, select(t.count_may_change, one, t.samples_to_stop)));
+  at.store(time.steps, at.load(time.steps) + select(step.has_event, zero, one));
 }
 
 template <class P, class At>
@@ -144,7 +144,7 @@ __attribute__((noinline)) void step_of(BatchState& batch, const At& at) {
     mark_events(batch, at, step);
   }
   const StepTiming<P> timing = timing_of(batch, at, step);
-  const typename P::Mask done = ~step.too_long & ~step.beyond & ~timing.counts & ~step.meets;
+  const typename P::Mask done = ~step.too_long & ~step.beyond & ~timing.count_may_change & ~step.has_event;
   const P passed = select(done, timing.passed, zero);
   store_time(batch, at, step, timing, done);
   store_motion_of(batch, at, step, timing, done);
@@ -152,7 +152,7 @@ __attribute__((noinline)) void step_of(BatchState& batch, const At& at) {
   const typename P::Mask lost = step.beyond | (at.load(batch.time.steps) > P(max_steps_to_stop));
   const P event = select(done & (step.event != P(reversal)), step.event, zero);
   add_events(batch, at,
-             event + events_where<P>(step.meets, meets_event) + events_where<P>(lost, beyond_kernel));
+             event + events_where<P>(step.has_event, meets_event) + events_where<P>(lost, beyond_kernel));
   if (batch.passed != nullptr) record_passed(batch, at, step, passed);
 }
 

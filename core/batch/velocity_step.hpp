@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/batch/applied_torque.hpp"
+#include "core/batch/step_control.hpp"
 #include "core/friction/stribeck_series.hpp"
 
 /// Step control of motions whose friction is a function of the velocity: slides and bristles.
@@ -34,12 +35,6 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask grows_too_much(const P* exponent) {
   return growth > max(P(6.0), P(-23.0) - exponent[0]);
 }
 
-/// The step h, or half of the time to the stop where h would leave only a little of it.
-template <class P>
-ZEROCOUNT_ALWAYS_INLINE P without_short_remainder(const P& h, const P& time_to_stop) {
-  return select((h < time_to_stop) & (time_to_stop < P(1.4) * h), time_to_stop * P(0.5), h);
-}
-
 /// The sum of the last two terms of a series at the end of the step.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P last_terms_of(const P* c) {
@@ -50,15 +45,15 @@ ZEROCOUNT_ALWAYS_INLINE P last_terms_of(const P* c) {
 template <class P>
 struct VelocityStep {
   using Mask = typename P::Mask;
-  P time_to_stop;  ///< at its start, s
-  P h;             ///< s
-  P x;             ///< fraction of the step that is used
-  P left_out;      ///< truncation error, rad
-  P allowed;       ///< largest truncation error, rad
-  Mask inexact;    ///< left_out > allowed
-  Mask too_long;   ///< for this or another reason: nothing moves
-  Mask done;       ///< the motion goes on to x
-  Mask halts;      ///< ω is 0 at x
+  P time_to_stop;      ///< at its start, s
+  P h;                 ///< s
+  P x;                 ///< fraction of the step that is used
+  P truncation_error;  ///< truncation error, rad
+  P allowed;           ///< largest truncation error, rad
+  Mask inexact;        ///< truncation_error > allowed
+  Mask too_long;       ///< for this or another reason: nothing moves
+  Mask done;           ///< the motion goes on to x
+  Mask halts;          ///< ω is 0 at x
 };
 
 /// Stores the time to the next stop after the step, and the length of the next one.
@@ -66,8 +61,8 @@ template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void store_time(BatchState& batch, const At& at, const VelocityStep<P>& s) {
   TimeLanes& time = batch.time;
   const P zero(0.0);
-  const P factor = P(0.9) * rough_power(s.allowed, s.left_out, 1.0 / batch_order);
-  const P shorter = select(s.inexact, s.h * min(max(factor, P(0.05)), P(0.8)), s.h * P(0.5));
+  const P factor = P(0.9) * rough_power(s.allowed, s.truncation_error, 1.0 / batch_order);
+  const P shorter = shorter_step(s.h, s.inexact, factor);
   const P longer = s.h * min(max(factor, P(0.3)), P(4.0));
   at.store(time.next_step, select(s.too_long, shorter, select(s.done, longer, s.h)));
   const auto stops_here = s.done & ~s.halts & ~(s.h < s.time_to_stop);

@@ -87,7 +87,7 @@ double CoulombFriction::stand(const motion::TorqueCourse& torque, double duratio
     break_away(towards);
     return 0.0;
   }
-  if (motion::has_company(torque)) return stand_in_company(torque, duration);
+  if (motion::is_coupled(torque)) return stand_coupled(torque, duration);
   if (motion::is_constant(torque) || std::abs(torque.settled) <= contact_.breakaway) return duration;
   const double direction = numerics::sign_of(torque.settled);
   // Starts at the level itself, so that rounding does not decide whether it is passed.
@@ -98,7 +98,7 @@ double CoulombFriction::stand(const motion::TorqueCourse& torque, double duratio
   return waiting + slide(release, duration - waiting);
 }
 
-double CoulombFriction::stand_in_company(const motion::TorqueCourse& torque, double duration) {
+double CoulombFriction::stand_coupled(const motion::TorqueCourse& torque, double duration) {
   StandingRotor rotor{contact_.breakaway};
   const auto next = motion::taylor_step(rotor, plant_.inertia, torque, tolerance_, duration);
   if (next.event == StandingRotor::Event::released) break_away(rotor.direction);

@@ -41,7 +41,7 @@ class CoulombFriction : public WithoutCreepAndReversals {
  private:
   double stand(const motion::TorqueCourse& torque, double duration);
   /// With a load or a varying disturbance.
-  double stand_in_company(const motion::TorqueCourse& torque, double duration);
+  double stand_coupled(const motion::TorqueCourse& torque, double duration);
   double slide(const motion::TorqueCourse& torque, double duration);
   bool torque_drives(double direction, const motion::TorqueCourse& torque) const;
   void break_away(double direction);

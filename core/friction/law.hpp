@@ -80,7 +80,7 @@ struct LawTraits {
   Breakaway breakaway;
   LinearContacts (*linear_contacts)(const motion::PlantParameters&, const FrictionAlongRotor&,
                                     const FrictionParameters& contact);
-  /// The bristle that the law is; null for the others.
+  /// The parameters of a law that is a bristle; null for other laws.
   BristleParameters (*bristle)(const motion::PlantParameters&, const FrictionParameters& contact);
 };
 

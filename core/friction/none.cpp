@@ -35,7 +35,7 @@ struct DampedRotor {
 
 }  // namespace
 
-double NoFriction::step_in_company(const motion::TorqueCourse& torque, double duration) {
+double NoFriction::step_coupled(const motion::TorqueCourse& torque, double duration) {
   DampedRotor rotor{plant_.presliding_damping, motion_};
   return motion::taylor_step(rotor, plant_.inertia, torque, tolerance_, duration).time;
 }

@@ -28,7 +28,7 @@ class NoFriction : public WithoutCreepAndReversals {
       : plant_(plant), tolerance_(tolerance.elongation), motion_{0.0, start.velocity} {}
 
   double step(const motion::TorqueCourse& torque, double duration) {
-    if (motion::has_company(torque)) return step_in_company(torque, duration);
+    if (motion::is_coupled(torque)) return step_coupled(torque, duration);
     motion_ = free_motion(plant_, motion_, torque, duration);
     return duration;
   }
@@ -40,7 +40,7 @@ class NoFriction : public WithoutCreepAndReversals {
 
  private:
   /// With a load or a varying disturbance d, by Taylor series: J·dω/dt = u + d − Ts − c·ω.
-  double step_in_company(const motion::TorqueCourse& torque, double duration);
+  double step_coupled(const motion::TorqueCourse& torque, double duration);
 
   motion::PlantParameters plant_;
   double tolerance_;

@@ -117,7 +117,7 @@ double PreslidingFriction::stick(const motion::TorqueCourse& torque, double dura
       motion::let_load_follow(torque, omega_);
       return duration;
     }
-  } else if (!motion::has_company(torque) && at_rest(elongation)) {
+  } else if (!motion::is_coupled(torque) && at_rest(elongation)) {
     if (const double rest = time_at_rest(elongation, torque, duration); rest > 0.0) {
       hold_at_rest(rest);
       return rest;

@@ -157,7 +157,8 @@ class PreslidingFriction {
 
   Elongation elongation_under(double torque, double creep_rate_now) const;
   bool begin_rest(double torque, const Elongation& elongation, bool was_at_rest, bool may_oscillate);
-  std::optional<Excess> excess_over_rest(double torque, const Elongation& elongation, double largest) const;
+  std::optional<Excess> excess_over_rest(double torque, const Elongation& elongation,
+                                         double max_amplitude) const;
   bool oscillates_freely(double torque, const Excess& excess) const;
   OscillationLaw oscillation_law(const Excess& excess) const;
   ResidualOscillation begin_oscillation(const Excess& excess);

@@ -29,15 +29,15 @@ bool PreslidingFriction::leave_rest() {
 bool PreslidingFriction::begin_rest(double torque, const Elongation& elongation, bool was_at_rest,
                                     bool may_oscillate) {
   const bool at_reversal = may_oscillate && elongation.rate == 0.0;
-  const double largest = at_reversal ? std::sqrt(tolerance_.rest / contact_.beta) : 0.0;
+  const double max_amplitude = at_reversal ? std::sqrt(tolerance_.rest / contact_.beta) : 0.0;
   const std::optional<Excess> excess =
-      excess_over_rest(torque, elongation, std::max(largest, tolerance_.rest));
+      excess_over_rest(torque, elongation, std::max(max_amplitude, tolerance_.rest));
   if (!excess) return false;
   const double stiffness = stiffness_on(spring_.branch(), spring_.elongation());
   ResidualOscillation oscillation;
   if (excess->amplitude < tolerance_.rest && std::abs(excess->torque) < 2.0 * tolerance_.rest * stiffness) {
     settle(*excess, was_at_rest);
-  } else if (at_reversal && excess->amplitude < largest && oscillates_freely(torque, *excess)) {
+  } else if (at_reversal && excess->amplitude < max_amplitude && oscillates_freely(torque, *excess)) {
     oscillation = begin_oscillation(*excess);
   } else {
     return false;
@@ -61,10 +61,10 @@ CreepState PreslidingFriction::slow_creep(double sign) const {
   return {creep_.extension - oscillation_.extension, creep_.hardening - sign * oscillation_.extension};
 }
 
-/// Empty if the amplitude is above `largest` (rad), or creep is as fast as the oscillation.
+/// Empty if the amplitude is above `max_amplitude` (rad), or creep is as fast as the oscillation.
 std::optional<PreslidingFriction::Excess> PreslidingFriction::excess_over_rest(double torque,
                                                                                const Elongation& elongation,
-                                                                               double largest) const {
+                                                                               double max_amplitude) const {
   const double inertia = plant_.inertia;
   const double damping = plant_.presliding_damping;
   const double stiffest = contact_.k1 + contact_.k2;
@@ -74,8 +74,9 @@ std::optional<PreslidingFriction::Excess> PreslidingFriction::excess_over_rest(d
   // Quick rejection. Creep decelerates by α·p, and the damper's part of it stretches the spring.
   const double slow_velocity = 2.0 * contact_.alpha * damping * creep_now / contact_.k1;
   const double slow_torque = 2.0 * inertia * contact_.alpha * creep_now;
-  if (std::abs(elongation.rate) > largest * std::sqrt(per_time_squared) + slow_velocity) return std::nullopt;
-  if (std::abs(torque - damping * omega_ - spring_torque) > largest * stiffest + slow_torque) {
+  if (std::abs(elongation.rate) > max_amplitude * std::sqrt(per_time_squared) + slow_velocity)
+    return std::nullopt;
+  if (std::abs(torque - damping * omega_ - spring_torque) > max_amplitude * stiffest + slow_torque) {
     return std::nullopt;
   }
   if (!(std::abs(torque) + slow_torque < contact_.breakaway)) return std::nullopt;

@@ -14,12 +14,12 @@ namespace {
 
 /// Bandwidth limit, Hz: a torque settles within a picosecond. The series of a faster rise would leave the
 /// range of a double.
-constexpr double highest_bandwidth = 1e12;
+constexpr double max_bandwidth = 1e12;
 
 }  // namespace
 
 double lag_rate(const AmplifierParameters& amplifier) {
-  return 2.0 * std::numbers::pi * std::min(amplifier.bandwidth, highest_bandwidth);
+  return 2.0 * std::numbers::pi * std::min(amplifier.bandwidth, max_bandwidth);
 }
 
 TorqueDelay::TorqueDelay(double samples)

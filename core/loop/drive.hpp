@@ -42,7 +42,7 @@ struct TorquePiece {
   double decay{0.0};     ///< exp(−course.rate·duration)
 };
 
-/// What the converter gives for a code: torque_with_errors(code) + noise·z_k, z_k standard normal, number k
+/// The output of the converter for a code: torque_with_errors(code) + noise·z_k, z_k standard normal, number k
 /// of its key; without errors code·Δu.
 class ConverterErrors {
  public:

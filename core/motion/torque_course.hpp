@@ -46,8 +46,8 @@ inline bool is_constant(const TorqueCourse& course) {
   return course.load == nullptr && is_steady(course);
 }
 
-/// Whether the torque on the rotor depends on its motion, or does not only approach where u settles.
-inline bool has_company(const TorqueCourse& course) {
+/// Whether a load or a varying disturbance acts on the rotor beside u.
+inline bool is_coupled(const TorqueCourse& course) {
   return course.load != nullptr || course.disturbance != nullptr;
 }
 

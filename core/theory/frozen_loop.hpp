@@ -35,7 +35,7 @@ std::complex<double> open_loop(const FrozenLoop& loop, double angle);
 /// The poles z of the closed loop: the eigenvalues of loop_map.
 Eigen::VectorXcd poles_of(const FrozenLoop& loop);
 
-/// What becomes, within a move, of the motion that grows fastest or dies out last.
+/// Behaviour, within a move, of the motion that grows fastest or dies out last.
 enum class LoopStability {
   stable,    ///< it dies out, by more than a thousandth within the hold, however slowly
   marginal,  ///< it changes by less than a thousandth within the hold: an eigenvalue of 1, for practical use

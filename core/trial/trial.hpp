@@ -47,7 +47,12 @@ struct Interrupted : std::exception {
   const char* what() const noexcept override { return "interrupted"; }
 };
 
-/// Runs one trial: quantised DAC → plant with friction → encoder, from t = 0 to the end of the last move.
+/// Runs one trial from t = 0 to the end of the last move:
+///
+///   for each move:  for each sample k = 0, 1, …
+///     read the encoders at t_k; decide the code of the converter; add the sample to the measures
+///     let the plant with its friction move under the motor's torque until t_{k+1}
+///
 /// With `verdict.stop` a trial ends at the sample at which a move has diverged (see divergence.hpp): up to
 /// there samples and jerks do not depend on it.
 ///

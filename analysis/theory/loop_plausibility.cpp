@@ -11,7 +11,7 @@
 
 #include "analysis/statistics/spread_over.hpp"
 #include "analysis/theory/trial_loops.hpp"
-#include "core/friction/presliding_range.hpp"
+#include "core/friction/spring.hpp"
 #include "core/loop/controller.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/theory/margins.hpp"

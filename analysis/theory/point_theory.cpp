@@ -9,7 +9,7 @@
 #include "core/loop/controller.hpp"
 #include "core/theory/gains.hpp"
 #include "core/theory/sampled_stability.hpp"
-#include "core/theory/sliding_loop.hpp"
+#include "core/theory/margins.hpp"
 #include "core/theory/slow_approach.hpp"
 #include "core/theory/stability.hpp"
 #include "experiments/parameters/parameter_table.hpp"

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "core/friction/creep.hpp"
-#include "core/friction/presliding_range.hpp"
 #include "core/friction/spring.hpp"
 #include "core/numerics/elementary_functions.hpp"
 #include "experiments/parameters/study_units.hpp"

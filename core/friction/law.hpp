@@ -12,7 +12,6 @@
 #include "core/motion/parameters.hpp"
 #include "core/motion/plant_start.hpp"
 #include "core/motion/taylor_step.hpp"
-#include "core/motion/tolerance.hpp"
 
 namespace zerocount::friction {
 

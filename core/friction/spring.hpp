@@ -116,4 +116,9 @@ class HystereticSpring {
   int direction_{0};
 };
 
+/// The pre-sliding range x_b (rad): the travel of the virgin curve up to breakaway, ½·f(2·x_b) = Fs, after
+/// which a contact that is loaded slowly from rest slides. It is shorter than Fs/k1, by up to the k2/(2·β·k1)
+/// that the spring is stiffer at first. Infinite if k1 = 0 and the curve never reaches Fs.
+double presliding_range(const FrictionParameters& friction);
+
 }  // namespace zerocount::friction

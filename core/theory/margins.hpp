@@ -29,4 +29,19 @@ struct StabilityMargins {
 /// The crossovers are searched between the search_angles, then bisected to 1e-12.
 StabilityMargins stability_margins(const FrozenLoop& loop);
 
+/// The highest frequency at which the open loop has gain 1. Of interest while the rotor slides: the plant is
+/// 1/(J·s² + cs·s), and the friction torque, constant well above the Stribeck velocity, is a disturbance that
+/// the loop has to reject.
+struct GainCrossover {
+  /// Highest frequency with |L| = 1, Hz: the bandwidth of the loop. NaN where |L| < 1 throughout, or |L| ≥ 1
+  /// up to half the sample rate.
+  double frequency;
+  /// 180° + arg L there, in (−180, 180]; negative: the loop is unstable while it slides. NaN without a
+  /// crossover.
+  double phase_margin;
+};
+
+/// The gain crossover of a loop, from its exact frequency response L(z), z = exp(iωT), 0 < ω ≤ π/T.
+GainCrossover gain_crossover(const FrozenLoop& loop);
+
 }  // namespace zerocount::theory

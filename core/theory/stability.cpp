@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/friction/profile_range.hpp"
+#include "core/friction/profile.hpp"
 #include "core/theory/gains.hpp"
 
 namespace zerocount::theory {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/friction/profile_range.hpp"
+#include "core/friction/profile.hpp"
 #include "experiments/distributions/distribution_forms.hpp"
 #include "experiments/distributions/random_field.hpp"
 #include "experiments/manifest/drawn_per.hpp"

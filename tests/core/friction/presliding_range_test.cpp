@@ -1,4 +1,3 @@
-#include "core/friction/presliding_range.hpp"
 
 #include <cmath>
 #include <limits>

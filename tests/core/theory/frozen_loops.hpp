@@ -2,7 +2,6 @@
 
 #include "core/theory/frozen_loop.hpp"
 #include "core/theory/margins.hpp"
-#include "core/theory/sliding_loop.hpp"
 
 /// Frozen loops by their parameters, for the tests.
 namespace zerocount::theory {

@@ -1,5 +1,5 @@
 // The loop while the rotor slides: its frequency response in closed form, and what it does in time.
-#include "core/theory/sliding_loop.hpp"
+#include "core/theory/margins.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -12,7 +12,7 @@
 
 #include "analysis/parallel/parallel.hpp"
 #include "analysis/record_fit/least_squares_search.hpp"
-#include "core/friction/spring.hpp"
+#include "core/friction/presliding/spring.hpp"
 
 namespace zerocount::identification {
 namespace {

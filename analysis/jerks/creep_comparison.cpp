@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "core/friction/creep.hpp"
+#include "core/friction/presliding/creep.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/loop/measurement.hpp"
 #include "core/trial/trial.hpp"

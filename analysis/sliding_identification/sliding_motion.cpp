@@ -5,7 +5,7 @@
 
 #include <ceres/autodiff_cost_function.h>
 
-#include "core/friction/sliding.hpp"
+#include "core/friction/sliding/sliding.hpp"
 
 namespace zerocount::sliding_identification {
 namespace {

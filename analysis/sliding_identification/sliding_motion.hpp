@@ -29,10 +29,10 @@ using SlidingPoint = Eigen::Matrix<double, sliding_dimension, 1>;
 /// The positions of a simulated sliding motion less the readings in a window, in units of the resolution. The
 /// parameters are a SlidingPoint, and the initial position and velocity.
 ///
-/// The motion is J·dω/dt = u − u0 − cs·ω − d·g(ω), dθ/dt = ω, the law of core/friction/sliding.hpp with an
-/// offset, by the classical Runge–Kutta method, with steps of at most a sampling interval and a twentieth of
-/// the time constants of the friction and of the amplifier. The derivatives are those of these steps, by
-/// forward automatic differentiation. The evaluation fails where the motion is not finite.
+/// The motion is J·dω/dt = u − u0 − cs·ω − d·g(ω), dθ/dt = ω, the law of core/friction/sliding/sliding.hpp
+/// with an offset, by the classical Runge–Kutta method, with steps of at most a sampling interval and a
+/// twentieth of the time constants of the friction and of the amplifier. The derivatives are those of these
+/// steps, by forward automatic differentiation. The evaluation fails where the motion is not finite.
 /// @param record and @param window must outlive the result.
 std::unique_ptr<ceres::CostFunction> window_residuals(const SlidingRecord& record, const Window& window);
 

@@ -7,7 +7,7 @@
 
 #include "analysis/theory/trial_loops.hpp"
 #include "core/friction/law.hpp"
-#include "core/loop/controller.hpp"
+#include "core/loop/controller/controller.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/theory/describing_function.hpp"
 #include "core/theory/frozen_loop.hpp"

@@ -11,8 +11,8 @@
 
 #include "analysis/statistics/spread_over.hpp"
 #include "analysis/theory/trial_loops.hpp"
-#include "core/friction/spring.hpp"
-#include "core/loop/controller.hpp"
+#include "core/friction/presliding/spring.hpp"
+#include "core/loop/controller/controller.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/theory/margins.hpp"
 #include "core/theory/stability.hpp"

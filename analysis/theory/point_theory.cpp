@@ -6,10 +6,10 @@
 #include <set>
 
 #include "analysis/theory/trial_loops.hpp"
-#include "core/loop/controller.hpp"
+#include "core/loop/controller/controller.hpp"
 #include "core/theory/gains.hpp"
-#include "core/theory/sampled_stability.hpp"
 #include "core/theory/margins.hpp"
+#include "core/theory/sampled_stability.hpp"
 #include "core/theory/slow_approach.hpp"
 #include "core/theory/stability.hpp"
 #include "experiments/parameters/parameter_table.hpp"

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/friction/law.hpp"
-#include "core/loop/controller.hpp"
+#include "core/loop/controller/controller.hpp"
 
 namespace zerocount::theory {
 

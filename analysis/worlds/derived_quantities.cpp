@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "core/friction/creep.hpp"
-#include "core/friction/spring.hpp"
+#include "core/friction/presliding/creep.hpp"
+#include "core/friction/presliding/spring.hpp"
 #include "core/numerics/elementary_functions.hpp"
 #include "experiments/parameters/study_units.hpp"
 #include "experiments/study/random_coordinates.hpp"

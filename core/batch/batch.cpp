@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "core/batch/running_batch.hpp"
+#include "core/batch/lanes/running_batch.hpp"
 #include "core/trial/trial.hpp"
 
 namespace zerocount::batch {

@@ -1,5 +1,5 @@
 #include "core/batch/batch.hpp"
-#include "core/batch/kernels.hpp"
+#include "core/batch/kernels/kernels.hpp"
 
 namespace zerocount::batch {
 

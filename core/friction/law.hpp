@@ -6,9 +6,9 @@
 #include <span>
 #include <string_view>
 
-#include "core/friction/creep.hpp"
 #include "core/friction/linear_contact.hpp"
 #include "core/friction/parameters.hpp"
+#include "core/friction/presliding/creep.hpp"
 #include "core/motion/parameters.hpp"
 #include "core/motion/plant_start.hpp"
 #include "core/motion/taylor_step.hpp"

@@ -2,12 +2,12 @@
 
 #include <variant>
 
-#include "core/friction/coulomb.hpp"
-#include "core/friction/dahl.hpp"
-#include "core/friction/gms.hpp"
-#include "core/friction/lugre.hpp"
-#include "core/friction/none.hpp"
-#include "core/friction/presliding.hpp"
+#include "core/friction/bristles/dahl.hpp"
+#include "core/friction/bristles/gms.hpp"
+#include "core/friction/bristles/lugre.hpp"
+#include "core/friction/presliding/presliding.hpp"
+#include "core/friction/sliding/coulomb.hpp"
+#include "core/friction/sliding/none.hpp"
 
 namespace zerocount::friction {
 

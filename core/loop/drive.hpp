@@ -42,8 +42,8 @@ struct TorquePiece {
   double decay{0.0};     ///< exp(−course.rate·duration)
 };
 
-/// The output of the converter for a code: torque_with_errors(code) + noise·z_k, z_k standard normal, number k
-/// of its key; without errors code·Δu.
+/// The output of the converter for a code: torque_with_errors(code) + noise·z_k, z_k standard normal, number
+/// k of its key; without errors code·Δu.
 class ConverterErrors {
  public:
   ConverterErrors(const DacParameters& dac, const random::TrialRandomness& randomness);

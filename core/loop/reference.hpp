@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "core/loop/control_block.hpp"
+#include "core/loop/controller/control_block.hpp"
 #include "core/loop/parameters.hpp"
 
 namespace zerocount::loop {

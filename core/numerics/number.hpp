@@ -1,8 +1,8 @@
 #pragma once
 
-/// Formulas for double and for the vectors of the batch engine (core/batch/lanes.hpp) are templates over the
-/// number type. They use these functions; those of a vector type are found by its namespace. Comparisons give
-/// a mask, bool or the vector's, with & and |.
+/// Formulas for double and for the vectors of the batch engine (core/batch/kernels/simd.hpp) are templates
+/// over the number type. They use these functions; those of a vector type are found by its namespace.
+/// Comparisons give a mask, bool or the vector's, with & and |.
 ///
 /// The kernels are compiled once for each instruction set. The headers that they include contain only
 /// templates over the number type, and include no others: of an inline function of double the linker could

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/friction/bristle.hpp"
+#include "core/friction/bristles/bristle.hpp"
 
 namespace zerocount::theory {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/loop/controller.hpp"
+#include "core/loop/controller/controller.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/numerics/dense.hpp"
 #include "core/theory/gains.hpp"

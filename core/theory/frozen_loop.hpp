@@ -2,8 +2,8 @@
 
 #include <complex>
 
+#include "core/loop/controller/transfer_function.hpp"
 #include "core/loop/parameters.hpp"
-#include "core/loop/transfer_function.hpp"
 #include "core/motion/parameters.hpp"
 #include "core/theory/held_plant.hpp"
 

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "core/loop/controller/pid.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/loop/parameters.hpp"
-#include "core/loop/pid.hpp"
 
 namespace zerocount::theory {
 

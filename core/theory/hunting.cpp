@@ -7,9 +7,9 @@
 #include <limits>
 #include <numbers>
 
-#include "core/friction/bristle.hpp"
-#include "core/friction/stribeck.hpp"
-#include "core/loop/controller.hpp"
+#include "core/friction/bristles/bristle.hpp"
+#include "core/friction/sliding/stribeck.hpp"
+#include "core/loop/controller/controller.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/theory/describing_function.hpp"
 #include "core/theory/frozen_loop.hpp"

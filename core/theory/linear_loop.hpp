@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "core/loop/transfer_function.hpp"
+#include "core/loop/controller/transfer_function.hpp"
 #include "core/theory/held_plant.hpp"
 
 /// The sampled loop made linear, assembled from the transfer functions of the controller's blocks: target 0,

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/loop/controller.hpp"
+#include "core/loop/controller/controller.hpp"
 #include "core/numerics/dense.hpp"
 #include "core/theory/crossovers.hpp"
 #include "core/theory/frozen_loop.hpp"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/loop/controller.hpp"
+#include "core/loop/controller/controller.hpp"
 #include "core/loop/dac.hpp"
 #include "core/loop/measurement.hpp"
 #include "core/loop/reference.hpp"

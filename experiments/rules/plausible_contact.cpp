@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/friction/law.hpp"
-#include "core/friction/spring.hpp"
+#include "core/friction/presliding/spring.hpp"
 #include "experiments/rules/plausibility.hpp"
 
 namespace zerocount::rules {

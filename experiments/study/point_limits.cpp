@@ -6,7 +6,7 @@
 #include <numeric>
 #include <variant>
 
-#include "core/loop/controller.hpp"
+#include "core/loop/controller/controller.hpp"
 #include "experiments/distributions/random_field.hpp"
 
 namespace zerocount::study {

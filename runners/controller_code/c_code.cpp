@@ -6,13 +6,13 @@
 #include <boost/algorithm/string/replace.hpp>
 #include <fmt/format.h>
 
-#include "core/loop/cascade.hpp"
-#include "core/loop/controller.hpp"
+#include "core/loop/controller/cascade.hpp"
+#include "core/loop/controller/controller.hpp"
+#include "core/loop/controller/disturbance_observer.hpp"
+#include "core/loop/controller/filter.hpp"
+#include "core/loop/controller/pid.hpp"
+#include "core/loop/controller/torque_hold.hpp"
 #include "core/loop/dac.hpp"
-#include "core/loop/disturbance_observer.hpp"
-#include "core/loop/filter.hpp"
-#include "core/loop/pid.hpp"
-#include "core/loop/torque_hold.hpp"
 
 namespace zerocount::controller_code {
 namespace {

@@ -15,7 +15,7 @@
 
 #include "analysis/measures/goal_counts.hpp"
 #include "core/failure/failure.hpp"
-#include "core/loop/controller.hpp"
+#include "core/loop/controller/controller.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/manifest/samples.hpp"

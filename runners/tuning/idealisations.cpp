@@ -6,7 +6,7 @@
 
 #include "core/failure/failure.hpp"
 #include "core/friction/friction_model.hpp"
-#include "core/loop/filter.hpp"
+#include "core/loop/controller/filter.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/study_table.hpp"
 

@@ -10,7 +10,7 @@
 #include "analysis/theory/trial_loops.hpp"
 #include "core/friction/law.hpp"
 #include "core/friction/parameters.hpp"
-#include "core/loop/controller.hpp"
+#include "core/loop/controller/controller.hpp"
 #include "core/theory/margins.hpp"
 #include "core/trial/trial.hpp"
 

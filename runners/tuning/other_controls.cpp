@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "core/loop/controller.hpp"
+#include "core/loop/controller/controller.hpp"
 
 namespace zerocount::tuning {
 namespace {

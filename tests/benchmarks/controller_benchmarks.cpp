@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/loop/controller.hpp"
+#include "core/loop/controller/controller.hpp"
 #include "core/loop/dac.hpp"
 #include "runners/plugins/plugin_library.hpp"
 #include "tests/benchmarks/registration.hpp"

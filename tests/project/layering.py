@@ -1,6 +1,6 @@
 """Each folder includes only itself and those below it and is a namespace; no type is defined in two headers.
 
-The order of the folders of a layer is that of zerocount_layer() in its CMakeLists.txt.
+The order of the folders of a layer is that of zerocount_layer() in its CMakeLists.txt. The folders inside one of these are part of it.
 """
 
 import collections
@@ -56,21 +56,29 @@ def folders_in_order(root):
         yield layer
 
 
+def listed_folder(folder, folders):
+    """The folder of the order that `folder` is or is inside of; None where there is none, or only that of a layer."""
+    inside = [folder, *map(str, pathlib.PurePath(folder).parents)]
+    return next((one for one in inside if one in folders and (one == folder or "/" in one)), None)
+
+
 def problems(root):
     yield from types_defined_twice(root)
     folders = list(folders_in_order(root))
     for path in sorted(path for layer in LAYERS for path in (root / layer).rglob("*.[ch]pp")):
-        name, folder = path.relative_to(root), str(path.parent.relative_to(root))
-        if folder not in folders:
-            yield f"{name}: {folder} is in no zerocount_layer()"
+        name = path.relative_to(root)
+        folder = listed_folder(str(name.parent), folders)
+        if folder is None:
+            yield f"{name}: {name.parent} is in no zerocount_layer()"
             continue
         text = path.read_text(encoding="utf-8")
         for included in INCLUDE.findall(text):
-            if included not in folders[: folders.index(folder) + 1]:
+            if listed_folder(included, folders) not in folders[: folders.index(folder) + 1]:
                 yield f"{name}: includes \"{included}/…\", which is not below {folder}"
         in_folder = len(name.parts) > 2 and str(name) not in WITHOUT_NAMESPACE
-        if in_folder and f"\nnamespace zerocount::{name.parts[1]} {{" not in text:  # rooms of a folder share its namespace
-            yield f"{name}: defines nothing in namespace zerocount::{name.parts[1]}"
+        namespace = name.parts[1]
+        if in_folder and f"\nnamespace zerocount::{namespace} {{" not in text:
+            yield f"{name}: defines nothing in namespace zerocount::{namespace}"
         if name.parts[0] == "core":
             for header in FORBIDDEN_IN_CORE.findall(text):
                 yield f"{name}: core has no I/O and no threads, but includes <{header[0]}>"

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/loop/controller.hpp"
+#include "core/loop/controller/controller.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/theory/linear_loop.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/loop/controller.hpp"
+#include "core/loop/controller/controller.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/plant/plant.hpp"
 #include "core/theory/margins.hpp"

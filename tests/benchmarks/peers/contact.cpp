@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/friction/creep.hpp"
+#include "core/friction/presliding/creep.hpp"
 #include "core/numerics/sign.hpp"
 
 namespace zerocount::testing {

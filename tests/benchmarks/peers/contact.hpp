@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "core/friction/parameters.hpp"
-#include "core/friction/spring.hpp"
+#include "core/friction/presliding/spring.hpp"
 #include "core/motion/parameters.hpp"
 #include "core/trial/parameters.hpp"
 #include "tests/benchmarks/peers/motion_law.hpp"

@@ -5,10 +5,10 @@
 #include <limits>
 #include <vector>
 
+#include "core/loop/controller/pid.hpp"
 #include "core/loop/dac.hpp"
 #include "core/loop/drive.hpp"
 #include "core/loop/encoder.hpp"
-#include "core/loop/pid.hpp"
 #include "core/trial/move_measures.hpp"
 #include "core/trial/trial.hpp"
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "core/loop/controller.hpp"
+#include "core/loop/controller/controller.hpp"
 #include "tests/benchmarks/peers/odeint_plant.hpp"
 #include "tests/benchmarks/peers/peer_trial.hpp"
 #ifdef ZEROCOUNT_HAS_CVODE

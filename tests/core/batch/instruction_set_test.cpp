@@ -1,9 +1,8 @@
-#include "core/batch/batch.hpp"
-
 #include <set>
 
 #include <gtest/gtest.h>
 
+#include "core/batch/batch.hpp"
 #include "tests/core/batch/batched_trials.hpp"
 
 namespace zerocount::testing {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/loop/control_block.hpp"
+#include "core/loop/controller/control_block.hpp"
 
 /// Blocks of a controller that only the tests know.
 namespace zerocount {

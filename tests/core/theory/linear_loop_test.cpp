@@ -10,7 +10,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "core/loop/control_chain.hpp"
+#include "core/loop/controller/control_chain.hpp"
 #include "tests/core/loop/test_blocks.hpp"
 
 namespace zerocount::theory {

@@ -9,7 +9,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "core/loop/controller.hpp"
+#include "core/loop/controller/controller.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/theory/linear_loop.hpp"
 #include "tests/core/loop/random_blocks.hpp"

@@ -1,6 +1,4 @@
 // The loop while the rotor slides: its frequency response in closed form, and what it does in time.
-#include "core/theory/margins.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -9,8 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/loop/controller.hpp"
+#include "core/loop/controller/controller.hpp"
 #include "core/theory/gains.hpp"
+#include "core/theory/margins.hpp"
 #include "tests/core/theory/frozen_loops.hpp"
 
 namespace zerocount::theory {

@@ -1,0 +1,166 @@
+#pragma once
+
+#include "core/batch/kernels/lane_group.hpp"
+#include "core/batch/kernels/series.hpp"
+
+/// The torque on the rotor as a series in the fraction of a step.
+namespace zerocount::batch {
+
+/// A constant torque. Its only coefficient is MotionLanes::torque.
+struct ConstantTorque {
+  static constexpr bool varies = false;
+};
+
+/// A torque that varies (CourseLanes). With s = sin(q·θ + φ) and c its cosine a ripple obeys
+///
+///   ds/dt = q·ω·c,   dc/dt = −q·ω·s.
+template <class P>
+struct VaryingTorque {
+  static constexpr bool varies = true;
+  P fixed[batch_order];     ///< without the ripples; [0] is the whole torque
+  P velocity[batch_order];  ///< coefficients of ω·h, in the unit of the motion's series
+  P change;  ///< Σ k·|coefficient k|: bound of the rate of the torque, in its unit by the step
+  int ripples;
+  P amplitude[max_lane_ripples];
+  P per_travel[max_lane_ripples];  ///< q by the unit of `velocity`
+  P sine[max_lane_ripples][batch_order];
+  P cosine[max_lane_ripples][batch_order];
+
+  /// Coefficient k of the torque, in ascending order. @param velocity_k that of ω·h
+  ZEROCOUNT_ALWAYS_INLINE P coefficient(int k, const P& velocity_k) {
+    velocity[k] = velocity_k;
+    P torque = fixed[k];
+    if (k == 0) return torque;
+#pragma GCC unroll 1
+    for (int i = 0; i < ripples; ++i) {
+      P of_sine(0.0);
+      P of_cosine(0.0);
+#pragma GCC unroll 1
+      for (int j = 0; j < k; ++j) {
+        of_sine = of_sine + velocity[j] * cosine[i][k - 1 - j];
+        of_cosine = of_cosine - velocity[j] * sine[i][k - 1 - j];
+      }
+      const P factor = per_travel[i] * P(numerics::reciprocal.of[k]);
+      sine[i][k] = factor * of_sine;
+      cosine[i][k] = factor * of_cosine;
+      torque = torque + amplitude[i] * sine[i][k];
+    }
+    change = change + P(static_cast<double>(k)) * abs(torque);
+    return torque;
+  }
+};
+
+/// Loads the torque for a step of h (s). @param unit of the torque's coefficients, 1/(N m). @param
+/// travel_unit of VaryingTorque::velocity, rad.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void load_torque(const BatchState& batch, const At& at, const P& h, const P& unit,
+                                         const P& travel_unit, VaryingTorque<P>& torque) {
+  const CourseLanes& c = batch.course;
+  const P ratio = h * at.load(batch.time.sample_rate);
+  P power = unit;
+  torque.fixed[0] = unit * at.load(batch.motion.torque);
+#pragma GCC unroll 1
+  for (int k = 1; k < batch_order; ++k) {
+    power = power * ratio;
+    torque.fixed[k] = at.load(c.applied[k]) * power;
+  }
+  torque.change = P(0.0);
+  torque.ripples = 0;
+  const P count = at.load(c.ripple_count);
+  while (torque.ripples < max_lane_ripples &&
+         ((count > P(static_cast<double>(torque.ripples))) & at.taking_part()).any()) {
+    const int i = torque.ripples++;
+    torque.amplitude[i] = unit * at.load(c.ripples[i].amplitude);
+    torque.per_travel[i] = travel_unit * at.load(c.ripples[i].per_angle);
+    torque.sine[i][0] = at.load(c.ripples[i].sine);
+    torque.cosine[i][0] = at.load(c.ripples[i].cosine);
+  }
+}
+
+/// How far the torque may be from its present value within `duration` (s), N m.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE P torque_range(const BatchState& batch, const At& at, const P& duration) {
+  const CourseLanes& c = batch.course;
+  const P ratio = duration * at.load(batch.time.sample_rate);
+  P power = ratio;
+  P sum = abs(at.load(c.applied[1])) * power;
+#pragma GCC unroll 1
+  for (int k = 2; k < batch_order; ++k) {
+    power = power * ratio;
+    sum = sum + abs(at.load(c.applied[k])) * power;
+  }
+  const P count = at.load(c.ripple_count);
+  for (int i = 0; i < max_lane_ripples && (count > P(static_cast<double>(i))).any(); ++i) {
+    sum = sum + P(2.0) * abs(at.load(c.ripples[i].amplitude));
+  }
+  return sum;
+}
+
+/// du/dt·T at this instant, N m.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE P torque_rate(const BatchState& batch, const At& at, const P& omega) {
+  const CourseLanes& c = batch.course;
+  const P travel = omega * at.load(batch.time.sample_time);
+  P rate = at.load(c.applied[1]);
+  const P count = at.load(c.ripple_count);
+  for (int i = 0; i < max_lane_ripples && (count > P(static_cast<double>(i))).any(); ++i) {
+    rate = rate + at.load(c.ripples[i].amplitude) * at.load(c.ripples[i].per_angle) * travel *
+                      at.load(c.ripples[i].cosine);
+  }
+  return rate;
+}
+
+/// Whether a polynomial with values of opposite signs at 0 and 1 surely has one zero between them only: it is
+/// monotonic, or its curvature keeps its sign.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE typename P::Mask crosses_once(const P* c, int order) {
+  P third(0.0);
+#pragma GCC unroll 1
+  for (int k = order; k >= 3; --k) third = third + abs(c[k]) * P(static_cast<double>(k * (k - 1) * (k - 2)));
+  return (abs(c[1]) > curvature_bound(c, order)) | (P(2.0) * abs(c[2]) > third);
+}
+
+/// The torque of one vector of lanes at the present instant; see course_kernel.
+template <class At>
+__attribute__((noinline)) void course_of(BatchState& batch, const At& at) {
+  using P = typename At::Vector;
+  CourseLanes& c = batch.course;
+  const P time_to_stop = at.load(batch.time.time_to_stop);
+  const P decay = at.load(c.decay);
+  const P lag = at.load(c.lag) * exp(-decay * (at.load(c.piece) - time_to_stop));
+  P vibration[vibration_order + 1];
+  const bool vibrates = (to_mask(at.load(c.vibrates)) & at.taking_part()).any();
+  if (vibrates) {
+    const P elapsed = (at.load(c.piece_end) - time_to_stop) * at.load(batch.time.sample_rate);
+    for (int k = 0; k <= vibration_order; ++k) vibration[k] = at.load(c.vibration[k]);
+      // The series about the present instant, by Horner's scheme.
+#pragma GCC unroll 1
+    for (int j = 0; j < batch_order; ++j) {
+#pragma GCC unroll 1
+      for (int k = vibration_order - 1; k >= j; --k) vibration[k] = vibration[k] + elapsed * vibration[k + 1];
+    }
+  } else {
+    for (int k = 0; k < batch_order; ++k) vibration[k] = P(0.0);
+  }
+  P torque = (at.load(c.settled) + lag) + vibration[0];
+  const P count = at.load(c.ripple_count);
+  for (int i = 0; i < max_lane_ripples && (count > P(static_cast<double>(i))).any(); ++i)
+    torque = torque + at.load(c.ripples[i].amplitude) * at.load(c.ripples[i].sine);
+  at.store(batch.motion.torque, torque);
+  const P step = -decay * at.load(batch.time.sample_time);
+  P term = lag;
+#pragma GCC unroll 1
+  for (int k = 1; k < batch_order; ++k) {
+    term = term * step * P(numerics::reciprocal.of[k]);
+    at.store(c.applied[k], vibration[k] + term);
+  }
+}
+
+/// Computes the torque of each lane at the present instant, and its series: MotionLanes::torque and
+/// CourseLanes::applied. The sines of the ripples are given.
+template <class V>
+void course_kernel(BatchState& batch, const LaneSet& lanes) {
+  for_each_stretch<V>(lanes, [&](const auto& at) { course_of(batch, at); });
+}
+
+}  // namespace zerocount::batch

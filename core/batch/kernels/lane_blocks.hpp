@@ -1,0 +1,169 @@
+#pragma once
+
+#include "core/batch/kernels/lane_group.hpp"
+#include "core/loop/controller/block_formulas.hpp"
+
+namespace zerocount::batch {
+
+/// Input of the control law at a sample.
+template <class P>
+struct ControlInput {
+  using Mask = typename P::Mask;
+  P error, last_error;  ///< counts
+  P count, change;      ///< counts; change since the last sample, 0 at the first
+  Mask counted;         ///< there has been a sample before
+};
+
+/// Output of the compensators at a sample.
+template <class P>
+struct Compensated {
+  using Mask = typename P::Mask;
+  P acting_error;  ///< e′, counts
+  Mask stands;     ///< the standstill gains act
+  Mask held;       ///< the torque is held, and the blocks pause
+};
+
+/// Stores a new value, except where the torque is held.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void store_unless(const typename P::Mask& held, const At& at, Lanes& lanes,
+                                          const P& value) {
+  at.store(lanes, select(held, at.load(lanes), value));
+}
+
+/// The dead zone of the error, and the states of standstill and hold.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE Compensated<P> compensated(BatchState& batch, const At& at,
+                                                   const ControlInput<P>& in) {
+  using Mask = typename P::Mask;
+  BlockLanes& b = batch.blocks;
+  const P zero(0.0);
+  const P one(1.0);
+  const P target = at.load(batch.loop.target);
+  const Mask changed = target != at.load(b.last_target);
+  const P new_target = select(in.counted & changed, one, zero);
+  const P fresh = select(in.counted, new_target, one);
+  at.store(b.last_target, target);
+
+  const loop::StandstillConstants<P> standstill{at.load(b.standstill.band), at.load(b.standstill.dwell),
+                                                at.load(b.standstill.kp), at.load(b.standstill.ki),
+                                                at.load(b.standstill.kd)};
+  P run = at.load(b.standstill_run);
+  const Mask stands = loop::stands_still(standstill, run, new_target, in.error);
+  at.store(b.standstill_run, run);
+
+  const loop::HoldConstants<P> rule{at.load(b.hold.enter), at.load(b.hold.leave), at.load(b.hold.dwell)};
+  loop::HoldState<P> state{at.load(b.hold_state.run), at.load(b.hold_state.holding), zero};
+  const Mask held = loop::holds_torque(rule, state, fresh, in.error);
+  at.store(b.hold_state.run, state.run);
+  at.store(b.hold_state.holding, state.holding);
+
+  const loop::ErrorDeadbandConstants<P> deadband{at.load(b.deadband.band), at.load(b.deadband.subtracted)};
+  return {loop::acting_error(deadband, in.error), stands, held};
+}
+
+/// The control law with the conditions on its integral, PID or cascade by lane. @returns its torque, N m.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE P law_torque(BatchState& batch, const At& at, const ControlInput<P>& in,
+                                     const Compensated<P>& now) {
+  LoopLanes& l = batch.loop;
+  BlockLanes& b = batch.blocks;
+  const loop::IntegralConstants<P> rules{at.load(b.integral.enter),  at.load(b.integral.leave),
+                                         at.load(b.integral.zone),   at.load(b.integral.retention),
+                                         at.load(b.integral.lowest), at.load(b.integral.highest)};
+  const loop::CascadeConstants<P> cascade{at.load(b.cascade.kv), at.load(b.cascade.velocity),
+                                          at.load(b.cascade.kp), at.load(b.cascade.ki)};
+  const P kp = select(now.stands, at.load(b.standstill.kp), at.load(l.kp));
+  const P ki = select(now.stands, at.load(b.standstill.ki), at.load(l.ki));
+  const P kd = select(now.stands, at.load(b.standstill.kd), at.load(l.kd));
+  const typename P::Mask is_cascade = to_mask(at.load(b.is_cascade));
+  const P last_d = at.load(b.difference);
+  const P d = select(now.held, last_d, loop::filtered_difference(at.load(b.pole), last_d, in.change));
+  const P w = loop::velocity_error(cascade, now.acting_error, d);
+  const P increment = select(is_cascade, cascade.ki * (w + at.load(b.last_velocity_error)),
+                             ki * (now.acting_error + at.load(b.last_acting_error)));
+  loop::IntegralState<P> state{at.load(l.integral), at.load(b.inside)};
+  loop::integrate(rules, state, in.error, increment);
+  store_unless(now.held, at, l.integral, state.integral);
+  store_unless(now.held, at, b.inside, state.inside);
+  at.store(b.difference, d);
+  at.store(b.last_velocity_error, w);
+  at.store(b.last_acting_error, now.acting_error);
+  return select(is_cascade, loop::cascade_torque(state.integral, cascade.kp, w),
+                loop::pid_torque(state.integral, kp, now.acting_error, kd, d));
+}
+
+/// The torque after the filters, N m.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE P filtered_torque(BatchState& batch, const At& at, P torque,
+                                          const typename P::Mask& held) {
+  BlockLanes& b = batch.blocks;
+  const P count = at.load(b.filter_count);
+  for (int i = 0; i < max_lane_filters; ++i) {
+    if (!(count > P(static_cast<double>(i))).any()) break;
+    const loop::BiquadConstants<Lanes>& c = b.filters[i];
+    loop::BiquadState<Lanes>& of = b.filter_states[i];
+    const loop::BiquadConstants<P> constants{at.load(c.b0), at.load(c.b1), at.load(c.b2), at.load(c.a1),
+                                             at.load(c.a2)};
+    loop::BiquadState<P> state{at.load(of.s1), at.load(of.s2)};
+    torque = loop::biquad_step(constants, state, torque);
+    store_unless(held, at, of.s1, state.s1);
+    store_unless(held, at, of.s2, state.s2);
+  }
+  return torque;
+}
+
+/// d̂ of the disturbance observer, N m.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE P disturbance(BatchState& batch, const At& at, const ControlInput<P>& in,
+                                      const typename P::Mask& held) {
+  BlockLanes& b = batch.blocks;
+  const P first = select(in.counted, at.load(b.first_count), in.count);
+  const loop::ObserverConstants<P> constants{at.load(b.observer.acceleration), at.load(b.observer.q),
+                                             at.load(b.observer.a1), at.load(b.observer.a2)};
+  loop::BiquadState<P> state{at.load(b.observer_state.s1), at.load(b.observer_state.s2)};
+  const P estimate = loop::observer_step(constants, state, in.count - first, at.load(batch.loop.decided));
+  at.store(b.first_count, first);
+  store_unless(held, at, b.observer_state.s1, state.s1);
+  store_unless(held, at, b.observer_state.s2, state.s2);
+  return estimate;
+}
+
+/// The wanted torque of the controller with its blocks (ControlChain), its dither and the remainder of the
+/// sigma-delta converter, N m. A step has no feed-forward.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE P block_torque(BatchState& batch, const At& at, const ControlInput<P>& in) {
+  BlockLanes& b = batch.blocks;
+  const Compensated<P> now = compensated(batch, at, in);
+  P torque = filtered_torque(batch, at, law_torque(batch, at, in, now), now.held);
+  const typename P::Mask observes = to_mask(at.load(b.observes));
+  if (observes.any()) torque = select(observes, torque - disturbance(batch, at, in, now.held), torque);
+  torque = select(now.held, at.load(b.hold_state.torque), torque);
+  at.store(b.hold_state.torque, torque);
+  const P k = at.load(b.sample);
+  at.store(b.sample, k + P(1.0));
+  const P dither = loop::dither_torque(at.load(b.dither_amplitude), at.load(b.dither_frequency),
+                                       at.load(batch.time.sample_rate), k);
+  return torque + dither + at.load(b.remainder);
+}
+
+/// Whether the torque may change while the error stays 0: by a memory that fades, or because a dwell ends.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE typename P::Mask has_memory(const BatchState& batch, const At& at) {
+  const BlockLanes& b = batch.blocks;
+  const P zero(0.0);
+  const auto hold_to_come =
+      (at.load(b.hold.enter) >= zero) & (at.load(b.hold_state.run) < at.load(b.hold.dwell));
+  const auto standstill_to_come =
+      (at.load(b.standstill.band) >= zero) & (at.load(b.standstill_run) <= at.load(b.standstill.dwell));
+  return to_mask(at.load(b.remembers)) | hold_to_come | standstill_to_come;
+}
+
+/// Keeps the rounding error of the lanes with a sigma-delta converter.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void keep_remainder(BatchState& batch, const At& at, const P& torque,
+                                            const P& converted, const typename P::Mask& clipped) {
+  const P remainder = loop::rounding_remainder(torque, converted, clipped);
+  at.store(batch.blocks.remainder, select(to_mask(at.load(batch.blocks.sigma_delta)), remainder, P(0.0)));
+}
+
+}  // namespace zerocount::batch

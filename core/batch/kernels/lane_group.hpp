@@ -1,0 +1,185 @@
+#pragma once
+
+#include "core/batch/kernels/batch_state.hpp"
+#include "core/batch/kernels/simd.hpp"
+
+namespace zerocount::batch {
+
+/// Neighbouring lanes of the batch state that fill one vector; a mask says which take part.
+template <class P>
+class LaneStretch {
+ public:
+  using Vector = P;
+  LaneStretch(int base, unsigned taking_part) : base_(base), taking_part_(taking_part) {}
+
+  ZEROCOUNT_ALWAYS_INLINE typename P::Mask taking_part() const { return P::Mask::of_bits(taking_part_); }
+  ZEROCOUNT_ALWAYS_INLINE int lane(int i) const { return base_ + i; }
+  ZEROCOUNT_ALWAYS_INLINE P load(const double* of) const {
+    P r;
+    __builtin_memcpy(&r, of + base_, sizeof r);
+    return r;
+  }
+  ZEROCOUNT_ALWAYS_INLINE void store(double* to, const P& value) const {
+    value.store(to + base_, taking_part());
+  }
+
+ private:
+  int base_;
+  unsigned taking_part_;  ///< one bit a lane of the vector
+};
+
+/// Any lanes, filled up with the spare lane. Removes them from the set.
+template <class P>
+class LaneCollection {
+ public:
+  using Vector = P;
+  explicit LaneCollection(LaneSet& lanes) : taking_part_(0) {
+    for (int i = 0; i < P::lanes; ++i) {
+      lane_[i] = spare_lane;
+      if (lanes.empty()) continue;
+      lane_[i] = lanes.first();
+      lanes.erase(lane_[i]);
+      taking_part_ |= 1U << i;
+    }
+  }
+
+  ZEROCOUNT_ALWAYS_INLINE typename P::Mask taking_part() const { return P::Mask::of_bits(taking_part_); }
+  ZEROCOUNT_ALWAYS_INLINE int lane(int i) const { return lane_[i]; }
+  ZEROCOUNT_ALWAYS_INLINE P load(const double* of) const {
+    P r;
+    gather(of, r);
+    return r;
+  }
+  ZEROCOUNT_ALWAYS_INLINE void store(double* to, const P& value) const { scatter(to, value); }
+
+ private:
+  // Not inlined: dozens of copies would push the kernel out of the instruction cache.
+  __attribute__((noinline)) void gather(const double* of, P& to) const {
+    constexpr int width = sizeof(to.part[0]) / sizeof(double);
+    for (int p = 0; p < P::lanes / width; ++p) to.part[p] = collect<width>(of, lane_ + p * width);
+  }
+  /// Without a detour through memory: a vector load would wait for the scalar stores before it.
+  template <int Width>
+  static ZEROCOUNT_ALWAYS_INLINE auto collect(const double* of, const int* lane) {
+    using Real = typename VectorOf<Width>::Real;
+    if constexpr (Width == 8) {
+      return Real{of[lane[0]], of[lane[1]], of[lane[2]], of[lane[3]],
+                  of[lane[4]], of[lane[5]], of[lane[6]], of[lane[7]]};
+    } else if constexpr (Width == 4) {
+      return Real{of[lane[0]], of[lane[1]], of[lane[2]], of[lane[3]]};
+    } else {
+      static_assert(Width == 2);
+      return Real{of[lane[0]], of[lane[1]]};
+    }
+  }
+  __attribute__((noinline)) void scatter(double* to, const P& from) const {
+    double value[P::lanes];
+    __builtin_memcpy(value, &from, sizeof value);
+    for (int i = 0; i < P::lanes; ++i) to[lane_[i]] = value[i];
+  }
+
+  unsigned taking_part_;  ///< one bit a lane of the vector
+  int lane_[P::lanes];
+};
+
+/// The vectors of a kernel: with `Chains` chains of operations where there are enough lanes, else with one.
+template <int Width, int Chains>
+struct Vectors {
+  using Wide = Simd<Width, Chains>;
+  using Narrow = Simd<Width, 1>;
+};
+
+/// Passes the lanes to `work` as LaneStretch, a narrow one where all of them are in one half.
+template <class V, class Work>
+ZEROCOUNT_ALWAYS_INLINE void for_each_stretch(const LaneSet& lanes, Work work) {
+  using Wide = typename V::Wide;
+  using Narrow = typename V::Narrow;
+  static_assert(Wide::lanes == 2 * Narrow::lanes);
+  for (int base = 0; base < max_lanes; base += Wide::lanes) {
+    const unsigned lower = lanes.stretch(base, Narrow::lanes);
+    const unsigned upper = lanes.stretch(base + Narrow::lanes, Narrow::lanes);
+    if (lower != 0 && upper != 0) {
+      work(LaneStretch<Wide>(base, lower | upper << Narrow::lanes));
+    } else if (lower != 0) {
+      work(LaneStretch<Narrow>(base, lower));
+    } else if (upper != 0) {
+      work(LaneStretch<Narrow>(base + Narrow::lanes, upper));
+    }
+  }
+}
+
+/// Passes the lanes to `work`: as LaneStretch where at least half of a stretch takes part, the others as
+/// LaneCollection; the last few as narrow ones.
+template <class V, class Work>
+ZEROCOUNT_ALWAYS_INLINE void for_each_vector(LaneSet lanes, Work work) {
+  using Wide = typename V::Wide;
+  using Narrow = typename V::Narrow;
+  const auto dense = [&]<class P>(int base) {
+    const unsigned here = lanes.stretch(base, P::lanes);
+    const bool enough = 2 * __builtin_popcount(here) >= P::lanes;
+    if (enough) {
+      work(LaneStretch<P>(base, here));
+      lanes.erase_stretch(base, here);
+    }
+  };
+  for (int base = 0; base < max_lanes; base += Wide::lanes) dense.template operator()<Wide>(base);
+  while (lanes.count() > Narrow::lanes) work(LaneCollection<Wide>(lanes));
+  if (lanes.empty()) return;
+  dense.template operator()<Narrow>(lanes.first() / Narrow::lanes * Narrow::lanes);
+  if (!lanes.empty()) work(LaneCollection<Narrow>(lanes));
+}
+
+template <class P, class At>
+__attribute__((noinline)) void append_events(BatchState& batch, const At& at, const P& events,
+                                             unsigned noted) {
+  double value[P::lanes];
+  __builtin_memcpy(value, &events, sizeof value);
+  for (; noted != 0; noted &= noted - 1) {
+    const int i = __builtin_ctz(noted);
+    const int lane = at.lane(i);
+    batch.events[lane] = static_cast<int>(value[i]);
+    batch.event_lanes[batch.event_count++] = lane;
+  }
+}
+
+/// Adds the lanes whose `events` are not 0 to the batch state.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void add_events(BatchState& batch, const At& at, const P& events) {
+  const typename P::Mask noted = (events != P(0.0)) & at.taking_part();
+  if (noted.any()) append_events(batch, at, events, noted.bits());
+}
+
+/// Visitors for for_each_measure, between lanes and vectors.
+template <class At>
+struct LoadEach {
+  const At& at;
+  template <class P>
+  ZEROCOUNT_ALWAYS_INLINE void operator()(P& to, const double* from) const {
+    to = at.load(from);
+  }
+};
+template <class At>
+struct StoreEach {
+  const At& at;
+  template <class P>
+  ZEROCOUNT_ALWAYS_INLINE void operator()(double* to, const P& from) const {
+    at.store(to, from);
+  }
+};
+
+/// A mask as 0 or 1, and back.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P to_number(const typename P::Mask& mask) {
+  return select(mask, P(1.0), P(0.0));
+}
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE typename P::Mask to_mask(const P& number) {
+  return number != P(0.0);
+}
+/// `event` where the mask is set, else no_event.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P events_where(const typename P::Mask& mask, LaneEvent event) {
+  return select(mask, P(static_cast<double>(event)), P(0.0));
+}
+
+}  // namespace zerocount::batch

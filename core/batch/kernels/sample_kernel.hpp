@@ -1,0 +1,140 @@
+#pragma once
+
+#include "core/batch/kernels/lane_blocks.hpp"
+#include "core/batch/kernels/lane_group.hpp"
+#include "core/loop/formulas.hpp"
+
+namespace zerocount::batch {
+
+/// The torque of the PID law without blocks, N m.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE P pid_torque(BatchState& batch, const At& at, const ControlInput<P>& in,
+                                     const P& last_count) {
+  LoopLanes& l = batch.loop;
+  const loop::PidConstants<P> gains{at.load(l.kp), at.load(l.ki), at.load(l.kd), at.load(l.lowest_integral),
+                                    at.load(l.highest_integral)};
+  loop::PidState<P> pid{at.load(l.integral), in.last_error, last_count};
+  const P torque = loop::pid_step(gains, pid, in.error, in.count);
+  at.store(l.integral, pid.integral);
+  return torque;
+}
+
+/// Takes sample k of the moves into the measures of their error bands. @param size |e|, counts
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void measure_bands(MeasureLanes& q, const At& at, const P& k, const P& size) {
+  for (BandLanes& lanes : q.bands) {
+    const P limit = at.load(lanes.limit);
+    if (!(size > limit).any()) return;  // nor outside the wider bands
+    trial::BandMeasures<P> band{at.load(lanes.last_outside), at.load(lanes.entry), at.load(lanes.exits)};
+    trial::measure_band(band, limit, at.load(q.limits.dwell), k, size);
+    at.store(lanes.last_outside, band.last_outside);
+    at.store(lanes.entry, band.entry);
+    at.store(lanes.exits, band.exits);
+  }
+}
+
+/// One sampling instant of one vector; see sample_kernel.
+template <Decider decider, class At>
+__attribute__((noinline)) void sample(BatchState& batch, const At& at) {
+  using P = typename At::Vector;
+  using Mask = typename P::Mask;
+  MotionLanes& m = batch.motion;
+  LoopLanes& l = batch.loop;
+  MeasureLanes& q = batch.measures;
+  TimeLanes& time = batch.time;
+  const P extension = at.load(m.extension);
+  const Mask hook_slides = to_mask(at.load(m.slide_direction));
+  const P theta = select(hook_slides, at.load(m.theta), at.load(m.hook) + at.load(m.elongation) + extension);
+  const P resolution = at.load(l.resolution);
+  const Mask unreadable = ~(abs(theta / resolution) < P(0x1p50));
+  P count;
+  if constexpr (decider == Decider::lane_loop) {
+    count = at.load(l.given_count);
+  } else {
+    count = loop::ideal_count(theta, resolution, at.load(l.phase));
+  }
+  const Mask counted = to_mask(at.load(l.counted));
+  const P last_count = select(counted, at.load(l.count), count);
+  const P last_error = at.load(l.error);
+  const P error = at.load(l.target) - count;
+  const P change = count - last_count;
+
+  const ControlInput<P> input{error, last_error, count, change, counted};
+  const P dac_resolution = at.load(l.dac_resolution);
+  P code, applied;
+  Mask clipped;
+  if constexpr (decider == Decider::lane_loop) {
+    code = at.load(l.given_code);
+    applied = at.load(l.given_torque);
+    clipped = to_mask(at.load(l.given_clipped));
+  } else {
+    P wanted_torque;
+    if constexpr (decider == Decider::blocks) {
+      wanted_torque = block_torque(batch, at, input);
+    } else {
+      wanted_torque = pid_torque(batch, at, input, last_count);
+    }
+    const P wanted = loop::wanted_code(wanted_torque, dac_resolution);
+    code = loop::clipped_code(wanted, at.load(l.lowest_code), at.load(l.highest_code));
+    applied = code * dac_resolution;
+    clipped = code != wanted;
+    if constexpr (decider == Decider::blocks) keep_remainder(batch, at, wanted_torque, applied, clipped);
+  }
+  const P torque = code * dac_resolution;
+
+  at.store(l.error, error);
+  at.store(l.count, count);
+  at.store(l.counted, P(1.0));
+  at.store(l.decided, torque);
+  at.store(l.code, code);
+  at.store(m.torque, applied + at.load(l.disturbance));
+  Mask steady = (error == P(0.0)) & (last_error == P(0.0)) & (change == P(0.0));
+  if constexpr (decider == Decider::blocks) steady = steady & ~has_memory<P>(batch, at);
+  if constexpr (decider == Decider::lane_loop) steady = steady & to_mask(at.load(l.given_may_stay));
+  at.store(l.steady, to_number<P>(steady));
+
+  const P zero(0.0);
+  const P one(1.0);
+  trial::RunningMeasures<P> measures;
+  trial::for_each_measure(LoadEach<At>{at}, measures, q);
+  const trial::MeasureLimits<P> limits{at.load(q.limits.samples), at.load(q.limits.dwell),
+                                       at.load(q.limits.window)};
+  const P samples = measures.samples;
+  const P size = abs(error);
+  const P first_error = select(samples == zero, size, at.load(q.first_error));
+  const Mask error_diverges = size > at.load(q.max_error) + first_error;
+  const Mask dwelt = to_mask(measures.arrived);
+  trial::measure_error(measures, limits, error);
+  trial::measure_torque(measures, torque, clipped);
+  trial::for_each_measure(StoreEach<At>{at}, q, measures);
+  measure_bands(q, at, samples, size);
+  at.store(q.first_error, first_error);
+  at.store(q.theta, theta);
+  at.store(q.extension, extension);
+  at.store(q.change, change);
+
+  // If the torque is steady, the next stop is the last sample of the move.
+  const P remaining = select(steady & ~hook_slides, max(limits.samples - samples - one, one), one);
+  at.store(time.samples_to_stop, remaining);
+  at.store(time.time_to_stop, remaining * at.load(time.sample_time));
+  at.store(time.steps, zero);
+  const Mask away = dwelt & (error != zero);
+  const Mask back = to_mask(at.load(q.in_jerk));
+  const Mask changes = (change != zero) & (samples >= at.load(q.last_half));
+  add_events(batch, at,
+             events_where<P>(unreadable, beyond_kernel) +
+                 events_where<P>(~unreadable & (away | back), jerk_changes) +
+                 events_where<P>(~unreadable & changes, count_changes) +
+                 events_where<P>(error_diverges, diverges) +
+                 events_where<P>(to_mask(at.load(l.driven)), driven));
+}
+
+/// One sampling instant of each lane: encoder, control, converter, measures. Reports jerk_changes,
+/// count_changes, diverges and driven, and beyond_kernel where the encoder cannot count θ.
+template <class V, Decider decider>
+void sample_kernel(BatchState& batch, const LaneSet& lanes) {
+  batch.event_count = 0;
+  for_each_stretch<V>(lanes, [&](const auto& at) { sample<decider>(batch, at); });
+}
+
+}  // namespace zerocount::batch

@@ -1,0 +1,157 @@
+#pragma once
+
+#include "core/batch/kernels/batch_state.hpp"
+#include "core/batch/kernels/simd.hpp"
+#include "core/numerics/series_recurrences.hpp"
+
+/// Power series in the fraction of a step, from 0 to 1: coefficient k is that in time, times hᵏ.
+namespace zerocount::batch {
+
+/// The polynomial at x, smallest terms first.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P value_of(const P* c, int order, const P& x) {
+  P value = c[order];
+#pragma GCC unroll 1
+  for (int k = order - 1; k >= 0; --k) value = value * x + c[k];
+  return value;
+}
+
+/// The polynomial at x = 1; bitwise equal to value_of(c, order, 1).
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P sum_of(const P* c, int order) {
+  P value = c[order];
+#pragma GCC unroll 1
+  for (int k = order - 1; k >= 0; --k) value = value + c[k];
+  return value;
+}
+
+/// Σ k(k−1)·|c[k]|, which no second derivative on [0, 1] exceeds.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P curvature_bound(const P* c, int order) {
+  P sum = abs(c[order]) * P(static_cast<double>(order * (order - 1)));
+#pragma GCC unroll 1
+  for (int k = order - 1; k >= 2; --k) sum = sum + abs(c[k]) * P(static_cast<double>(k * (k - 1)));
+  return sum;
+}
+
+/// Whether a polynomial surely keeps its sign on [0, 1], given equal signs of its values `at_start` and
+/// `at_end`: it is farther from 0 than its curvature can take it, or monotonic. @param slope at the start.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE typename P::Mask keeps_sign(const P& at_start, const P& at_end, const P& slope,
+                                                    const P& curvature) {
+  return (min(abs(at_start), abs(at_end)) > curvature * P(0.125)) | (abs(slope) > curvature);
+}
+
+/// A polynomial and its derivative at x.
+template <class P>
+struct ValueAndSlope {
+  P value;
+  P slope;
+};
+
+/// Sums even and odd powers apart, so that four chains of additions run in parallel.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE ValueAndSlope<P> value_and_slope(const P* c, int order, const P& x) {
+  const P square = x * x;
+  const int highest_even = order - order % 2;
+  P even = c[highest_even];
+  P odd = order % 2 == 0 ? c[order - 1] : c[order];
+  P even_slope(0.0);
+  P odd_slope(0.0);
+  if (order % 2 != 0) {
+    odd_slope = odd;
+    odd = odd * square + c[order - 2];
+  }
+#pragma GCC unroll 1
+  for (int k = highest_even - 2; k >= 2; k -= 2) {
+    even_slope = even_slope * square + even;
+    odd_slope = odd_slope * square + odd;
+    even = even * square + c[k];
+    odd = odd * square + c[k - 1];
+  }
+  even_slope = even_slope * square + even;
+  even = even * square + c[0];
+  return {even + x * odd, odd + P(2.0) * x * (even_slope + x * odd_slope)};
+}
+
+/// Bracketed Newton iteration of the lanes of a vector. A lane that has converged keeps its value, so that
+/// the result does not depend on the other lanes.
+template <class P>
+struct NewtonSearch {
+  using Mask = typename P::Mask;
+  P low;
+  P high;
+  P x;
+  P last_change;
+  Mask open;  ///< lanes that have not converged
+
+  /// One step to `newton`, or by bisection where that leaves the bracket or converges slowly. @param before
+  /// whether the root is above x. @param close change whose square is below rounding.
+  ZEROCOUNT_ALWAYS_INLINE void step(const P& newton, const Mask& before, const P& close) {
+    low = select(before, x, low);
+    high = select(before, high, x);
+    const Mask good = (newton >= low) & (newton <= high) & (abs(newton - x) <= P(0.5) * last_change);
+    const P next = select(good, newton, (low + high) * P(0.5));
+    last_change = abs(next - x);
+    x = select(open, next, x);
+    // The error of a Newton step is about the square of the step.
+    open = open & (last_change > select(good, close, P(1e-9) * close));
+  }
+};
+
+constexpr int max_newton_steps = 60;
+
+/// The root of a polynomial between 0 and `end`, its values there having opposite signs. Starts from the root
+/// of the secant. Computed for the lanes of `wanted`.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P root_between(const P* c, int order, const P& at_start, const P& at_end,
+                                       const P& end, const typename P::Mask& wanted) {
+  NewtonSearch<P> search{P(0.0), end, end * (at_start / (at_start - at_end)), end, wanted};
+  for (int step = 0; step < max_newton_steps && search.open.any(); ++step) {
+    const ValueAndSlope<P> at = value_and_slope(c, order, search.x);
+    search.step(search.x - at.value / at.slope, (at.value > P(0.0)) == (at_start > P(0.0)), P(1e-8) * end);
+  }
+  return search.x;
+}
+
+/// Start value of next_zero: the zero of the polynomial of degree 4 with equal first terms and equal value
+/// at 1.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P rough_zero(const P* c, const P& at_end, const typename P::Mask& from_zero) {
+  const P c0 = select(from_zero, c[1], c[0]);
+  const P c1 = select(from_zero, c[2], c[1]);
+  const P c2 = select(from_zero, c[3], c[2]);
+  const P c3 = select(from_zero, c[4], c[3]);
+  const P c4 = at_end - (((c0 + c1) + c2) + c3);
+  const P secant = c0 / (c0 - at_end);
+  P x = secant;
+  for (int step = 0; step < 2; ++step) {
+    const P cubic = c4 * x + c3;
+    const P square = cubic * x + c2;
+    const P linear = square * x + c1;
+    const P value = linear * x + c0;
+    const P slope = ((c4 * x + cubic) * x + square) * x + linear;
+    x = x - value / slope;
+  }
+  return select((x > P(0.0)) & (x < P(1.0)), x, secant);
+}
+
+/// The zero of a polynomial on (0, 1); with `from_zero`, where the polynomial is zero at 0, that of the
+/// polynomial divided by x. An error of its position enters the motion squared, because the velocity at a
+/// reversal is zero.
+/// @param at_start the value at 0, or the slope where that is zero. @param at_end the value at 1.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P next_zero(const P* c, int order, const P& at_start, const P& at_end,
+                                    const typename P::Mask& from_zero, const typename P::Mask& wanted) {
+  NewtonSearch<P> search{P(0.0), P(1.0), rough_zero(c, at_end, from_zero), P(1.0), wanted};
+  for (int step = 0; step < max_newton_steps && search.open.any(); ++step) {
+    const P x = search.x;
+    const ValueAndSlope<P> at = value_and_slope(c, order, x);
+    const P by_x = x * at.slope;
+    const P newton = x - x * at.value / select(from_zero, by_x - at.value, by_x);
+    search.step(newton, (at.value > P(0.0)) == (at_start > P(0.0)), P(1e-5));
+  }
+  return search.x;
+}
+
+}  // namespace zerocount::batch

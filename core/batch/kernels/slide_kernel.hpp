@@ -1,0 +1,119 @@
+#pragma once
+
+#include "core/batch/kernels/velocity_step.hpp"
+
+namespace zerocount::batch {
+
+/// The step of one vector; see slide_kernel.
+template <bool Fast, bool Varies, class At>
+__attribute__((noinline)) void slide(BatchState& batch, const At& at) {
+  using P = typename At::Vector;
+  using Mask = typename P::Mask;
+  MotionLanes& m = batch.motion;
+  ContactLanes& c = batch.contact;
+  TimeLanes& time = batch.time;
+  const P zero(0.0);
+  const P one(1.0);
+  const P time_to_stop = at.load(time.time_to_stop);
+  const P omega = at.load(m.omega);
+  const P direction = at.load(m.slide_direction);
+  const P coulomb = at.load(c.coulomb);
+  const P breakaway_torque = at.load(c.breakaway);
+  const P stribeck = direction * (breakaway_torque - coulomb);
+  const P per_inertia = at.load(c.per_inertia);
+  const P damping = at.load(c.sliding_damping);
+  const P per_velocity_squared = at.load(c.per_velocity_squared);
+  const P torque = at.load(m.torque);
+  const P driving = torque - direction * coulomb;
+
+  const P stribeck_velocity = one / sqrt(per_velocity_squared);
+  const P speed = abs(omega);
+  P decay_start = zero;
+  P h = time_to_stop;
+  if constexpr (Fast) {
+    P resisting = breakaway_torque - direction * torque + damping * speed;
+    if constexpr (Varies) {
+      h = min(at.load(time.next_step), time_to_stop);
+      resisting = resisting + torque_range(batch, at, h);
+    }
+    h = fast_step(speed, stribeck_velocity, max(resisting, zero) * per_inertia, h);
+  } else {
+    decay_start = exp(-per_velocity_squared * omega * omega);
+    const P acceleration = abs(driving - stribeck * decay_start - damping * omega) * per_inertia;
+    h = min(min(at.load(time.next_step),
+                stribeck_step(omega, acceleration, stribeck_velocity, per_velocity_squared)),
+            time_to_stop);
+    h = without_short_remainder(h, time_to_stop);
+  }
+  const P force_scale = h * h * per_inertia;
+  const P damping_scale = damping * h * per_inertia;
+  const P per_step_squared = per_velocity_squared / (h * h);
+
+  P theta[batch_order + 1];
+  P velocity[batch_order + 1];
+  friction::StribeckSeriesOf<P[batch_order + 1]> curve;
+  theta[0] = at.load(m.theta);
+  velocity[0] = omega * h;
+  [[maybe_unused]] VaryingTorque<P> applied;
+  if constexpr (Varies) load_torque(batch, at, h, one, one, applied);
+  curve.decay[0] = decay_start;
+#pragma GCC unroll 1
+  for (int k = 0; k < batch_order; ++k) {
+    P force = k == 0 ? driving : zero;
+    if constexpr (Varies) {
+      const P torque_k = applied.coefficient(k, velocity[k]);
+      if (k > 0) force = torque_k;
+    }
+    if constexpr (!Fast) {
+      curve.expand(per_step_squared, velocity, static_cast<std::size_t>(k));
+      force = force - stribeck * curve.decay[k];
+    }
+    theta[k + 1] = velocity[k] * P(numerics::reciprocal.of[k + 1]);
+    velocity[k + 1] = (force_scale * force - damping_scale * velocity[k]) * P(numerics::reciprocal.of[k + 1]);
+  }
+
+  VelocityStep<P> step;
+  step.time_to_stop = time_to_stop;
+  step.h = h;
+  step.truncation_error = last_terms_of(theta) + last_terms_of(velocity);
+  step.allowed = at.load(time.tolerance) * (h * at.load(time.sample_rate));
+  step.inexact = ~(step.truncation_error <= step.allowed);
+  const P velocity_end = sum_of(velocity, batch_order);
+  step.halts = velocity[0] * velocity_end < zero;
+  Mask unfit = one < zero;
+  if constexpr (!Fast) {
+    const P curvature = curvature_bound(velocity, batch_order);
+    unfit = grows_too_much(curve.exponent) |
+            (~step.halts & ~keeps_sign(velocity[0], velocity_end, velocity[1], curvature));
+    if constexpr (Varies) unfit = unfit | (step.halts & ~crosses_once(velocity, batch_order));
+  }
+  const Mask beyond = omega * direction <= zero;
+  step.too_long = (step.inexact | unfit) & ~beyond;
+  step.x = one;
+  const Mask seeks = at.taking_part() & step.halts & ~step.too_long;
+  if (seeks.any()) {
+    step.x =
+        select(step.halts, root_between(velocity, batch_order, velocity[0], velocity_end, one, seeks), one);
+  }
+  step.done = ~step.too_long & ~beyond;
+  store_time(batch, at, step);
+  at.store(m.theta, select(step.done, value_of(theta, batch_order, step.x), theta[0]));
+  at.store(m.omega,
+           select(step.done, select(step.halts, zero, value_of(velocity, batch_order, step.x) / h), omega));
+  add_events(batch, at,
+             events_where<P>(step.done & step.halts, velocity_zero) +
+                 events_where<P>(beyond | (at.load(time.steps) > P(max_steps_to_stop)), beyond_kernel));
+}
+
+/// One step of each lane whose hook slides: to the next stop, to ω = 0, or as far as the series converge.
+/// Reports velocity_zero, and beyond_kernel where the slide starts at ω = 0. See PreslidingFriction::slide.
+///
+/// `Fast` is for lanes far above the Stribeck velocity, where (ω/ωs)² > 64 and friction is that of Coulomb to
+/// the last bit. Their steps end where (ω/ωs)² = 42: exp(−42) = 6e-19.
+template <class V, bool Fast, bool Varies>
+void slide_kernel(BatchState& batch, const LaneSet& lanes) {
+  batch.event_count = 0;
+  for_each_vector<V>(lanes, [&](const auto& at) { slide<Fast, Varies>(batch, at); });
+}
+
+}  // namespace zerocount::batch

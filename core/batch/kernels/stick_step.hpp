@@ -1,0 +1,291 @@
+#pragma once
+
+#include "core/batch/kernels/lane_group.hpp"
+#include "core/batch/kernels/step_control.hpp"
+#include "core/batch/kernels/stick_series.hpp"
+
+namespace zerocount::batch {
+
+/// A step of the lanes of one vector: its start, its series, and the part of it that is used.
+template <class P>
+struct StickStep {
+  using Mask = typename P::Mask;
+
+  Mask here;       ///< lanes that take part
+  P h;             ///< length, s
+  P per_h;         ///< 1/h, 1/s
+  P time_to_stop;  ///< to the next stop, s
+  P time_scale;    ///< 1/ωn, s
+  P length;        ///< unit of the series' lengths: −s/(softening rate), rad
+  P torque_unit;   ///< unit of scaled_torque: J/h²·length, N m
+
+  // The start.
+  P elongation_start;  ///< xs, rad
+  P creep_start;       ///< xh·sgn(σ), rad
+  P creep_limit;       ///< ±α·h/λ, by |σ|ⁿ; 0 where creep is off
+  Mask at_reversal;    ///< dxs/dt is zero
+  Mask creeping;
+  P torque_sign;       ///< of σ
+  P direction;         ///< of the elongation
+  P per_step;          ///< c/h: damper's torque by ω·h, N m/rad
+  P breakaway_torque;  ///< Fs, N m
+  P hook_torque;       ///< σ + c·ω, N m
+  StickLaw<P> law;
+  StickSeries<P> series;
+
+  // Step control.
+  P forced_rate;          ///< bound of dxs/dt·h that a varying torque adds, by the softening length
+  Mask reverses;          ///< dxs/dt changes its sign
+  Mask ends_at_reversal;  ///< the step ends at that reversal
+  Mask too_long;
+  Mask inexact;        ///< too long by the truncation error
+  P last_terms;        ///< of elongation and velocity, rad
+  P allowed;           ///< truncation error allowed in the full step, rad
+  P truncation_error;  ///< truncation error at x, rad
+  P allowed_at_x;      ///< `allowed` for the part of the step up to x, rad
+  P rate_start;        ///< dxs/dt·h, or where that is zero its slope, by the softening length
+  P rate_end;          ///< dxs/dt·h after the whole step, by the softening length
+
+  // The part that is used.
+  P x;                  ///< the fraction of the full step that is used
+  P event;              ///< LaneEvent at the end of it
+  Mask has_event;       ///< the step has an event that this kernel does not locate
+  Mask beyond;          ///< the kernel cannot take the step
+  P torque;             ///< σ at its end, N m
+  P elongation_change;  ///< of xs, rad
+  P creep_change;       ///< of xp, rad
+  P creep_velocity;     ///< sgn(σ)·dxp/dt·h at its end, rad
+  P velocity;           ///< ω·h at its end, rad
+};
+
+/// The empty mask.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE typename P::Mask no_lanes() {
+  return P(1.0) < P(0.0);
+}
+
+/// Coefficient k of ω·h, rad.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P velocity_coefficient(const StickStep<P>& step, int k) {
+  const StickSeries<P>& s = step.series;
+  if (k == batch_order) return step.length * s.rate[k];
+  return step.length * (s.rate[k] + P(static_cast<double>(k + 1)) * s.scaled_creep[k + 1]);
+}
+
+/// Coefficient k ≥ 1 of xs, rad.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P elongation_coefficient(const StickStep<P>& step, int k) {
+  return step.length * step.series.rate[k - 1] * P(numerics::reciprocal.of[k]);
+}
+
+/// Coefficient k of σ, N m.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P torque_coefficient(const StickStep<P>& step, int k) {
+  return step.torque_unit * step.series.scaled_torque[k];
+}
+
+/// Chooses the length of the step, at most to the next stop.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void begin_step(const BatchState& batch, const At& at, StickStep<P>& step) {
+  const TimeLanes& time = batch.time;
+  step.here = at.taking_part();
+  step.time_to_stop = at.load(time.time_to_stop);
+  step.time_scale = at.load(time.time_scale);
+  step.at_reversal = to_mask(at.load(batch.motion.at_reversal));
+  // The step must have at most one zero of dxs/dt; between two lies half a period of the stiffest spring.
+  const P longest = step.time_scale * select(step.at_reversal, P(4.5), P(3.0));
+  const P h = min(min(at.load(time.next_step), step.time_to_stop), longest);
+  step.h = without_short_remainder(h, step.time_to_stop);
+  step.per_h = P(1.0) / step.h;
+}
+
+template <bool Varies, class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void expand_step(const BatchState& batch, const At& at, StickStep<P>& step) {
+  const MotionLanes& m = batch.motion;
+  const ContactLanes& c = batch.contact;
+  const P zero(0.0);
+  const P h = step.h;
+  const P per_inertia = at.load(c.per_inertia);
+  const P damping = at.load(c.damping);
+  const P torque = at.load(m.spring_torque);
+  const P branch_sign = at.load(m.branch_sign);
+  step.torque_sign = select(torque < zero, P(-1.0), P(1.0));
+  step.creeping = to_mask(at.load(m.creeping));
+  step.direction = at.load(m.direction);
+  const P exponent = -branch_sign * at.load(m.branch_softening_rate);
+  step.length = -branch_sign * at.load(m.branch_softening_length);
+  step.torque_unit = at.load(c.inertia) * (step.per_h * step.per_h) * step.length;
+
+  StickLaw<P>& law = step.law;
+  const P acceleration = h * h * per_inertia;
+  const P per_torque = exponent * acceleration;
+  law.damping = damping * h * per_inertia;
+  law.applied = per_torque * at.load(m.torque);
+  law.stiffness = acceleration * at.load(c.k1);
+  law.softening = per_torque * (branch_sign * at.load(m.branch_softening_torque));
+  law.creep_recovery = select(step.creeping, at.load(c.alpha) * h, zero);
+  law.creep_exponent = at.load(c.creep_exponent);
+  step.creep_limit = step.torque_sign * law.creep_recovery * at.load(c.per_lambda);
+  const P square_unit = step.torque_unit * step.torque_unit;
+  law.creep_limit = exponent * step.creep_limit * select(law.creep_exponent == P(2.0), square_unit, P(1.0));
+
+  step.elongation_start = at.load(m.elongation);
+  step.creep_start = step.torque_sign * at.load(m.hardening);
+  const P velocity = at.load(m.omega) * h;
+  StickStart<P> start;
+  start.scaled_creep = exponent * step.creep_start;
+  start.velocity = exponent * velocity;
+  start.scaled_torque = per_torque * torque;
+  start.softness = at.load(m.softness);
+  start.torque_power = at.load(m.torque_power);
+  start.at_reversal = step.at_reversal;
+  start.creeping = step.creeping & step.here;
+  if constexpr (Varies) {
+    VaryingTorque<P> applied;
+    load_torque(batch, at, h, per_torque, step.length, applied);
+    expand(law, start, applied, step.series);
+    step.forced_rate = P(4.0) * applied.change / law.stiffness;
+  } else {
+    ConstantTorque applied;
+    expand(law, start, applied, step.series);
+  }
+
+  step.breakaway_torque = at.load(c.breakaway);
+  step.per_step = damping * step.per_h;
+  step.hook_torque = torque + step.per_step * velocity;
+}
+
+/// Whether the exponential of the branch grows too much, as it does inwards along a virgin curve.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE typename P::Mask grows_too_much(const BatchState& batch, const At& at,
+                                                        const StickStep<P>& step) {
+  const MotionLanes& m = batch.motion;
+  const P branch_sign = at.load(m.branch_sign);
+  const typename P::Mask inwards = step.direction * branch_sign < P(0.0);
+  if (!(inwards & step.here).any()) return no_lanes<P>();
+  P growth = abs(step.series.rate[0]);
+#pragma GCC unroll 1
+  for (int k = 1; k < batch_order; ++k) {
+    growth = growth + abs(step.series.rate[k]) * P(numerics::reciprocal.of[k + 1]);
+  }
+  const P softening_rate = at.load(m.branch_softening_rate);
+  const P travel = branch_sign * (step.elongation_start - at.load(m.branch_elongation));
+  return inwards & (growth > P(6.0)) & (softening_rate * travel - growth < P(40.0));
+}
+
+/// The truncation error allowed in this step, rad: its proportion, by time, of the lane's tolerance per
+/// torque step, or of a small fraction of the amplitude of a small oscillation.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE P allowed_error(const BatchState& batch, const At& at, const StickStep<P>& step) {
+  constexpr double of_amplitude = 4e-6;
+  const TimeLanes& time = batch.time;
+  const StickSeries<P>& s = step.series;
+  const P ratio = step.time_scale * step.per_h;
+  const P amplitude = abs(step.length) * (max(abs(s.rate[0]), abs(s.rate[1]) * ratio) * ratio);
+  const P least = P(0.1) * at.load(time.rest);
+  const P relative = P(of_amplitude) * max(amplitude, least);
+  return min(at.load(time.tolerance), relative) * (step.h * at.load(time.sample_rate));
+}
+
+/// The lanes in which dxs/dt may have more zeros within the step than the signs at its ends show. Creep may
+/// cause two where dxs/dt is as small as the contribution of creep, and a varying torque where it is as small
+/// as what that adds.
+template <bool Varies, class P, class At>
+ZEROCOUNT_ALWAYS_INLINE typename P::Mask may_reverse_twice(const BatchState& batch, const At& at,
+                                                           const StickStep<P>& step) {
+  using Mask = typename P::Mask;
+  const StickSeries<P>& s = step.series;
+  // Order 1 of creep is order 0 of its rate.
+  P added = at.load(batch.contact.max_creep_ratio) * abs(s.scaled_creep[1]);
+  if constexpr (Varies) added = added + step.forced_rate;
+  Mask small = min(abs(step.rate_start), abs(step.rate_end)) <= added;
+  if constexpr (Varies) small = small & (added > P(0.0));  // not in a rotor that nothing moves
+  Mask unsure = step.here & small;
+  if constexpr (!Varies) unsure = unsure & ~step.reverses;
+  if (!unsure.any()) return unsure;
+  P g[batch_order + 1];
+  for (int k = 0; k < batch_order; ++k) g[k] = select(step.at_reversal, s.rate[k + 1], s.rate[k]);
+  g[batch_order] = select(step.at_reversal, P(0.0), s.rate[batch_order]);
+  const Mask may_reverse = ~keeps_sign(g[0], step.rate_end, g[1], curvature_bound(g, batch_order));
+  if constexpr (!Varies) return unsure & may_reverse;
+  return unsure & ((step.reverses & ~crosses_once(g, batch_order)) | (~step.reverses & may_reverse));
+}
+
+/// Locates the reversal, if any, and decides whether the step is short enough.
+template <bool Varies, class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void find_reversal(const BatchState& batch, const At& at, StickStep<P>& step) {
+  using Mask = typename P::Mask;
+  const StickSeries<P>& s = step.series;
+  // Where dxs/dt is zero at the start, its next zero is that of (dxs/dt)/t.
+  step.rate_end = sum_of(s.rate, batch_order);
+  step.rate_start = select(step.at_reversal, s.rate[1], s.rate[0]);
+  step.reverses = step.rate_start * step.rate_end < P(0.0);
+  step.last_terms = abs(step.length) * s.last_terms;
+  step.allowed = allowed_error(batch, at, step);
+  step.too_long = grows_too_much(batch, at, step) | may_reverse_twice<Varies>(batch, at, step);
+  const Mask seeks = step.here & step.reverses & ~step.too_long;
+  step.x = P(1.0);
+  // The series must be accurate only up to the reversal.
+  step.truncation_error = step.last_terms;
+  step.allowed_at_x = step.allowed;
+  if (seeks.any()) {
+    step.x =
+        select(seeks, next_zero(s.rate, batch_order, step.rate_start, step.rate_end, step.at_reversal, seeks),
+               P(1.0));
+    const P square = step.x * step.x;
+    const P fourth = square * square;
+    // x to the power of the order − 1
+    static_assert(batch_order == 14);
+    step.truncation_error = step.truncation_error * (fourth * fourth) * fourth * step.x;
+    step.allowed_at_x = step.allowed * step.x;
+  }
+  step.ends_at_reversal = seeks;
+  step.inexact = ~(step.truncation_error <= step.allowed_at_x);
+  step.too_long = step.too_long | step.inexact;
+}
+
+/// Moves the end of the step to `x` in the lanes of `where`, except its velocity.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE void end_at(const P& x, const typename P::Mask& where, StickStep<P>& step) {
+  const StickSeries<P>& s = step.series;
+  P torque = s.scaled_torque[batch_order];
+  P elongation = s.rate[batch_order - 1] * P(numerics::reciprocal.of[batch_order]);
+  P creep = s.scaled_creep[batch_order];
+#pragma GCC unroll 1
+  for (int k = batch_order - 1; k >= 1; --k) {
+    torque = torque * x + s.scaled_torque[k];
+    elongation = elongation * x + s.rate[k - 1] * P(numerics::reciprocal.of[k]);
+    creep = creep * x + s.scaled_creep[k];
+  }
+  step.x = select(where, x, step.x);
+  step.torque = select(where, step.torque_unit * (torque * x + s.scaled_torque[0]), step.torque);
+  step.elongation_change = select(where, step.length * (elongation * x), step.elongation_change);
+  step.creep_change = select(where, step.length * (creep * x), step.creep_change);
+}
+
+/// The rate of creep at the end of the step, by its law.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE void evaluate_creep(StickStep<P>& step) {
+  P power = step.torque * step.torque;
+  const typename P::Mask other_powers = step.creeping & (step.law.creep_exponent != P(2.0));
+  if (other_powers.any()) {
+    power = select(other_powers, pow(abs(step.torque), step.law.creep_exponent), power);
+  }
+  step.creep_velocity =
+      step.creep_limit * power - step.law.creep_recovery * (step.creep_start + step.creep_change);
+}
+
+/// Evaluates the motion at the end of the step.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE void evaluate_end(StickStep<P>& step) {
+  const StickSeries<P>& s = step.series;
+  step.torque = step.torque_unit * s.scaled_torque_end;
+  step.elongation_change = step.length * s.elongation_change;
+  step.creep_change = step.length * s.creep_change;
+  if (step.ends_at_reversal.any()) end_at(step.x, step.ends_at_reversal, step);
+  evaluate_creep(step);
+  // At a reversal only creep moves the rotor.
+  step.velocity = select(step.ends_at_reversal, step.creep_velocity, step.length * s.velocity_end);
+}
+
+}  // namespace zerocount::batch

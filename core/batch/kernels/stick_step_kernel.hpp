@@ -1,0 +1,171 @@
+#pragma once
+
+#include "core/batch/kernels/stick_events.hpp"
+
+namespace zerocount::batch {
+
+/// Sampling instants within a step. They are passed over, so the count must be the same at all of them.
+template <class P>
+struct StepTiming {
+  using Mask = typename P::Mask;
+  P samples_to_stop;       ///< at the start of the step
+  P time_to_stop_then;     ///< at its end, s
+  P samples_to_stop_then;  ///< at its end
+  P passed;                ///< samples within the step
+  P elongation;            ///< xs at its end, rad
+  P extension;             ///< xp at its end, rad
+  Mask count_may_change;   ///< within the step, which is then not made
+};
+
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE StepTiming<P> timing_of(const BatchState& batch, const At& at,
+                                                const StickStep<P>& step) {
+  using Mask = typename P::Mask;
+  const TimeLanes& time = batch.time;
+  const P zero(0.0);
+  const P one(1.0);
+  StepTiming<P> t;
+  const Mask stops_here = (step.event == zero) & ~(step.h < step.time_to_stop);
+  t.samples_to_stop = at.load(time.samples_to_stop);
+  t.time_to_stop_then = select(stops_here, zero, step.time_to_stop - step.x * step.h);
+  // At most those at the start: after a late sample the next one may be farther away than T.
+  const P ahead = max(-floor(P(1e-9) - t.time_to_stop_then * at.load(time.sample_rate)), one);
+  t.samples_to_stop_then = select(stops_here, one, min(ahead, t.samples_to_stop));
+  t.passed = t.samples_to_stop - t.samples_to_stop_then;
+  const P extension = at.load(batch.motion.extension);
+  t.extension = extension + step.creep_change;
+  t.elongation = step.elongation_start + step.elongation_change;
+  const P hook = at.load(batch.motion.hook);
+  const P per_count = at.load(time.per_count);
+  const P phase = at.load(batch.loop.phase);
+  const P count = at.load(batch.loop.count);
+  const P start = step.elongation_start;
+  const P lowest = (hook + min(start, t.elongation) + min(extension, t.extension)) * per_count + phase;
+  const P highest = (hook + max(start, t.elongation) + max(extension, t.extension)) * per_count + phase;
+  // The margin covers rounding errors at the edges.
+  const Mask same_count = (lowest - count > P(1e-9)) & (highest - count < P(1.0 - 1e-9));
+  t.count_may_change = (t.passed > zero) & ~same_count & ~step.too_long & ~step.beyond & ~step.has_event;
+  return t;
+}
+
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void store_time(BatchState& batch, const At& at, const StickStep<P>& step,
+                                        const StepTiming<P>& t, const typename P::Mask& done) {
+  TimeLanes& time = batch.time;
+  const P zero(0.0);
+  const P one(1.0);
+  const P h = step.h;
+  const P factor = P(0.85) * rough_power(step.allowed, step.last_terms, 1.0 / batch_order);
+  const P shorter = shorter_step(h, step.inexact, factor);
+  // A motion that accelerates will need shorter steps. (A displacement lost in rounding gives no
+  // information.)
+  const P moved = abs(step.elongation_change);
+  const P slower = select(step.reverses | (moved == zero), one,
+                          min(one, rough_power(moved, abs(step.length * step.rate_end), 1.0)));
+  // From one reversal to the next it takes about as long as from the one before.
+  const P half_oscillation =
+      select(step.at_reversal & step.reverses & (P(4.0) * step.truncation_error <= step.allowed_at_x),
+             P(1.25) * step.x * h, zero);
+  const P longer = max(h * min(max(factor * slower, P(0.3)), P(2.5)), half_oscillation);
+  // A step cut short by a stop does not shorten the next one.
+  const P before = at.load(time.next_step);
+  const P kept = select(~(h < step.time_to_stop) & (factor > one), max(longer, before), longer);
+  at.store(time.next_step, select(step.too_long, shorter, select(done, kept, before)));
+  const P to_next_sample = step.time_to_stop - (t.samples_to_stop - one) * at.load(time.sample_time);
+  at.store(time.time_to_stop,
+           select(done, t.time_to_stop_then, select(t.count_may_change, to_next_sample, step.time_to_stop)));
+  at.store(time.samples_to_stop,
+           select(done, t.samples_to_stop_then, select(t.count_may_change, one, t.samples_to_stop)));
+  at.store(time.steps, at.load(time.steps) + select(step.has_event, zero, one));
+}
+
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void store_motion_of(BatchState& batch, const At& at, const StickStep<P>& step,
+                                             const StepTiming<P>& t, const typename P::Mask& done) {
+  MotionLanes& m = batch.motion;
+  const P end = select(step.event == P(closure), at.load(m.branch_end), t.elongation);
+  at.store(m.elongation, select(done, end, step.elongation_start));
+  at.store(m.omega, select(done, step.velocity * step.per_h, at.load(m.omega)));
+  at.store(m.extension, select(done, t.extension, at.load(m.extension)));
+  at.store(m.hardening,
+           select(done, step.torque_sign * (step.creep_start + step.creep_change), at.load(m.hardening)));
+  at.store(m.at_reversal,
+           select(done, to_number<P>(step.event == P(reversal)), to_number<P>(step.at_reversal)));
+  at.store(m.spring_torque, select(done, step.torque, at.load(m.spring_torque)));
+}
+
+/// Measures `passed` samples with zero error.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void store_measures(BatchState& batch, const At& at, const P& passed) {
+  MeasureLanes& q = batch.measures;
+  trial::ArrivalMeasures<P> arrival;
+  trial::for_each_of_arrival(LoadEach<At>{at}, arrival, q);
+  trial::measure_zeros(arrival, at.load(q.limits.dwell), passed);
+  trial::for_each_of_arrival(StoreEach<At>{at}, q, arrival);
+}
+
+/// Keeps the passed samples for the observer.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void record_passed(BatchState& batch, const At& at, const StickStep<P>& step,
+                                           const P& passed) {
+  constexpr int width = sizeof(passed.part[0]) / sizeof(double);
+  for (unsigned lanes = ((passed > P(0.0)) & step.here).bits(); lanes != 0; lanes &= lanes - 1) {
+    const int i = __builtin_ctz(lanes);
+    const int p = i / width;
+    const int j = i % width;
+    PassedSamples& record = batch.passed[batch.passed_count++];
+    record.lane = at.lane(i);
+    record.samples = passed.part[p][j];
+    record.time_to_stop = step.time_to_stop.part[p][j];
+    record.step = step.h.part[p][j];
+    record.end = step.x.part[p][j];
+    record.elongation[0] = step.elongation_start.part[p][j];
+    for (int k = 1; k <= batch_order; ++k) record.elongation[k] = elongation_coefficient(step, k).part[p][j];
+    for (int k = 0; k <= batch_order; ++k) {
+      record.creep[k] = (step.length * step.series.scaled_creep[k]).part[p][j];
+    }
+  }
+}
+
+/// The step of one vector; see stick_step_kernel. Not inlined: a function of its own for each kind of vector.
+template <bool Events, bool Varies, class At>
+__attribute__((noinline)) void step_of(BatchState& batch, const At& at) {
+  using P = typename At::Vector;
+  const P zero(0.0);
+  StickStep<P> step;
+  begin_step(batch, at, step);
+  expand_step<Varies>(batch, at, step);
+  find_reversal<Varies>(batch, at, step);
+  evaluate_end(step);
+  step.event = events_where<P>(step.reverses, reversal);
+  if constexpr (Events) {
+    find_first_event(batch, at, step);
+  } else {
+    mark_events(batch, at, step);
+  }
+  const StepTiming<P> timing = timing_of(batch, at, step);
+  const typename P::Mask done = ~step.too_long & ~step.beyond & ~timing.count_may_change & ~step.has_event;
+  const P passed = select(done, timing.passed, zero);
+  store_time(batch, at, step, timing, done);
+  store_motion_of(batch, at, step, timing, done);
+  store_measures(batch, at, passed);
+  const typename P::Mask lost = step.beyond | (at.load(batch.time.steps) > P(max_steps_to_stop));
+  const P event = select(done & (step.event != P(reversal)), step.event, zero);
+  add_events(batch, at,
+             event + events_where<P>(step.has_event, meets_event) + events_where<P>(lost, beyond_kernel));
+  if (batch.passed != nullptr) record_passed(batch, at, step, passed);
+}
+
+/// One step of each lane whose hook sticks, after stick_start_kernel and its events: to the next stop, to the
+/// first event, or as far as the series converge. Where the step was too long, only TimeLanes::next_step
+/// changes. Reports events other than a reversal. With `Events` the step ends at the first of them; without,
+/// a step that has one is not made but reported as meets_event. With `Varies` the torque is that of
+/// course_kernel.
+template <class V, bool Events, bool Varies>
+void stick_step_kernel(BatchState& batch, const LaneSet& lanes) {
+  batch.event_count = 0;
+  batch.passed_count = 0;
+  for_each_vector<V>(lanes, [&](const auto& at) { step_of<Events, Varies>(batch, at); });
+}
+
+}  // namespace zerocount::batch

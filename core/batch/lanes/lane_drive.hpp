@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/batch/kernels/batch_state.hpp"
+#include "core/loop/drive.hpp"
+#include "core/loop/sample_clock.hpp"
+#include "core/motion/disturbance.hpp"
+#include "core/trial/parameters.hpp"
+
+namespace zerocount::batch {
+
+/// A vibration as its Taylor series about the sampling instants k·T. The sines and cosines of the lines are
+/// turned from sample to sample, and computed anew every 256 samples.
+class VibrationSeries {
+ public:
+  using Coefficients = std::array<double, vibration_order + 1>;
+
+  VibrationSeries(const std::vector<motion::Vibration>& lines, double sample_time);
+
+  /// Coefficients in (t − k·T)/T, N m, of sample k. Fastest with ascending k.
+  Coefficients about_sample(std::int64_t k);
+
+ private:
+  struct Line {
+    motion::Vibration of;
+    double turn_sine, turn_cosine;  // of the angle in T
+    double sine, cosine;            // at the last sample
+    Coefficients weights;           // amplitude·(2πf·T)^k/k!, with the sign of the k-th derivative
+  };
+
+  std::vector<Line> lines_;
+  double sample_time_;
+  std::int64_t last_{-1};
+};
+
+/// The torque on the rotor of a lane from one sample to the next, in pieces: the output of the
+/// reference's Drive for the decided torques, and the disturbance.
+class LaneDrive {
+ public:
+  explicit LaneDrive(const trial::TrialParameters& parameters);
+
+  /// Sends the torque (N m) of the converter at sample k.
+  void send(std::int64_t k, double torque);
+  /// Whether the torque on the rotor stays as it is as long as the same torque is decided.
+  bool stays() const;
+
+  /// The present piece: without the disturbance.
+  const loop::TorquePiece& piece() const { return pieces_[present_]; }
+  /// The end of the present piece, s from the nominal instant k·T of the last sample.
+  double piece_end() const { return piece_end_; }
+  bool is_last_piece() const { return present_ + 1 == count_; }
+  void next_piece();
+
+  /// Without its constant part.
+  const motion::Disturbance& disturbance() const { return disturbance_; }
+  bool disturbance_varies() const { return motion::varies(disturbance_); }
+  VibrationSeries::Coefficients vibration() { return vibration_.about_sample(sample_); }
+  bool jitters() const { return jitters_; }
+  /// k·T of the last sample, s.
+  double sample_instant() const { return static_cast<double>(sample_) * sample_time_; }
+
+ private:
+  void add(const loop::TorquePiece& piece);
+
+  double sample_time_;
+  bool jitters_;
+  std::int64_t delayed_;  // samples on their way
+  loop::SampleClock clock_;
+  loop::Drive drive_;
+  motion::Disturbance disturbance_;
+  VibrationSeries vibration_;
+  loop::Lateness late_{};
+  std::int64_t sample_{0};  // number of the last one
+  double last_torque_{0.0};
+  std::int64_t alike_;  // number of equal torques sent last
+  std::array<loop::TorquePiece, 8> pieces_{};
+  std::size_t count_{0};
+  std::size_t present_{0};
+  double piece_end_{0.0};
+};
+
+}  // namespace zerocount::batch

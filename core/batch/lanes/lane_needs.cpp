@@ -1,0 +1,171 @@
+#include "core/batch/lanes/lane_needs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <type_traits>
+
+#include "core/batch/batch.hpp"
+#include "core/batch/kernels/batch_state.hpp"
+#include "core/friction/law.hpp"
+#include "core/loop/controller/control_chain.hpp"
+#include "core/loop/controller/controller.hpp"
+#include "core/loop/dac.hpp"
+#include "core/loop/measurement.hpp"
+
+namespace zerocount::batch {
+namespace {
+
+/// Whether the torque changes from sample to sample for ever, by a dither or a remainder.
+bool never_settles(const trial::TrialParameters& p) {
+  return p.controller.dither.amplitude != 0.0 || p.dac.sigma_delta;
+}
+
+bool blocks_remember(const loop::ControlBlocks& blocks) {
+  // At zero error and without motion, only memory other than the integral can change the torque.
+  return blocks.observer.bandwidth > 0.0 || !blocks.filters.empty() ||
+         std::isfinite(blocks.derivative_cutoff) || std::isfinite(blocks.integrator_leak);
+}
+
+/// Whether the angle alone decides the counts, and the code the torque.
+bool is_certain(const trial::TrialParameters& p) {
+  return !loop::has_errors(p.encoder.fine_errors) && !loop::has_errors(p.encoder.coarse_errors) &&
+         p.dac.noise == 0.0;
+}
+
+// Each overload returns the feature that the lanes lack, empty if they have all. Each switch lists all
+// enumerators and each structured binding all members, so that the compiler demands a decision for one that
+// is added later.
+
+bool lanes_have(loop::ControlStructure structure) {
+  switch (structure) {
+    case loop::ControlStructure::pid:
+    case loop::ControlStructure::cascade:
+      return true;
+  }
+  return false;
+}
+
+std::string_view lacking(const loop::ControlBlocks& blocks) {
+  [[maybe_unused]] const auto& [structure, cascade, deadband, zone, leak, cutoff, filters, feedforward,
+                                observer, error_deadband, hold, standstill] = blocks;
+  return lanes_have(structure) ? "" : "the controller's structure";
+}
+
+std::string_view lacking(const loop::ControllerParameters& controller) {
+  static_assert(
+      std::is_same_v<loop::ControlBlockChain, loop::BlockChain<loop::ControlLaw, loop::Filters,
+                                                               loop::Feedforward, loop::DisturbanceObserver>>,
+      "sample_kernel has these blocks: another one needs its law there, or needs_lane_loop()");
+  [[maybe_unused]] const auto& [sample_rate, kp, ki, kd, delay, anti_windup, encoder, coarse, blocks, user,
+                                dither, missed, jitter] = controller;
+  return lacking(blocks);
+}
+
+/// @param max_frequency of a vibration whose series over a sample is accurate, Hz.
+std::string_view lacking(const trial::DisturbanceParameters& disturbance, LaneMotion motion,
+                         double max_frequency) {
+  [[maybe_unused]] const auto& [torque, ripple, vibration, spectra] = disturbance;
+  if (motion == LaneMotion::free) {
+    if (!ripple.empty()) return "disturbance.ripple without friction";
+    return vibration.empty() && spectra.empty() ? "" : "disturbance.vibration without friction";
+  }
+  const auto is_fast = [&](double frequency) { return frequency > max_frequency; };
+  const bool fast_line = std::any_of(vibration.begin(), vibration.end(),
+                                     [&](const auto& line) { return is_fast(line.frequency); });
+  const bool fast_spectrum = std::any_of(spectra.begin(), spectra.end(), [&](const auto& spectrum) {
+    return is_fast(spectrum->density.back().frequency);
+  });
+  if (fast_line || fast_spectrum) return "a vibration above half the sample rate";
+  return ripple.size() > max_lane_ripples ? "more than eight ripples" : "";
+}
+
+std::string_view lacking(const trial::CommandParameters& command) {
+  [[maybe_unused]] const auto& [targets, hold, profile, torque] = command;
+  if (!torque.levels.empty()) return "torque levels";
+  return targets.empty() ? "no moves" : "";
+}
+
+/// The first feature of the trial that the lanes of its friction model lack; empty if they have all.
+std::string_view lacking(const trial::TrialParameters& p, LaneMotion motion) {
+  [[maybe_unused]] const auto& [plant, friction, encoder, dac, amplifier, controller, command, initial,
+                                verdict, randomness, disturbance] = p;
+  [[maybe_unused]] const auto& [inertia, presliding_damping, sliding_damping, load] = plant;
+  if (motion::has_load(plant)) return "a second mass";
+  // After a late sample the series must reach up to the next one.
+  const double max_frequency = 0.5 / (1.0 / controller.sample_rate + controller.jitter);
+  for (const std::string_view feature :
+       {lacking(controller), lacking(command), lacking(disturbance, motion, max_frequency)}) {
+    if (!feature.empty()) return feature;
+  }
+  return trial::samples_of_move(p, 0) > 0 ? "" : "moves without a sample";
+}
+
+}  // namespace
+
+std::optional<LaneMotion> lane_motion(friction::FrictionModel model) {
+  switch (model) {
+    case friction::FrictionModel::presliding:
+    case friction::FrictionModel::spring:
+      return LaneMotion::contact;
+    case friction::FrictionModel::none:
+      return LaneMotion::free;
+    case friction::FrictionModel::dahl:
+    case friction::FrictionModel::lugre:
+      return LaneMotion::bristle;
+    case friction::FrictionModel::coulomb:
+    case friction::FrictionModel::gms:
+      break;
+  }
+  return std::nullopt;
+}
+
+bool remembers(const trial::TrialParameters& p) {
+  return blocks_remember(p.controller.blocks) || never_settles(p);
+}
+
+bool has_blocks(const trial::TrialParameters& parameters) {
+  const loop::ControlBlocks& b = parameters.controller.blocks;
+  return b.structure != loop::ControlStructure::pid || b.deadband.enter >= 0.0 ||
+         std::isfinite(b.integrator_zone) || std::isfinite(b.integrator_leak) ||
+         std::isfinite(b.derivative_cutoff) || !b.filters.empty() || b.observer.bandwidth > 0.0 ||
+         b.error_deadband.band > 0.0 || b.hold.enter >= 0.0 || b.standstill.band >= 0.0 ||
+         never_settles(parameters);
+}
+
+bool needs_lane_drive(const trial::TrialParameters& p) {
+  const trial::DisturbanceParameters& d = p.disturbance;
+  return p.controller.delay > 0.0 || p.controller.jitter > 0.0 || p.amplifier.bandwidth > 0.0 ||
+         !d.ripple.empty() || !d.vibration.empty() || !d.spectra.empty();
+}
+
+bool needs_lane_loop(const trial::TrialParameters& p) {
+  return !is_certain(p) || p.verdict.motion || p.controller.missed > 0.0 || loop::has_errors(p.dac) ||
+         loop::has_coarse_phase(p.controller) || p.controller.encoder != loop::EncoderChoice::fine ||
+         p.command.profile.shape != loop::ReferenceShape::step || p.controller.user.plugin ||
+         p.controller.blocks.filters.size() > max_lane_filters;
+}
+
+bool is_steady_at_zero(const trial::TrialParameters& p) {
+  const loop::ControllerParameters& c = p.controller;
+  const auto has_dwell = [](const loop::ControlBlocks& b) {
+    return b.hold.enter >= 0.0 || b.standstill.band >= 0.0;
+  };
+  const bool all_fine = c.encoder == loop::EncoderChoice::fine && c.coarse.encoder == c.encoder;
+  return is_certain(p) && !p.verdict.motion && !c.user.plugin && all_fine && !remembers(p) &&
+         !has_dwell(c.blocks) && (!loop::has_coarse_phase(c) || !blocks_remember(c.coarse.blocks));
+}
+
+std::string lacking_in_lanes(const trial::TrialParameters& parameters) {
+  const friction::FrictionModel model = parameters.friction.model;
+  const std::optional<LaneMotion> motion = lane_motion(model);
+  if (!motion) return "friction.model " + std::string(friction::traits_of(model).word);
+  return std::string(lacking(parameters, *motion));
+}
+
+bool runs_in_lanes(const trial::TrialParameters& parameters) {
+  const std::optional<LaneMotion> motion = lane_motion(parameters.friction.model);
+  return motion && lacking(parameters, *motion).empty();
+}
+
+}  // namespace zerocount::batch

@@ -1,0 +1,261 @@
+// Lanes at rest: creep moves the rotor, and an oscillation has decayed or is known in closed form.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/batch/lanes/running_batch.hpp"
+#include "core/loop/formulas.hpp"
+
+namespace zerocount::batch {
+namespace {
+
+/// The time (s) in which θ moves by `distance` (rad, positive) in the direction of creep; infinite if it
+/// never does. Computed with the present stiffness of the spring (N m/rad): accurate to a small fraction of a
+/// sample.
+double time_to_creep(const friction::CreepAtRest& creep, double distance, double stiffness) {
+  // The spring stretches as the damper's torque falls, in proportion to the growth of creep.
+  const double per_creep = creep.s1 * creep.g1 / stiffness;
+  const double rate = friction::rate_after_creep(creep, distance / (1.0 + per_creep));
+  if (!(rate > 0.0)) return HUGE_VAL;
+  const double stretch =
+      (friction::spring_torque_at_rate(creep, rate) - friction::spring_torque_at_rate(creep, creep.rate)) /
+      stiffness;
+  const double better = friction::rate_after_creep(creep, distance - stretch);
+  return better > 0.0 ? friction::time_until_rate(creep, better) : HUGE_VAL;
+}
+
+double count_at(const BatchState& batch, int lane, double theta) {
+  return loop::ideal_count(theta, batch.loop.resolution[lane], batch.loop.phase[lane]);
+}
+
+/// Rest from now on.
+struct RestAhead {
+  friction::CreepAtRest creep;
+  friction::ResidualOscillation oscillation;
+  double elapsed;  ///< since the rest began, s
+};
+
+RestAhead rest_ahead(const LanePlant::Rest& rest) {
+  RestAhead ahead{rest.creep, rest.oscillation, rest.time};
+  if (ahead.creep.rate > 0.0) ahead.creep.rate = friction::creep_rate_after(rest.creep, rest.time);
+  return ahead;
+}
+
+/// A time (s) for which the count cannot change: until creep plus the bound of the residual oscillation
+/// reaches an edge of the count. Zero if the oscillation alone may reach one.
+double time_within_count(const BatchState& batch, int lane, const RestAhead& rest, const LanePlant& plant) {
+  const LoopLanes& l = batch.loop;
+  const double low = (l.count[lane] - l.phase[lane]) * l.resolution[lane];
+  const friction::ResidualOscillation::State& oscillation = plant.oscillation();
+  const double slow_theta = plant.theta() - oscillation.elongation - oscillation.extension;
+  const double above = low + l.resolution[lane] - slow_theta;
+  const double below = slow_theta - low;
+  double bound = friction::oscillation_bound(rest.oscillation, rest.elapsed);
+  if (!(std::min(above, below) > bound)) return 0.0;
+  if (rest.creep.rate <= 0.0) return HUGE_VAL;
+  const double distance = rest.creep.sign > 0.0 ? above : below;
+  const double stiffness = friction::stiffness_on(plant.spring().branch(), plant.spring().elongation());
+  double time = time_to_creep(rest.creep, distance - bound, stiffness);
+  if (bound > 0.0) {
+    bound = friction::oscillation_bound(rest.oscillation, rest.elapsed + time);
+    time = time_to_creep(rest.creep, distance - bound, stiffness);
+  }
+  return time;
+}
+
+/// The number of samples after the last processed one at which the count is likely to be unchanged.
+double samples_within_count(const BatchState& batch, int lane, const LanePlant& plant, double to_first) {
+  const double time = time_within_count(batch, lane, rest_ahead(*plant.rest()), plant);
+  if (time == HUGE_VAL) return batch.time.samples_to_stop[lane];
+  return std::max(std::ceil((time - to_first) * batch.time.sample_rate[lane]), 0.0);
+}
+
+/// Whether the lane has not moved since its plant was last at rest.
+bool is_unmoved(const BatchState& batch, int lane, const LanePlant& plant) {
+  if (!plant.rest()) return false;
+  const friction::PlantMotion motion = plant.motion();
+  return motion.elongation == batch.motion.elongation[lane] &&
+         motion.creep.extension == batch.motion.extension[lane] && !motion.sliding;
+}
+
+/// Samples that are evaluated one by one before their motion is described ahead.
+constexpr int samples_one_by_one = 4;
+constexpr double max_span = 256.0;  // samples
+constexpr double min_span = 8.0;    // fewer are not worth the description
+
+/// The cubic through values at 0, 1/3, 2/3 and 1.
+std::array<double, 4> cubic_through(double a, double b, double c, double d) {
+  const double first = b - a;
+  const double second = (c - b) - first;
+  const double third = ((d - c) - (c - b)) - second;
+  // Newton's form in 3x, expanded.
+  return {a, 3.0 * (first - 0.5 * second + third / 3.0), 4.5 * (second - third), 4.5 * third};
+}
+
+double value_of(const std::array<double, 4>& c, double x) {
+  return c[0] + x * (c[1] + x * (c[2] + x * c[3]));
+}
+
+/// The motion at rest without its residual oscillation.
+struct SlowMotion {
+  double elongation;  ///< xs, rad
+  double extension;   ///< xp, rad
+  double hardening;   ///< xh, rad
+};
+
+SlowMotion slow_motion(const LanePlant& plant) {
+  const friction::PlantMotion motion = plant.motion();
+  const LanePlant::Rest& rest = *plant.rest();
+  const friction::ResidualOscillation::State& oscillation = plant.oscillation();
+  return {motion.elongation - oscillation.elongation, motion.creep.extension - oscillation.extension,
+          motion.creep.hardening - rest.creep.sign * oscillation.extension};
+}
+
+/// Describes the slow motion at rest over the next samples. @returns whether cubics do so to 1e-9 count.
+bool describe_ahead(const BatchState& batch, int lane, LaneTrial& trial, double torque) {
+  CreepAhead& ahead = trial.ahead;
+  if (ahead.span < min_span) return false;
+  const double duration = ahead.span * batch.time.sample_time[lane];
+  LanePlant probe = *trial.plant;
+  SlowMotion at[5];  // at 0, 1/3, 1/2, 2/3, 1
+  at[0] = slow_motion(probe);
+  constexpr double parts[] = {1.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0, 1.0 / 3.0};
+  for (std::size_t i = 0; i < 4; ++i) {
+    probe.advance(motion::constant_torque(torque), parts[i] * duration);
+    at[i + 1] = slow_motion(probe);
+  }
+  const auto cubic = [&](double SlowMotion::*of) {
+    return cubic_through(at[0].*of, at[1].*of, at[3].*of, at[4].*of);
+  };
+  ahead.elongation = cubic(&SlowMotion::elongation);
+  ahead.extension = cubic(&SlowMotion::extension);
+  ahead.hardening = cubic(&SlowMotion::hardening);
+  const double missed = std::abs(value_of(ahead.elongation, 0.5) - at[2].elongation) +
+                        std::abs(value_of(ahead.extension, 0.5) - at[2].extension);
+  // The error of a cubic grows with the fourth power of its span.
+  const double allowed = 1e-9 * batch.loop.resolution[lane];
+  const double factor = std::min(2.0, 0.9 * std::sqrt(std::sqrt(allowed / missed)));
+  ahead.span = std::min(max_span, std::floor(ahead.span * factor));
+  if (!(missed < allowed)) return false;
+  ahead.duration = duration;
+  return true;
+}
+
+/// Goes on at rest to the next stop, one sample ahead, by the description of the motion. @returns whether
+/// there is one.
+bool follow_creep(BatchState& batch, int lane, LaneTrial& trial, double torque) {
+  CreepAhead& ahead = trial.ahead;
+  const double step = batch.time.time_to_stop[lane];
+  if (ahead.elapsed + step > ahead.duration) {
+    bring_up_to_date(batch, lane, trial);
+    if (ahead.samples++ < samples_one_by_one || !describe_ahead(batch, lane, trial, torque)) return false;
+  }
+  ahead.elapsed += step;
+  const double x = ahead.elapsed / ahead.duration;
+  MotionLanes& m = batch.motion;
+  const LanePlant::Rest& rest = *trial.plant->rest();
+  const friction::ResidualOscillation::State oscillation =
+      friction::oscillation_at(rest.oscillation, rest.time + ahead.elapsed);
+  m.elongation[lane] = value_of(ahead.elongation, x) + oscillation.elongation;
+  m.extension[lane] = value_of(ahead.extension, x) + oscillation.extension;
+  m.hardening[lane] = value_of(ahead.hardening, x) + rest.creep.sign * oscillation.extension;
+  m.rest_torque[lane] = torque;
+  batch.time.time_to_stop[lane] = 0.0;
+  return true;
+}
+
+/// Accounts for `samples` samples with zero error and an unchanged torque.
+void pass_samples(BatchState& batch, int lane, double samples) {
+  MeasureLanes& q = batch.measures;
+  trial::ArrivalMeasures<double> arrival;
+  trial::for_each_of_arrival([lane](double& to, const Lanes& from) { to = from[lane]; }, arrival, q);
+  trial::measure_zeros(arrival, q.limits.dwell[lane], samples);
+  trial::for_each_of_arrival([lane](Lanes& to, double from) { to[lane] = from; }, q, arrival);
+}
+
+/// See come_to_rest().
+bool rest(RunningBatch& run, int lane) {
+  BatchState& batch = run.state;
+  LaneTrial& trial = run.trial_of(lane);
+  TimeLanes& time = batch.time;
+  LanePlant& plant = *trial.plant;
+  const double torque = batch.motion.torque[lane];
+  if (batch.motion.rest_torque[lane] != torque) {
+    if (!is_unmoved(batch, lane, plant)) load_motion(batch, lane, trial);
+    plant.forget_deepest();
+    if (!plant.come_to_rest(torque, batch.motion.at_reversal[lane] != 0.0)) return false;
+    trial.deepest = std::max(trial.deepest, plant.deepest());
+    trial.ahead = {};
+  }
+  if (time.samples_to_stop[lane] > 1.0) {
+    bring_up_to_date(batch, lane, trial);
+  } else if (follow_creep(batch, lane, trial, torque)) {
+    return true;
+  }
+  std::optional<LanePlant> before;
+  if (run.observers->sample) before = plant;
+
+  const double max_samples = time.samples_to_stop[lane];
+  const double sample_time = time.sample_time[lane];
+  const double to_first = time.time_to_stop[lane] - (max_samples - 1.0) * sample_time;
+  const double count = batch.loop.count[lane];
+  // Advances sample by sample (i, from 1), many at once where the count surely stays the same.
+  double i = 0.0;
+  double to_next = to_first;
+  bool edge_is_next = false;
+  const auto point_after = [&](double samples) {
+    return plant.point_at_rest(to_next + (samples - 1.0) * sample_time);
+  };
+  const auto stays_within = [&](const LanePlant::RestPoint& point) {
+    return count_at(batch, lane, plant.theta_at(point)) == count;
+  };
+  bool same = true;
+  while (same && i < max_samples) {
+    double ahead = 1.0;
+    if (!edge_is_next && max_samples - i > 1.0)
+      ahead = std::clamp(samples_within_count(batch, lane, plant, to_next), 1.0, max_samples - i);
+    LanePlant::RestPoint point = point_after(ahead);
+    // The edge may be nearer than estimated.
+    for (double back = 1.0; ahead > 1.0 && !stays_within(point); back *= 2.0) {
+      ahead = std::max(1.0, ahead - back);
+      point = point_after(ahead);
+    }
+    plant.go_to(point);
+    same = count_at(batch, lane, plant.theta()) == count;
+    edge_is_next = ahead > 1.0;
+    i += ahead;
+    to_next = sample_time;
+  }
+  for (double j = 1.0; before && j < i; j += 1.0) {
+    before->advance(motion::constant_torque(torque), j == 1.0 ? to_first : sample_time);
+    report_sample_at_rest(run, lane, j, before->theta(), before->creep());
+  }
+  pass_samples(batch, lane, i - 1.0);
+  store_motion(batch, lane, trial);
+  batch.motion.rest_torque[lane] = torque;
+  time.time_to_stop[lane] = 0.0;
+  time.samples_to_stop[lane] = 1.0;
+  return true;
+}
+
+}  // namespace
+
+bool come_to_rest(RunningBatch& run, int lane) {
+  const bool rests = rest(run, lane);
+  run.lanes.ahead.erase(lane);
+  if (rests && run.trial_of(lane).ahead.elapsed > 0.0) run.lanes.ahead.insert(lane);
+  return rests;
+}
+
+void bring_up_to_date(BatchState& batch, int lane, LaneTrial& trial) {
+  CreepAhead& ahead = trial.ahead;
+  if (ahead.elapsed > 0.0) {
+    const double torque = trial.plant->rest()->torque;
+    trial.plant->advance(motion::constant_torque(torque), ahead.elapsed);
+    store_motion(batch, lane, trial);
+    batch.motion.rest_torque[lane] = torque;
+  }
+  ahead.elapsed = ahead.duration = 0.0;
+}
+
+}  // namespace zerocount::batch

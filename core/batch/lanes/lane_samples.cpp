@@ -1,0 +1,90 @@
+// Sampling instants of the lanes.
+#include "core/batch/lanes/running_batch.hpp"
+
+namespace zerocount::batch {
+namespace {
+
+void follow_last_half(RunningBatch& run, int lane, LaneTrial& trial) {
+  const MeasureLanes& q = run.state.measures;
+  const std::int64_t k = run.samples_of(lane) - 1;
+  const auto count = static_cast<std::int64_t>(run.state.loop.count[lane]);
+  const auto change = static_cast<std::int64_t>(q.change[lane]);
+  const bool first = k == static_cast<std::int64_t>(q.last_half[lane]);
+  trial.last_half.add(k, first ? count : count - change, count);
+}
+
+void follow_jerk(RunningBatch& run, int lane, LaneTrial& trial) {
+  const auto error = static_cast<std::int64_t>(run.state.loop.error[lane]);
+  if (trial.jerks.add(run.samples_of(lane) - 1, error)) report_jerk(run, trial);
+  run.state.measures.in_jerk[lane] = trial.jerks.in_jerk() ? 1.0 : 0.0;
+}
+
+/// Runs the lanes anew whose encoder could not count θ at this sample.
+void rerun_unreadable(RunningBatch& run) {
+  BatchState& batch = run.state;
+  for (int i = 0; i < batch.event_count; ++i) {
+    const int lane = batch.event_lanes[i];
+    if ((batch.events[lane] & beyond_kernel) == 0) continue;
+    batch.events[lane] = no_event;
+    batch.measures.samples[lane] -= 1.0;  // run_trial() repeats this sample
+    fall_back_to_scalar(run, lane);
+  }
+}
+
+/// Processes the sampling instant of the lanes `due` by the kernel.
+void sample(RunningBatch& run, void (*kernel)(BatchState&, const LaneSet&), const LaneSet& due) {
+  if (due.empty()) return;
+  BatchState& batch = run.state;
+  for_each_lane(due.in_both(run.lanes.bristles), [&](int lane) {
+    if (batch.motion.gradual_slide[lane] != 0.0) batch.measures.slid[lane] = 1.0;
+  });
+  kernel(batch, due);
+  rerun_unreadable(run);
+  if (run.observers->sample) {
+    for_each_lane(due.in_both(run.lanes.active), [&](int lane) {
+      const bool has_new_trial = batch.measures.samples[lane] == 0.0;
+      if (!has_new_trial) report_sample(run, lane);
+    });
+  }
+  for (int i = 0; i < batch.event_count; ++i) {
+    const int lane = batch.event_lanes[i];
+    const int events = batch.events[lane];
+    LaneTrial& trial = run.trial_of(lane);
+    if ((events & jerk_changes) != 0) follow_jerk(run, lane, trial);
+    if ((events & count_changes) != 0) follow_last_half(run, lane, trial);
+    if ((events & driven) != 0) drive_torque(run, lane);
+    if ((events & diverges) != 0) stop_diverged(run, lane);
+  }
+}
+
+/// Lets the LaneLoop of each lane decide. @returns the lanes in which it has.
+LaneSet decide_in_loops(RunningBatch& run, const LaneSet& due) {
+  LoopLanes& l = run.state.loop;
+  LaneSet decided = due;
+  for_each_lane(due, [&](int lane) {
+    const auto decision = run.trial_of(lane).loop->sample(run.samples_of(lane), theta_of(run.state, lane));
+    if (!decision) {
+      decided.erase(lane);
+      fall_back_to_scalar(run, lane);
+      return;
+    }
+    l.given_count[lane] = static_cast<double>(decision->count);
+    l.given_code[lane] = static_cast<double>(decision->dac.code);
+    l.given_torque[lane] = decision->torque;
+    l.given_clipped[lane] = decision->dac.clipped ? 1.0 : 0.0;
+    l.given_may_stay[lane] = decision->may_stay ? 1.0 : 0.0;
+  });
+  return decided;
+}
+
+}  // namespace
+
+void take_samples(RunningBatch& run, const LaneSet& due) {
+  const LaneSet with_blocks = due.in_both(run.lanes.with_blocks);
+  const LaneSet with_loop = due.in_both(run.lanes.with_loop);
+  sample(run, run.kernels.sample, due.without(with_blocks).without(with_loop));
+  sample(run, run.kernels.sample_blocks, with_blocks);
+  if (!with_loop.empty()) sample(run, run.kernels.sample_given, decide_in_loops(run, with_loop));
+}
+
+}  // namespace zerocount::batch

@@ -1,0 +1,277 @@
+// Start of the trials and moves of lanes.
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <vector>
+
+#include "core/batch/lanes/running_batch.hpp"
+#include "core/friction/bristles/bristle.hpp"
+#include "core/friction/sliding/free_motion.hpp"
+#include "core/loop/controller/controller.hpp"
+#include "core/loop/controller/pid.hpp"
+#include "core/loop/dac.hpp"
+#include "core/loop/drive.hpp"
+#include "core/loop/encoder.hpp"
+#include "core/trial/move_measures.hpp"
+#include "core/trial/rig.hpp"
+
+namespace zerocount::batch {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+void start_loop(LoopLanes& l, int lane, const trial::TrialParameters& p) {
+  const loop::Encoder encoder = loop::fine_encoder(p.encoder, p.initial.encoder_phase);
+  l.resolution[lane] = encoder.resolution;
+  l.phase[lane] = encoder.phase;
+  l.kp[lane] = p.controller.kp;
+  l.ki[lane] = p.controller.ki;
+  l.kd[lane] = p.controller.kd;
+  const loop::TorqueRange range =
+      loop::integral_range(p.controller.anti_windup, loop::lowest_torque(p.dac), loop::highest_torque(p.dac));
+  l.lowest_integral[lane] = range.lowest;
+  l.highest_integral[lane] = range.highest;
+  l.dac_resolution[lane] = p.dac.resolution;
+  l.lowest_code[lane] = static_cast<double>(loop::lowest_code(p.dac));
+  l.highest_code[lane] = static_cast<double>(loop::highest_code(p.dac));
+  l.integral[lane] = p.initial.integral;
+  l.error[lane] = 0.0;
+  l.count[lane] = 0.0;
+  l.counted[lane] = 0.0;
+  l.decided[lane] = 0.0;
+  l.code[lane] = 0.0;
+  l.steady[lane] = 0.0;
+  l.driven[lane] = needs_lane_drive(p) ? 1.0 : 0.0;
+  l.disturbance[lane] = p.disturbance.torque;
+}
+
+/// Stores the values in the lane of the quantities `to`, in this order.
+template <class... Values>
+void put(int lane, std::initializer_list<Lanes*> to, Values... values) {
+  auto at = to.begin();
+  (((**at++)[lane] = values), ...);
+}
+
+void start_filters(BlockLanes& b, int lane, const loop::ControllerParameters& controller) {
+  const std::vector<loop::Filter>& filters = controller.blocks.filters;
+  b.filter_count[lane] = static_cast<double>(filters.size());
+  for (std::size_t i = 0; i < max_lane_filters; ++i) {
+    const loop::BiquadConstants<double> filter = i < filters.size()
+                                                     ? loop::discretised(filters[i], controller.sample_rate)
+                                                     : loop::BiquadConstants<double>{1.0, 0.0, 0.0, 0.0, 0.0};
+    loop::BiquadConstants<Lanes>& c = b.filters[i];
+    put(lane, {&c.b0, &c.b1, &c.b2, &c.a1, &c.a2}, filter.b0, filter.b1, filter.b2, filter.a1, filter.a2);
+    put(lane, {&b.filter_states[i].s1, &b.filter_states[i].s2}, 0.0, 0.0);
+  }
+}
+
+void start_compensators(BlockLanes& b, int lane, const trial::TrialParameters& p) {
+  const loop::ControlBlocks& blocks = p.controller.blocks;
+  const double sample_rate = p.controller.sample_rate;
+  const loop::ErrorDeadbandConstants<double> deadband = loop::error_deadband_constants(blocks.error_deadband);
+  put(lane, {&b.deadband.band, &b.deadband.subtracted, &b.last_acting_error}, deadband.band,
+      deadband.subtracted, 0.0);
+  const loop::StandstillConstants<double> s = loop::standstill_constants(blocks.standstill, sample_rate);
+  loop::StandstillConstants<Lanes>& to = b.standstill;
+  put(lane, {&to.band, &to.dwell, &to.kp, &to.ki, &to.kd, &b.standstill_run}, s.band, s.dwell, s.kp, s.ki,
+      s.kd, 0.0);
+  const loop::HoldConstants<double> hold = loop::hold_constants(blocks.hold, sample_rate);
+  put(lane, {&b.hold.enter, &b.hold.leave, &b.hold.dwell}, hold.enter, hold.leave, hold.dwell);
+  put(lane, {&b.hold_state.run, &b.hold_state.holding, &b.hold_state.torque, &b.last_target}, 0.0, 0.0, 0.0,
+      0.0);
+  put(lane, {&b.dither_amplitude, &b.dither_frequency, &b.sample}, p.controller.dither.amplitude,
+      p.controller.dither.frequency, 0.0);
+  put(lane, {&b.sigma_delta, &b.remainder}, p.dac.sigma_delta ? 1.0 : 0.0, 0.0);
+}
+
+void start_blocks(BlockLanes& b, int lane, const trial::TrialParameters& p, double resolution) {
+  const loop::ControllerParameters& controller = p.controller;
+  const loop::ControlBlocks& blocks = controller.blocks;
+  const double sample_rate = controller.sample_rate;
+  const loop::IntegralConstants<double> integral = loop::integral_constants(
+      blocks, sample_rate,
+      loop::integral_range(controller.anti_windup, loop::lowest_torque(p.dac), loop::highest_torque(p.dac)));
+  loop::IntegralConstants<Lanes>& i = b.integral;
+  put(lane, {&i.enter, &i.leave, &i.zone, &i.retention, &i.lowest, &i.highest}, integral.enter,
+      integral.leave, integral.zone, integral.retention, integral.lowest, integral.highest);
+  const loop::CascadeConstants<double> cascade =
+      loop::cascade_constants(blocks.cascade, sample_rate, resolution);
+  put(lane, {&b.cascade.kv, &b.cascade.velocity, &b.cascade.kp, &b.cascade.ki}, cascade.kv, cascade.velocity,
+      cascade.kp, cascade.ki);
+  const bool is_cascade = blocks.structure == loop::ControlStructure::cascade;
+  put(lane, {&b.inside, &b.difference, &b.last_velocity_error, &b.is_cascade, &b.pole}, 0.0, 0.0, 0.0,
+      is_cascade ? 1.0 : 0.0, loop::derivative_pole(blocks, sample_rate));
+  start_filters(b, lane, controller);
+  const bool observes = blocks.observer.bandwidth > 0.0;
+  const loop::ObserverConstants<double> observer =
+      loop::observer_constants(blocks.observer, sample_rate, resolution);
+  loop::ObserverConstants<Lanes>& o = b.observer;
+  put(lane, {&o.acceleration, &o.q, &o.a1, &o.a2}, observer.acceleration, observer.q, observer.a1,
+      observer.a2);
+  put(lane, {&b.observes, &b.observer_state.s1, &b.observer_state.s2, &b.first_count}, observes ? 1.0 : 0.0,
+      0.0, 0.0, 0.0);
+  start_compensators(b, lane, p);
+  b.remembers[lane] = remembers(p) ? 1.0 : 0.0;
+}
+
+void start_time(TimeLanes& time, int lane, const trial::TrialParameters& p, double resolution) {
+  time.time_to_stop[lane] = 0.0;
+  time.samples_to_stop[lane] = 1.0;
+  time.sample_rate[lane] = p.controller.sample_rate;
+  time.sample_time[lane] = 1.0 / p.controller.sample_rate;
+  time.next_step[lane] = time.sample_time[lane];
+  time.steps[lane] = 0.0;
+  time.rest[lane] = trial::motion_tolerance(resolution).rest;
+  time.per_count[lane] = 1.0 / resolution;
+}
+
+/// Laws without a hook move θ itself and read the count at each sample, as a sliding hook does.
+void start_without_hook(BatchState& batch, int lane, double velocity) {
+  MotionLanes& m = batch.motion;
+  m.slide_direction[lane] = 1.0;
+  m.theta[lane] = 0.0;
+  m.omega[lane] = velocity;
+  m.extension[lane] = 0.0;
+  m.hardening[lane] = 0.0;
+}
+
+void start_bristle(BatchState& batch, int lane, const trial::TrialParameters& trial, double resolution) {
+  const motion::PlantStart start = trial::plant_start(trial);
+  const friction::BristleParameters p =
+      friction::traits_of(trial.friction.model)
+          .bristle(trial.plant, friction::friction_at(trial.friction, start.position));
+  const motion::MotionTolerance tolerance = trial::motion_tolerance(resolution);
+  const friction::Bristle bristle(p, trial.plant.inertia, start, tolerance);
+  start_without_hook(batch, lane, bristle.omega());
+  batch.motion.elongation[lane] = bristle.deflection();
+  batch.motion.gradual_slide[lane] = bristle.sliding() ? 1.0 : 0.0;
+  ContactLanes& c = batch.contact;
+  c.bristle_stiffness[lane] = p.stiffness;
+  c.bristle_damping[lane] = p.bristle_damping;
+  c.sliding_damping[lane] = p.damping;
+  c.coulomb[lane] = p.level.coulomb;
+  c.breakaway[lane] = p.level.coulomb + p.level.excess;
+  const bool constant = p.level.excess == 0.0;
+  c.per_velocity_squared[lane] = constant ? 1.0 : p.level.per_velocity_squared;
+  c.fast_velocity[lane] = constant ? -1.0 : p.fast;
+  batch.time.tolerance[lane] = tolerance.elongation;
+}
+
+void start_free(BatchState& batch, int lane, const trial::TrialParameters& p, double sample_time) {
+  start_without_hook(batch, lane, p.initial.velocity);
+  const friction::FreeMotion by_velocity =
+      friction::free_motion(p.plant, {0.0, 1.0}, motion::constant_torque(0.0), sample_time);
+  const friction::FreeMotion by_torque =
+      friction::free_motion(p.plant, {}, motion::constant_torque(1.0), sample_time);
+  batch.free.travel[lane] = by_velocity.theta;
+  batch.free.decay[lane] = by_velocity.omega;
+  batch.free.push[lane] = by_torque.theta;
+  batch.free.gain[lane] = by_torque.omega;
+  const friction::FreeMotion by_lag =
+      friction::free_motion(p.plant, {}, {1.0, 0.0, loop::lag_rate(p.amplifier)}, sample_time);
+  batch.free.lag_push[lane] = by_lag.theta;
+  batch.free.lag_gain[lane] = by_lag.omega;
+}
+
+void start_motion(BatchState& batch, int lane, LaneTrial& trial, double resolution) {
+  const trial::TrialParameters& p = *trial.parameters;
+  const motion::MotionTolerance tolerance = trial::motion_tolerance(resolution);
+  trial.motion = lane_motion(p.friction.model).value();
+  switch (trial.motion) {
+    case LaneMotion::contact:
+      trial.plant.emplace(p.plant, p.friction, trial::plant_start(p), tolerance);
+      store_contact(batch, lane, trial);
+      return;
+    case LaneMotion::bristle:
+      start_bristle(batch, lane, p, resolution);
+      return;
+    case LaneMotion::free:
+      start_free(batch, lane, p, batch.time.sample_time[lane]);
+      return;
+  }
+}
+
+}  // namespace
+
+void start_trial(BatchState& batch, int lane, LaneTrial& trial) {
+  const trial::TrialParameters& p = *trial.parameters;
+  trial.move = 0;
+  trial.first_sample = 0;
+  trial.reported_jerks = 0;
+  trial.breakaway_spring_torque = 0.0;
+  trial.ahead = {};
+
+  start_loop(batch.loop, lane, p);
+  const double resolution = batch.loop.resolution[lane];
+  if (has_blocks(p)) start_blocks(batch.blocks, lane, p, resolution);
+  start_time(batch.time, lane, p, resolution);
+  trial.elongation_tolerance = trial::motion_tolerance(resolution).elongation;
+  batch.contact.inertia[lane] = p.plant.inertia;
+  batch.contact.per_inertia[lane] = 1.0 / p.plant.inertia;
+  batch.contact.damping[lane] = p.plant.presliding_damping;
+  batch.contact.sliding_damping[lane] = p.plant.sliding_damping;
+  start_motion(batch, lane, trial, resolution);
+  trial.loop.reset();
+  if (needs_lane_loop(p)) trial.loop.emplace(p);
+  trial.drive.reset();
+  if (needs_lane_drive(p)) start_drive(batch, lane, trial);
+  start_move(batch, lane, trial);
+}
+
+void start_move(BatchState& batch, int lane, LaneTrial& trial) {
+  const trial::TrialParameters& p = *trial.parameters;
+  const trial::MoveTiming timing = trial::move_timing(p, trial.move);
+  MeasureLanes& q = batch.measures;
+  batch.loop.target[lane] = static_cast<double>(p.command.targets[trial.move]);
+  q.limits.samples[lane] = static_cast<double>(timing.samples);
+  q.limits.dwell[lane] = static_cast<double>(timing.dwell);
+  q.limits.window[lane] = static_cast<double>(timing.window);
+  q.last_half[lane] = static_cast<double>(trial::first_of_last_half(timing.samples));
+  trial::for_each_measure([lane](Lanes& measure) { measure[lane] = 0.0; }, q);
+  for (std::size_t b = 0; b < std::size(q.bands); ++b) {
+    BandLanes& band = q.bands[b];
+    band.limit[lane] = b < timing.bands.count ? static_cast<double>(timing.bands.limits[b]) : infinity;
+    band.last_outside[lane] = trial::no_samples_of_band.last_outside;
+    band.entry[lane] = trial::no_samples_of_band.entry;
+    band.exits[lane] = trial::no_samples_of_band.exits;
+  }
+  for (Lanes* of : {&q.in_jerk, &q.change, &q.first_error, &q.theta, &q.extension, &q.slid})
+    (*of)[lane] = 0.0;
+  q.max_error[lane] = p.verdict.stop ? p.verdict.limit : infinity;
+  if (trial.loop) trial.loop->start_move(trial.move, p.command.targets[trial.move], trial.first_sample);
+  trial.breakaways = 0;
+  const bool has_contact = trial.motion == LaneMotion::contact;
+  trial.slid_at_start = has_contact && batch.motion.slide_direction[lane] != 0.0;
+  trial.deepest = has_contact ? static_cast<std::int64_t>(trial.plant->spring().depth()) : 0;
+  trial.jerks = trial::Jerks(static_cast<std::int64_t>(trial.move), timing.sample_time);
+  trial.last_half.start(timing.samples);
+}
+
+void start_next_trial(RunningBatch& run, int lane) {
+  LaneTrial& trial = run.trial_of(lane);
+  for (LaneSet* of : run.lanes.all()) of->erase(lane);
+  while (run.next_trial < run.outcomes.size()) {
+    trial.number = run.next_trial++;
+    trial.parameters = &(*run.source)(trial.number, run.trial_index[lane]);
+    trial.outcome = &run.outcomes[trial.number];
+    if (!runs_in_lanes(*trial.parameters)) {
+      run_scalar(run, trial, 0, 0);
+      continue;
+    }
+    trial.outcome->moves.clear();
+    trial.outcome->moves.reserve(trial.parameters->command.targets.size());
+    start_trial(run.state, lane, trial);
+    run.lanes.active.insert(lane);
+    if (trial.loop) {
+      run.lanes.with_loop.insert(lane);
+    } else if (has_blocks(*trial.parameters)) {
+      run.lanes.with_blocks.insert(lane);
+    }
+    set_motion(run, lane);
+    if (trial.drive && trial.drive->jitters()) begin_piece(run, lane);
+    return;
+  }
+}
+
+}  // namespace zerocount::batch

@@ -1,0 +1,216 @@
+// Steps of the lanes from one sampling instant to the next.
+#include <utility>
+
+#include "core/batch/lanes/running_batch.hpp"
+#include "core/friction/sliding/free_motion.hpp"
+
+namespace zerocount::batch {
+namespace {
+
+/// Advances the lane to its next stop by the scalar plant. Runs its trial anew if the motion does not stay
+/// finite. @returns whether it does.
+bool follow_reference(RunningBatch& run, int lane) {
+  const bool varies = run.lanes.varying.contains(lane);
+  const motion::TorqueCourse torque =
+      varies ? present_course(run.state, lane) : motion::constant_torque(run.state.motion.torque[lane]);
+  if (advance_by_reference(run.state, lane, run.trial_of(lane), torque)) return true;
+  fall_back_to_scalar(run, lane);
+  return false;
+}
+
+/// Applies the rest rule. @returns whether the lane was at rest; then it is at a sampling instant.
+bool rests(RunningBatch& run, int lane) {
+  if (!run.lanes.varying.contains(lane)) return come_to_rest(run, lane);
+  follow_reference(run, lane);
+  if (run.lanes.active.contains(lane)) set_motion(run, lane);
+  return true;
+}
+
+/// Brings the plants of lanes up to date whose rest ends because the torque has changed.
+void wake_ahead(RunningBatch& run, const LaneSet& lanes) {
+  if (run.lanes.ahead.empty()) return;
+  const MotionLanes& m = run.state.motion;
+  for_each_lane(lanes.in_both(run.lanes.ahead), [&](int lane) {
+    if (!run.lanes.varying.contains(lane) && m.torque[lane] == m.rest_torque[lane]) return;
+    bring_up_to_date(run.state, lane, run.trial_of(lane));
+    run.lanes.ahead.erase(lane);
+  });
+}
+
+/// Handles the events at the start of a step. Removes the lanes that do not take the step from `lanes`.
+void start_sticking_steps(RunningBatch& run, LaneSet& lanes) {
+  BatchState& batch = run.state;
+  for (int i = 0; i < batch.event_count; ++i) {
+    const int lane = batch.event_lanes[i];
+    const int events = batch.events[lane];
+    LaneTrial& trial = run.trial_of(lane);
+    if ((events & creep_off) != 0) end_creep(batch, lane, trial);
+    if ((events & may_rest) != 0 && rests(run, lane)) {
+      lanes.erase(lane);
+    } else if ((events & breakaway) != 0) {
+      break_away(batch, lane, trial);
+      set_motion(run, lane);
+      lanes.erase(lane);
+    } else if (batch.motion.heading[lane] != batch.motion.direction[lane]) {
+      reverse(batch, lane, trial);
+    }
+  }
+}
+
+/// Handles the events at the end of a step.
+void end_sticking_steps(RunningBatch& run) {
+  if (run.observers->sample) report_passed_samples(run);
+  BatchState& batch = run.state;
+  for (int i = 0; i < batch.event_count; ++i) {
+    const int lane = batch.event_lanes[i];
+    const int events = batch.events[lane];
+    LaneTrial& trial = run.trial_of(lane);
+    if ((events & meets_event) != 0) {
+      run.lanes.sticking.erase(lane);
+      run.lanes.waiting.insert(lane);
+      continue;
+    }
+    if ((events & closure) != 0) close_loop(batch, lane, trial);
+    if ((events & creep_on) != 0) batch.motion.creeping[lane] = 1.0;
+    if ((events & creep_off) != 0) end_creep(batch, lane, trial);
+    if ((events & breakaway) != 0) break_away(batch, lane, trial);
+    if ((events & beyond_kernel) != 0 && !follow_reference(run, lane)) continue;
+    set_motion(run, lane);
+  }
+}
+
+/// @returns the number of lanes that took a step.
+int step_sticking(RunningBatch& run, LaneSet lanes, const MotionKernels& kernels) {
+  kernels.stick_start(run.state, lanes);
+  start_sticking_steps(run, lanes);
+  kernels.stick_step(run.state, lanes);
+  end_sticking_steps(run);
+  return lanes.count();
+}
+
+/// Takes the steps of the waiting lanes up to their events.
+void locate_events(RunningBatch& run) {
+  const LaneSet lanes = std::exchange(run.lanes.waiting, {});
+  for_each_lane(lanes, [&](int lane) { run.lanes.sticking.insert(lane); });
+  const LaneSet varying = lanes.in_both(run.lanes.varying);
+  run.kernels.constant.stick_event(run.state, lanes.without(varying));
+  end_sticking_steps(run);
+  if (varying.empty()) return;
+  run.kernels.varying.stick_event(run.state, varying);
+  end_sticking_steps(run);
+}
+
+void end_sliding_steps(RunningBatch& run) {
+  for (int i = 0; i < run.state.event_count; ++i) {
+    const int lane = run.state.event_lanes[i];
+    const int events = run.state.events[lane];
+    if ((events & velocity_zero) != 0) re_stick(run.state, lane, run.trial_of(lane));
+    if ((events & beyond_kernel) != 0 && !follow_reference(run, lane)) continue;
+    set_motion(run, lane);
+  }
+}
+
+void step_sliding(RunningBatch& run, const LaneSet& lanes, const MotionKernels& kernels) {
+  const LaneSet fast = lanes.in_both(run.kernels.fast_lanes(run.state));
+  kernels.slide_fast(run.state, fast);
+  end_sliding_steps(run);
+  kernels.slide_slow(run.state, lanes.without(fast));
+  end_sliding_steps(run);
+}
+
+/// Runs the lanes anew that the last kernel could not follow.
+void rerun_lost_lanes(RunningBatch& run) {
+  for (int i = 0; i < run.state.event_count; ++i) fall_back_to_scalar(run, run.state.event_lanes[i]);
+}
+
+void step_bristles(RunningBatch& run, const LaneSet& lanes, const MotionKernels& kernels) {
+  const LaneSet fast = lanes.in_both(run.kernels.fast_lanes(run.state));
+  kernels.bristle_fast(run.state, fast);
+  rerun_lost_lanes(run);
+  kernels.bristle_slow(run.state, lanes.without(fast));
+  rerun_lost_lanes(run);
+}
+
+/// Moves lanes without friction through a part of a sample.
+void move_free_part(RunningBatch& run, const LaneSet& lanes) {
+  MotionLanes& m = run.state.motion;
+  TimeLanes& time = run.state.time;
+  for_each_lane(lanes, [&](int lane) {
+    const friction::FreeMotion end =
+        friction::free_motion(run.trial_of(lane).parameters->plant, {m.theta[lane], m.omega[lane]},
+                              present_course(run.state, lane), time.time_to_stop[lane]);
+    m.theta[lane] = end.theta;
+    m.omega[lane] = end.omega;
+    time.time_to_stop[lane] = 0.0;
+  });
+}
+
+LaneSet between_stops(const RunningBatch& run, const LaneSet& lanes) {
+  return lanes.without(run.kernels.lanes_at_stop(run.state));
+}
+
+}  // namespace
+
+void move_sticking(RunningBatch& run) {
+  const LaneSet lanes = between_stops(run, run.lanes.sticking);
+  if (lanes.empty() && run.lanes.waiting.empty()) return;
+  wake_ahead(run, lanes);
+  const LaneSet varying = lanes.in_both(run.lanes.varying);
+  int stepped = step_sticking(run, lanes.without(varying), run.kernels.constant);
+  if (!varying.empty()) {
+    follow_torques(run, varying);
+    stepped += step_sticking(run, varying, run.kernels.varying);
+  }
+  // Few lanes at a time meet an event: they wait until there are enough of them, or no others to move.
+  constexpr int enough = 16;
+  const int waiting = run.lanes.waiting.count();
+  if (waiting > 0 && (waiting >= enough || waiting >= stepped)) locate_events(run);
+}
+
+void move_sliding(RunningBatch& run) {
+  const LaneSet lanes = between_stops(run, run.lanes.sliding);
+  if (lanes.empty()) return;
+  const LaneSet varying = lanes.in_both(run.lanes.varying);
+  step_sliding(run, lanes.without(varying), run.kernels.constant);
+  if (varying.empty()) return;
+  follow_torques(run, varying);
+  step_sliding(run, varying, run.kernels.varying);
+}
+
+void move_bristles(RunningBatch& run) {
+  if (run.lanes.bristles.empty()) return;
+  const LaneSet lanes = between_stops(run, run.lanes.bristles);
+  const LaneSet varying = lanes.in_both(run.lanes.varying);
+  step_bristles(run, run.kernels.bristle_rest(run.state, lanes.without(varying)), run.kernels.constant);
+  if (varying.empty()) return;
+  follow_torques(run, varying);
+  step_bristles(run, varying, run.kernels.varying);
+}
+
+void move_free(RunningBatch& run) {
+  if (run.lanes.free.empty()) return;
+  const LaneSet lanes = between_stops(run, run.lanes.free);
+  const LaneSet part = lanes.in_both(run.lanes.part);
+  const LaneSet varying = lanes.in_both(run.lanes.varying).without(part);
+  run.kernels.constant.free(run.state, lanes.without(part).without(varying));
+  if (!varying.empty()) run.kernels.varying.free(run.state, varying);
+  move_free_part(run, part);
+}
+
+void set_motion(RunningBatch& run, int lane) {
+  LaneStates& lanes = run.lanes;
+  switch (run.trial_of(lane).motion) {
+    case LaneMotion::bristle:
+      return lanes.bristles.insert(lane);
+    case LaneMotion::free:
+      return lanes.free.insert(lane);
+    case LaneMotion::contact:
+      break;
+  }
+  const bool slides = run.state.motion.slide_direction[lane] != 0.0;
+  lanes.waiting.erase(lane);
+  (slides ? lanes.sticking : lanes.sliding).erase(lane);
+  (slides ? lanes.sliding : lanes.sticking).insert(lane);
+}
+
+}  // namespace zerocount::batch

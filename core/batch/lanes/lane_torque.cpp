@@ -1,0 +1,107 @@
+// The torque on the rotor from sample to sample, in lanes with a LaneDrive.
+#include "core/batch/lanes/running_batch.hpp"
+#include "core/numerics/elementary_functions.hpp"
+
+namespace zerocount::batch {
+namespace {
+
+/// Sets the vibration of the lane's torque to its series about the last sample.
+void store_vibration(BatchState& batch, int lane, LaneDrive& drive) {
+  const VibrationSeries::Coefficients vibration = drive.vibration();
+  for (std::size_t j = 0; j < vibration.size(); ++j) batch.course.vibration[j][lane] = vibration[j];
+}
+
+/// Sets the torque of the lane to the present piece of its drive, and its next stop to the end of the piece.
+void store_piece(BatchState& batch, int lane, const LaneDrive& drive) {
+  const loop::TorquePiece& piece = drive.piece();
+  CourseLanes& c = batch.course;
+  const double disturbance = batch.loop.disturbance[lane];
+  batch.motion.torque[lane] = piece.course.now + disturbance;
+  c.settled[lane] = piece.course.settled + disturbance;
+  c.lag[lane] = piece.course.now - piece.course.settled;
+  c.decay[lane] = piece.course.rate;
+  c.piece[lane] = piece.duration;
+  c.piece_end[lane] = drive.piece_end();
+  batch.time.samples_to_stop[lane] = 1.0;
+  batch.time.time_to_stop[lane] = piece.duration;
+}
+
+}  // namespace
+
+void start_drive(BatchState& batch, int lane, LaneTrial& trial) {
+  LaneDrive& drive = trial.drive.emplace(*trial.parameters);
+  CourseLanes& c = batch.course;
+  const motion::Disturbance& varying = drive.disturbance();
+  // Without a disturbance that varies the reference lets the rotor rest under a varying torque, too.
+  c.tolerance[lane] = drive.disturbance_varies() ? 0.0 : trial.elongation_tolerance;
+  c.vibrates[lane] = varying.vibration.empty() ? 0.0 : 1.0;
+  store_vibration(batch, lane, drive);
+  c.ripple_count[lane] = static_cast<double>(varying.ripple.size());
+  for (std::size_t i = 0; i < std::size(c.ripples); ++i) {
+    const motion::Ripple ripple = i < varying.ripple.size() ? varying.ripple[i] : motion::Ripple{};
+    RippleLanes& to = c.ripples[i];
+    to.amplitude[lane] = ripple.amplitude;
+    to.per_angle[lane] = ripple.per_angle;
+    to.sine[lane] = to.cosine[lane] = 0.0;
+  }
+  if (trial.motion == LaneMotion::contact) trial.plant->disturb(varying);
+}
+
+motion::TorqueCourse present_course(const BatchState& batch, int lane) {
+  const CourseLanes& c = batch.course;
+  const double elapsed = c.piece[lane] - batch.time.time_to_stop[lane];
+  const double lag = c.lag[lane] * numerics::exp(-c.decay[lane] * elapsed);
+  return {c.settled[lane] + lag, c.settled[lane], c.decay[lane]};
+}
+
+void drive_torque(RunningBatch& run, int lane) {
+  LaneTrial& trial = run.trial_of(lane);
+  LaneDrive& drive = *trial.drive;
+  const LoopLanes& l = run.state.loop;
+  drive.send(trial.first_sample + run.samples_of(lane) - 1,
+             trial.loop ? l.given_torque[lane] : l.decided[lane]);
+  if (drive.stays()) {
+    run.lanes.varying.erase(lane);
+    run.lanes.part.erase(lane);
+    run.state.motion.torque[lane] = drive.piece().course.now + l.disturbance[lane];
+    return;
+  }
+  if (run.state.course.vibrates[lane] != 0.0) store_vibration(run.state, lane, drive);
+  begin_piece(run, lane);
+}
+
+void begin_piece(RunningBatch& run, int lane) {
+  const LaneDrive& drive = *run.trial_of(lane).drive;
+  store_piece(run.state, lane, drive);
+  LaneStates& lanes = run.lanes;
+  for (LaneSet* set : {&lanes.varying, &lanes.part, &lanes.changing}) set->erase(lane);
+  const loop::TorquePiece& piece = drive.piece();
+  if (drive.disturbance_varies() || !motion::motor_is_constant(piece.course)) lanes.varying.insert(lane);
+  if (piece.duration != run.state.time.sample_time[lane]) lanes.part.insert(lane);
+  if (!drive.is_last_piece()) lanes.changing.insert(lane);
+}
+
+void change_torques(RunningBatch& run) {
+  if (run.lanes.changing.empty()) return;
+  for_each_lane(run.lanes.changing.in_both(run.kernels.lanes_at_stop(run.state)), [&](int lane) {
+    run.trial_of(lane).drive->next_piece();
+    begin_piece(run, lane);
+    run.state.time.steps[lane] = 0.0;
+  });
+}
+
+void follow_torques(RunningBatch& run, const LaneSet& lanes) {
+  CourseLanes& c = run.state.course;
+  for_each_lane(lanes, [&](int lane) {
+    const auto ripples = static_cast<std::size_t>(c.ripple_count[lane]);
+    for (std::size_t i = 0; i < ripples; ++i) {
+      const double angle = c.ripples[i].per_angle[lane] * theta_of(run.state, lane) +
+                           run.trial_of(lane).drive->disturbance().ripple[i].phase;
+      c.ripples[i].sine[lane] = numerics::sin(angle);
+      c.ripples[i].cosine[lane] = numerics::cos(angle);
+    }
+  });
+  run.kernels.course(run.state, lanes);
+}
+
+}  // namespace zerocount::batch

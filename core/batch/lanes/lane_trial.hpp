@@ -1,0 +1,103 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "core/batch/kernels/batch_state.hpp"
+#include "core/batch/lanes/lane_drive.hpp"
+#include "core/batch/lanes/lane_loop.hpp"
+#include "core/batch/lanes/lane_needs.hpp"
+#include "core/plant/plant.hpp"
+#include "core/trial/jerks.hpp"
+#include "core/trial/last_half.hpp"
+#include "core/trial/outcome.hpp"
+#include "core/trial/parameters.hpp"
+
+namespace zerocount::batch {
+
+/// The scalar plant of a lane with a hook.
+using LanePlant = plant::PlantWith<friction::PreslidingFriction>;
+
+/// The motion of a lane that creeps at rest and is sampled all the time, over some samples ahead and without
+/// its residual oscillation. Its plant stands where they begin.
+struct CreepAhead {
+  double elapsed{0.0};   ///< time since its start, by which the plant lags behind the lane, s
+  double duration{0.0};  ///< s; 0 if there is no description
+  // Coefficients in elapsed/duration, rad.
+  std::array<double, 4> elongation{};
+  std::array<double, 4> extension{};
+  std::array<double, 4> hardening{};
+  int samples{0};     ///< evaluated one by one since the lane came to rest
+  double span{16.0};  ///< samples to describe next time
+};
+
+/// State of a lane that the kernels do not use: its trial, the memory of the spring, measures per jerk.
+struct LaneTrial {
+  const trial::TrialParameters* parameters{nullptr};
+  std::size_t number{0};  ///< of the trial in the batch
+  trial::TrialOutcome* outcome{nullptr};
+  std::size_t move{0};
+  std::int64_t first_sample{0};  ///< of the move, from the start of the trial
+  LaneMotion motion{LaneMotion::contact};
+
+  /// The contact, in lanes with LaneMotion::contact. Only its spring is always current; call load_motion()
+  /// before reading anything else.
+  std::optional<LanePlant> plant;
+  CreepAhead ahead;
+  double elongation_tolerance{0.0};     ///< MotionTolerance::elongation, rad
+  double breakaway_spring_torque{0.0};  ///< σb of the slide, N m
+
+  std::int64_t breakaways{0};  ///< in this move
+  bool slid_at_start{false};   ///< of this move
+  std::int64_t deepest{0};     ///< in this move
+
+  trial::Jerks jerks;              ///< of this move
+  std::int64_t reported_jerks{0};  ///< of the trial
+  trial::LastHalf last_half;       ///< of this move
+
+  std::optional<LaneLoop> loop;    ///< of a trial that needs one
+  std::optional<LaneDrive> drive;  ///< of a trial that needs one
+};
+
+// The contact between batch state and plant. (contact_changes.cpp)
+
+/// Copies the lane's motion from the batch state into its plant.
+void load_motion(const BatchState& batch, int lane, LaneTrial& trial);
+/// Copies the plant's motion and spring branch into the batch state.
+void store_motion(BatchState& batch, int lane, LaneTrial& trial);
+/// store_motion(), and the contact's parameters, which a slide or a scalar step may have changed.
+void store_contact(BatchState& batch, int lane, LaneTrial& trial);
+
+// Changes of the contact, as PreslidingFriction makes them. (contact_changes.cpp)
+void reverse(BatchState& batch, int lane, LaneTrial& trial);
+void close_loop(BatchState& batch, int lane, LaneTrial& trial);
+void end_creep(BatchState& batch, int lane, LaneTrial& trial);
+void break_away(BatchState& batch, int lane, LaneTrial& trial);
+void re_stick(BatchState& batch, int lane, LaneTrial& trial);
+/// Advances to the next stop by LanePlant::advance. @param torque on the rotor, N m, without a disturbance
+/// that varies. @returns whether the motion stayed finite.
+bool advance_by_reference(BatchState& batch, int lane, LaneTrial& trial, const motion::TorqueCourse& torque);
+
+/// Starts the trial that `trial` names, with its first move, in the lane. (lane_start.cpp)
+void start_trial(BatchState& batch, int lane, LaneTrial& trial);
+void start_move(BatchState& batch, int lane, LaneTrial& trial);
+
+/// Starts the drive of a trial that needs one. (lane_torque.cpp)
+void start_drive(BatchState& batch, int lane, LaneTrial& trial);
+/// The torque on the rotor from now on in a lane where it varies, without a disturbance that varies.
+/// (lane_torque.cpp)
+motion::TorqueCourse present_course(const BatchState& batch, int lane);
+
+/// Advances the plant of a lane at rest to where the lane is. (lane_rest.cpp)
+void bring_up_to_date(BatchState& batch, int lane, LaneTrial& trial);
+
+/// θ of the rotor, rad.
+inline double theta_of(const BatchState& batch, int lane) {
+  const MotionLanes& m = batch.motion;
+  return m.slide_direction[lane] != 0.0 ? m.theta[lane]
+                                        : m.hook[lane] + m.elongation[lane] + m.extension[lane];
+}
+
+}  // namespace zerocount::batch

@@ -1,0 +1,143 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/batch/batch.hpp"
+#include "core/batch/kernels/kernels.hpp"
+#include "core/batch/lanes/lane_trial.hpp"
+
+namespace zerocount::batch {
+
+/// The lanes by their state.
+struct LaneStates {
+  LaneSet active;  ///< with a trial
+
+  // Motion: each active lane is in one of these.
+  LaneSet sticking;  ///< the hook sticks
+  LaneSet waiting;   ///< the hook sticks, and an event lies in the step; located when enough lanes wait
+  LaneSet sliding;   ///< the hook slides
+  LaneSet bristles;  ///< with the friction of a bristle
+  LaneSet free;      ///< without friction
+
+  // Decision at a sample: the PID law alone, if in neither.
+  LaneSet with_blocks;  ///< the controller has blocks
+  LaneSet with_loop;    ///< by a LaneLoop
+
+  // Torque until the next stop: constant for a whole sample, if in none.
+  LaneSet varying;   ///< it varies
+  LaneSet part;      ///< the stop ends only a part of a sample
+  LaneSet changing;  ///< the stop lies within a sample, and the torque changes there
+
+  LaneSet ahead;  ///< at rest, with a plant that lags behind (CreepAhead)
+
+  std::array<LaneSet*, 12> all() {
+    return {&active,      &sticking,  &waiting, &sliding, &bristles, &free,
+            &with_blocks, &with_loop, &varying, &part,    &changing, &ahead};
+  }
+};
+
+/// A batch of trials in work: the trials in the lanes, and what remains to be done.
+struct RunningBatch {
+  explicit RunningBatch(const BatchSettings& settings);
+
+  LaneTrial& trial_of(int lane) { return trials[trial_index[lane]]; }
+  /// Samples of the present move so far.
+  std::int64_t samples_of(int lane) const { return static_cast<std::int64_t>(state.measures.samples[lane]); }
+
+  const Kernels& kernels;
+  std::vector<LaneTrial> trials;         ///< one a lane
+  std::size_t trial_index[max_lanes]{};  ///< [lane] index in `trials`
+  BatchState state{};                    ///< of all lanes, as the kernels need it
+  PassedSamples passed_samples[max_lanes]{};
+  LaneStates lanes;
+
+  const TrialSource* source{nullptr};
+  std::span<trial::TrialOutcome> outcomes;
+  const BatchObservers* observers{nullptr};
+  std::size_t next_trial{0};  ///< of the batch
+  int used_lanes{0};          ///< lanes from this one on are idle
+};
+
+// The life of a lane. BatchEngine::run() calls the stages in this order; each takes all lanes that are due.
+//
+//   start_next_trial
+//   for each move
+//     for each sample
+//       take_samples             encoders → controller → converter → measures
+//                                a lane that diverges: stop_diverged, start_next_trial
+//       until the next sample    (change_torques where the torque changes before it)
+//         move_sticking          one step; first end_creep, come_to_rest, break_away or reverse,
+//                                then close_loop, creep on, end_creep or break_away
+//         or move_sliding        one step; then re_stick
+//         or move_bristles, move_free
+//     end_moves                  the outcome of the move
+//   start_next_trial
+
+/// Starts the next trial that lanes can run, if any, in the lane. Runs those before it by run_trial().
+/// (lane_start.cpp)
+void start_next_trial(RunningBatch& run, int lane);
+
+/// Goes on to the next piece of the torque in the lanes that stop within a sample. (lane_torque.cpp)
+void change_torques(RunningBatch& run);
+
+/// Ends the moves whose samples have all been taken; their lanes go on to the next move or trial. @returns
+/// the lanes at a sampling instant. (lane_end.cpp)
+LaneSet end_moves(RunningBatch& run);
+
+/// Processes the sampling instant of the lanes `due`: encoders, controller, converter, and measures. A lane
+/// that diverges goes on to the next trial. (lane_samples.cpp)
+void take_samples(RunningBatch& run, const LaneSet& due);
+
+// One step of each lane that is between two stops: to its next stop, or to an event before it.
+// (lane_steps.cpp)
+void move_sticking(RunningBatch& run);
+void move_sliding(RunningBatch& run);
+void move_bristles(RunningBatch& run);
+void move_free(RunningBatch& run);
+
+// Parts of the stages.
+
+/// Inserts the lane, which has a trial, into the set of its motion. (lane_steps.cpp)
+void set_motion(RunningBatch& run, int lane);
+
+/// Starts the present piece of the torque of the lane's drive. (lane_torque.cpp)
+void begin_piece(RunningBatch& run, int lane);
+/// Lets the lane's drive make the torque on the rotor from the torque decided at the last sample. If it does
+/// not stay, the next stop is the end of its first piece. (lane_torque.cpp)
+void drive_torque(RunningBatch& run, int lane);
+/// Computes the present torque of lanes in which it varies, and its series. (lane_torque.cpp)
+void follow_torques(RunningBatch& run, const LaneSet& lanes);
+
+/// Applies the rest rule. A lane at rest advances in closed form, by creep and residual oscillation, to the
+/// next stop or to the first sampling instant at which its count differs. @returns whether the lane was at
+/// rest; then it is at a stop. (lane_rest.cpp)
+bool come_to_rest(RunningBatch& run, int lane);
+
+/// Ends the lane's trial, whose move has diverged at the last sample. (lane_end.cpp)
+void stop_diverged(RunningBatch& run, int lane);
+/// Runs the whole trial by run_trial(). Jerks and samples already reported are not reported again.
+/// (lane_end.cpp)
+void run_scalar(RunningBatch& run, const LaneTrial& trial, std::int64_t reported_jerks,
+                std::int64_t reported_samples);
+/// Runs the lane's trial anew by run_trial(): the kernels cannot follow its motion, or the count of its
+/// encoder has overflowed. (lane_end.cpp)
+void fall_back_to_scalar(RunningBatch& run, int lane);
+/// Moves trials from the last lanes to idle ones, once no trials are left to start in those. Kernels are
+/// faster on neighbouring lanes, which share cache lines. (lane_end.cpp)
+void close_gaps(RunningBatch& run);
+
+/// Reports the jerk of the lane's trial that has ended last. (lane_records.cpp)
+void report_jerk(RunningBatch& run, LaneTrial& trial);
+/// Reports the sample that has been taken last. (lane_records.cpp)
+void report_sample(RunningBatch& run, int lane);
+/// Reports the samples within steps, from their series. (lane_records.cpp)
+void report_passed_samples(RunningBatch& run);
+/// Reports a sample at rest, `passed` samples after the last one taken. (lane_records.cpp)
+void report_sample_at_rest(RunningBatch& run, int lane, double passed, double theta,
+                           const friction::CreepState& creep);
+
+}  // namespace zerocount::batch

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/friction/law.hpp"
+#include "core/friction/sliding/stribeck.hpp"
+
+namespace zerocount::friction {
+
+/// Constants of a bristle; `fast` and `slow` are 8·ωs and 6.5·ωs (stribeck_series.hpp).
+struct BristleParameters {
+  double stiffness;        ///< σ0, N m/rad
+  double bristle_damping;  ///< σ1, N m s/rad
+  double damping;          ///< d, of the rotor, N m s/rad
+  StribeckCurve level;     ///< g
+  double fast;             ///< |ω| beyond which g(ω) = Fc to the last bit, rad/s; 0 where g is constant
+  double slow;  ///< |ω| above which g(ω) = Fc to 6e-19 of Fs − Fc, rad/s; 0 where g is constant
+};
+
+BristleParameters bristle_parameters(double stiffness, double bristle_damping, double damping,
+                                     const StribeckCurve& level);
+
+/// Taylor series in time of a bristle and its rotor.
+struct BristleSeries : StribeckSeries {
+  numerics::Series position{};    ///< θ, rad
+  numerics::Series omega{};       ///< ω, rad/s
+  numerics::Series deflection{};  ///< z, rad
+  numerics::Series level{};       ///< g(ω), N m
+  numerics::Series ratio{};       ///< ω·z/g(ω), rad²/(N m s)
+};
+
+/// The motion of a rotor on a bristle, with a constant sign s of ω:
+///
+///   dz/dt = ω − σ0·s·ω·z/g(ω),   J·dω/dt = u − σ0·z − σ1·dz/dt − d·ω,   dθ/dt = ω.
+///
+/// It ends at ω = 0. Where g is constant the bristle comes to z = s·g/σ0 within rounding, and stays there: it
+/// is *saturated*, J·dω/dt = u − s·g − d·ω, until |ω| falls to `slow`. Otherwise the bristle's time constant
+/// g/(σ0·|ω|) would limit the steps of a fast rotor.
+struct BristleMotion {
+  using Expansion = BristleSeries;
+  enum class Event { none, velocity_zero, slow_again };
+
+  const BristleParameters& parameters;
+  double direction;  ///< s, −1 or 1
+  bool saturated;
+  double& theta;       ///< rad
+  double& omega;       ///< rad/s
+  double& deflection;  ///< z, rad
+
+  BristleSeries start() const;
+  double expand(BristleSeries& s, std::size_t k, double torque) const;
+  /// z is as accurate as θ, because an error of z becomes one of ω.
+  static double step_of_state(const BristleSeries& series, double tolerance, double duration) {
+    return motion::step_within(series.deflection, series.omega, series.exponent, tolerance, duration);
+  }
+  motion::NextEvent<Event> first_event(const BristleSeries& series, double step) const;
+  void go_to(const BristleSeries& series, const motion::NextEvent<Event>& next);
+};
+
+/// Base of the laws of Dahl and LuGre: one elastic bristle that stands for all asperities.
+///
+/// Rest rule. Where bristle_rests() bounds all further travel under a constant torque u by
+/// MotionTolerance::rest, the rotor is at rest, ω = 0 and z = u/σ0, until the torque changes. A bristle
+/// without damping never comes to rest.
+class Bristle : public WithoutCreepAndReversals {
+ public:
+  static constexpr bool has_presliding_motion = true;
+  static constexpr bool remembers_loading = false;
+  static constexpr Breakaway breakaway = Breakaway::gradual;
+
+  /// Starts with z = 0; with `start.sliding` and ω ≠ 0, with that of steady sliding, sgn(ω)·g(ω)/σ0.
+  Bristle(const BristleParameters& parameters, double inertia, const motion::PlantStart& start,
+          const motion::MotionTolerance& tolerance);
+
+  double step(const motion::TorqueCourse& torque, double duration);
+
+  double theta() const { return theta_; }
+  double omega() const { return omega_; }
+  /// Whether friction without the damping d is above 0.99·g(ω).
+  bool sliding() const;
+  static std::int64_t breakaways() { return 0; }
+  double deflection() const { return deflection_; }  ///< z, rad
+
+ private:
+  double direction_under(const motion::TorqueCourse& torque) const;
+  bool saturates(double direction);
+  bool rests_under(double torque) const;
+
+  BristleParameters parameters_;
+  double inertia_;
+  motion::MotionTolerance tolerance_;
+  double theta_{0.0};
+  double omega_;
+  double deflection_;
+  std::optional<double> rest_torque_;  // under which the rotor is at rest, N m
+};
+
+}  // namespace zerocount::friction

@@ -1,0 +1,219 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "core/friction/law.hpp"
+#include "core/friction/presliding/creep.hpp"
+#include "core/friction/presliding/creep_at_rest.hpp"
+#include "core/friction/presliding/residual_oscillation.hpp"
+#include "core/friction/presliding/spring.hpp"
+#include "core/friction/presliding/sticking.hpp"
+
+namespace zerocount::friction {
+
+/// State of the pre-sliding model and its rotor, without the reversal points of the spring.
+struct PlantMotion {
+  double elongation{0.0};  ///< xs, rad
+  double omega{0.0};       ///< ω, rad/s
+  CreepState creep{};
+  bool creeping{false};            ///< the creep law is on
+  double creep_onset_torque{0.0};  ///< |σ| at which it sets in while it is off, N m
+  double hook{0.0};                ///< rad
+  bool sliding{false};
+  double slide_theta{0.0};              ///< θ, rad
+  double slide_direction{0.0};          ///< −1, 1
+  double breakaway_spring_torque{0.0};  ///< σb, N m
+};
+
+/// The model of the paper: pre-sliding motion while the hook sticks (Sticking; paper, eq. 4, with creep), and
+/// sliding after breakaway (Slide; paper, eq. 3).
+///
+/// Rest rule. Without one, an oscillation would decay for ever, until rounding decided the sign of the
+/// elongation rate. Let δσ and δω be the deviations of σ and ω from quasi-static creep under the present
+/// torque (CreepAtRest; without creep σ = u and ω = 0), ε = MotionTolerance::rest, ωn² = (k1 + k2)/J, and A
+/// the amplitude with
+///
+///   ((δσ + c·δω)/J)² + (ωn·δω)² = (A·ωn²)².
+///
+/// Where A < ε and |δσ| < 2ε·dσ/dxs, σ and ω are set to those of CreepAtRest, which the rotor follows while
+/// the torque is constant. This neglects an oscillation of amplitude ε.
+///
+/// At a reversal the rotor comes to rest earlier, where β·A² < ε: a loop of the spring of size A is open by
+/// about β·A², so the remaining oscillation is a ResidualOscillation about CreepAtRest. The spring remembers
+/// only its first reversal. This does not apply where creep starts or ends, or the hook breaks away, within
+/// twice the amplitude.
+///
+/// Both conditions are on the energy of the oscillation, which only falls, and the second holds at reversals
+/// only. The last reversal that the spring remembers is therefore independent of the steps of integration.
+///
+/// Under a varying torque the elongation is held while |dxs/dt| < ε·ωn and |d²xs/dt²| < ε·ωn², with ε =
+/// MotionTolerance::elongation, from half of that acceleration until the torque has brought it to the full
+/// value; creep follows its exact solution at constant torque. The elongation is then never further than
+/// ε·(k1 + k2)/k1 from the one that balances the torque.
+class PreslidingFriction {
+ public:
+  static constexpr std::string_view word = "presliding";
+  static constexpr std::array<ContactField, 9> contact_parameters{&FrictionParameters::breakaway,
+                                                                  &FrictionParameters::coulomb_ratio,
+                                                                  &FrictionParameters::stribeck_velocity,
+                                                                  &FrictionParameters::k1,
+                                                                  &FrictionParameters::k2,
+                                                                  &FrictionParameters::beta,
+                                                                  &FrictionParameters::alpha,
+                                                                  &FrictionParameters::lambda,
+                                                                  &FrictionParameters::n};
+  static constexpr bool has_presliding_motion = true;
+  static constexpr bool has_presliding_damping = true;
+  static constexpr bool has_sliding_damping = true;
+  static constexpr bool remembers_loading = true;
+  static constexpr Breakaway breakaway = Breakaway::of_hook;
+  static constexpr auto linear_contacts = contacts_of_spring;
+
+  PreslidingFriction(const motion::PlantParameters& plant, FrictionAlongRotor friction,
+                     const motion::PlantStart& start, motion::MotionTolerance tolerance);
+
+  double step(const motion::TorqueCourse& torque, double duration) {
+    return sliding_ ? slide(torque, duration) : stick(torque, duration);
+  }
+
+  // For an engine that integrates the motion itself and uses this class for rare events.
+  PlantMotion motion() const;
+  /// Sets the state of motion. The spring must be on the same branch.
+  void set_motion(const PlantMotion& motion);
+  /// The hook starts to slide in `direction` (−1, 1).
+  void break_away(double direction);
+  /// The hook sticks again; the slide has come to ω = 0.
+  void re_stick();
+  /// State of rest under a constant torque.
+  struct Rest {
+    double torque;                    ///< u, N m
+    CreepAtRest creep;                ///< the motion by creep since the rest began
+    CreepState start;                 ///< of creep when the rest began
+    ResidualOscillation oscillation;  ///< about it
+    double time;                      ///< since the rest began, s
+  };
+
+  /// Applies the rest rule under the constant torque `torque` (N m). If it returns true, step() with that
+  /// torque takes the whole duration at once.
+  /// @param at_reversal dxs/dt is exactly zero.
+  bool come_to_rest(double torque, bool at_reversal);
+  /// Empty while the rotor is not at rest.
+  const std::optional<Rest>& rest() const { return rest_; }
+  /// The motion at rest at a later time.
+  struct RestPoint {
+    double time;    ///< since the rest began, s
+    double rate;    ///< of creep, rad/s; 0 without it
+    double growth;  ///< of creep since the rest began, rad
+    ResidualOscillation::State oscillation;
+  };
+  /// After another `time` (s) at rest. Called at rest only, as the next two.
+  RestPoint point_at_rest(double time) const;
+  /// θ (rad) there.
+  double theta_at(const RestPoint& point) const;
+  /// Goes on at rest to a point.
+  void go_to(const RestPoint& point);
+  /// The present deviation from quasi-static creep; zero except at rest.
+  const ResidualOscillation::State& oscillation() const { return oscillation_; }
+  /// At rest, its elongation is that of quasi-static creep, without the residual oscillation.
+  HystereticSpring& spring() { return spring_; }
+
+  /// θ, rad.
+  double theta() const { return sliding_ ? slide_theta_ : hook_ + elongation() + creep_.extension; }
+  /// ω, rad/s.
+  double omega() const { return omega_; }
+  /// State of the present contact, or of the last one while sliding.
+  const CreepState& creep() const { return creep_; }
+  const HystereticSpring& spring() const { return spring_; }
+  const FrictionParameters& contact() const { return contact_; }
+  bool sliding() const { return sliding_; }
+
+  /// Since the start.
+  std::int64_t breakaways() const { return breakaways_; }
+  /// Largest stack depth since the last forget_deepest().
+  std::int64_t deepest() const { return deepest_; }
+  void forget_deepest() { deepest_ = depth(); }
+  std::int64_t depth() const { return static_cast<std::int64_t>(spring_.depth()); }
+
+ private:
+  /// Motion of the spring: dxs/dt (rad/s), and d²xs/dt² (rad/s²; exact where dxs/dt is zero).
+  struct Elongation {
+    double rate;
+    double acceleration;
+  };
+
+  /// Deviation of the motion from quasi-static creep.
+  struct Excess {
+    CreepAtRest creep;  ///< quasi-static creep under the same torque
+    double torque;      ///< δσ, N m
+    double velocity;    ///< δω, rad/s
+    double amplitude;   ///< A, rad
+  };
+
+  // Each returns the time used, at most `duration`.
+  double stick(const motion::TorqueCourse& torque, double duration);
+  double slide(const motion::TorqueCourse& torque, double duration);
+
+  Elongation elongation_under(double torque, double creep_rate_now) const;
+  bool begin_rest(double torque, const Elongation& elongation, bool was_at_rest, bool may_oscillate);
+  std::optional<Excess> excess_over_rest(double torque, const Elongation& elongation,
+                                         double max_amplitude) const;
+  bool oscillates_freely(double torque, const Excess& excess) const;
+  OscillationLaw oscillation_law(const Excess& excess) const;
+  ResidualOscillation begin_oscillation(const Excess& excess);
+  CreepState slow_creep(double sign) const;
+  double neglected_creep(const OscillationLaw& law, const Excess& excess) const;
+  void settle(const Excess& excess, bool was_at_rest);
+  std::optional<CreepAtRest> slow_motion(double torque, double sign) const;
+  double elongation() const { return spring_.elongation() + oscillation_.elongation; }
+  bool leave_rest();
+  double switch_creep();
+  bool at_rest(const Elongation& elongation) const;
+  double time_at_rest(const Elongation& elongation, const motion::TorqueCourse& torque,
+                      double duration) const;
+  int breakaway_direction(double torque) const;
+  void pass(Sticking::Event event);
+  void hold_at_rest(double duration);
+  void end_creep();
+  double creep_rate() const;
+
+  motion::PlantParameters plant_;
+  FrictionAlongRotor friction_;
+  double position_;
+  motion::MotionTolerance tolerance_;
+
+  FrictionParameters contact_;
+  std::int64_t contact_number_{0};
+  HystereticSpring spring_;
+  CreepState creep_;
+  bool creeping_{false};
+  double creep_onset_torque_{0.0};  // |σ| at which creep starts, while it is off
+  double hook_{0.0};
+  double omega_{0.0};
+  std::optional<Rest> rest_;
+  ResidualOscillation::State oscillation_{0.0, 0.0, 0.0};  // zero except at rest
+
+  bool sliding_{false};
+  double slide_theta_{0.0};
+  double slide_direction_{0.0};
+  double breakaway_spring_torque_{0.0};  // σb
+
+  std::int64_t breakaways_{0};
+  std::int64_t deepest_{0};
+};
+
+/// PreslidingFriction without creep: α is 0 in every contact.
+class SpringFriction : public PreslidingFriction {
+ public:
+  using PreslidingFriction::PreslidingFriction;
+  static constexpr std::string_view word = "spring";
+  static constexpr std::array<ContactField, 6> contact_parameters{&FrictionParameters::breakaway,
+                                                                  &FrictionParameters::coulomb_ratio,
+                                                                  &FrictionParameters::stribeck_velocity,
+                                                                  &FrictionParameters::k1,
+                                                                  &FrictionParameters::k2,
+                                                                  &FrictionParameters::beta};
+};
+
+}  // namespace zerocount::friction

@@ -1,0 +1,186 @@
+#include "core/friction/presliding/spring.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/numerics/elementary_functions.hpp"
+
+namespace zerocount::friction {
+namespace {
+
+SpringBranch branch_from(const FrictionParameters& friction, double elongation, double torque, double sign) {
+  return {elongation, torque, sign, friction.k1, friction.k2 / friction.beta, friction.beta};
+}
+
+SpringBranch virgin_branch(const FrictionParameters& friction, double sign) {
+  return {0.0, 0.0, sign, friction.k1, friction.k2 / (2.0 * friction.beta), 2.0 * friction.beta};
+}
+
+/// u ≥ 0 with k1·u + softening_torque·(1 − exp(−softening_rate·u)) = torque ≥ 0. The law is increasing and
+/// concave, so Newton's iteration from below rises to the root without passing it; it ends when it no longer
+/// rises. It starts at the root for the constant stiffness of the start, or of the end, of the law, or at
+/// `at_least`: itself if it is above the root.
+double travel_at(const SpringBranch& branch, double torque,
+                 double at_least = -std::numeric_limits<double>::infinity()) {
+  const double stiffest = branch.k1 + branch.softening_torque * branch.softening_rate;
+  double travel = std::max({torque / stiffest, (torque - branch.softening_torque) / branch.k1, at_least});
+  for (;;) {
+    const double softened = -numerics::expm1(-branch.softening_rate * travel);
+    const double missing = torque - branch.k1 * travel - branch.softening_torque * softened;
+    const double stiffness = branch.k1 + branch.softening_torque * branch.softening_rate * (1.0 - softened);
+    const double next = travel + missing / stiffness;
+    if (!(next > travel)) return travel;
+    travel = next;
+  }
+}
+
+}  // namespace
+
+double torque_on(const SpringBranch& branch, double x) {
+  const double travel = travel_on(branch, x);
+  return torque_after(branch, travel, -numerics::expm1(-branch.softening_rate * travel));
+}
+
+double stiffness_on(const SpringBranch& branch, double x) {
+  return branch.k1 + branch.softening_torque * branch.softening_rate *
+                         numerics::exp(-branch.softening_rate * travel_on(branch, x));
+}
+
+double branch_law(const FrictionParameters& friction, double travel) {
+  return torque_on(branch_from(friction, 0.0, 0.0, 1.0), travel);
+}
+
+double inverse_branch_law(const FrictionParameters& friction, double torque) {
+  return travel_at(branch_from(friction, 0.0, 0.0, 1.0), torque);
+}
+
+double virgin_elongation(const FrictionParameters& friction, double torque) {
+  return std::copysign(travel_at(virgin_branch(friction, 1.0), std::abs(torque)), torque);
+}
+
+void HystereticSpring::start_virgin(double elongation, int direction) {
+  stack_.clear();
+  elongation_ = elongation;
+  direction_ = direction;
+  select_branch();
+}
+
+void HystereticSpring::start_preloaded(double torque) {
+  if (torque == 0.0) return start_virgin(0.0, 0);
+  const double peak = virgin_elongation(friction_, torque);
+  stack_.assign(1, {peak, torque});
+  direction_ = torque > 0.0 ? -1 : 1;
+  elongation_ = peak + direction_ * inverse_branch_law(friction_, std::abs(torque));
+  select_branch();
+}
+
+void HystereticSpring::set_direction(int direction) {
+  if (direction != direction_) set_direction(direction, elongation_, torque());
+}
+
+void HystereticSpring::set_direction(int direction, double x, double torque) {
+  elongation_ = x;
+  if (direction == direction_) return;
+  if (direction_ != 0) stack_.push_back({x, torque});
+  direction_ = direction;
+  select_branch();
+  close_loops();
+}
+
+void HystereticSpring::move_on_branch(double x) {
+  elongation_ = x;
+  close_loops();
+}
+
+void HystereticSpring::move_to(double x) {
+  if (x == elongation_) return;
+  set_direction(x > elongation_ ? 1 : -1);
+  for (std::optional<double> end = branch_end(); end && direction_ * (x - *end) >= 0.0; end = branch_end()) {
+    move_on_branch(*end);
+  }
+  move_on_branch(x);
+}
+
+void HystereticSpring::move_to_torque(double torque) {
+  const double now = this->torque();
+  if (torque == now) return;
+  set_direction(torque > now ? 1 : -1);
+  move_on_to_torque(torque);
+}
+
+void HystereticSpring::move_on_to_torque(double torque) {
+  const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * std::abs(torque);
+  for (std::optional<double> end = branch_end();
+       end && direction_ * (torque - branch_end_torque()) >= -rounding; end = branch_end()) {
+    move_on_branch(*end);
+  }
+  const double here = travel_ahead(branch_, direction_);
+  const double travel = travel_at(branch_, branch_.sign * (torque - branch_.torque), here);
+  const double x = branch_.elongation + branch_.sign * travel;
+  if (travel > here && direction_ * (x - elongation_) > 0.0) move_on_branch(x);
+}
+
+void HystereticSpring::settle_at_torque(double torque) {
+  move_on_branch(elongation_ + (torque - this->torque()) / stiffness_on(branch_, elongation_));
+}
+
+HystereticSpring::PointOnBranch HystereticSpring::point_at_torque(double torque) const {
+  const ReversalPoint here{elongation_, this->torque()};
+  const int direction = torque > here.torque ? 1 : -1;
+  const bool reverses = direction_ != 0 && direction != direction_;
+  const auto point = [&](std::size_t i) { return i < stack_.size() ? stack_[i] : here; };
+  std::size_t depth = stack_.size() + (reverses ? 1 : 0);
+  while (depth >= 2 && direction * (torque - point(depth - 2).torque) >= 0.0) depth -= 2;
+  // The virgin curve goes on beyond the mirror image of the first reversal point, where that lies ahead.
+  const bool mirrored = depth == 1 && direction * point(0).torque <= 0.0;
+  if (mirrored && direction * (torque + point(0).torque) >= 0.0) depth = 0;
+  const SpringBranch branch =
+      depth > 0 ? branch_from(friction_, point(depth - 1).elongation, point(depth - 1).torque, direction)
+                : virgin_branch(friction_, torque < 0.0 ? -1.0 : 1.0);
+  const double x = branch.elongation + branch.sign * travel_at(branch, branch.sign * (torque - branch.torque),
+                                                               travel_ahead(branch, direction));
+  return {x, stiffness_on(branch, x)};
+}
+
+/// The travel (rad) on a branch up to the present elongation, if moving in `direction` lengthens it;
+/// otherwise none, below all travels.
+double HystereticSpring::travel_ahead(const SpringBranch& branch, int direction) const {
+  return branch.sign == direction ? travel_on(branch, elongation_) : -std::numeric_limits<double>::infinity();
+}
+
+/// σ at branch_end(), N m.
+double HystereticSpring::branch_end_torque() const {
+  if (stack_.size() >= 2) return stack_[stack_.size() - 2].torque;
+  return stack_.empty() ? 0.0 : -stack_.front().torque;
+}
+
+void HystereticSpring::close_loops() {
+  bool closed = false;
+  // With an empty stack no loop closes: a virgin curve run inwards changes sides at the origin.
+  while (!stack_.empty()) {
+    const std::optional<double> end = branch_end();
+    if (!end || direction_ * (elongation_ - *end) < 0.0) break;
+    stack_.resize(stack_.size() >= 2 ? stack_.size() - 2 : 0);
+    closed = true;
+  }
+  if (closed || (stack_.empty() && direction_ * elongation_ >= 0.0)) select_branch();
+}
+
+void HystereticSpring::select_branch() {
+  if (!stack_.empty()) {
+    branch_ = branch_from(friction_, stack_.back().elongation, stack_.back().torque, direction_);
+  } else if (elongation_ != 0.0) {
+    branch_ = virgin_branch(friction_, elongation_ > 0.0 ? 1.0 : -1.0);
+  } else {
+    branch_ = virgin_branch(friction_, direction_ < 0 ? -1.0 : 1.0);
+  }
+}
+
+double presliding_range(const FrictionParameters& friction) {
+  const bool saturates = friction.k1 == 0.0 && friction.k2 / (2.0 * friction.beta) <= friction.breakaway;
+  return saturates ? std::numeric_limits<double>::infinity()
+                   : virgin_elongation(friction, friction.breakaway);
+}
+
+}  // namespace zerocount::friction

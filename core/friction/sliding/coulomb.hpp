@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+
+#include "core/friction/law.hpp"
+#include "core/friction/sliding/sliding.hpp"
+
+namespace zerocount::friction {
+
+/// Amonton–Coulomb friction with a static level: θ is constant while |u| ≤ Fs = breakaway. When |u| passes Fs
+/// the rotor slides towards sgn(u), by Slide, until ω = 0; there a new contact forms, with the parameters of
+/// that place.
+class CoulombFriction : public WithoutCreepAndReversals {
+ public:
+  static constexpr std::string_view word = "coulomb";
+  static constexpr std::array<ContactField, 3> contact_parameters{&FrictionParameters::breakaway,
+                                                                  &FrictionParameters::coulomb_ratio,
+                                                                  &FrictionParameters::stribeck_velocity};
+  static constexpr bool has_presliding_motion = false;
+  static constexpr bool has_presliding_damping = false;
+  static constexpr bool has_sliding_damping = true;
+  static constexpr bool remembers_loading = false;
+  static constexpr Breakaway breakaway = Breakaway::of_hook;
+  static LinearContacts linear_contacts(const motion::PlantParameters& plant, const FrictionAlongRotor&,
+                                        const FrictionParameters&) {
+    return {sliding_contact(plant)};
+  }
+
+  /// Slides at the start wherever velocity ≠ 0.
+  CoulombFriction(const motion::PlantParameters& plant, FrictionAlongRotor friction,
+                  const motion::PlantStart& start, const motion::MotionTolerance& tolerance);
+
+  double step(const motion::TorqueCourse& torque, double duration);
+
+  double theta() const { return theta_; }
+  double omega() const { return omega_; }
+  bool sliding() const { return sliding_; }
+  std::int64_t breakaways() const { return breakaways_; }
+  const FrictionParameters& contact() const { return contact_; }
+
+ private:
+  double stand(const motion::TorqueCourse& torque, double duration);
+  /// With a load or a varying disturbance.
+  double stand_coupled(const motion::TorqueCourse& torque, double duration);
+  double slide(const motion::TorqueCourse& torque, double duration);
+  bool torque_drives(double direction, const motion::TorqueCourse& torque) const;
+  void break_away(double direction);
+
+  motion::PlantParameters plant_;
+  FrictionAlongRotor friction_;
+  double position_;
+  double tolerance_;
+  FrictionParameters contact_;
+  std::int64_t contact_number_{0};
+  double theta_{0.0};
+  double omega_;
+  bool sliding_;
+  double direction_;  // −1, 1
+  std::int64_t breakaways_{0};
+};
+
+}  // namespace zerocount::friction

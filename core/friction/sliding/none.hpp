@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+
+#include "core/friction/law.hpp"
+#include "core/friction/sliding/free_motion.hpp"
+
+namespace zerocount::friction {
+
+/// An air bearing: J·dω/dt = u − c·ω and nothing else, by free_motion() where there is neither a load nor a
+/// varying disturbance. The rotor always slides, without a contact that could break away.
+class NoFriction : public WithoutCreepAndReversals {
+ public:
+  static constexpr std::string_view word = "none";
+  static constexpr std::array<ContactField, 0> contact_parameters{};
+  static constexpr bool has_presliding_motion = false;
+  static constexpr bool has_presliding_damping = true;
+  static constexpr bool has_sliding_damping = false;
+  static constexpr bool remembers_loading = false;
+  static constexpr Breakaway breakaway = Breakaway::never;
+  static LinearContacts linear_contacts(const motion::PlantParameters& plant, const FrictionAlongRotor&,
+                                        const FrictionParameters&) {
+    return {{"without friction", 0.0, plant.presliding_damping, true}};
+  }
+
+  NoFriction(const motion::PlantParameters& plant, const FrictionAlongRotor&, const motion::PlantStart& start,
+             const motion::MotionTolerance& tolerance)
+      : plant_(plant), tolerance_(tolerance.elongation), motion_{0.0, start.velocity} {}
+
+  double step(const motion::TorqueCourse& torque, double duration) {
+    if (motion::is_coupled(torque)) return step_coupled(torque, duration);
+    motion_ = free_motion(plant_, motion_, torque, duration);
+    return duration;
+  }
+
+  double theta() const { return motion_.theta; }
+  double omega() const { return motion_.omega; }
+  static bool sliding() { return true; }
+  static std::int64_t breakaways() { return 0; }
+
+ private:
+  /// With a load or a varying disturbance d, by Taylor series: J·dω/dt = u + d − Ts − c·ω.
+  double step_coupled(const motion::TorqueCourse& torque, double duration);
+
+  motion::PlantParameters plant_;
+  double tolerance_;
+  FreeMotion motion_;
+};
+
+}  // namespace zerocount::friction

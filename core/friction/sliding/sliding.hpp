@@ -1,0 +1,62 @@
+#pragma once
+
+#include "core/friction/sliding/stribeck.hpp"
+#include "core/motion/taylor_step.hpp"
+#include "core/motion/torque_course.hpp"
+
+namespace zerocount::friction {
+
+/// u − cs·ω − d·g(ω): the torque J·dω/dt that accelerates a hook which slides in the direction d = ±1, N m.
+/// @param damping cs, N m s/rad. @param curve g, not times d.
+template <class Number>
+Number sliding_torque(const Number& torque, const Number& damping, const StribeckCurveOf<Number>& curve,
+                      double direction, const Number& omega) {
+  return torque - damping * omega - direction * level_at(curve, omega);
+}
+
+/// Taylor series in time of the sliding motion.
+struct SlidingSeries : StribeckSeries {
+  numerics::Series position{};  ///< θ, rad
+  numerics::Series omega{};     ///< ω, rad/s
+  StribeckCurve curve;          ///< times d
+};
+
+/// The motion while the hook slides (paper, eq. 3, with Stribeck friction):
+///
+///   J·dω/dt = u − cs·ω − d·g(ω),   dθ/dt = ω,
+///
+/// with g of StribeckCurve: the Taylor coefficients of sliding_torque(). It ends at ω = 0.
+struct Slide {
+  using Expansion = SlidingSeries;
+  enum class Event { none, velocity_zero };
+
+  const FrictionParameters& contact;
+  double damping;    ///< cs, N m s/rad
+  double theta;      ///< rad
+  double omega;      ///< rad/s
+  double direction;  ///< d, −1 or 1
+
+  SlidingSeries start() const;
+  double expand(SlidingSeries& s, std::size_t k, double torque) const {
+    const double decay = s.StribeckSeries::expand(s.curve, s.omega, k);
+    s.position[k + 1] = s.omega[k] * numerics::reciprocal[k + 1];
+    const double driving = k == 0 ? torque - s.curve.coulomb : torque;
+    return driving - damping * s.omega[k] - s.curve.excess * decay;
+  }
+  static motion::NextEvent<Event> first_event(const SlidingSeries& series, double step);
+  void go_to(const SlidingSeries& series, const motion::NextEvent<Event>& next);
+};
+
+/// Whether the slide can leave ω = 0 in its direction under the torque.
+bool leaves_rest(const Slide& slide, double inertia, const motion::TorqueCourse& torque);
+
+struct SlideStep {
+  double time;  ///< used, s
+  bool ended;   ///< ω has come to 0, or cannot leave it
+};
+
+/// Advances the slide by a Taylor step, at most by `duration` (s).
+SlideStep slide_step(Slide& slide, double inertia, const motion::TorqueCourse& torque, double tolerance,
+                     double duration);
+
+}  // namespace zerocount::friction

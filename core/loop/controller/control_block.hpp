@@ -1,0 +1,59 @@
+#pragma once
+
+#include <concepts>
+
+#include "core/loop/controller/transfer_function.hpp"
+#include "core/loop/parameters.hpp"
+
+namespace zerocount::loop {
+
+/// Bounds of a torque, N m.
+struct TorqueRange {
+  double lowest{0.0};
+  double highest{0.0};
+};
+
+/// Motion of the unrounded reference at a sampling instant.
+struct ReferenceMotion {
+  double velocity{0.0};      ///< ṙ, rad/s
+  double acceleration{0.0};  ///< r̈, rad/s²
+  double position{0.0};      ///< r, counts
+};
+
+/// Inputs of the controller at a sampling instant. Error and count are whole numbers, or those of a coarser
+/// encoder in counts of the fine one.
+struct Feedback {
+  double error{0.0};            ///< reference − count, counts
+  double count{0.0};            ///< counts
+  double torque_in_force{0.0};  ///< decided at the last sample, N m; 0 before the first
+  ReferenceMotion reference{};
+  bool new_target{false};  ///< the target is not that of the last sample
+};
+
+/// Range and resolution of the converter.
+struct DacScale {
+  TorqueRange range{};     ///< to which anti-windup clamps the integral
+  double resolution{0.0};  ///< Δu, N m
+};
+
+/// The controller before its first sample.
+struct ControlStart {
+  double integral{0.0};  ///< I, N m
+  TorqueRange integral_range{};
+  double resolution{1.0};  ///< Δx, rad per count
+  DacScale dac{};
+};
+
+/// A block of the controller (README.md): its parameters, its state, and its law from sample to sample.
+template <class Block>
+concept ControlBlock = std::constructible_from<Block, const ControllerParameters&, const ControlStart&> &&
+    requires(Block block, const Block now, const Feedback& feedback, double torque) {
+  { block.step(feedback, torque) } -> std::same_as<double>;  // the torque (N m) from that of the block before
+  block.observe(feedback);  // updates the memory at a sample at which another chain decides
+  block.pause(feedback);    // at a sample at which the torque is held
+  // The next step is to go on from this torque (N m). Gives the torque that it needs from the block before.
+  { block.take_over(torque) } -> std::same_as<double>;
+  { now.linear() } -> std::same_as<LinearChain>;  // its stages, away from its limits; none: it is transparent
+};
+
+}  // namespace zerocount::loop

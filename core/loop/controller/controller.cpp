@@ -1,0 +1,95 @@
+#include "core/loop/controller/controller.hpp"
+
+#include <limits>
+#include <utility>
+
+namespace zerocount::loop {
+ControllerParameters controller_in_phase(ControllerParameters controller, ControlPhase phase) {
+  if (!has_coarse_phase(controller)) return controller;
+  CoarsePhaseParameters coarse = std::exchange(controller.coarse, {});
+  switch (phase) {
+    case ControlPhase::fine:
+      controller.kd = 0.0;
+      break;
+    case ControlPhase::coarse:
+      controller.kp = coarse.kp;
+      controller.ki = coarse.ki;
+      controller.kd = coarse.kd;
+      controller.blocks = std::move(coarse.blocks);
+      break;
+  }
+  return controller;
+}
+
+std::optional<ControllerParameters> controller_at_standstill(ControllerParameters controller) {
+  const Standstill standstill = std::exchange(controller.blocks.standstill, {});
+  if (standstill.band < 0.0 || controller.blocks.structure != ControlStructure::pid) return std::nullopt;
+  controller.kp = standstill.kp;
+  controller.ki = standstill.ki;
+  controller.kd = standstill.kd;
+  return controller;
+}
+
+LinearChain linear_chain(const ControllerParameters& parameters, double resolution) {
+  return ControlChain(parameters, {.resolution = resolution}).linear();
+}
+
+TorqueRange integral_range(AntiWindup anti_windup, double lowest, double highest) {
+  constexpr double unbounded = std::numeric_limits<double>::infinity();
+  switch (anti_windup) {
+    case AntiWindup::clamp:
+      return {lowest, highest};
+    case AntiWindup::none:
+      break;
+  }
+  return {-unbounded, unbounded};
+}
+
+bool has_coarse_phase(const ControllerParameters& parameters) {
+  return parameters.coarse.coarse_beyond < std::numeric_limits<double>::infinity();
+}
+
+Controller::Controller(const ControllerParameters& parameters, const CountScale& counts, double integral,
+                       const DacScale& dac)
+    : two_phases_(has_coarse_phase(parameters)),
+      fine_encoder_(parameters.encoder),
+      coarse_encoder_(parameters.coarse.encoder),
+      fine_per_coarse_(counts.fine_per_coarse),
+      fine_(controller_in_phase(parameters, ControlPhase::fine),
+            {integral, integral_range(parameters.anti_windup, dac.range.lowest, dac.range.highest),
+             counts.resolution, dac}),
+      // Without two phases it is not used, and a user's law must not be started twice.
+      coarse_(two_phases_ ? controller_in_phase(parameters, ControlPhase::coarse) : ControllerParameters{},
+              {integral, integral_range(parameters.anti_windup, dac.range.lowest, dac.range.highest),
+               counts.resolution, dac}),
+      switch_(parameters.coarse, parameters.sample_rate) {}
+
+double Controller::update(std::int64_t reference, const EncoderReading& reading, double torque_in_force,
+                          const ReferenceMotion& motion, bool new_target) {
+  const auto feedback = [&](EncoderChoice encoder) -> Feedback {
+    const double count = count_of(encoder, reading);
+    return {static_cast<double>(reference) - count, count, torque_in_force, motion, new_target};
+  };
+  const Feedback fine = feedback(fine_encoder_);
+  if (!two_phases_) return fine_.step(fine);
+
+  const Feedback coarse = feedback(coarse_encoder_);
+  const bool changed = switch_.update(fine, coarse);
+  const bool in_fine = switch_.phase() == ControlPhase::fine;
+  ControlChain& deciding = in_fine ? fine_ : coarse_;
+  ControlChain& resting = in_fine ? coarse_ : fine_;
+  if (changed) deciding.take_over(torque_in_force);
+  resting.observe(in_fine ? coarse : fine);
+  return deciding.step(in_fine ? fine : coarse);
+}
+
+double Controller::integral() const {
+  return (phase() == ControlPhase::fine ? fine_ : coarse_).integral();
+}
+
+double Controller::count_of(EncoderChoice encoder, const EncoderReading& reading) const {
+  return encoder == EncoderChoice::fine ? static_cast<double>(reading.fine)
+                                        : static_cast<double>(reading.coarse) * fine_per_coarse_;
+}
+
+}  // namespace zerocount::loop

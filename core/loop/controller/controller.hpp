@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/loop/controller/control_chain.hpp"
+#include "core/loop/controller/phase_switch.hpp"
+#include "core/loop/encoder.hpp"
+#include "core/loop/parameters.hpp"
+
+namespace zerocount::loop {
+
+/// Whether the control has two phases: whether any error is beyond coarse_beyond.
+bool has_coarse_phase(const ControllerParameters& parameters);
+
+/// The gains and blocks of one phase of the control, as a control without phases. In the fine phase of a
+/// two-phase control kd counts as 0 (paper, practical issue 5).
+ControllerParameters controller_in_phase(ControllerParameters controller, ControlPhase phase);
+
+/// The controller whose gains are those at standstill; empty without them.
+std::optional<ControllerParameters> controller_at_standstill(ControllerParameters controller);
+
+/// The blocks of a control without phases, away from their limits. @param resolution Δx, rad per count.
+LinearChain linear_chain(const ControllerParameters& parameters, double resolution);
+
+/// Range to which anti-windup clamps the integral. @param lowest, highest the DAC's range, N m.
+TorqueRange integral_range(AntiWindup anti_windup, double lowest, double highest);
+
+/// Sizes of the counts of the two encoders.
+struct CountScale {
+  double fine_per_coarse{1.0};  ///< counts of the fine encoder in one of the coarse encoder
+  double resolution{1.0};       ///< Δx of the fine encoder, rad per count
+};
+
+/// The control of the count: a chain of blocks, or one for each of two phases (PhaseSwitch), each fed back
+/// from its own encoder. Errors and counts are fine ones; a coarse encoder's count is taken times
+/// fine/coarse.
+///
+/// On a change of phase at sample k the new chain sets I to the torque in force; with blocks, to the torque
+/// with which the chain gives the one in force in the steady state (ControlBlock::take_over). Its previous
+/// error and count, e_{k−1} and count_{k−1}, are those of its own encoder. Without blocks the torque
+/// therefore changes only by ki·(e_k + e_{k−1}) + kp·e_k − kd·(count_k − count_{k−1}).
+class Controller {
+ public:
+  /// @param integral I before the first sample, N m, of the phase of that sample.
+  Controller(const ControllerParameters& parameters, const CountScale& counts, double integral,
+             const DacScale& dac);
+
+  /// The wanted torque (N m) at this sample.
+  /// @param reference in counts of the fine encoder; its motion is that before it is rounded to them.
+  /// @param torque_in_force the torque decided at the last sample, N m; 0 before the first. A torque of the
+  /// DAC, hence within its range.
+  /// @param new_target the target is not that of the last update.
+  double update(std::int64_t reference, const EncoderReading& reading, double torque_in_force,
+                const ReferenceMotion& motion = {}, bool new_target = false);
+
+  ControlPhase phase() const { return switch_.phase(); }            ///< of the last sample
+  std::int64_t phase_changes() const { return switch_.changes(); }  ///< so far
+  double integral() const;                                          ///< I of the phase in force, N m
+
+ private:
+  double count_of(EncoderChoice encoder, const EncoderReading& reading) const;
+
+  bool two_phases_;
+  EncoderChoice fine_encoder_;    ///< of the fine phase
+  EncoderChoice coarse_encoder_;  ///< of the coarse phase
+  double fine_per_coarse_;
+  ControlChain fine_;    ///< of the fine phase
+  ControlChain coarse_;  ///< of the coarse phase
+  PhaseSwitch switch_;
+};
+
+}  // namespace zerocount::loop

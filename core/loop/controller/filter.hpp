@@ -1,0 +1,61 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/loop/controller/block_formulas.hpp"
+#include "core/loop/controller/control_block.hpp"
+
+namespace zerocount::loop {
+
+/// (n₂·p² + n₁·p + n₀)/(p² + 2ζ·p + 1) with p = (1 − z⁻¹)/(w·(1 + z⁻¹)), the bilinear transform of p = s/ω0.
+/// @param w tan(ω0·T/2) if prewarped at ω0, ω0·T/2 if not.
+BiquadConstants<double> bilinear(double n2, double n1, double n0, double damping, double w);
+
+/// The filter at this sample rate (Hz). With ω0 = 2π·frequency and p = s/ω0:
+///
+///   lowpass  1/(p² + 2ζ·p + 1)
+///   notch    (p² + 2ζ·depth·p + 1)/(p² + 2ζ·p + 1)
+///   lead     (1 + √ratio·p)/(1 + p/√ratio)
+///
+/// each by the bilinear transform prewarped at ω0, s = ω0/tan(ω0·T/2)·(1 − z⁻¹)/(1 + z⁻¹), so that the
+/// response at ω0 equals that of the continuous filter; `biquad` has the given coefficients. The frequency
+/// must be below half the sample rate.
+BiquadConstants<double> discretised(const Filter& filter, double sample_rate);
+
+/// The biquad at `ratio` times the sample rate to which its coefficients belong: to s by the inverse bilinear
+/// transform, and back at the new rate. Both are prewarped at the geometric mean of the natural frequencies
+/// of its zeros and its poles, so that a filter of discretised() becomes that of the new rate. Empty without
+/// such a filter in s: a pole at half the sample rate.
+std::optional<Filter> resampled(const Filter& biquad, double ratio);
+
+/// Whether both poles lie inside the unit circle (Jury's criterion).
+bool is_stable(const BiquadConstants<double>& filter);
+
+/// The filters, one after the other, on the torque of the control law. Past values are 0 at first.
+class Filters {
+ public:
+  Filters(const ControllerParameters& parameters, const ControlStart& start);
+
+  double step(const Feedback& /*now*/, double torque) {
+    for (Section& section : sections_) torque = biquad_step(section.constants, section.state, torque);
+    return torque;
+  }
+  static void observe(const Feedback& /*now*/) {}
+  static void pause(const Feedback& /*now*/) {}
+  /// Each filter continues from the steady state whose output the next one needs; one without a steady state,
+  /// or without gain there, from past values of 0.
+  double take_over(double torque);
+
+  LinearChain linear() const;
+
+ private:
+  struct Section {
+    BiquadConstants<double> constants;
+    BiquadState<double> state{0.0, 0.0};
+  };
+
+  std::vector<Section> sections_;
+};
+
+}  // namespace zerocount::loop

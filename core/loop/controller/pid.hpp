@@ -1,0 +1,103 @@
+#pragma once
+
+#include "core/loop/controller/count_difference.hpp"
+#include "core/loop/controller/integrator.hpp"
+#include "core/loop/controller/torque_hold.hpp"
+
+namespace zerocount::loop {
+
+struct PidGains {
+  double kp{0.0};  ///< N m/count
+  double ki{0.0};  ///< of the trapezoidal rule, N m/count
+  double kd{0.0};  ///< on the difference of successive counts, N m/count
+};
+
+inline StandstillConstants<double> standstill_constants(const Standstill& standstill, double sample_rate) {
+  return {standstill.band, dwell_samples(standstill.dwell, sample_rate), standstill.kp, standstill.ki,
+          standstill.kd};
+}
+
+/// The PID law with the trapezoidal integral:
+///
+///   I ← I + ki·(e_k + e_{k−1}),   u = I + kp·e_k − kd·d_k;
+///
+///   U(z) = [kp + ki·(1 + z⁻¹)/(1 − z⁻¹)]·E(z) − kd·D(z),
+///
+/// with e′ of the dead zone (acting_error) in place of e, the conditions on I and its leak by Integrator, and
+/// d the difference of successive counts by CountDifference. Before the first sample e was 0. Where the axis
+/// stands still (stands_still) the gains are those of Standstill, and I goes on.
+class Pid {
+ public:
+  Pid(const ControllerParameters& parameters, const ControlStart& start)
+      : Pid({parameters.kp, parameters.ki, parameters.kd},
+            Integrator(integral_constants(parameters.blocks, parameters.sample_rate, start.integral_range),
+                       start.integral),
+            CountDifference(derivative_pole(parameters.blocks, parameters.sample_rate))) {
+    deadband_ = error_deadband_constants(parameters.blocks.error_deadband);
+    standstill_ = standstill_constants(parameters.blocks.standstill, parameters.sample_rate);
+  }
+
+  /// The law without blocks.
+  /// @param integral I before the first sample, N m.
+  /// @param range what I is clamped to whenever it is changed by an error.
+  Pid(const PidGains& gains, double integral, const TorqueRange& range)
+      : Pid(gains, Integrator(integral_constants({}, 1.0, range), integral), CountDifference(0.0)) {}
+
+  double step(const Feedback& now, double /*torque*/ = 0.0) {
+    const double d = difference_.step(now.count);
+    const double error = acting_error(deadband_, now.error);
+    const PidGains gains = gains_at(now);
+    const double integral = integral_.add(now.error, gains.ki * (error + last_error_));
+    last_error_ = error;
+    return pid_torque(integral, gains.kp, error, gains.kd, d);
+  }
+
+  void observe(const Feedback& now) {
+    difference_.step(now.count);
+    integral_.observe(now.error);
+    last_error_ = acting_error(deadband_, now.error);
+    run_ = 0.0;
+  }
+
+  void pause(const Feedback& now) {
+    difference_.pass(now.count);
+    last_error_ = acting_error(deadband_, now.error);
+    gains_at(now);
+  }
+
+  /// I := torque. @returns 0, because the law is the first block.
+  double take_over(double torque) {
+    integral_.set(torque);
+    return 0.0;
+  }
+
+  /// Without the parts that have no gain: an integral with ki = 0 would be a constant state.
+  LinearChain linear() const {
+    LinearBlock block{{LoopSignal::error, {{gains_.kp}}}};
+    if (gains_.ki != 0.0) block.push_back({LoopSignal::error, integral_.trapezoid(gains_.ki)});
+    if (gains_.kd != 0.0) block.push_back({LoopSignal::count, difference_.transfer(-gains_.kd)});
+    return {block};
+  }
+
+  double integral() const { return integral_.value(); }  ///< I, N m
+
+ private:
+  Pid(const PidGains& gains, const Integrator& integral, const CountDifference& difference)
+      : gains_(gains), integral_(integral), difference_(difference) {}
+
+  /// The gains at this sample.
+  PidGains gains_at(const Feedback& now) {
+    const bool stands = stands_still(standstill_, run_, now.new_target ? 1.0 : 0.0, now.error);
+    return stands ? PidGains{standstill_.kp, standstill_.ki, standstill_.kd} : gains_;
+  }
+
+  PidGains gains_;
+  ErrorDeadbandConstants<double> deadband_{-1.0, 0.0};
+  StandstillConstants<double> standstill_{-1.0, 1.0, 0.0, 0.0, 0.0};
+  double run_{0.0};  // of samples_within(standstill_.band)
+  Integrator integral_;
+  CountDifference difference_;
+  double last_error_{0.0};
+};
+
+}  // namespace zerocount::loop

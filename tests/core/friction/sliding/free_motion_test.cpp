@@ -1,0 +1,170 @@
+// A rotor on an air bearing, against the textbook's solution in a hundred digits.
+#include "core/friction/sliding/free_motion.hpp"
+
+#include <cmath>
+#include <random>
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <gtest/gtest.h>
+
+#include "core/plant/plant.hpp"
+
+namespace zerocount::friction {
+namespace {
+
+using Digits = boost::multiprecision::cpp_bin_float_100;
+
+constexpr motion::MotionTolerance tolerance{4e-16};
+
+struct Push {
+  motion::PlantParameters plant;
+  FreeMotion start;
+  motion::TorqueCourse torque;
+  double duration;
+};
+
+/// Dampings from none to overwhelming, amplifiers from slower than the rotor to instantaneous, and both of
+/// one rate, where the textbook divides by zero.
+class RandomPushes {
+ public:
+  Push next() {
+    Push push;
+    push.plant.inertia = log_uniform(1e-5, 1e2);
+    const double duration = log_uniform(1e-6, 1.0);
+    push.duration = duration;
+    push.plant.presliding_damping =
+        chance(0.2) ? 0.0 : push.plant.inertia / duration * log_uniform(1e-12, 1e4);
+    push.start = {uniform(-1e-3, 1e-3), uniform(-1.0, 1.0)};
+    const double rate = push.plant.presliding_damping / push.plant.inertia;
+    const double any = log_uniform(1e-12, 1e9) / duration;
+    push.torque = {uniform(-0.3, 0.3), uniform(-0.3, 0.3), chance(0.2) ? 0.0 : chance(0.2) ? rate : any};
+    if (chance(0.2)) push.torque.rate = rate * (1.0 + log_uniform(1e-16, 1e-3));
+    return push;
+  }
+
+  double uniform(double low, double high) { return low + (high - low) * unit_(engine_); }
+
+ private:
+  double log_uniform(double low, double high) { return low * std::pow(high / low, unit_(engine_)); }
+  bool chance(double probability) { return unit_(engine_) < probability; }
+
+  std::mt19937_64 engine_{7};
+  std::uniform_real_distribution<double> unit_{0.0, 1.0};
+};
+
+/// ω and θ by the inverse Laplace transform, with what would divide by zero moved by 1e-30: far below what a
+/// double shows, far above the rounding of a hundred digits.
+struct Textbook {
+  Digits theta;
+  Digits omega;
+};
+
+Textbook textbook(const Push& push) {
+  const Digits hair("1e-30");
+  const Digits J = push.plant.inertia;
+  const Digits t = push.duration;
+  const Digits a = Digits(push.plant.presliding_damping) / J + hair;
+  Digits r = Digits(push.torque.rate) + 3 * hair;
+  const Digits U = push.torque.settled;
+  Digits lag = (Digits(push.torque.now) - U) / J;
+  if (push.torque.rate == 0.0) r = 3 * hair;
+  const Digits slow = exp(-a * t);
+  const Digits fast = exp(-r * t);
+  const Digits w0 = push.start.omega;
+  Textbook end;
+  const Digits settled = push.torque.rate == 0.0 ? Digits(push.torque.now) / J : U / J;
+  if (push.torque.rate == 0.0) lag = 0;
+  end.omega = w0 * slow + settled / a * (1 - slow) + lag * (slow - fast) / (r - a);
+  end.theta = push.start.theta + w0 * (1 - slow) / a + settled / a * (t - (1 - slow) / a) +
+              lag / (r - a) * ((1 - slow) / a - (1 - fast) / r);
+  return end;
+}
+
+TEST(FreeMotion, IsThatOfTheTextbook) {
+  RandomPushes pushes;
+  for (int i = 0; i < 4000; ++i) {
+    const Push push = pushes.next();
+    const FreeMotion end = free_motion(push.plant, push.start, push.torque, push.duration);
+    const Textbook exact = textbook(push);
+    // What the terms add up to at most: theirs is the rounding.
+    const double speed =
+        std::abs(push.start.omega) +
+        (std::abs(push.torque.now) + std::abs(push.torque.settled)) / push.plant.inertia * push.duration;
+    ASSERT_NEAR(end.omega, static_cast<double>(exact.omega), 1e-14 * speed) << i;
+    ASSERT_NEAR(end.theta, static_cast<double>(exact.theta),
+                1e-14 * speed * push.duration + 3e-16 * std::abs(push.start.theta))
+        << i;
+  }
+}
+
+FrictionAlongRotor no_friction() {
+  FrictionAlongRotor friction;
+  friction.model = FrictionModel::none;
+  return friction;
+}
+
+// What a contact would begin with is not there.
+TEST(FreePlant, HasNoContact) {
+  RandomPushes pushes;
+  motion::PlantStart start;
+  start.hardening = 1e-5;
+  start.preload = 0.1;
+  start.history = {0.2, -0.1};
+  plant::Plant plant({}, no_friction(), start, tolerance);
+  for (int k = 0; k < 100; ++k) {
+    EXPECT_TRUE(plant.sliding());
+    EXPECT_EQ(plant.read().creep.extension, 0.0);
+    EXPECT_EQ(plant.read().creep.hardening, 0.0);
+    EXPECT_EQ(plant.read().depth, 0);
+    plant.advance(pushes.next().torque, 5e-4);
+  }
+  EXPECT_EQ(plant.breakaways(), 0);
+  EXPECT_EQ(plant.breakaway(), Breakaway::never);
+  EXPECT_TRUE(plant.finite());
+}
+
+TEST(FreePlant, MovesAsItWouldInTwoParts) {
+  RandomPushes pushes;
+  for (int i = 0; i < 1000; ++i) {
+    const Push push = pushes.next();
+    const motion::PlantStart start{.velocity = push.start.omega};
+    const double first = push.duration * pushes.uniform(0.0, 1.0);
+    plant::Plant whole(push.plant, no_friction(), start, tolerance);
+    plant::Plant parts(push.plant, no_friction(), start, tolerance);
+    whole.advance(push.torque, push.duration);
+    parts.advance(push.torque, first);
+    parts.advance(motion::course_after(push.torque, first), push.duration - first);
+    const double speed = std::abs(push.start.omega) + 0.6 / push.plant.inertia * push.duration;
+    ASSERT_NEAR(parts.omega(), whole.omega(), 1e-13 * speed);
+    ASSERT_NEAR(parts.theta(), whole.theta(), 1e-13 * speed * push.duration);
+  }
+}
+
+TEST(FreePlant, OppositeTorqueGivesTheOppositeMotionBitForBit) {
+  RandomPushes pushes;
+  plant::Plant plant({}, no_friction(), {.velocity = 0.1}, tolerance);
+  plant::Plant mirror({}, no_friction(), {.velocity = -0.1}, tolerance);
+  for (int k = 0; k < 1000; ++k) {
+    const motion::TorqueCourse course = pushes.next().torque;
+    plant.advance(course, 5e-4);
+    mirror.advance({-course.now, -course.settled, course.rate}, 5e-4);
+    ASSERT_EQ(plant.theta(), -mirror.theta()) << k;
+    ASSERT_EQ(plant.omega(), -mirror.omega()) << k;
+  }
+}
+
+// Without damping nothing is lost: the work of the torque is the kinetic energy.
+TEST(FreePlant, WithoutDampingKeepsItsEnergy) {
+  motion::PlantParameters rotor;
+  rotor.presliding_damping = 0.0;
+  plant::Plant plant(rotor, no_friction(), {.velocity = 2.0}, tolerance);
+  plant.advance(motion::constant_torque(0.0), 10.0);
+  EXPECT_EQ(plant.omega(), 2.0);
+  EXPECT_DOUBLE_EQ(plant.theta(), 20.0);
+  plant.advance(motion::constant_torque(-0.1), 0.02);
+  const double work = -0.1 * (plant.theta() - 20.0);
+  EXPECT_NEAR(0.5 * rotor.inertia * (plant.omega() * plant.omega() - 4.0), work, 1e-14);
+}
+
+}  // namespace
+}  // namespace zerocount::friction

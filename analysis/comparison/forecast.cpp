@@ -11,6 +11,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "analysis/statistics/normal.hpp"
+#include "analysis/statistics/quantile.hpp"
 #include "core/random/random_numbers.hpp"
 #include "core/random/variates.hpp"
 
@@ -210,15 +211,6 @@ struct Chances {
   std::vector<double> margins;  ///< [measure] decided with the stated probability
 };
 
-/// The value that a proportion `probability` of `values` do not exceed.
-double quantile_of(std::vector<double> values, double probability) {
-  const auto rank =
-      static_cast<std::ptrdiff_t>(std::ceil(probability * static_cast<double>(values.size()))) - 1;
-  const auto place = values.begin() + std::max<std::ptrdiff_t>(0, rank);
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
-
 /// The proportions among simulated comparisons, [simulation][assumption], under one assumption.
 Chances chances_under(const std::vector<std::vector<SimulatedComparison>>& outcomes, std::size_t assumption,
                       double probability) {
@@ -236,7 +228,7 @@ Chances chances_under(const std::vector<std::vector<SimulatedComparison>>& outco
     std::vector<double> margins;
     margins.reserve(outcomes.size());
     for (const auto& simulation : outcomes) margins.push_back(simulation[assumption].margins[k]);
-    chances.margins.push_back(quantile_of(std::move(margins), probability));
+    chances.margins.push_back(statistics::sample_quantile(std::move(margins), probability));
   }
   return chances;
 }

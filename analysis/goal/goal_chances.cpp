@@ -8,26 +8,11 @@
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/rig_proportion.hpp"
+#include "core/numerics/bisection.hpp"
 
 namespace zerocount::goal {
-namespace {
 
-/// The first of 0 … n at which `holds`, which stays true from there on; n + 1 if there is none.
-template <class Holds>
-std::int64_t first_of(std::int64_t n, const Holds& holds) {
-  std::int64_t low = 0, high = n + 1;
-  while (low < high) {
-    const std::int64_t middle = low + (high - low) / 2;
-    if (holds(middle)) {
-      high = middle;
-    } else {
-      low = middle + 1;
-    }
-  }
-  return low;
-}
-
-}  // namespace
+using numerics::first_where;
 
 ObservedWorld::ObservedWorld(const study::Goal& goal, measures::MoveCounts counts, std::size_t points)
     : goal_(goal),
@@ -88,9 +73,10 @@ Chances ObservedWorld::of_moves(const PlannedSize& planned) const {
         .moves = n, .met = hits, .of_trials = {n, hits, n, k, k, static_cast<double>(n)}, .rigs = {}};
     return judge_goal(goal_, counts, points_).status;
   };
-  const std::int64_t met = first_of(n, [&](std::int64_t hits) { return status(hits) == Status::met; });
+  const std::int64_t met =
+      first_where(0, n + 1, [&](std::int64_t hits) { return status(hits) == Status::met; });
   const std::int64_t not_missed =
-      first_of(n, [&](std::int64_t hits) { return status(hits) != Status::missed; });
+      first_where(0, n + 1, [&](std::int64_t hits) { return status(hits) != Status::missed; });
   return {chance_of_at_least(of_all_moves_, n, met), 1.0 - chance_of_at_least(of_all_moves_, n, not_missed)};
 }
 
@@ -115,10 +101,10 @@ Chances ObservedWorld::of_machines(const PlannedSize& planned) {
   const std::int64_t rigs = planned.units;
   const statistics::RigThresholds thresholds =
       statistics::rig_thresholds(rig, rigs, goal_.moves, *goal_.machines, confidence_);
-  const std::int64_t met = first_of(rigs, [&](std::int64_t passing) {
+  const std::int64_t met = first_where(0, rigs + 1, [&](std::int64_t passing) {
     return statistics::rigs_at_least(thresholds, passing, rigs, confidence_) >= *goal_.machines;
   });
-  const std::int64_t not_missed = first_of(rigs, [&](std::int64_t passing) {
+  const std::int64_t not_missed = first_where(0, rigs + 1, [&](std::int64_t passing) {
     return statistics::rigs_at_most(thresholds, passing, rigs, confidence_) >= *goal_.machines;
   });
   const auto chance = [&](std::int64_t threshold, std::int64_t passing) {

@@ -6,6 +6,7 @@
 
 #include "analysis/goal/goal_chances.hpp"
 #include "analysis/goal/goal_verdict.hpp"
+#include "core/numerics/bisection.hpp"
 
 namespace zerocount::goal {
 namespace {
@@ -51,21 +52,8 @@ measures::MoveCounts rigs_like(std::vector<statistics::RigMoves> sorted, std::in
 /// there on; 0 if there is none.
 template <class Decides>
 std::int64_t smallest(std::int64_t low, std::int64_t high, const Decides& decides) {
-  std::int64_t decided = low;
-  while (!decides(decided)) {
-    low = decided + 1;
-    if (decided > high / 2) return 0;
-    decided *= 2;
-  }
-  while (low < decided) {
-    const std::int64_t middle = low + (decided - low) / 2;
-    if (decides(middle)) {
-      decided = middle;
-    } else {
-      low = middle + 1;
-    }
-  }
-  return decided;
+  const std::int64_t found = numerics::first_where_by_doubling(low, high + 1, decides);
+  return found <= high ? found : 0;
 }
 
 constexpr std::int64_t max_more_trials = 1024;  ///< times the trials of a rig that are observed

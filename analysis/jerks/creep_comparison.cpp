@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "analysis/statistics/quantile.hpp"
 #include "core/friction/presliding/creep.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/loop/measurement.hpp"
@@ -157,9 +158,8 @@ CreepAgreement agreement_of(const CreepComparison& comparison, double sample_tim
     }
   }
   if (deviations.empty()) return agreement;
-  std::sort(deviations.begin(), deviations.end());
-  agreement.median_deviation = deviations[(deviations.size() - 1) / 2];
-  agreement.largest_deviation = deviations.back();
+  agreement.largest_deviation = std::ranges::max(deviations);
+  agreement.median_deviation = statistics::sample_quantile(std::move(deviations), 0.5);
   return agreement;
 }
 

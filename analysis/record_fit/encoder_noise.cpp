@@ -7,10 +7,9 @@
 #include <numbers>
 #include <optional>
 
-#include <boost/math/tools/roots.hpp>
-
 #include "analysis/record_fit/residual_checks.hpp"
 #include "analysis/statistics/quantile.hpp"
+#include "core/numerics/bisection.hpp"
 
 namespace zerocount::record_fit {
 namespace {
@@ -132,11 +131,12 @@ double counting_noise(const TestRecord& record, const Eigen::VectorXd& path,
   if (-excess(0.0) < by_chance || observed - noiseless < by_chance) return 0.0;
   constexpr double max_noise = 100.0;
   if (excess(max_noise) <= 0.0) return max_noise;
-  constexpr int bits = 20;
-  std::uintmax_t steps = 60;
-  const auto bracket = boost::math::tools::bisect(excess, 0.0, max_noise,
-                                                  boost::math::tools::eps_tolerance<double>(bits), steps);
-  return 0.5 * (bracket.first + bracket.second);
+  const auto is_less = [&](double noise) { return excess(noise) < 0.0; };
+  const auto narrow = [](const numerics::Bracket& noise) {
+    return noise.fails - noise.holds <= 0x1p-19 * noise.holds;
+  };
+  const auto [less, more] = numerics::bisect({0.0, max_noise}, is_less, narrow);
+  return 0.5 * (less + more);
 }
 
 namespace {

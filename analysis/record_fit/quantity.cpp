@@ -4,19 +4,9 @@
 #include <cmath>
 #include <vector>
 
+#include "analysis/statistics/quantile.hpp"
+
 namespace zerocount::record_fit {
-namespace {
-
-/// Quantile of the errors, interpolated between order statistics.
-double quantile_of(std::vector<double>& errors, double probability) {
-  std::sort(errors.begin(), errors.end());
-  const double rank = probability * static_cast<double>(errors.size() + 1) - 1.0;
-  const auto below = static_cast<std::size_t>(std::clamp(rank, 0.0, static_cast<double>(errors.size() - 2)));
-  const double between = std::clamp(rank - static_cast<double>(below), 0.0, 1.0);
-  return errors[below] + between * (errors[below + 1] - errors[below]);
-}
-
-}  // namespace
 
 Quantity coordinate_quantity(const std::string& name, const std::string& key, const std::string& unit,
                              const Point& point, Eigen::Index coordinate) {
@@ -37,12 +27,13 @@ QuantityEstimate interval_of_errors(const Quantity& quantity, const Eigen::Matri
   const double mean = own.mean();
   const Eigen::VectorXd wide = (mean + widening * (own.array() - mean)).matrix();
   std::vector<double> sorted(wide.data(), wide.data() + wide.size());
+  std::sort(sorted.begin(), sorted.end());
   QuantityEstimate estimate;
   estimate.value = quantity.value - mean;
   estimate.standard_error =
       std::sqrt((wide.array() - mean).square().sum() / static_cast<double>(wide.size() - 1));
-  estimate.low = quantity.value - quantile_of(sorted, 0.975);
-  estimate.high = quantity.value - quantile_of(sorted, 0.025);
+  estimate.low = quantity.value - statistics::interpolated_quantile(sorted, 0.975);
+  estimate.high = quantity.value - statistics::interpolated_quantile(sorted, 0.025);
   return estimate;
 }
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "analysis/records/raw_series.hpp"
-#include "analysis/statistics/quantile.hpp"
 #include "core/failure/failure.hpp"
+#include "core/numerics/bisection.hpp"
 #include "core/trial/random_history.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
@@ -16,8 +16,8 @@ namespace {
 /// Index of the first sample of global row `row` in the trace, which is ordered by trial; the size of the
 /// trace if there is none.
 std::int64_t first_record(const reading::StudyFile& file, std::int64_t row) {
-  return statistics::first_where(0, file.trace_count(),
-                                 [&](std::int64_t at) { return file.trace_at(at, 1).front().trial >= row; });
+  return numerics::first_where(0, file.trace_count(),
+                               [&](std::int64_t at) { return file.trace_at(at, 1).front().trial >= row; });
 }
 
 std::vector<layout::TraceRecord> records_of(const reading::StudyFile& file, std::int64_t row) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "core/numerics/bisection.hpp"
 #include "core/numerics/elementary_functions.hpp"
 
 namespace zerocount::statistics {
@@ -66,12 +67,11 @@ double capital_below(const Sample& sample, double mean) {
 
 /// The place between `rejected` and `kept` where `is_rejected` changes, to 1e-6 of it. Both are positive.
 double boundary(double rejected, double kept, const std::function<bool(double)>& is_rejected) {
-  while (std::abs(kept - rejected) > 1e-6 * kept) {
-    const double middle = std::sqrt(rejected) * std::sqrt(kept);
-    if (middle == rejected || middle == kept) break;
-    (is_rejected(middle) ? rejected : kept) = middle;
-  }
-  return kept;
+  const auto narrow = [](const numerics::Bracket& bracket) {
+    return !(std::abs(bracket.fails - bracket.holds) > 1e-6 * bracket.fails);
+  };
+  const auto mean = [](double a, double b) { return std::sqrt(a) * std::sqrt(b); };  // a·b may underflow
+  return numerics::bisect({rejected, kept}, is_rejected, narrow, mean).fails;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "analysis/statistics/normal.hpp"
+#include "core/numerics/bisection.hpp"
 
 namespace zerocount::statistics {
 namespace {
@@ -133,13 +134,10 @@ std::optional<Measurement> measured_proportion(double value, double n, const Con
 }
 
 double change_threshold(double probability) {
-  double low = 1.5;  // from here on the probability falls
-  double high = 30.0;
-  for (int i = 0; i < 50; ++i) {
-    const double middle = 0.5 * (low + high);
-    (false_alarm_probability(middle) > probability ? low : high) = middle;
-  }
-  return high;
+  constexpr double low = 1.5;  // from here on the probability falls
+  constexpr double high = 30.0;
+  const auto keeps = [&](double threshold) { return !(false_alarm_probability(threshold) > probability); };
+  return numerics::bisect({high, low}, keeps, numerics::after_halvings(50)).holds;
 }
 
 std::vector<LevelChange> level_changes(MeasurementKind kind, std::span<const Measurement> measurements,

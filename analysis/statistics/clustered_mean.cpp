@@ -9,6 +9,7 @@
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/mean_bounds.hpp"
 #include "analysis/statistics/normal.hpp"
+#include "analysis/statistics/quantile.hpp"
 #include "analysis/statistics/unknown.hpp"
 
 namespace zerocount::statistics {
@@ -84,18 +85,6 @@ std::vector<double> studentised_means(const Clusters& totals, double mean, const
   return result;
 }
 
-/// Interpolates linearly between order statistics (definition 6 of Hyndman and Fan 1996).
-double sorted_quantile(const std::vector<double>& sorted, double probability) {
-  const double place = probability * static_cast<double>(sorted.size() + 1) - 1.0;
-  if (place <= 0.0) return sorted.front();
-  const auto below = static_cast<std::size_t>(place);
-  if (below + 1 >= sorted.size()) return sorted.back();
-  if (std::isinf(sorted[below]) || std::isinf(sorted[below + 1])) {
-    return std::abs(sorted[below]) > std::abs(sorted[below + 1]) ? sorted[below] : sorted[below + 1];
-  }
-  return sorted[below] + (place - static_cast<double>(below)) * (sorted[below + 1] - sorted[below]);
-}
-
 std::int64_t number_of_positive(const std::vector<double>& values) {
   return std::count_if(values.begin(), values.end(), [](double value) { return value > 0.0; });
 }
@@ -131,8 +120,8 @@ ConfidenceInterval mean_bounds(const Clusters& totals, const random::RandomStrea
   if (studentised.empty()) return none;
   const double tail = 0.5 * (1.0 - confidence);
   const double t = student_limit(clusters - 1.0, confidence);
-  const double above = std::max(t, sorted_quantile(studentised, 1.0 - tail));
-  const double below = std::min(-t, sorted_quantile(studentised, tail));
+  const double above = std::max(t, interpolated_quantile(studentised, 1.0 - tail));
+  const double below = std::min(-t, interpolated_quantile(studentised, tail));
   return {finite_or_unknown(estimate.mean - above * estimate.error),
           finite_or_unknown(estimate.mean - below * estimate.error)};
 }

@@ -6,6 +6,8 @@
 #include <boost/math/special_functions/gamma.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 
+#include "core/numerics/bisection.hpp"
+
 namespace zerocount::statistics {
 namespace {
 
@@ -64,17 +66,7 @@ std::int64_t projected_trials(std::int64_t successes, std::int64_t trials, doubl
     return 0.5 * (bounds.high - bounds.low) <= halfwidth;
   };
   const std::int64_t max_blocks = (max_trials + block - 1) / block;
-  std::int64_t wide = 0;
-  std::int64_t enough = 1;
-  while (enough < max_blocks && !narrow(enough)) {
-    wide = enough;
-    enough = std::min(2 * enough, max_blocks);
-  }
-  while (enough - wide > 1) {
-    const std::int64_t middle = wide + (enough - wide) / 2;
-    (narrow(middle) ? enough : wide) = middle;
-  }
-  return std::min(enough * block, max_trials);
+  return std::min(numerics::first_where_by_doubling(1, max_blocks, narrow) * block, max_trials);
 }
 
 }  // namespace zerocount::statistics

@@ -1,29 +1,14 @@
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
 #include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "analysis/statistics/histogram.hpp"
 #include "analysis/statistics/proportion.hpp"
 
 namespace zerocount::statistics {
-
-/// The smallest number from `low` on, below `end`, for which `holds`, by bisection; `end` if there is none.
-/// `holds` must be monotonic: false, then true.
-template <typename Predicate>
-std::int64_t first_where(std::int64_t low, std::int64_t end, const Predicate& holds) {
-  while (low < end) {
-    const std::int64_t middle = low + (end - low) / 2;
-    if (holds(middle)) {
-      end = middle;
-    } else {
-      low = middle + 1;
-    }
-  }
-  return end;
-}
 
 /// Rank of the sample quantile: ⌈n·p⌉, at least 1; 0 if n is 0. `probability` p in (0, 1).
 ///
@@ -53,9 +38,9 @@ struct Quantile {
 };
 
 /// The sample quantile by the inverse of the empirical distribution function: the smallest observation x such
-/// that a proportion of at least p of the observations is ≤ x (definition 1 of Hyndman and Fan 1996; numpy's
-/// method "inverted_cdf"). It is always one of the observations, so a settling time stays a whole number of
-/// samples.
+/// that a proportion of at least p of the observations is ≤ x (definition 1 of Hyndman and Fan, Amer.
+/// Statist. 50 (1996) 361; numpy's method "inverted_cdf"). It is always one of the observations, so a
+/// settling time stays a whole number of samples.
 template <typename Value>
 Quantile quantile(const Histogram<Value>& histogram, double probability,
                   double confidence = summary_confidence) {
@@ -64,11 +49,21 @@ Quantile quantile(const Histogram<Value>& histogram, double probability,
           order_statistic(histogram, bounds.low), order_statistic(histogram, bounds.high)};
 }
 
+/// The value of rank 1 … n of n values.
+double order_statistic(std::vector<double> values, std::int64_t rank);
+
+/// The sample quantile by the same definition, of n ≥ 1 values in any order.
+double sample_quantile(std::vector<double> values, double probability);
+
+/// The sample quantile of n ≥ 1 sorted values that is interpolated linearly between the order statistics with
+/// the ranks on either side of p·(n + 1) (definition 6 of Hyndman and Fan): for errors in resamples, of which
+/// the order statistics have the mean probability k/(n + 1). Beside an infinite value the farther one.
+double interpolated_quantile(std::span<const double> sorted, double probability);
+
 /// The upper median: the value of rank ⌊n/2⌋ + 1 of n ≥ 1 values.
 inline double upper_median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  const std::int64_t rank = std::ssize(values) / 2 + 1;
+  return order_statistic(std::move(values), rank);
 }
 
 }  // namespace zerocount::statistics

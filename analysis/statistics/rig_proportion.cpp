@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/statistics/distributions.hpp"
+#include "core/numerics/bisection.hpp"
 
 namespace zerocount::statistics {
 namespace {
@@ -38,21 +39,6 @@ double false_fail(const MovesOfRig& rig, std::int64_t met) {
   return binomial_cdf(rig.moves, rig.q, met - 1);
 }
 
-/// The first of 0 … n for which `holds`, which stays true from there on; n if there is none.
-template <class Holds>
-std::int64_t first_where(std::int64_t n, const Holds& holds) {
-  std::int64_t low = 0, high = n;
-  while (low < high) {
-    const std::int64_t middle = low + (high - low) / 2;
-    if (holds(middle)) {
-      high = middle;
-    } else {
-      low = middle + 1;
-    }
-  }
-  return low;
-}
-
 std::int64_t passing(std::span<const RigMoves> rigs, std::int64_t met) {
   return std::count_if(rigs.begin(), rigs.end(), [met](const RigMoves& rig) { return rig.met >= met; });
 }
@@ -72,10 +58,10 @@ RigThresholds rig_thresholds(const RigMoves& rig, std::int64_t rigs, double prop
   const double allowed_pass = (proportion_at_least(rigs, rigs, confidence) - wanted) / (2.0 * (1.0 - wanted));
   const double allowed_fail = 0.5 * (1.0 - wanted);
   RigThresholds thresholds;
-  thresholds.low =
-      first_where(rig.moves, [&](std::int64_t met) { return false_pass(moves, met) <= allowed_pass; });
-  const std::int64_t beyond =
-      first_where(rig.moves + 1, [&](std::int64_t met) { return false_fail(moves, met) > allowed_fail; });
+  thresholds.low = numerics::first_where(
+      0, rig.moves, [&](std::int64_t met) { return false_pass(moves, met) <= allowed_pass; });
+  const std::int64_t beyond = numerics::first_where(
+      0, rig.moves + 1, [&](std::int64_t met) { return false_fail(moves, met) > allowed_fail; });
   thresholds.high = std::max<std::int64_t>(beyond - 1, 0);
   thresholds.false_pass = false_pass(moves, thresholds.low);
   thresholds.false_fail = false_fail(moves, thresholds.high);

@@ -8,10 +8,10 @@
 
 #include "analysis/statistics/confidence_sequence.hpp"
 #include "analysis/statistics/proportion.hpp"
-#include "analysis/statistics/quantile.hpp"
 #include "analysis/statistics/rig_statistics.hpp"
 #include "analysis/text/percent.hpp"
 #include "core/failure/failure.hpp"
+#include "core/numerics/bisection.hpp"
 
 namespace zerocount::statistics {
 namespace {
@@ -20,27 +20,23 @@ constexpr std::int64_t max_planned_trials = 1'000'000'000'000;
 constexpr std::int64_t max_failures = 1'000'000'000;
 constexpr std::int64_t max_rigs = 1'000'000'000;
 
-[[noreturn]] void too_many(const char* what) {
-  throw Failure(ExitCode::bad_input,
-                fmt::format("{} would need more than {} trials", what, max_planned_trials));
-}
-
 void require_halfwidth(double halfwidth) {
   if (halfwidth > 0.0 && halfwidth < 0.5) return;
   throw Failure(ExitCode::bad_input,
                 fmt::format("a half-width of {}; expected a number between 0 and 0.5", halfwidth));
 }
 
-/// The smallest number from `low` on with holds(number). `holds` must be monotonic: false, then true.
+/// The smallest number from `low` on, up to `limit`, for which `holds`: false, then true.
+/// @throws Failure (bad_input) if there is none
 template <typename Predicate>
-std::int64_t least(std::int64_t low, std::int64_t limit, const char* what, const Predicate& holds) {
-  std::int64_t high = std::max<std::int64_t>(low, 1);
-  while (!holds(high)) {
-    if (high >= limit) too_many(what);
-    low = high + 1;
-    high = std::min(limit, 2 * high);
-  }
-  return first_where(low, high, holds);
+std::int64_t least(std::int64_t low, std::int64_t limit, const std::string& refusal, const Predicate& holds) {
+  const std::int64_t found = numerics::first_where_by_doubling(low, limit + 1, holds);
+  if (found > limit) throw Failure(ExitCode::bad_input, refusal);
+  return found;
+}
+
+std::string too_many_trials(const char* what) {
+  return fmt::format("{} would need more than {} trials", what, max_planned_trials);
 }
 
 /// Half the length of the Clopper–Pearson interval of n·rate successes of n, as a continuous function of n.
@@ -80,7 +76,7 @@ std::int64_t trials_for_claim(double success, double confidence, std::int64_t fa
   require_confidence(confidence);
   if (failures < 0)
     throw Failure(ExitCode::bad_input, fmt::format("{} failures; expected 0 or more", failures));
-  return least(failures + 1, max_planned_trials, "the claim", [&](std::int64_t trials) {
+  return least(failures + 1, max_planned_trials, too_many_trials("the claim"), [&](std::int64_t trials) {
     return chance_of_claim(trials, failures, success) <= 1.0 - confidence;
   });
 }
@@ -103,9 +99,11 @@ ClaimPlan plan_with_power(double success, double confidence, double true_success
                     "trials would show it",
                     true_success, success));
   }
-  const std::int64_t failures = least(0, max_failures, "the power", [&](std::int64_t allowed) {
-    return chance_of_claim(trials_for_claim(success, confidence, allowed), allowed, true_success) >= power;
-  });
+  const std::int64_t failures =
+      least(0, max_failures, too_many_trials("the power"), [&](std::int64_t allowed) {
+        return chance_of_claim(trials_for_claim(success, confidence, allowed), allowed, true_success) >=
+               power;
+      });
   return {failures, trials_for_claim(success, confidence, failures)};
 }
 
@@ -113,7 +111,7 @@ std::int64_t trials_for_halfwidth(double halfwidth, double confidence, double ra
   require_halfwidth(halfwidth);
   require_confidence(confidence);
   require_open_unit("success rate", rate);
-  return least(1, max_planned_trials, "the half-width", [&](std::int64_t trials) {
+  return least(1, max_planned_trials, too_many_trials("the half-width"), [&](std::int64_t trials) {
     return halfwidth_of(static_cast<double>(trials), rate, confidence) <= halfwidth;
   });
 }
@@ -130,24 +128,10 @@ std::int64_t rigs_for_halfwidth(double halfwidth, double confidence, double rate
                     "to {:.4g}",
                     rig_sd, rate, std::sqrt(rate * (1.0 - rate))));
   }
-  const auto narrow = [&](std::int64_t rigs) {
+  const std::string refusal = fmt::format("the half-width would need more than {} rigs", max_rigs);
+  return least(2, max_rigs, refusal, [&](std::int64_t rigs) {
     return halfwidth_of(rate, rig_sd, rigs, trials_per_rig, confidence) <= halfwidth;
-  };
-  std::int64_t few = 1;
-  std::int64_t enough = 2;
-  while (!narrow(enough)) {
-    few = enough;
-    enough *= 2;
-    if (enough > max_rigs) {
-      throw Failure(ExitCode::bad_input,
-                    fmt::format("the half-width would need more than {} rigs", max_rigs));
-    }
-  }
-  while (enough - few > 1) {
-    const std::int64_t middle = few + (enough - few) / 2;
-    (narrow(middle) ? enough : few) = middle;
-  }
-  return enough;
+  });
 }
 
 SequentialCost sequential_cost(double halfwidth, double confidence, double rate, std::int64_t block) {

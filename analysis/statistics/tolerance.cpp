@@ -11,12 +11,13 @@
 #include "analysis/statistics/unknown.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
+#include "core/numerics/bisection.hpp"
 
 namespace zerocount::statistics {
 std::int64_t tolerance_rank(std::int64_t observations, double content, double confidence) {
   require_confidence(confidence);
   require_open_unit("content", content);
-  return first_where(1, observations + 1, [&](std::int64_t rank) {
+  return numerics::first_where(1, observations + 1, [&](std::int64_t rank) {
     return binomial_cdf(observations, content, rank - 1) >= confidence;
   });
 }

@@ -7,6 +7,7 @@
 
 #include "analysis/statistics/spread_over.hpp"
 #include "analysis/theory/theory_prediction.hpp"
+#include "core/numerics/bisection.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/study.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 constexpr std::int64_t max_trials = 200;
 constexpr int curve_points = 64;
 constexpr int search_steps = 48;
-constexpr int bisections = 40;
+constexpr int halvings = 40;
 
 struct Criterion {
   const char* name;
@@ -87,14 +88,13 @@ std::optional<double> crossing(const std::function<double(double)>& excess) {
   double low = 0.0;
   double at_low = excess(low);
   for (int step = 1; step <= search_steps; ++step) {
-    double high = static_cast<double>(step) / search_steps;
+    const double high = static_cast<double>(step) / search_steps;
     const double at_high = excess(high);
     if ((at_low < 0.0) != (at_high < 0.0)) {
-      for (int i = 0; i < bisections; ++i) {
-        const double middle = 0.5 * (low + high);
-        ((excess(middle) < 0.0) == (at_low < 0.0) ? low : high) = middle;
-      }
-      return 0.5 * (low + high);
+      const auto is_before = [&](double at) { return (excess(at) < 0.0) == (at_low < 0.0); };
+      const auto [before, after] =
+          numerics::bisect({low, high}, is_before, numerics::after_halvings(halvings));
+      return 0.5 * (before + after);
     }
     low = high;
     at_low = at_high;

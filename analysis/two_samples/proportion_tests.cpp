@@ -5,6 +5,7 @@
 
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/normal.hpp"
+#include "core/numerics/bisection.hpp"
 
 namespace zerocount::two_samples {
 namespace {
@@ -27,16 +28,11 @@ double score(const PairedFailures& failures, double difference) {
 
 /// The λ at which Z, which falls with λ, crosses `level`.
 double crossing(const PairedFailures& failures, double level, double low, double high) {
-  const auto above = [&](double difference) { return score(failures, difference) - level; };
-  if (above(low) <= 0.0) return low;
-  if (above(high) >= 0.0) return high;
-  while (high - low > 1e-14) {
-    const double middle = 0.5 * (low + high);
-    const double excess = above(middle);
-    if (excess == 0.0) return middle;
-    (excess > 0.0 ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+  const auto is_above = [&](double difference) { return score(failures, difference) > level; };
+  if (!is_above(low)) return low;
+  if (score(failures, high) >= level) return high;
+  const auto [above, below] = numerics::bisect({low, high}, is_above, numerics::within(1e-14));
+  return 0.5 * (above + below);
 }
 
 }  // namespace

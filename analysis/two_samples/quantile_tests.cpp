@@ -11,25 +11,18 @@
 #include "analysis/two_samples/mean_tests.hpp"
 #include "analysis/two_samples/proportion_tests.hpp"
 #include "analysis/two_samples/rank_tests.hpp"
+#include "core/numerics/bisection.hpp"
 
 namespace zerocount::two_samples {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double bound_precision = 1e-3;  ///< of a bound, as a proportion of the largest value
-constexpr int max_steps = 40;             ///< of a bisection
 
 std::vector<double> negated_differences(std::span<const double> values) {
   std::vector<double> negated(values.begin(), values.end());
   for (double& value : negated) value = -value;
   return negated;
-}
-
-double quantile_of_values(std::vector<double> values, double probability) {
-  const auto rank = statistics::quantile_rank(std::ssize(values), probability);
-  const auto place = values.begin() + std::max<std::int64_t>(0, rank - 1);
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
 }
 
 /// Whether every cluster has a single value: its proportion is 0 or 1.
@@ -83,13 +76,7 @@ template <class Predicate>
 double first_from(double range, double precision, const Predicate& holds) {
   if (!holds(range)) return infinity;
   if (holds(-range)) return -infinity;
-  double low = -range;
-  double high = range;
-  for (int step = 0; step < max_steps && high - low > precision; ++step) {
-    const double middle = 0.5 * (low + high);
-    (holds(middle) ? high : low) = middle;
-  }
-  return high;
+  return numerics::bisect({range, -range}, holds, numerics::within(precision)).holds;
 }
 
 }  // namespace
@@ -137,14 +124,15 @@ std::vector<double> proportions_from(const ClusteredValues& values, double x) {
 double pooled_quantile(const ClusteredValues& baseline, const ClusteredValues& current, double probability) {
   std::vector<double> pooled(baseline.values.begin(), baseline.values.end());
   pooled.insert(pooled.end(), current.values.begin(), current.values.end());
-  return quantile_of_values(std::move(pooled), probability);
+  return statistics::sample_quantile(std::move(pooled), probability);
 }
 
 QuantileDifference quantile_difference(const ClusteredValues& baseline, const ClusteredValues& current,
                                        bool paired, double probability, double confidence) {
   QuantileDifference result;
-  result.baseline = quantile_of_values({baseline.values.begin(), baseline.values.end()}, probability);
-  result.current = quantile_of_values({current.values.begin(), current.values.end()}, probability);
+  result.baseline =
+      statistics::sample_quantile({baseline.values.begin(), baseline.values.end()}, probability);
+  result.current = statistics::sample_quantile({current.values.begin(), current.values.end()}, probability);
   result.effect = result.current - result.baseline;
   ShiftTest test(baseline, current, paired, probability);
   result.p = test(0.0);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/numerics/bisection.hpp"
 #include "core/numerics/dense.hpp"
 
 namespace zerocount::theory {
@@ -62,13 +63,13 @@ void remove_at(const Eigen::VectorXcd& roots, std::vector<double>& angles) {
 }
 
 /// The angle between low and high at which f changes its sign.
-double bisect(const Sought& f, double low, double high, double at_low) {
-  while (high - low > 1e-12 * high) {
-    const double middle = 0.5 * (low + high);
-    if (middle <= low || middle >= high) break;
-    ((f(middle) > 0.0) == (at_low > 0.0) ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+double sign_change(const Sought& f, double low, double high, double at_low) {
+  const auto is_before = [&](double angle) { return (f(angle) > 0.0) == (at_low > 0.0); };
+  const auto narrow = [](const numerics::Bracket& angle) {
+    return !(angle.fails - angle.holds > 1e-12 * angle.fails);
+  };
+  const auto [before, after] = numerics::bisect({low, high}, is_before, narrow);
+  return 0.5 * (before + after);
 }
 
 /// An angle between low and high at which f, that has the sign of `side` at both, has the other sign; NaN
@@ -109,7 +110,7 @@ std::vector<double> sign_changes(const Sought& f, const std::vector<double>& ang
   for (const double angle : angles) values.push_back(f(angle));
   for (std::size_t i = 1; i < angles.size(); ++i) {
     if ((values[i] > 0.0) != (values[i - 1] > 0.0)) {
-      found.push_back(bisect(f, angles[i - 1], angles[i], values[i - 1]));
+      found.push_back(sign_change(f, angles[i - 1], angles[i], values[i - 1]));
       continue;
     }
     const bool is_last = i + 1 == angles.size();
@@ -118,8 +119,8 @@ std::vector<double> sign_changes(const Sought& f, const std::vector<double>& ang
       continue;
     const double between = other_side(f, angles[i - 1], angles[i + 1], values[i]);
     if (std::isnan(between)) continue;
-    found.push_back(bisect(f, angles[i - 1], between, values[i - 1]));
-    found.push_back(bisect(f, between, angles[i + 1], -values[i + 1]));
+    found.push_back(sign_change(f, angles[i - 1], between, values[i - 1]));
+    found.push_back(sign_change(f, between, angles[i + 1], -values[i + 1]));
   }
   return found;
 }

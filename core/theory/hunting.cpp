@@ -11,6 +11,7 @@
 #include "core/friction/sliding/stribeck.hpp"
 #include "core/loop/controller/controller.hpp"
 #include "core/loop/encoder.hpp"
+#include "core/numerics/bisection.hpp"
 #include "core/theory/describing_function.hpp"
 #include "core/theory/frozen_loop.hpp"
 #include "core/theory/gains.hpp"
@@ -46,11 +47,10 @@ LimitCycle mean_of(std::vector<LimitCycle>::const_iterator from, std::vector<Lim
 /// The root of f between low and high, where its values have opposite signs.
 double sign_change(const std::function<double(double)>& f, double low, double high) {
   const bool rises = f(low) < 0.0;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = std::sqrt(low * high);
-    ((f(middle) < 0.0) == rises ? low : high) = middle;
-  }
-  return std::sqrt(low * high);
+  const auto is_before = [&](double at) { return (f(at) < 0.0) == rises; };
+  const auto [before, after] =
+      numerics::bisect({low, high}, is_before, numerics::after_halvings(60), numerics::geometric_mean);
+  return numerics::geometric_mean(before, after);
 }
 
 /// The states of a loop whose rotor has stood at `count`, while the error was 0.
@@ -406,17 +406,13 @@ std::vector<LimitCycle> harmonic_balance(friction::FrictionModel model,
       const std::optional<double> end = nearest(at_high, start);
       if (!end || !(balance.at(low, start).imag() < 0.0 && balance.at(high, *end).imag() > 0.0)) continue;
       double frequency = start;
-      const auto damping = [&](double amplitude) {
+      const auto grows = [&](double amplitude) {
         frequency = nearest(resonances(balance, amplitude), frequency).value_or(frequency);
-        return balance.at(amplitude, frequency).imag();
+        return balance.at(amplitude, frequency).imag() < 0.0;
       };
-      double inner = low;
-      double outer = high;
-      for (int i = 0; i < 20; ++i) {
-        const double middle = std::sqrt(inner * outer);
-        (damping(middle) < 0.0 ? inner : outer) = middle;
-      }
-      cycles.push_back({outer, 2.0 * std::numbers::pi / frequency});
+      const double amplitude =
+          numerics::bisect({low, high}, grows, numerics::after_halvings(20), numerics::geometric_mean).fails;
+      cycles.push_back({amplitude, 2.0 * std::numbers::pi / frequency});
     }
     low = high;
     at_low = at_high;

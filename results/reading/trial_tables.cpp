@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "core/numerics/bisection.hpp"
 #include "results/layout/measure_table.hpp"
 #include "results/reading/validation.hpp"
 
@@ -41,19 +42,11 @@ study::StudyFeatures read_features(const hdf5::File& file, const layout::Measure
 
 /// Position of the first of `size` rising numbers that is not below `number`.
 std::int64_t first_not_below(const hdf5::Dataset& numbers, std::int64_t size, std::int64_t number) {
-  std::int64_t low = 0;
-  std::int64_t high = size;
-  while (low < high) {
-    const std::int64_t middle = low + (high - low) / 2;
+  return numerics::first_where(0, size, [&](std::int64_t at) {
     std::int64_t value = 0;
-    numbers.read(middle, 1, &value);
-    if (value < number) {
-      low = middle + 1;
-    } else {
-      high = middle;
-    }
-  }
-  return low;
+    numbers.read(at, 1, &value);
+    return value >= number;
+  });
 }
 
 }  // namespace

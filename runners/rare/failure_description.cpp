@@ -46,12 +46,9 @@ std::vector<const WeightedTrial*> drawn_failures(const EstimatorState& state, st
   return chosen;
 }
 
-double quantile_of(const std::vector<double>& sorted, double probability) {
-  return sorted[static_cast<std::size_t>(statistics::quantile_rank(std::ssize(sorted), probability) - 1)];
-}
-
 InputRange range_of(const std::vector<double>& sorted) {
-  return {quantile_of(sorted, 0.05), quantile_of(sorted, 0.5), quantile_of(sorted, 0.95)};
+  const auto quantile = [&](double probability) { return statistics::sample_quantile(sorted, probability); };
+  return {quantile(0.05), quantile(0.5), quantile(0.95)};
 }
 
 /// Φ⁻¹ of the rank of a value in a sorted sample, with equal values in the middle.
@@ -174,7 +171,7 @@ std::optional<CarryingMachines> carrying_machines(const Question& question, cons
     machines.probability_of_one += probability / rates.back() / static_cast<double>(failed.size());
   }
   std::ranges::sort(rates);
-  machines.median_rate = quantile_of(rates, 0.5);
+  machines.median_rate = statistics::sample_quantile(rates, 0.5);
   return machines;
 }
 

@@ -5,19 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/statistics/quantile.hpp"
+
 namespace zerocount::tuning {
 namespace {
 
 bool machine_meets(const Aim& aim, const UnitResult& unit) {
   return unit.met >= aim.moves * unit.moves;
-}
-
-double quantile_of(std::vector<double>& values, double quantile) {
-  if (values.empty()) return std::numeric_limits<double>::infinity();
-  const auto size = static_cast<double>(values.size());
-  const auto rank = static_cast<std::ptrdiff_t>(std::clamp(std::ceil(quantile * size), 1.0, size)) - 1;
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
 }
 
 /// Sums over the units of a world.
@@ -65,7 +59,9 @@ Estimate estimate_of(const Aim& aim, const Candidate& candidate, std::int64_t un
     none = false;
   }
   worst.units = worlds == 1 ? units : std::max<std::int64_t>(units / worlds, none ? 0 : 1);
-  if (!none) worst.criterion = quantile_of(values, aim.quantile);
+  if (none) return worst;
+  worst.criterion = values.empty() ? std::numeric_limits<double>::infinity()
+                                   : statistics::sample_quantile(std::move(values), aim.quantile);
   return worst;
 }
 

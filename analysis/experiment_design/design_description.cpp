@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/identification/estimate_description.hpp"
+#include "analysis/identification/fit_report.hpp"
 #include "core/loop/encoder.hpp"
 
 namespace zerocount::experiment_design {

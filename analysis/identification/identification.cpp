@@ -10,7 +10,6 @@
 #include "analysis/identification/fit_refusals.hpp"
 #include "analysis/record_fit/reading_replicates.hpp"
 #include "analysis/record_fit/residual_checks.hpp"
-#include "analysis/statistics/unknown.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::identification {
@@ -53,10 +52,7 @@ bool is_same(const motion::TorqueCourse& one, const motion::TorqueCourse& other)
 }
 
 RecordSummary summary_of(const TestRecord& record, const ContactFit& fit, std::size_t number) {
-  RecordSummary summary;
-  summary.name = record.name;
-  summary.axis = record.axis;
-  summary.samples = sample_count(record);
+  RecordSummary summary{extent_of(record)};
   summary.duration = static_cast<double>(summary.samples) * record.sample_time;
   summary.counted = record.counted;
   summary.unit = record.unit;
@@ -66,8 +62,6 @@ RecordSummary summary_of(const TestRecord& record, const ContactFit& fit, std::s
   summary.ring_downs = record.parts.ring_downs();
   summary.misfit = fit.misfit[number];
   summary.noise = fit.noise[number];
-  summary.excluded = summary.samples - used_samples(record);
-  summary.note = record.note;
   return summary;
 }
 
@@ -158,13 +152,11 @@ struct Estimation {
   }
 
   ParameterEstimate open(const Quantity& quantity) const {
-    ParameterEstimate parameter =
-        parameter_of(quantity, EstimateStatus::not_identifiable,
-                     {statistics::unknown, statistics::unknown, statistics::unknown, statistics::unknown});
+    ParameterEstimate parameter = parameter_of(quantity, EstimateStatus::not_identifiable, {});
     // λ is known as well as n is.
     const Coordinate missing =
         coordinate_of(quantity) == log_limit ? creep_exponent : coordinate_of(quantity);
-    parameter.reason = missing_information(records, fit, missing);
+    leave_open(parameter, missing_information(records, fit, missing));
     return parameter;
   }
 };
@@ -322,6 +314,7 @@ Identification identify(std::vector<TestRecord> records, const IdentificationOpt
     enter("joint draws");
     result.draws = draw_jointly(estimation, std::move(estimated));
   }
+  result.fragment = manifest_fragment(result);
   return result;
 }
 

@@ -7,6 +7,7 @@
 
 #include "analysis/identification/confidence_interval.hpp"
 #include "analysis/identification/contact_fit.hpp"
+#include "analysis/identification/fit_report.hpp"
 #include "analysis/identification/fitted_record.hpp"
 #include "analysis/identification/joint_draws.hpp"
 #include "analysis/record_fit/residual_checks.hpp"
@@ -15,33 +16,8 @@
 
 namespace zerocount::identification {
 
-enum class EstimateStatus {
-  estimated,        ///< from the records
-  known,            ///< given by the user
-  kept,             ///< the records do not determine it, and the fit kept the given value
-  not_identifiable  ///< the records do not determine it
-};
-
-/// Estimate of one parameter in its own unit; all four numbers are NaN if it is not identifiable, and the
-/// standard error is 0 if it is known or kept.
-struct ParameterEstimate : record_fit::QuantityEstimate {
-  /// k1, k2, k1_plus_k2, beta, presliding_damping, inertia, alpha, lambda, n or time_offset
-  std::string name;
-  std::string key;  ///< in a manifest; empty for k1_plus_k2 and time_offset
-  std::string unit;
-  EstimateStatus status{EstimateStatus::not_identifiable};
-  std::string reason{};  ///< why it is not identifiable, or kept
-};
-
-inline bool is_estimated(const ParameterEstimate& parameter) {
-  return parameter.status == EstimateStatus::estimated;
-}
-
 /// The detected parts of a record, and the quality of the fit.
-struct RecordSummary {
-  std::string name;
-  parameters::AxisKind axis{parameters::AxisKind::rotary};
-  std::size_t samples{0};
+struct RecordSummary : RecordExtent {
   double duration{0.0};  ///< s
   bool counted{false};
   double unit{0.0};  ///< of the readings, rad or m
@@ -49,16 +25,13 @@ struct RecordSummary {
   std::size_t reversals{0};
   std::size_t holds{0};
   std::size_t ring_downs{0};
-  double misfit{0.0};       ///< root mean square of the residuals, in the readings' unit
-  double noise{0.0};        ///< of the readings, standard deviation in their unit
-  std::size_t excluded{0};  ///< masked samples
-  std::string note{};       ///< what was cut out of it; empty: nothing
+  double misfit{0.0};  ///< root mean square of the residuals, in the readings' unit
+  double noise{0.0};   ///< of the readings, standard deviation in their unit
 };
 
-struct Identification {
-  parameters::AxisKind axis{parameters::AxisKind::rotary};
-  std::vector<ParameterEstimate> parameters;  ///< in the order of the names above
-  double sample_time{0.0};                    ///< of the time offset, s: of the first record
+/// The parameters k1, k2, k1_plus_k2, beta, presliding_damping, inertia, alpha, lambda, n and time_offset.
+struct Identification : FitReport {
+  double sample_time{0.0};  ///< of the time offset, s: of the first record
   std::vector<RecordSummary> records;
   std::vector<FittedRecord> fitted;  ///< [record] for figures
   record_fit::ResidualChecks checks;
@@ -110,31 +83,11 @@ Identification identify(std::vector<TestRecord> records, const IdentificationOpt
 /// there is none.
 std::string second_mass_text(const Identification& identification);
 
-/// The identified parameters as a fragment of a manifest, the maps `plant` and `friction` (before them
-/// `axis`, of a linear one): for each estimated parameter a distribution whose central 95 % are its
-/// confidence interval, for a given parameter its value, for a parameter that is not identifiable a comment.
-/// Ends with a newline.
-///
-/// Positive parameters are lognormal, n is a truncated normal from 1, and coulomb_ratio one from 0 to 1.
+/// The identified parameters as a fragment of a manifest, with the strong correlations as comments.
 std::string manifest_fragment(const Identification& identification);
-
-/// `value` with one digit more than the half-width of the parameter's interval justifies.
-std::string with_digits(double value, const ParameterEstimate& parameter);
-
-/// The line `name`: of a parameter in its map of a manifest, a comment if it is not identifiable. Ends with a
-/// newline.
-std::string manifest_line(const ParameterEstimate& parameter, const std::string& name);
-
-/// A number for a manifest, with two digits more than its relative uncertainty justifies; all digits if that
-/// is 0. It has a decimal point and a sign of the exponent, because some YAML readers take 2e5 and 2.0e5 for
-/// texts.
-std::string manifest_number(double value, double relative_uncertainty);
 
 /// The joint draws as a table for the key `samples` of a manifest: comments with #, a header with the keys of
 /// the parameters, and a line of comma-separated numbers for each draw.
 std::string posterior_table(const Identification& identification);
-
-/// The distribution of one estimated parameter in the fragment.
-std::string distribution_text(const ParameterEstimate& parameter);
 
 }  // namespace zerocount::identification

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/identification/estimate_description.hpp"
 #include "analysis/identification/fit_refusals.hpp"
 #include "analysis/text/text.hpp"
 
@@ -179,10 +178,7 @@ document::AnswerDescription<Identification> identification_answer() {
        .csv_table = "parameters"},
       {}};
   answer.items.headline(headline_of)
-      .value(axis_item(), [](Of i) { return parameters::axis_labels.at(static_cast<std::size_t>(i.axis)); })
-      .table({.key = "parameters", .meaning = "the parameters"}, estimate_description(),
-             &Identification::parameters)
-      .sentence([](Of i) { return missing_parameters_text(i.parameters); })
+      .include(estimates_description(), [](Of i) -> const FitReport& { return i; })
       .value(in_data("sample_time", "time between samples of the first record", "s"),
              &Identification::sample_time)
       .sentence(time_offset_text)
@@ -208,7 +204,7 @@ document::AnswerDescription<Identification> identification_answer() {
       .value(in_data("search_ended", "whether the search ended because of --effort"),
              &Identification::search_ended)
       .sentence([](Of i) { return i.search_ended ? left_out_text(i.effort) + "." : ""; })
-      .value(fragment_item(), manifest_fragment);
+      .value(fragment_item(), &Identification::fragment);
   return answer;
 }
 

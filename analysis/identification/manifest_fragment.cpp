@@ -1,15 +1,26 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/identification/identification.hpp"
+#include "analysis/text/text.hpp"
 #include "core/text/number_text.hpp"
 
 namespace zerocount::identification {
 namespace {
 
 constexpr double two_sided_95 = 1.959963984540054;  // Φ⁻¹(0.975)
+
+/// Whether not all lines of a map are comments: those alone are not a map.
+bool has_values(const std::string& lines) {
+  for (std::size_t start = 0; start < lines.size(); start = lines.find('\n', start) + 1) {
+    if (!lines.substr(start).starts_with("  #")) return true;
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -76,37 +87,50 @@ std::string manifest_line(const ParameterEstimate& parameter, const std::string&
   return fmt::format("  # {}: not identifiable, because {}\n", name, parameter.reason);
 }
 
-std::string manifest_fragment(const Identification& identification) {
-  std::string text = "# Identified from";
-  for (const RecordSummary& record : identification.records) {
-    text += fmt::format("{} {}", &record == &identification.records.front() ? "" : ",", record.name);
-  }
-  text +=
-      ".\n# The central 95 % of each distribution are the confidence interval. Its median is the middle of "
-      "the\n# interval, not exactly the estimate. Trials draw the parameters independently";
-  for (const Identification::Correlation& pair : identification.correlations) {
-    text += fmt::format("{}\n# {} and {}: {:.2f}",
-                        &pair == &identification.correlations.front() ? ", although errors correlate:" : "",
-                        pair.one, pair.other, pair.value);
-  }
-  text += "\n";
-  if (!identification.checks.passed) {
-    text += "# Lack of fit: encoder and noise do not explain the residuals; do not rely on these values.\n";
-  }
-  if (identification.axis == parameters::AxisKind::linear) text += "axis: linear\n";
-  for (const std::string group : {"plant", "friction"}) {
-    std::string lines;
-    bool any = false;
-    for (const ParameterEstimate& parameter : identification.parameters) {
-      if (!parameter.key.starts_with(group + ".")) continue;
+std::string manifest_lines(std::span<const ParameterEstimate> parameters, const std::string& group) {
+  std::string lines;
+  for (const ParameterEstimate& parameter : parameters) {
+    if (parameter.key.starts_with(group + "."))
       lines += manifest_line(parameter, parameter.key.substr(group.size() + 1));
-      any = any || parameter.status != EstimateStatus::not_identifiable;
-    }
-    // A map that contains only comments would not be a map.
-    if (!any) text.append("# ");
-    text.append(group).append(":\n").append(lines);
   }
+  return lines;
+}
+
+std::string lack_of_fit_comment(bool explained) {
+  if (explained) return "";
+  return "# Lack of fit: encoder and noise do not explain the residuals; do not rely on these values.\n";
+}
+
+std::string fragment_text(const Fragment& fragment, parameters::AxisKind axis) {
+  std::vector<std::string> names;
+  for (const std::string& name : fragment.records) names.push_back(text::printable(name));
+  std::string text =
+      fmt::format("# {} {}.\n# The central 95 % of each distribution are the confidence interval.{}",
+                  fragment.source, fmt::join(names, ", "), fragment.remarks);
+  if (axis == parameters::AxisKind::linear) text += "axis: linear\n";
+  for (const auto& [map, lines] :
+       {std::pair("plant", fragment.plant), std::pair("friction", fragment.friction)})
+    text += fmt::format("{}{}:\n{}", has_values(lines) ? "" : "# ", map, lines);
   return text;
+}
+
+std::string manifest_fragment(const Identification& identification) {
+  std::string remarks =
+      " Its median is the middle of the\n# interval, not exactly the estimate. Trials draw the parameters "
+      "independently";
+  for (const Identification::Correlation& pair : identification.correlations) {
+    remarks +=
+        fmt::format("{}\n# {} and {}: {:.2f}",
+                    &pair == &identification.correlations.front() ? ", although errors correlate:" : "",
+                    pair.one, pair.other, pair.value);
+  }
+  remarks += "\n" + lack_of_fit_comment(identification.checks.passed);
+  Fragment fragment{{},
+                    std::move(remarks),
+                    manifest_lines(identification.parameters, "plant"),
+                    manifest_lines(identification.parameters, "friction")};
+  for (const RecordSummary& record : identification.records) fragment.records.push_back(record.name);
+  return fragment_text(fragment, identification.axis);
 }
 
 }  // namespace zerocount::identification

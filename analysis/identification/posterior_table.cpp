@@ -42,9 +42,7 @@ std::string posterior_table(const Identification& identification) {
       "# that errors which correlate stay together. For the key samples of a manifest.\n",
       fmt::join(names, ", "));
   text += units_line(identification) + left_out_lines(identification);
-  if (!identification.checks.passed) {
-    text += "# Lack of fit: encoder and noise do not explain the residuals; do not rely on these values.\n";
-  }
+  text += lack_of_fit_comment(identification.checks.passed);
   text += fmt::format("{}\n", fmt::join(identification.draws.keys, ","));
   for (const std::vector<double>& row : identification.draws.rows) {
     for (std::size_t j = 0; j < row.size(); ++j) text += fmt::format("{}{:.12g}", j > 0 ? "," : "", row[j]);

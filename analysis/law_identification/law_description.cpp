@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/identification/estimate_description.hpp"
+#include "analysis/identification/fit_report.hpp"
 #include "analysis/text/text.hpp"
 #include "core/friction/law.hpp"
 
@@ -10,6 +10,7 @@ namespace zerocount::law_identification {
 namespace {
 
 using document::in_data;
+using identification::RecordExtent;
 
 /// Difference of the information criterion that is strong evidence (Kass & Raftery, J. Am. Stat. Assoc. 90,
 /// 1995, 773: 6 to 10 strong, above 10 very strong).
@@ -39,7 +40,7 @@ std::string headline_of(const LawComparison& comparison) {
 /// What was left out of the records, a line each.
 std::string left_out_text(const LawComparison& comparison) {
   std::string text;
-  for (const ComparedRecord& record : comparison.records) {
+  for (const RecordExtent& record : comparison.records) {
     const std::string name = text::printable(record.name);
     if (!record.note.empty()) text += fmt::format("{}: {}\n", name, record.note);
     if (record.excluded > 0)
@@ -100,12 +101,12 @@ document::Description<LawReading> law_description() {
       .value(in_data("manifest", "the law as a fragment of a manifest"), [](Of r) { return r.law.fragment; });
 }
 
-document::Description<ComparedRecord> record_description() {
-  using Of = const ComparedRecord&;
-  return document::Description<ComparedRecord>()
+document::Description<RecordExtent> record_description() {
+  using Of = const RecordExtent&;
+  return document::Description<RecordExtent>()
       .value(in_data("name", "file, and part of it"), [](Of r) { return text::printable(r.name); })
-      .value(in_data("samples", "samples of the record"), &ComparedRecord::samples)
-      .value(in_data("excluded", "samples masked by --exclude"), &ComparedRecord::excluded)
+      .value(in_data("samples", "samples of the record"), &RecordExtent::samples)
+      .value(in_data("excluded", "samples masked by --exclude"), &RecordExtent::excluded)
       .value(in_data("note", "what was cut out of it"), [](Of r) { return text::printable(r.note); });
 }
 

@@ -8,8 +8,6 @@
 
 #include "analysis/identification/confidence_interval.hpp"
 #include "analysis/law_identification/law_fit.hpp"
-#include "analysis/law_identification/law_fragment.hpp"
-#include "analysis/statistics/unknown.hpp"
 #include "core/failure/failure.hpp"
 #include "core/friction/law.hpp"
 
@@ -34,11 +32,8 @@ ParameterEstimate estimate_of(const Quantity& quantity, const LawErrors& errors)
   const bool open = !(half_width <= record_fit::max_half_width(quantity.logarithmic));
   const bool vague = !(widened <= (quantity.logarithmic ? max_widened_log_halfwidth : max_widened_halfwidth));
   if (open || vague) {
-    estimate.value = estimate.standard_error = estimate.low = estimate.high = statistics::unknown;
-    estimate.status = EstimateStatus::not_identifiable;
-    estimate.reason =
-        open ? "the records hardly depend on it" : "the law departs too far from the records to tell it";
-    return estimate;
+    leave_open(estimate, open ? "the records hardly depend on it"
+                              : "the law departs too far from the records to tell it");
   }
   return estimate;
 }
@@ -114,6 +109,26 @@ void require_start(Records records, friction::FrictionModel law) {
   }
 }
 
+/// The law as a fragment of a manifest.
+std::string law_fragment(Records records, const FittedLaw& fitted) {
+  const IdentifiedLaw& law = fitted.law;
+  identification::Fragment fragment;
+  for (const TestRecord& record : records) fragment.records.push_back(record.name);
+  fragment.remarks = "\n";
+  for (const ParameterEstimate& parameter : law.parameters) {
+    if (parameter.name != "series_compliance" || !is_estimated(parameter)) continue;
+    fragment.remarks += fmt::format("# A fixture gives way by {} {}; a manifest has none.\n",
+                                    identification::with_digits(parameter.value, parameter), parameter.unit);
+  }
+  fragment.remarks += identification::lack_of_fit_comment(law.checks.passed);
+  fragment.plant = fitted.model.plant_lines + identification::manifest_lines(law.parameters, "plant");
+  fragment.friction =
+      fmt::format("  model: {}\n{}{}", friction::traits_of(law.law).word,
+                  identification::manifest_lines(law.parameters, "friction"),
+                  parameters::unit_on(law.axis, fitted.model.fixed_lines(fitted.fit.model.point.axis)));
+  return identification::fragment_text(fragment, law.axis);
+}
+
 FittedLaw fitted_law(Records records, friction::FrictionModel law, bool series_compliance,
                      const RecordScales& scales, double least_squares) {
   FittedLaw result;
@@ -123,6 +138,7 @@ FittedLaw fitted_law(Records records, friction::FrictionModel law, bool series_c
   const LawErrors errors = errors_of(records, result.fit);
   IdentifiedLaw& found = result.law;
   found.law = law;
+  found.axis = records.front().axis;
   found.fitted =
       static_cast<std::size_t>(std::count(result.model.free.begin(), result.model.free.end(), true));
   found.checks = errors.checks;
@@ -131,9 +147,9 @@ FittedLaw fitted_law(Records records, friction::FrictionModel law, bool series_c
   for (const Quantity& quantity : result.model.quantities_at(result.fit.model.point.axis)) {
     found.parameters.push_back(estimate_of(quantity, errors));
     std::string& unit = found.parameters.back().unit;
-    unit = parameters::unit_on(records.front().axis, unit);
+    unit = parameters::unit_on(found.axis, unit);
   }
-  found.fragment = law_fragment(records, result.model, result.fit.model.point.axis, found);
+  found.fragment = law_fragment(records, result);
   return result;
 }
 
@@ -175,8 +191,7 @@ LawComparison compare_laws(std::vector<TestRecord> records, const LawChoice& cho
   for (std::size_t r = 0; r < records.size(); ++r) {
     comparison.effective_readings += effective[r];
     comparison.readings += used_samples(records[r]);
-    comparison.records.push_back({records[r].name, sample_count(records[r]),
-                                  sample_count(records[r]) - used_samples(records[r]), records[r].note});
+    comparison.records.push_back(identification::extent_of(records[r]));
   }
   for (FittedLaw& one : fitted) {
     one.law.information_criterion = information_criterion(one, effective);

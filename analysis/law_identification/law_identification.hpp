@@ -13,31 +13,21 @@
 namespace zerocount::law_identification {
 
 /// A friction law identified from records.
-struct IdentifiedLaw {
+struct IdentifiedLaw : identification::FitReport {
   friction::FrictionModel law{friction::FrictionModel::presliding};
-  std::vector<identification::ParameterEstimate> parameters;
   std::size_t fitted{0};              ///< coordinates of the fit, with the time offset
   double misfit{0.0};                 ///< root mean square of the residuals of all readings, rad or m
   double misfit_over_travel{0.0};     ///< the same over the travel of the records, dimensionless
   double information_criterion{0.0};  ///< BIC above that of the best law, 0 or more
   record_fit::ResidualChecks checks;
   bool converged{true};
-  std::string fragment;  ///< the maps `plant` and `friction` of a manifest
-};
-
-/// A record of a comparison, and what was left out of it.
-struct ComparedRecord {
-  std::string name;
-  std::size_t samples{0};
-  std::size_t excluded{0};  ///< masked samples
-  std::string note;         ///< what was cut out of it; empty: nothing
 };
 
 /// The laws that were fitted to the same records.
 struct LawComparison {
   parameters::AxisKind axis{parameters::AxisKind::rotary};
   std::vector<IdentifiedLaw> laws;  ///< by information criterion, the best one first
-  std::vector<ComparedRecord> records;
+  std::vector<identification::RecordExtent> records;
   double effective_readings{0.0};  ///< number of independent residuals
   std::size_t readings{0};
   double sample_time{0.0};  ///< of the time offsets, s

@@ -5,45 +5,18 @@
 
 #include <fmt/format.h>
 
-#include "analysis/identification/estimate_description.hpp"
+#include "analysis/identification/fit_report.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::sliding_identification {
 namespace {
 
 using identification::is_estimated;
-using identification::ParameterEstimate;
-
-const ParameterEstimate& parameter_of(const SlidingIdentification& identification, const std::string& name) {
-  return *std::find_if(identification.parameters.begin(), identification.parameters.end(),
-                       [&](const ParameterEstimate& one) { return one.name == name; });
-}
-
-parameters::AxisKind axis_of(const SlidingIdentification& identification) {
-  return identification.records.front().axis;
-}
 
 std::size_t used_samples(const SlidingRecord& record) {
   std::size_t used = 0;
   for (const Window& window : record.windows) used += samples_of(window);
   return used;
-}
-
-std::string fragment_line(const SlidingIdentification& identification, const std::string& parameter,
-                          const std::string& name) {
-  return identification::manifest_line(parameter_of(identification, parameter), name);
-}
-
-/// If sliding shows no level above the Coulomb level, the breakaway torque is taken to be the Coulomb level.
-std::string friction_lines(const SlidingIdentification& identification) {
-  if (!is_estimated(parameter_of(identification, "breakaway_level")) &&
-      is_estimated(parameter_of(identification, "coulomb_level"))) {
-    return fragment_line(identification, "coulomb_level", "breakaway") +
-           "  coulomb_ratio: 1   # sliding shows no level above the Coulomb level\n";
-  }
-  return fragment_line(identification, "breakaway_level", "breakaway") +
-         fragment_line(identification, "coulomb_ratio", "coulomb_ratio") +
-         fragment_line(identification, "stribeck_velocity", "stribeck_velocity");
 }
 
 document::Description<SlidingRecord> record_description() {
@@ -81,29 +54,6 @@ document::Description<SlidingRecord> record_description() {
 
 }  // namespace
 
-std::string sliding_fragment(const SlidingIdentification& identification) {
-  std::string text = "# Identified from the sliding motion in";
-  for (const SlidingRecord& record : identification.records) {
-    text += fmt::format("{} {}", &record == &identification.records.front() ? "" : ",", record.name);
-  }
-  text += ".\n# The central 95 % of each distribution are the confidence interval.\n";
-  const ParameterEstimate& offset = parameter_of(identification, "offset");
-  if (is_estimated(offset)) {
-    text += fmt::format("# A constant {} of {} {} acts against the drive; a manifest has none.\n",
-                        parameters::text_on(axis_of(identification), "$torque"),
-                        identification::with_digits(offset.value, offset), offset.unit);
-  }
-  if (axis_of(identification) == parameters::AxisKind::linear) text += "axis: linear\n";
-  const auto group = [&](const std::string& name, const std::string& lines) {
-    const bool any = lines.find("\n  ") != std::string::npos || !lines.starts_with("  #");
-    text += (any ? "" : "# ") + name + ":\n" + lines;
-  };
-  group("plant", fragment_line(identification, "inertia", "inertia") +
-                     fragment_line(identification, "sliding_damping", "sliding_damping"));
-  group("friction", friction_lines(identification));
-  return text;
-}
-
 document::AnswerDescription<SlidingIdentification> sliding_answer() {
   using document::in_data;
   using Of = const SlidingIdentification&;
@@ -118,11 +68,8 @@ document::AnswerDescription<SlidingIdentification> sliding_answer() {
                            std::ranges::count_if(i.parameters, is_estimated), i.parameters.size());
       })
       .value(in_data("kind", "always sliding"), [](Of) { return "sliding"; })
-      .value(identification::axis_item(),
-             [](Of i) { return parameters::axis_labels.at(static_cast<std::size_t>(axis_of(i))); })
-      .table({.key = "parameters", .meaning = "the parameters"}, identification::estimate_description(),
-             &SlidingIdentification::parameters)
-      .sentence([](Of i) { return identification::missing_parameters_text(i.parameters); })
+      .include(identification::estimates_description(),
+               [](Of i) -> const identification::FitReport& { return i; })
       .object(in_data("correlation", "correlation of the errors of the fitted parameters"),
               document::Description<SlidingIdentification>()
                   .value(in_data("parameters", "names, in the order of the matrix"),
@@ -141,9 +88,9 @@ document::AnswerDescription<SlidingIdentification> sliding_answer() {
         return fmt::format(
             "Residual rms {:.3g} steps of the readings, and {:.3g} of {:.3g} {}. The intervals allow for "
             "residuals that depend on each other within a window or a stroke.",
-            i.misfit, i.unexplained_torque, i.torque, parameters::unit_on(axis_of(i), "N m"));
+            i.misfit, i.unexplained_torque, i.torque, parameters::unit_on(i.axis, "N m"));
       })
-      .value(identification::fragment_item(), sliding_fragment);
+      .value(identification::fragment_item(), &SlidingIdentification::fragment);
   return answer;
 }
 

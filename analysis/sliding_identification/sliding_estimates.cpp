@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "analysis/statistics/distributions.hpp"
-#include "analysis/statistics/unknown.hpp"
 
 namespace zerocount::sliding_identification {
 namespace {
@@ -71,12 +70,6 @@ bool is_narrow(const ParameterEstimate& estimate, Scale scale) {
   return true;
 }
 
-void leave_open(ParameterEstimate& estimate, std::string reason) {
-  estimate.status = EstimateStatus::not_identifiable;
-  estimate.reason = std::move(reason);
-  estimate.value = estimate.standard_error = estimate.low = estimate.high = statistics::unknown;
-}
-
 ParameterEstimate estimate_of(const Quantity& quantity, const SlidingFit& fit, parameters::AxisKind axis) {
   ParameterEstimate estimate;
   estimate.name = quantity.name;
@@ -117,6 +110,30 @@ std::vector<ParameterEstimate> estimates_of(const SlidingFit& fit, parameters::A
   for (const Quantity& quantity : quantities_of(fit.point))
     estimates.push_back(estimate_of(quantity, fit, axis));
   return estimates;
+}
+
+std::string sliding_fragment(const SlidingIdentification& identification) {
+  const auto parameter = [&](std::string_view name) -> const ParameterEstimate& {
+    return *std::ranges::find(identification.parameters, name, &ParameterEstimate::name);
+  };
+  identification::Fragment fragment;
+  fragment.source = "Identified from the sliding motion in";
+  for (const SlidingRecord& record : identification.records) fragment.records.push_back(record.name);
+  const ParameterEstimate& offset = parameter("offset");
+  fragment.remarks = "\n";
+  if (is_estimated(offset)) {
+    fragment.remarks += fmt::format("# A constant {} of {} {} acts against the drive; a manifest has none.\n",
+                                    parameters::text_on(identification.axis, "$torque"),
+                                    identification::with_digits(offset.value, offset), offset.unit);
+  }
+  fragment.plant = identification::manifest_lines(identification.parameters, "plant");
+  if (!is_estimated(parameter("breakaway_level")) && is_estimated(parameter("coulomb_level"))) {
+    fragment.friction = identification::manifest_line(parameter("coulomb_level"), "breakaway") +
+                        "  coulomb_ratio: 1   # sliding shows no level above the Coulomb level\n";
+  } else {
+    fragment.friction = identification::manifest_lines(identification.parameters, "friction");
+  }
+  return identification::fragment_text(fragment, identification.axis);
 }
 
 }  // namespace zerocount::sliding_identification

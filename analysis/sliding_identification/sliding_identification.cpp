@@ -119,13 +119,15 @@ SlidingIdentification identify_sliding(std::vector<SlidingRecord> records) {
     fit = best_fit(records);
   }
   SlidingIdentification result;
-  result.parameters = estimates_of(fit, records.front().axis);
+  result.axis = records.front().axis;
+  result.parameters = estimates_of(fit, result.axis);
   result.misfit = fit.misfit;
   result.unexplained_torque = fit.unexplained_torque;
   result.torque = torque_rms(records);
   set_correlation(fit, result);
   result.records = std::move(records);
   refuse_unexplained(result);
+  result.fragment = sliding_fragment(result);
   return result;
 }
 

@@ -3,15 +3,16 @@
 #include <string>
 #include <vector>
 
-#include "analysis/identification/identification.hpp"
+#include "analysis/identification/fit_report.hpp"
 #include "analysis/sliding_identification/sliding_record.hpp"
 
 namespace zerocount::sliding_identification {
 
 /// The inertia and the sliding friction of an axis. Units are those of a rotary or of a linear axis.
-struct SlidingIdentification {
-  /// inertia, sliding_damping, coulomb_level, breakaway_level, coulomb_ratio, stribeck_velocity, offset.
-  std::vector<identification::ParameterEstimate> parameters;
+///
+/// The parameters are inertia, sliding_damping, coulomb_level, breakaway_level, coulomb_ratio,
+/// stribeck_velocity and offset.
+struct SlidingIdentification : identification::FitReport {
   std::vector<SlidingRecord> records;   ///< with the windows of the fit
   double misfit{0.0};                   ///< root mean square of the residuals, in resolutions
   double unexplained_torque{0.0};       ///< root mean square over the windows, N m or N
@@ -33,7 +34,8 @@ struct SlidingIdentification {
 /// fit leaves more than a third of the torque unexplained.
 SlidingIdentification identify_sliding(std::vector<SlidingRecord> records);
 
-/// The parameters as a fragment of a manifest.
+/// The parameters as a fragment of a manifest. If sliding shows no level above the Coulomb level, the
+/// breakaway torque is taken to be the Coulomb level.
 std::string sliding_fragment(const SlidingIdentification& identification);
 
 }  // namespace zerocount::sliding_identification

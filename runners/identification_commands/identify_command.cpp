@@ -376,7 +376,7 @@ ExitCode write_identification(const command_line::Arguments& arguments, const Id
   if (outputs.plot)
     command_line::write_text(*outputs.plot,
                              commands::drawing(report::answer_page(answer), outputs.plot_kind));
-  return write_answer(arguments, outputs, answer, manifest_fragment(found));
+  return write_answer(arguments, outputs, answer, found.fragment);
 }
 
 ExitCode identify_records(const command_line::Arguments& arguments) {
@@ -386,7 +386,7 @@ ExitCode identify_records(const command_line::Arguments& arguments) {
     refuse_fractional_delay(arguments);
     const auto found = identify_sliding_axis(arguments);
     return write_answer(arguments, outputs, sliding_identification::sliding_answer().of(found),
-                        sliding_identification::sliding_fragment(found));
+                        found.fragment);
   }
   const law_identification::LawChoice choice = chosen_laws(arguments);
   if (!choice.laws.empty()) {

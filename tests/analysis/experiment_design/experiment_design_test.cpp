@@ -165,11 +165,10 @@ TEST(ExperimentDesign, ASecondExperimentFollowsFromTheFirst) {
   ASSERT_FALSE(record.slid);
   const auto found = identified(truth, first.protocol, record, {});
   ASSERT_LT(found.checks.widening, 1.25);
-  const std::string fragment = identification::manifest_fragment(found);
   const study::Study told = study_of(
       "zerocount: 1\nname: second\nseed: 3\ntrials: 100\ncommand: {targets: [0]}\n"
       "initial: {encoder_phase: {uniform: [0, 1]}}\nencoder: {fine_errors: {noise: 0.2}}\n" +
-      fragment);
+      found.fragment);
   DesignSettings settings = quick_settings();
   settings.search.max_protocols = 10;
   const ExperimentDesign second = design_experiment(told, settings);

@@ -144,7 +144,7 @@ TEST(PositioningTwin, IsReported) {
   SlidingAxis truth;
   truth.breakaway = 28.0;
   const SlidingIdentification found = identified(closed_loop_record(truth, {}, emps_lap(), 1, random));
-  const std::string fragment = sliding_identification::sliding_fragment(found);
+  const std::string& fragment = found.fragment;
   for (const char* line :
        {"axis: linear\n", "plant:\n", "  inertia: {lognormal: {median: 95.1", "  sliding_damping: ",
         "friction:\n", "  breakaway: ", "  coulomb_ratio: {truncated_normal: ", "  stribeck_velocity: "}) {
@@ -158,7 +158,7 @@ TEST(PositioningTwin, IsReported) {
   EXPECT_EQ(json["manifest"], fragment);
 
   const SlidingIdentification without = identified(closed_loop_record({}, {}, emps_lap(), 1, random));
-  EXPECT_NE(sliding_identification::sliding_fragment(without).find("  coulomb_ratio: 1 "), std::string::npos);
+  EXPECT_NE(without.fragment.find("  coulomb_ratio: 1 "), std::string::npos);
 }
 
 }  // namespace

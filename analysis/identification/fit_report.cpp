@@ -1,8 +1,10 @@
-#include "analysis/identification/estimate_description.hpp"
+#include "analysis/identification/fit_report.hpp"
 
 #include <cmath>
 
 #include <fmt/format.h>
+
+#include "analysis/statistics/unknown.hpp"
 
 namespace zerocount::identification {
 namespace {
@@ -46,6 +48,28 @@ std::optional<std::string> half_width_text(const ParameterEstimate& estimate) {
 std::optional<std::string> interval_text(const ParameterEstimate& estimate) {
   if (!is_estimated(estimate)) return {};
   return fmt::format("{} to {}", with_digits(estimate.low, estimate), with_digits(estimate.high, estimate));
+}
+
+void leave_open(ParameterEstimate& parameter, std::string reason) {
+  parameter.value = parameter.standard_error = parameter.low = parameter.high = statistics::unknown;
+  parameter.status = EstimateStatus::not_identifiable;
+  parameter.reason = std::move(reason);
+}
+
+RecordExtent extent_of(const record_fit::TestRecord& record) {
+  const std::size_t samples = sample_count(record);
+  return {record.name, record.axis, samples, samples - used_samples(record), record.note};
+}
+
+document::Description<FitReport> estimates_description() {
+  return document::Description<FitReport>()
+      .value(axis_item(),
+             [](const FitReport& report) {
+               return parameters::axis_labels.at(static_cast<std::size_t>(report.axis));
+             })
+      .table({.key = "parameters", .meaning = "the parameters"}, estimate_description(),
+             &FitReport::parameters)
+      .sentence([](const FitReport& report) { return missing_parameters_text(report.parameters); });
 }
 
 document::Description<ParameterEstimate> estimate_description() {

@@ -17,7 +17,7 @@ void add_quantities(std::vector<RequirableQuantity>& quantities, const std::stri
                     const GateMeasure& measure) {
   if (measure.proportion()) {
     quantities.push_back({stem, measure.unit, RequirementKind::proportion, measure});
-  } else if (measure.measure->of_trial == layout::OfTrial::sum) {
+  } else if (measure.measure->reduction == layout::MoveReduction::sum) {
     quantities.push_back({stem, measure.unit, RequirementKind::mean, measure});
   } else {
     for (const auto& [quantile, probability] :

@@ -225,8 +225,8 @@ void compare_mean(MeasureComparison& result, const GateMeasure& measure, const P
   if (result.baseline_n > 0) result.baseline = mean_of(values.baseline);
   if (result.current_n > 0) result.current = mean_of(values.current);
   result.test = test_of_means(paired, over_rigs);
-  if (std::min(result.baseline_n, result.current_n) < least_values) {
-    result.note = fmt::format("fewer than {} {} have a value{}", least_values, over_rigs ? "rigs" : "trials",
+  if (std::min(result.baseline_n, result.current_n) < min_values) {
+    result.note = fmt::format("fewer than {} {} have a value{}", min_values, over_rigs ? "rigs" : "trials",
                               paired ? " in both files" : "");
     return;
   }
@@ -295,8 +295,8 @@ void compare_quantile(MeasureComparison& result, const GateMeasure& measure, con
   result.current_n = units_in(current);
   result.test = fmt::format("{} % quantile of all moves, by the moves later than that of both{}",
                             100.0 * judged_quantile, over_rigs ? ", over rigs" : "");
-  if (std::min(result.baseline_n, result.current_n) < least_values) {
-    result.note = fmt::format("fewer than {} {}", least_values, over_rigs ? "rigs" : "trials");
+  if (std::min(result.baseline_n, result.current_n) < min_values) {
+    result.note = fmt::format("fewer than {} {}", min_values, over_rigs ? "rigs" : "trials");
     return;
   }
   const two_samples::QuantileDifference found =

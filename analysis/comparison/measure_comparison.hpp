@@ -12,7 +12,7 @@ namespace zerocount::comparison {
 
 /// Minimum number of values in each file for the comparison of a mean. If fewer trials arrive, the proportion
 /// of arrivals shows the difference.
-inline constexpr std::int64_t least_values = 20;
+inline constexpr std::int64_t min_values = 20;
 
 /// The measures that are judged at a point with these trials.
 std::vector<GateMeasure> judged_measures(const GateRules& rules, const PointTrials& trials);

@@ -61,7 +61,7 @@ void add_trials(PointTrials& trials, std::span<const trial::MoveOutcome> outcome
   for (const GateMeasure& gated : gathered) {
     const layout::Measure& measure = *gated.measure;
     std::vector<double>& values = trials.values[std::string(gated.name)];
-    if (layout::is_quality(measure) || measure.of_trial == layout::OfTrial::sum) {
+    if (layout::is_quality(measure) || measure.reduction == layout::MoveReduction::sum) {
       for (auto move = outcomes.begin(); move != outcomes.end(); move += trials.moves)
         values.push_back(measures::value_of_trial(measure, {move, move + trials.moves}));
     } else {

@@ -105,8 +105,8 @@ class ProtocolSearch {
       return false;
     }
     const double spread = spread_at(point);
-    constexpr double least_gain = 1e-3;  // of a logarithm
-    if (!(spread < best_spread_ - least_gain)) return false;
+    constexpr double min_gain = 1e-3;  // of a logarithm
+    if (!(spread < best_spread_ - min_gain)) return false;
     best_ = point;
     best_spread_ = spread;
     result_.improvements.push_back({shape_at(best_), best_spread_});

@@ -23,7 +23,7 @@ constexpr double max_slow_rate = 4.0;
 
 /// Simulated samples at which a single fit ends: a fit that converges simulates each record some hundred
 /// times.
-constexpr double least_fit_samples = 8e6;
+constexpr double min_fit_samples = 8e6;
 constexpr double fit_paths = 400.0;
 
 constexpr int max_rounds = 6;
@@ -49,7 +49,7 @@ FitStart start_for(Records records, const std::vector<KnownParameter>& known, do
   setting.model = contact_model(creep_torque);
   std::size_t samples = 0;
   for (const TestRecord& record : records) samples += sample_count(record);
-  setting.max_simulated = std::max(least_fit_samples, fit_paths * static_cast<double>(samples));
+  setting.max_simulated = std::max(min_fit_samples, fit_paths * static_cast<double>(samples));
   setting.free.assign(coordinate_count, true);
   ContactPoint values = ContactPoint::Zero();
   for (const auto& [coordinate, value] : known) {

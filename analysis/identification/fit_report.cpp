@@ -11,7 +11,7 @@ namespace {
 
 using document::in_data;
 
-std::string_view word_of(EstimateStatus status) {
+std::string_view to_string(EstimateStatus status) {
   switch (status) {
     case EstimateStatus::estimated:
       return "estimated";
@@ -83,7 +83,7 @@ document::Description<ParameterEstimate> estimate_description() {
       .value({"unit", "unit", "unit of its numbers"}, &ParameterEstimate::unit)
       .value(with_words(in_data("status", "whether the records determine it"),
                         {"estimated", "given", "kept", "not_identifiable"}),
-             [](Of p) { return word_of(p.status); })
+             [](Of p) { return to_string(p.status); })
       .value(in_data("value", "estimate, in the unit"), &ParameterEstimate::value)
       .value(in_data("standard_error", "its standard error, in the unit"), &ParameterEstimate::standard_error)
       .value(in_data("low", "lower end of its 95 % interval, in the unit"), &ParameterEstimate::low)
@@ -92,7 +92,7 @@ document::Description<ParameterEstimate> estimate_description() {
       .value(for_people("half_width", "±", true), half_width_text)
       .value(for_people("status_text", "status", false),
              [](Of p) {
-               return p.status == EstimateStatus::not_identifiable ? "not identifiable" : word_of(p.status);
+               return p.status == EstimateStatus::not_identifiable ? "not identifiable" : to_string(p.status);
              })
       .value({.key = "reason",
               .meaning = "why it is not identifiable, or kept",

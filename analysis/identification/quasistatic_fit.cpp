@@ -18,13 +18,13 @@ namespace zerocount::identification {
 namespace {
 
 /// Samples of a record that are compared.
-constexpr std::size_t most_samples = 1500;
+constexpr std::size_t max_samples = 1500;
 
 /// Relative change of a coordinate for a difference quotient.
 constexpr double slope_step = 1e-6;
 
 /// Softening travel (units of the readings) below which the readings cannot tell it.
-constexpr double least_travel = 0.3;
+constexpr double min_slow_travel = 0.3;
 
 /// Largest change of a coordinate from its start, and largest n.
 constexpr double max_change = 8.0;
@@ -61,7 +61,7 @@ SlowParts slow_parts_of(const TestRecord& record) {
     mark(hold.first + (hold.last - hold.first) / 2, hold.last);
   }
   const auto available = static_cast<std::size_t>(std::count(slow.begin(), slow.end(), true));
-  const std::size_t every = std::max<std::size_t>(1, available / most_samples);
+  const std::size_t every = std::max<std::size_t>(1, available / max_samples);
   SlowParts parts;
   std::size_t number = 0;
   for (std::size_t k = 1; k < sample_count(record); ++k) {
@@ -189,7 +189,7 @@ SlowFit fit_slow_parts(Records records, std::span<const ContactPoint> starts, do
   }
   double max_log_beta = -std::numeric_limits<double>::infinity();
   for (const TestRecord& record : records) {
-    max_log_beta = std::max(max_log_beta, -std::log(least_travel * record.unit));
+    max_log_beta = std::max(max_log_beta, -std::log(min_slow_travel * record.unit));
   }
   std::vector<SlowFit> fits;
   for (const ContactPoint& start : starts) {

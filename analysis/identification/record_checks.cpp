@@ -282,9 +282,9 @@ void check_jumps(const RawSeries& series) {
   const std::vector<double>& angle = series.angle;
   const auto [low, high] = std::ranges::minmax(angle);
   const auto [least, most] = std::ranges::minmax(series.torque);
-  double least_step = high - low;
+  double min_step = high - low;
   for (std::size_t k = 1; k < angle.size(); ++k) {
-    if (angle[k] != angle[k - 1]) least_step = std::min(least_step, std::abs(angle[k] - angle[k - 1]));
+    if (angle[k] != angle[k - 1]) min_step = std::min(min_step, std::abs(angle[k] - angle[k - 1]));
   }
   for (std::size_t k = 2; k + 1 < angle.size(); ++k) {
     const double jump = angle[k] - angle[k - 1];
@@ -292,7 +292,7 @@ void check_jumps(const RawSeries& series) {
     const bool stays = std::abs(angle[k + 1] - angle[k - 1]) > 0.5 * std::abs(jump) &&
                        std::abs(angle[k] - angle[k - 2]) > 0.5 * std::abs(jump);
     const Surroundings about = surroundings_of(series, k, large_jump * (high - low));
-    const double moving = std::max(about.longest_step, least_step);
+    const double moving = std::max(about.longest_step, min_step);
     if (!stays || std::abs(jump) < times_the_motion * moving ||
         about.torque_range > small_torque * (most - least))
       continue;

@@ -16,7 +16,7 @@ using identification::RecordExtent;
 /// 1995, 773: 6 to 10 strong, above 10 very strong).
 constexpr double strong_evidence = 10.0;
 
-std::string_view word_of(const IdentifiedLaw& law) {
+std::string_view to_string(const IdentifiedLaw& law) {
   return friction::traits_of(law.law).word;
 }
 
@@ -24,17 +24,17 @@ std::string_view word_of(const IdentifiedLaw& law) {
 /// records.
 std::string headline_of(const LawComparison& comparison) {
   const IdentifiedLaw& best = comparison.laws.front();
-  std::string text = fmt::format("{} explains the records", word_of(best));
+  std::string text = fmt::format("{} explains the records", to_string(best));
   if (!best.checks.passed)
-    text = fmt::format("LACK OF FIT: {} does not explain the records: {}", word_of(best),
+    text = fmt::format("LACK OF FIT: {} does not explain the records: {}", to_string(best),
                        record_fit::reason_of_misfit(best.checks));
   if (comparison.laws.size() == 1) return text;
   const IdentifiedLaw& next = comparison.laws[1];
   if (next.information_criterion > strong_evidence)
     return fmt::format("{}; it is the nearest of these laws, {} is next, {:.0f} higher in BIC", text,
-                       word_of(next), next.information_criterion);
+                       to_string(next), next.information_criterion);
   return fmt::format("{}; the BIC of {} and {} differ by {:.1f} only: the records do not distinguish them",
-                     text, word_of(best), word_of(next), next.information_criterion);
+                     text, to_string(best), to_string(next), next.information_criterion);
 }
 
 /// What was left out of the records, a line each.
@@ -75,7 +75,7 @@ document::Description<LawReading> law_description() {
         .key = key, .heading = heading, .shown = document::Shown::to_people, .numeric = true};
   };
   return document::Description<LawReading>()
-      .value({"law", "law", "word of the friction law"}, [](Of r) { return word_of(r.law); })
+      .value({"law", "law", "word of the friction law"}, [](Of r) { return to_string(r.law); })
       .value({"fitted", "fitted", "fitted numbers, with the time offset"}, [](Of r) { return r.law.fitted; })
       .value(for_people("residual", "residual"),
              [](Of r) { return fmt::format("{:.3g} {}", r.law.misfit, r.unit); })

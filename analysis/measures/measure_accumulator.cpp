@@ -21,7 +21,7 @@ namespace {
 constexpr double positive_zero = 0.0;
 
 bool needs_every_value(const layout::Measure& measure, const layout::ReportedStatistics& reported) {
-  return measure.of_trial == layout::OfTrial::sum || reports(reported, layout::Statistic::median) ||
+  return measure.reduction == layout::MoveReduction::sum || reports(reported, layout::Statistic::median) ||
          reports(reported, layout::Statistic::p95);
 }
 
@@ -83,7 +83,7 @@ void MeasureAccumulator::add(std::int64_t trial, std::span<const trial::MoveOutc
   const layout::CountedValues& counted = measure_->values;
   if (layout::is_quality(*measure_)) {
     add_quality(trial, moves);
-  } else if (measure_->of_trial == layout::OfTrial::sum) {
+  } else if (measure_->reduction == layout::MoveReduction::sum) {
     const double sum = value_of_trial(*measure_, moves);
     if (!std::isnan(sum)) values_.push_back(sum);
     add_clusters(trial, std::ssize(values_));
@@ -148,7 +148,7 @@ statistics::ConfidenceInterval MeasureAccumulator::bootstrap_bounds(const Statis
   const std::string name = fmt::format("bootstrap/{}.mean", measure_->field.column.name);
   const random::RandomStream stream{designs::random_key(options.bootstrap->seed, name),
                                     options.bootstrap->stream};
-  return measure_->of_trial == layout::OfTrial::sum
+  return measure_->reduction == layout::MoveReduction::sum
              ? statistics::clustered_count_bounds(totals_, stream, options.confidence)
              : statistics::clustered_mean_bounds(totals_, stream, options.confidence);
 }
@@ -199,7 +199,8 @@ MeasureStatistics MeasureAccumulator::statistics(const StatisticsOptions& option
   result.n = values.size;
   result.moves = sample.size();
   for (const auto& [value, count] : values.counts) result.trials += value > 0.0 ? count : 0;
-  if (measure_->of_trial == layout::OfTrial::sum) result.total = std::llround(statistics::total(values));
+  if (measure_->reduction == layout::MoveReduction::sum)
+    result.total = std::llround(statistics::total(values));
   result.mean = statistics::mean(values);
   result.sd = statistics::standard_deviation(values);
   result.min = statistics::smallest(values);

@@ -26,15 +26,15 @@ double value_of_trial(const layout::Measure& measure, std::span<const trial::Mov
                       const std::function<double()>& late) {
   const auto has = [&](const trial::MoveOutcome& move) { return layout::has_quality(measure, move); };
   double result = 0.0;
-  switch (measure.of_trial) {
-    case layout::OfTrial::all:
+  switch (measure.reduction) {
+    case layout::MoveReduction::all:
       return std::all_of(moves.begin(), moves.end(), has) ? 1.0 : 0.0;
-    case layout::OfTrial::any:
+    case layout::MoveReduction::any:
       return std::any_of(moves.begin(), moves.end(), has) ? 1.0 : 0.0;
-    case layout::OfTrial::sum:
+    case layout::MoveReduction::sum:
       for (const trial::MoveOutcome& move : moves) result += layout::value_of(measure.field, move);
       return result;
-    case layout::OfTrial::largest:
+    case layout::MoveReduction::largest:
       for (const trial::MoveOutcome& move : moves) {
         double value = std::abs(layout::value_of(measure.field, move));
         if (std::isnan(value) && late && measure.values.nan_is_late) value = late();
@@ -42,7 +42,7 @@ double value_of_trial(const layout::Measure& measure, std::span<const trial::Mov
         result = std::max(result, value);
       }
       return result;
-    case layout::OfTrial::last:
+    case layout::MoveReduction::last:
       return layout::value_of(measure.field, moves.back());
   }
   return statistics::unknown;

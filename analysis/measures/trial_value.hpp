@@ -19,7 +19,7 @@ double counted_value(const layout::Measure& measure, const trial::MoveOutcome& m
 /// Whether the moves have targets where the measure needs them.
 bool has_targets(const layout::Measure& measure, std::span<const trial::MoveOutcome> moves);
 
-/// The value of a trial, combined from the values of its moves by Measure::of_trial; 1 or 0 for a quality.
+/// The value of a trial, combined from the values of its moves by Measure::reduction; 1 or 0 for a quality.
 /// The settling time of a trial is that of its slowest move.
 /// @param late the value of a time that was not reached; without it the value of the trial is NaN.
 double value_of_trial(const layout::Measure& measure, std::span<const trial::MoveOutcome> moves,

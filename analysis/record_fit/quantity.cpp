@@ -43,9 +43,9 @@ QuantityEstimate on_parameter_scale(const Quantity& quantity, QuantityEstimate e
     return {value, value * estimate.standard_error, std::exp(estimate.low), std::exp(estimate.high)};
   }
   if (quantity.key != "friction.n") return estimate;
-  constexpr double least_exponent = 1.0;
+  constexpr double min_exponent = 1.0;
   for (double* number : {&estimate.value, &estimate.low, &estimate.high}) {
-    *number = std::max(*number, least_exponent);
+    *number = std::max(*number, min_exponent);
   }
   return estimate;
 }

@@ -13,7 +13,7 @@
 namespace zerocount::record_fit {
 namespace {
 
-constexpr double least_chance = 0.01;
+constexpr double min_chance = 0.01;
 
 double spread_of(const ResidualStatistics& residuals) {
   return std::sqrt(residuals.squares / static_cast<double>(residuals.observations));
@@ -54,7 +54,7 @@ ResidualChecks check_residuals(const ResidualStatistics& residuals,
   const double off_here = off(residuals);
   checks.runs_chance =
       proportion(replicates, [&](const ResidualStatistics& replicate) { return off(replicate) >= off_here; });
-  checks.passed = (checks.spread_chance >= least_chance && checks.runs_chance >= least_chance) ||
+  checks.passed = (checks.spread_chance >= min_chance && checks.runs_chance >= min_chance) ||
                   checks.spread < 0.5 * checks.expected_spread;
   if (checks.passed) return checks;
   const double larger = std::max(1.0, checks.spread / checks.expected_spread);
@@ -65,7 +65,7 @@ ResidualChecks check_residuals(const ResidualStatistics& residuals,
 
 std::string reason_of_misfit(const ResidualChecks& checks) {
   if (checks.passed) return "";
-  const bool large = checks.spread_chance < least_chance;
+  const bool large = checks.spread_chance < min_chance;
   return large
              ? fmt::format("the residuals are {:.3g} times as large as the encoder's steps and noise explain",
                            checks.spread / checks.expected_spread)

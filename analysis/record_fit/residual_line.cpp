@@ -79,8 +79,8 @@ std::vector<Eigen::Index> searched_bins(const TestRecord& record, const std::vec
 
 /// The spectra of replicates of the readings along the path of a record.
 struct UsualPower {
-  Eigen::ArrayXd power;       ///< [bin] largest of the first half of the replicates
-  double largest_ratio{0.0};  ///< to `power`, of the other half
+  Eigen::ArrayXd power;   ///< [bin] largest of the first half of the replicates
+  double max_ratio{0.0};  ///< to `power`, of the other half
 };
 
 UsualPower usual_power(const TestRecord& record, const Eigen::VectorXd& path, double noise,
@@ -97,7 +97,7 @@ UsualPower usual_power(const TestRecord& record, const Eigen::VectorXd& path, do
   UsualPower usual{Eigen::ArrayXd::Constant(static_cast<Eigen::Index>(bins.size()), rounding), 0.0};
   for (std::size_t i = 0; i < replicates / 2; ++i) usual.power = usual.power.max(spectra[i]);
   for (std::size_t i = replicates / 2; i < replicates; ++i) {
-    usual.largest_ratio = std::max(usual.largest_ratio, (spectra[i] / usual.power).maxCoeff());
+    usual.max_ratio = std::max(usual.max_ratio, (spectra[i] / usual.power).maxCoeff());
   }
   return usual;
 }
@@ -133,8 +133,8 @@ bool is_narrow(const Eigen::ArrayXd& power, const Eigen::ArrayXd& usual,
 std::optional<ResidualLine> residual_line(Records records, const FittedModel& model,
                                           const std::vector<double>& noise, const FrequencyRange& own) {
   std::optional<ResidualLine> line;
-  constexpr double least_ratio = 2.0;  // to the largest by chance: the noise is known roughly
-  double clearest = least_ratio;
+  constexpr double min_ratio = 2.0;  // to the largest by chance: the noise is known roughly
+  double clearest = min_ratio;
   for (std::size_t r = 0; r < records.size(); ++r) {
     const TestRecord& record = records[r];
     const std::vector<Window> windows = ring_downs_of(record);
@@ -146,7 +146,7 @@ std::optional<ResidualLine> residual_line(Records records, const FittedModel& mo
     const Eigen::ArrayXd power = all(bins);
     const UsualPower usual = usual_power(record, path, noise[r], windows, bins);
     Eigen::Index clear = 0;
-    const double ratio = (power / usual.power).maxCoeff(&clear) / usual.largest_ratio;
+    const double ratio = (power / usual.power).maxCoeff(&clear) / usual.max_ratio;
     const std::optional<Eigen::Index> peak = peak_at(all, bins, bins[static_cast<std::size_t>(clear)]);
     if (ratio <= clearest || !peak || !is_narrow(power, usual.power, bins, *peak)) continue;
     clearest = ratio;

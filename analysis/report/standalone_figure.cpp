@@ -20,8 +20,8 @@ constexpr double width_of_letter = 6.4;   // of a legend
 constexpr double width_of_symbol = 32.0;  // and its gaps
 constexpr double width_of_legend = 500.0;
 constexpr std::size_t shortest_label = 8;  // letters
-constexpr int most_legend_columns = 8;
-constexpr int most_label_pixels = 480;
+constexpr int max_legend_columns = 8;
+constexpr int max_label_pixels = 480;
 
 /// Puts the colours in the place of var(--name) in all texts.
 void colour(ordered_json& part, const ordered_json& colours) {
@@ -84,8 +84,8 @@ ordered_json theme_of(const Figure& figure) {
   ordered_json theme = figure_theme();
   const double entry =
       width_of_letter * static_cast<double>(longest_label(figure.data.front())) + width_of_symbol;
-  theme["legend"]["columns"] = std::clamp(static_cast<int>(width_of_legend / entry), 1, most_legend_columns);
-  theme["legend"]["labelLimit"] = most_label_pixels;
+  theme["legend"]["columns"] = std::clamp(static_cast<int>(width_of_legend / entry), 1, max_legend_columns);
+  theme["legend"]["labelLimit"] = max_label_pixels;
   theme["background"] = "white";
   return theme;
 }

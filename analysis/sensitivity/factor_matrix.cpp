@@ -12,13 +12,13 @@ Eigen::MatrixXd standardised(const Eigen::MatrixXd& x) {
 }
 
 std::vector<bool> independent_columns(const Eigen::MatrixXd& x) {
-  constexpr double least_variance = 1e-8;
+  constexpr double min_variance = 1e-8;
   std::vector<bool> independent(static_cast<std::size_t>(x.cols()), false);
   Eigen::MatrixXd directions(x.rows(), 0);
   for (Eigen::Index j = 0; j < x.cols(); ++j) {
     Eigen::VectorXd rest = x.col(j);
     for (int pass = 0; pass < 2; ++pass) rest -= directions * (directions.transpose() * rest);
-    if (rest.squaredNorm() < least_variance * x.col(j).squaredNorm()) continue;
+    if (rest.squaredNorm() < min_variance * x.col(j).squaredNorm()) continue;
     independent[static_cast<std::size_t>(j)] = true;
     directions.conservativeResize(Eigen::NoChange, directions.cols() + 1);
     directions.rightCols(1) = rest.normalized();

@@ -25,7 +25,7 @@ constexpr std::size_t min_stroke_samples = 20;
 }
 
 /// Smallest difference of the readings that is not 0: the step of an encoder.
-double least_step(const std::vector<double>& position) {
+double min_step(const std::vector<double>& position) {
   double least = 0.0;
   double largest = 0.0;
   for (std::size_t k = 1; k < position.size(); ++k) {
@@ -135,7 +135,7 @@ SlidingRecord sliding_record(const records::RawSeries& series) {
   }
   if (std::ranges::count(series.torque, series.torque.front()) == std::ssize(series.torque))
     refuse(series, "the torque or force is constant");
-  record.resolution = std::max(least_step(record.position), 3.0 * noise_of(record.position));
+  record.resolution = std::max(min_step(record.position), 3.0 * noise_of(record.position));
   if (!(record.resolution > 0.0)) record.resolution = std::numeric_limits<double>::min();
   set_velocities(record);
   const std::vector<Window> runs = runs_of(directions_of(record, series));

@@ -17,7 +17,7 @@ constexpr int digit_bits = 32;
 constexpr std::int64_t digit_base = std::int64_t{1} << digit_bits;
 constexpr std::int64_t digit_mask = digit_base - 1;
 /// Weight of digit 0: below that of the last bit of the square of the smallest double, 2^(−2·1074).
-constexpr std::int64_t least_exponent = -2176;
+constexpr std::int64_t min_exponent = -2176;
 /// An addition changes a digit by less than 2^32.
 constexpr std::int64_t additions_without_carry = std::int64_t{1} << 30;
 
@@ -70,8 +70,8 @@ void ExactSum::reach(std::int64_t low, std::int64_t high) {
 void ExactSum::add_scaled(std::int64_t sign, std::int64_t whole, std::int64_t exponent) {
   if (whole == 0) return;
   if (++additions_ > additions_without_carry) normalise();
-  const std::int64_t place = (exponent - least_exponent) / digit_bits;
-  const auto shift = static_cast<int>((exponent - least_exponent) % digit_bits);
+  const std::int64_t place = (exponent - min_exponent) / digit_bits;
+  const auto shift = static_cast<int>((exponent - min_exponent) % digit_bits);
   const std::int64_t low = (whole & digit_mask) << shift;  // below 2^63
   const std::int64_t high = ((whole >> digit_bits) << shift) + (low >> digit_bits);
   reach(place, place + 2);
@@ -144,7 +144,7 @@ ExactSum& ExactSum::operator+=(const ExactSum& other) {
 
 double ExactSum::value() const {
   if (digits_.empty()) return 0.0;
-  return rounded(whole_number(digits_), least_exponent + digit_bits * first_, 1);
+  return rounded(whole_number(digits_), min_exponent + digit_bits * first_, 1);
 }
 
 bool operator==(ExactSum one, ExactSum other) {
@@ -156,13 +156,13 @@ bool operator==(ExactSum one, ExactSum other) {
 double squared_deviations(const ExactSum& sum, const ExactSum& squares, std::int64_t n) {
   const cpp_int total = whole_number(sum.digits_);
   // The places of the last digits of n·Σx² and of (Σx)².
-  const std::int64_t of_squares = squares.first_ - least_exponent / digit_bits;
+  const std::int64_t of_squares = squares.first_ - min_exponent / digit_bits;
   const std::int64_t of_total = 2 * sum.first_;
   const std::int64_t last = std::min(of_squares, of_total);
   const auto shift = [&](std::int64_t place) { return static_cast<unsigned>(digit_bits * (place - last)); };
   const cpp_int number =
       ((whole_number(squares.digits_) * n) << shift(of_squares)) - ((total * total) << shift(of_total));
-  return rounded(number, 2 * least_exponent + digit_bits * last, n);
+  return rounded(number, 2 * min_exponent + digit_bits * last, n);
 }
 
 }  // namespace zerocount::statistics

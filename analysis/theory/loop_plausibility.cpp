@@ -21,8 +21,8 @@ namespace zerocount::theory {
 namespace {
 
 constexpr std::int64_t max_trials_of_point = 5;
-constexpr double least_phase_margin = 20.0;  // degrees
-constexpr double least_delay_margin = 1.0;   // samples
+constexpr double min_phase_margin = 20.0;  // degrees
+constexpr double min_delay_margin = 1.0;   // samples
 
 /// The longest step of a trial against its pre-sliding range, counts.
 struct Travel {
@@ -80,7 +80,7 @@ double phase_margin(const ExaminedLoop& loop) {
 
 // Only of stable loops with a sufficient phase margin: the others are reported by that test.
 double delay_margin(const ExaminedLoop& loop) {
-  if (loop.stability != LoopStability::stable || !(loop.phase.value >= least_phase_margin))
+  if (loop.stability != LoopStability::stable || !(loop.phase.value >= min_phase_margin))
     return not_concerned;
   return loop.phase.value / 360.0 / loop.phase.frequency * loop.trial.controller.sample_rate;
 }
@@ -104,7 +104,7 @@ std::string phase_text(const ExaminedLoop& loop, double) {
   const bool unstable = loop.stability == LoopStability::unstable;
   return fmt::format("{} the phase margin is {:.3g}° at {:.3g} Hz{}; expected at least {}°",
                      loop.of_trial.name, loop.phase.value, loop.phase.frequency,
-                     unstable ? ", and the loop is unstable" : "", least_phase_margin);
+                     unstable ? ", and the loop is unstable" : "", min_phase_margin);
 }
 
 std::string delay_text(const ExaminedLoop& loop, double value) {
@@ -112,7 +112,7 @@ std::string delay_text(const ExaminedLoop& loop, double value) {
       "{} a delay of {:.2g} samples more makes the loop unstable (phase margin {:.3g}° at {:.3g} Hz); "
       "expected "
       "at least {} sample",
-      loop.of_trial.name, value, loop.phase.value, loop.phase.frequency, least_delay_margin);
+      loop.of_trial.name, value, loop.phase.value, loop.phase.frequency, min_delay_margin);
 }
 
 std::string step_text(const ExaminedLoop& loop, double) {
@@ -122,8 +122,8 @@ std::string step_text(const ExaminedLoop& loop, double) {
       loop.travel.step, loop.travel.range, loop.of_trial.name);
 }
 
-constexpr std::array<LoopTest, 3> tests{{{phase_margin, least_phase_margin, phase_text},
-                                         {delay_margin, least_delay_margin, delay_text},
+constexpr std::array<LoopTest, 3> tests{{{phase_margin, min_phase_margin, phase_text},
+                                         {delay_margin, min_delay_margin, delay_text},
                                          {presliding_range_over_step, 1.0, step_text}}};
 
 /// The worst value of a test so far.

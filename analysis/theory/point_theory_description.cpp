@@ -73,7 +73,7 @@ string stability_text(const LoopRanges& loop) {
              : "marginal: a motion neither grows nor dies out within the hold";
 }
 
-std::string_view word_of(LoopStability stability) {
+std::string_view to_string(LoopStability stability) {
   switch (stability) {
     case LoopStability::stable:
       return "stable";
@@ -87,7 +87,7 @@ std::string_view word_of(LoopStability stability) {
 
 std::vector<string> stabilities(const LoopRanges& loop) {
   std::vector<string> words;
-  for (const LoopStability one : loop.stability) words.emplace_back(word_of(one));
+  for (const LoopStability one : loop.stability) words.emplace_back(to_string(one));
   return words;
 }
 

@@ -15,8 +15,8 @@
 namespace zerocount::worlds {
 namespace {
 
-constexpr std::size_t most_thresholds = 31;
-constexpr std::size_t most_inputs_in_pairs = 8;
+constexpr std::size_t max_thresholds = 31;
+constexpr std::size_t max_inputs_in_pairs = 8;
 constexpr std::int64_t worlds_worth_a_condition = 2;
 
 using Labels = std::vector<std::uint8_t>;  ///< [world] 1: bad
@@ -33,7 +33,7 @@ Bins bins_of(const std::vector<double>& values) {
   std::sort(sorted.begin(), sorted.end());
   Bins bins;
   const std::size_t gaps = sorted.size() - 1;
-  const std::size_t count = std::min(gaps, most_thresholds);
+  const std::size_t count = std::min(gaps, max_thresholds);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t gap = count == gaps ? i : (i + 1) * gaps / (count + 1);
     const double between = std::midpoint(sorted[gap], sorted[gap + 1]);
@@ -90,7 +90,7 @@ class Search {
   Candidate best() {
     const Candidate single = best_of_one_condition();
     Candidate pair;
-    const std::size_t count = std::min(singles_.size(), most_inputs_in_pairs);
+    const std::size_t count = std::min(singles_.size(), max_inputs_in_pairs);
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t j = i + 1; j < count; ++j) try_pair(singles_[i].second, singles_[j].second, pair);
     }

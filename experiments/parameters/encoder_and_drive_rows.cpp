@@ -100,9 +100,9 @@ std::vector<Parameter> drive_rows() {
                numerics::all_numbers(), [](auto& p) { return &p.dac.nonlinearity; }),
       real_row("dac.noise", 44, "N m", "standard deviation of the $torque noise, drawn at each sample",
                assumed, numerics::at_least(0), [](auto& p) { return &p.dac.noise; }),
-      truth_row("dac.sigma_delta", beyond_moves(27),
-                "whether the rounding error of a sample is added to the next $torque", assumed,
-                [](auto& p) { return &p.dac.sigma_delta; }),
+      bool_row("dac.sigma_delta", beyond_moves(27),
+               "whether the rounding error of a sample is added to the next $torque", assumed,
+               [](auto& p) { return &p.dac.sigma_delta; }),
 
       real_row("amplifier.bandwidth", 45, "Hz",
                "bandwidth (-3 dB) of the amplifier's first-order response; 0: ideal amplifier", assumed,

@@ -102,8 +102,8 @@ Parameter word_row(std::string_view name, std::size_t sobol_dimension, std::stri
 
 /// A row of `true` or `false`.
 template <class Field>
-Parameter truth_row(std::string_view name, std::size_t sobol_dimension, std::string_view meaning,
-                    std::string_view source, Field field) {
+Parameter bool_row(std::string_view name, std::size_t sobol_dimension, std::string_view meaning,
+                   std::string_view source, Field field) {
   return stored_at({name,
                     "1",
                     meaning,

@@ -32,7 +32,7 @@ struct CountedValues {
 };
 
 /// How the values of the moves make one value of their trial.
-enum class OfTrial {
+enum class MoveReduction {
   all,      ///< a quality: 1 where every move has it, otherwise 0
   any,      ///< a quality: 1 where some move has it
   sum,      ///< over the moves
@@ -140,7 +140,7 @@ struct Measure {
   std::optional<std::int64_t> band{};  ///< of a measure of an error band: its limit, counts
   FileHistory file{};
   CountedValues values{};
-  OfTrial of_trial{OfTrial::last};
+  MoveReduction reduction{MoveReduction::last};
   ReportedStatistics point{};  ///< at a design point
   ReportedStatistics level{};  ///< at a torque level of an open-loop study
   SummaryColumns summary{};

@@ -165,7 +165,7 @@ EquivalencePlan plan_of(const command_line::Arguments& arguments) {
     throw Failure(
         ExitCode::inconclusive,
         fmt::format("{}: fewer than {} of {} trials of the pilot have a value; nothing can be planned",
-                    arguments.operands()[0], comparison::least_values, plan.pilot));
+                    arguments.operands()[0], comparison::min_values, plan.pilot));
   }
   comparison::ForecastOptions options;
   options.confidence = plan.rules.confidence;

@@ -149,17 +149,17 @@ py::dict trace(const study::Study& study, std::int64_t point, std::int64_t index
   return result;
 }
 
-std::string_view name_of(layout::OfTrial rule) {
+std::string_view name_of(layout::MoveReduction rule) {
   switch (rule) {
-    case layout::OfTrial::all:
+    case layout::MoveReduction::all:
       return "all";
-    case layout::OfTrial::any:
+    case layout::MoveReduction::any:
       return "any";
-    case layout::OfTrial::sum:
+    case layout::MoveReduction::sum:
       return "sum";
-    case layout::OfTrial::largest:
+    case layout::MoveReduction::largest:
       return "largest";
-    case layout::OfTrial::last:
+    case layout::MoveReduction::last:
       break;
   }
   return "last";
@@ -179,7 +179,7 @@ py::dict descriptions(const study::Study& study) {
   for (const layout::Measure& measure : layout::measure_table(study.features.bands)) {
     if (!names.contains(measure.field.column.name)) continue;
     py::dict description = description_of(measure.field.column, axis);
-    description["of_trial"] = std::string(name_of(measure.of_trial));
+    description["of_trial"] = std::string(name_of(measure.reduction));
     measures[py::str(measure.field.column.name)] = description;
   }
   result["outcome"] = measures;

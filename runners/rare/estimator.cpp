@@ -12,11 +12,11 @@
 
 #include <fmt/format.h>
 
+#include "runners/rare/splitting.hpp"
 #include "analysis/statistics/betting_bounds.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "core/numerics/normal_distribution.hpp"
 #include "experiments/designs/random_key.hpp"
-#include "runners/rare/splitting.hpp"
 
 namespace zerocount::rare {
 namespace {
@@ -41,10 +41,10 @@ constexpr double min_probability = 1e-11;
 constexpr double min_beside_the_best = 0.05;  // of the best score's probability
 constexpr int max_pilots = 8;
 constexpr std::size_t pilot_trials = 2000;
-constexpr double enough_pilot_failures = 100.0;  // independent ones
-constexpr double min_share_of_searched = 0.5;    // of splitting's failures, beside those of pilots
-constexpr double cap_of_no_use = 0.5;            // plain trials have 1
-constexpr double narrow_cap = 30.0;              // of the weights, over the probability
+constexpr double enough_pilot_failures = 100.0;     // independent ones
+constexpr double min_proportion_of_searched = 0.5;  // of splitting's failures, beside those of pilots
+constexpr double cap_of_no_use = 0.5;               // plain trials have 1
+constexpr double narrow_cap = 30.0;                 // of the weights, over the probability
 constexpr std::size_t drawn_at_once = 500;
 constexpr std::size_t max_drawn = 2'000'000;  // some hundred bytes each
 constexpr double natural_share = 0.1;
@@ -121,8 +121,8 @@ struct TriedValue {
 };
 
 /// Those with most failures, and by turns those with the largest value of each score.
-std::vector<TriedValue> max_suspicious(const std::vector<TriedValue>& tried, std::size_t count,
-                                       std::size_t scores) {
+std::vector<TriedValue> most_suspicious(const std::vector<TriedValue>& tried, std::size_t count,
+                                        std::size_t scores) {
   if (tried.size() <= count) return tried;
   std::vector<std::size_t> order(tried.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -283,7 +283,7 @@ class Estimator {
         std::clamp<std::int64_t>(trials_of_values / std::ssize(tried), 1, max_trials_of_value);
     if (!run_tried(tried, each, numbers)) return false;
     for (const Retrial& retrial : retrials) {
-      tried = max_suspicious(tried, retrial.values, settings_.scores);
+      tried = most_suspicious(tried, retrial.values, settings_.scores);
       if (!run_tried(tried, retrial.trials, numbers)) return false;
     }
     const double usual =
@@ -400,8 +400,8 @@ class Estimator {
     WeightedPoints searched = unexplained(searched_);
     const double effective = effective_size(points.weights);
     if (!searched.z.empty())
-      balance(searched,
-              std::max(min_share_of_searched * effective, std::max(1.0, enough_pilot_failures - effective)));
+      balance(searched, std::max(min_proportion_of_searched * effective,
+                                 std::max(1.0, enough_pilot_failures - effective)));
     for (std::size_t i = 0; i < searched.z.size(); ++i) points.add(searched.z[i], searched.weights[i]);
     set_components(points.z.empty() ? levels_
                                     : mixed(fitted_mixture(points, numbers), levels_, share_of_levels));

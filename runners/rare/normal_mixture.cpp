@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t max_components = 8;
 constexpr int max_iterations = 25;
-constexpr std::size_t max_tried_points = 1500;  // to which a mixture is fitted
+constexpr std::size_t max_points = 1500;  // to which a mixture is fitted
 
 Eigen::VectorXd vector_of(std::span<const double> z) {
   return Eigen::VectorXd::Map(z.data(), std::ssize(z));
@@ -186,12 +186,12 @@ NormalComponent widened(const NormalComponent& component) {
 FittedPoints fitted_points(const WeightedPoints& points, NumberSource& numbers) {
   const double effective = effective_size(points.weights);
   const std::size_t size = points.z.size();
-  const bool all = size <= max_tried_points;
+  const bool all = size <= max_points;
   std::vector<double> places;  // of the points drawn, in the cumulative weights
-  for (std::size_t i = 0; !all && i < max_tried_points; ++i) places.push_back(numbers.uniform());
+  for (std::size_t i = 0; !all && i < max_points; ++i) places.push_back(numbers.uniform());
   std::ranges::sort(places);
   const double sum = std::accumulate(points.weights.begin(), points.weights.end(), 0.0);
-  const auto count = static_cast<Eigen::Index>(all ? size : max_tried_points);
+  const auto count = static_cast<Eigen::Index>(all ? size : max_points);
   FittedPoints fitted{Eigen::MatrixXd(std::ssize(points.z.front()), count), Eigen::VectorXd(count)};
   double passed = 0.0;
   std::size_t next = 0;
@@ -203,7 +203,7 @@ FittedPoints fitted_points(const WeightedPoints& points, NumberSource& numbers) 
     }
     for (; next < places.size() && (places[next] < passed || i + 1 == size); ++next) {
       fitted.z.col(static_cast<Eigen::Index>(next)) = vector_of(points.z[i]);
-      fitted.weights[static_cast<Eigen::Index>(next)] = effective / static_cast<double>(max_tried_points);
+      fitted.weights[static_cast<Eigen::Index>(next)] = effective / static_cast<double>(max_points);
     }
   }
   return fitted;

@@ -14,7 +14,7 @@ namespace {
 constexpr double kept_share = 0.2;
 constexpr double enough_failures = 0.2;  // of the trials of a level
 constexpr double min_failures = 10;      // from which copies are made
-constexpr double max_share = 0.6;        // of trials above a level: otherwise it is no progress
+constexpr double max_proportion = 0.6;   // of trials above a level: otherwise it is no progress
 constexpr double wanted_acceptance = 0.35;
 constexpr double redrawn_share = 0.2;  // of the steps of an unordered coordinate
 constexpr double failed_score = std::numeric_limits<double>::infinity();
@@ -99,7 +99,7 @@ class Splitting {
     for (const Particle& particle : particles_) scores.push_back(particle.score);
     std::ranges::sort(scores, std::greater<>());
     double next = scores[static_cast<std::size_t>(kept_share * static_cast<double>(scores.size()))];
-    if (next > level && share_from(next) <= max_share) return next;
+    if (next > level && share_from(next) <= max_proportion) return next;
     const auto last_above =
         std::ranges::partition_point(scores, [&](double score) { return score > std::max(next, level); });
     return last_above == scores.begin() ? level : *std::prev(last_above);

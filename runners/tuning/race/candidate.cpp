@@ -133,7 +133,7 @@ bool surely_misses(const Aim& aim, const Candidate& candidate, const Candidate& 
   return false;
 }
 
-bool surely_later(const Aim& aim, const Candidate& candidate, const Candidate& best, double alpha) {
+bool is_significantly_later(const Aim& aim, const Candidate& candidate, const Candidate& best, double alpha) {
   const std::size_t units = common_units(candidate, best);
   const double limit = estimate_of(aim, best, static_cast<std::int64_t>(units)).criterion;
   std::vector<double> differences;

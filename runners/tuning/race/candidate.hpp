@@ -93,6 +93,6 @@ bool surely_misses(const Aim& aim, const Candidate& candidate, const Candidate& 
 
 /// Whether its values are more often above the criterion of `best`, by the units of both, than those of
 /// `best`.
-bool surely_later(const Aim& aim, const Candidate& candidate, const Candidate& best, double alpha);
+bool is_significantly_later(const Aim& aim, const Candidate& candidate, const Candidate& best, double alpha);
 
 }  // namespace zerocount::tuning

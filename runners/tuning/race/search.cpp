@@ -265,7 +265,7 @@ class Search {
     const auto stays = [&](const Candidate& one) {
       return !surely_misses(aim, one, reliable, error_of_dropping) &&
              (sure == candidates.end() || &one == &*sure ||
-              !surely_later(aim, one, *sure, error_of_dropping));
+              !is_significantly_later(aim, one, *sure, error_of_dropping));
     };
     const auto most = static_cast<std::size_t>(max_after(problem_.size, units));
     std::vector<char> chosen(candidates.size(), 0);

@@ -34,7 +34,7 @@ layout::MeasureTable with_torque_reserve(const layout::ValidValues& valid = any_
   layout::MeasureTable table = layout::measure_table();
   table.push_back({.field = layout::field<trial::MoveOutcome>(
                        "torque_reserve", "N m", "peak torque less holding torque", &torque_reserve, valid),
-                   .of_trial = layout::OfTrial::largest,
+                   .reduction = layout::MoveReduction::largest,
                    .point = {"torque_reserve",
                              {{{n}, "moves, of which the reserves are"},
                               {{mean}, "mean torque reserve"},

@@ -77,8 +77,8 @@ TEST(Candidate, IsSurelyLaterThanAFasterOne) {
     slow.push_back({1, 1, {0.03}});
   }
   const Aim aim{.moves = 0.9};
-  EXPECT_TRUE(surely_later(aim, candidate_of(slow), candidate_of(fast), 0.01));
-  EXPECT_FALSE(surely_later(aim, candidate_of(fast), candidate_of(slow), 0.01));
+  EXPECT_TRUE(is_significantly_later(aim, candidate_of(slow), candidate_of(fast), 0.01));
+  EXPECT_FALSE(is_significantly_later(aim, candidate_of(fast), candidate_of(slow), 0.01));
 }
 
 }  // namespace

@@ -1,5 +1,3 @@
-#include "analysis/comparison/baseline.hpp"
-
 #include <cerrno>
 #include <fstream>
 #include <system_error>

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "analysis/comparison/measure_comparison.hpp"
-#include "analysis/statistics/normal.hpp"
+#include "analysis/statistics/distributions.hpp"
 
 namespace zerocount::comparison {
 namespace {

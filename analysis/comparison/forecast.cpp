@@ -10,7 +10,7 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
-#include "analysis/statistics/normal.hpp"
+#include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "core/random/random_numbers.hpp"
 #include "core/random/variates.hpp"

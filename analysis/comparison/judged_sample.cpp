@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "analysis/statistics/normal.hpp"
+#include "analysis/statistics/distributions.hpp"
 
 namespace zerocount::comparison {
 namespace {

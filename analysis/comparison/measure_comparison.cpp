@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/statistics/normal.hpp"
+#include "analysis/statistics/distributions.hpp"
 #include "analysis/two_samples/mean_tests.hpp"
 #include "analysis/two_samples/proportion_tests.hpp"
 #include "analysis/two_samples/quantile_tests.hpp"

@@ -1,5 +1,3 @@
-#include "analysis/experiment_design/design_description.hpp"
-
 #include <algorithm>
 #include <limits>
 #include <numbers>
@@ -7,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/experiment_design/experiment_design.hpp"
 #include "analysis/identification/fit_report.hpp"
 #include "core/loop/encoder.hpp"
 

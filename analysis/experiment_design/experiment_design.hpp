@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/document/description.hpp"
 #include "analysis/experiment_design/protocol_search.hpp"
 #include "experiments/study/study.hpp"
 
@@ -65,5 +66,8 @@ std::string streamer_file(const TorqueProtocol& protocol);
 
 /// The simulated record of the median machine, as `identify` reads it.
 std::string record_table(const ExperimentDesign& design);
+
+/// What to record, what to expect of it on which machines, and how to identify it.
+document::Description<ExperimentDesign> design_description();
 
 }  // namespace zerocount::experiment_design

@@ -1,16 +1,23 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "analysis/history/run_record.hpp"
-#include "analysis/history/wait.hpp"
 
 /// The SQLite file of a history. README.md documents its schema.
 namespace zerocount::history {
 
 /// The version of the schema, kept as the file's `user_version`.
 inline constexpr std::int64_t schema_version = 1;
+
+/// How long to wait for another process that holds a database.
+struct Wait {
+  double seconds{60.0};
+  double notice{1.0};              ///< seconds after which `notify` is called, once
+  std::function<void()> notify{};  ///< may be empty
+};
 
 /// Result of add_run().
 enum class Addition {

@@ -5,7 +5,7 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
-#include "analysis/history/wait.hpp"
+#include "analysis/history/database.hpp"
 
 namespace zerocount::history {
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/document/answer.hpp"
 #include "analysis/identification/confidence_interval.hpp"
 #include "analysis/identification/contact_fit.hpp"
 #include "analysis/identification/fit_report.hpp"
@@ -89,5 +90,8 @@ std::string manifest_fragment(const Identification& identification);
 /// The joint draws as a table for the key `samples` of a manifest: comments with #, a header with the keys of
 /// the parameters, and a line of comma-separated numbers for each draw.
 std::string posterior_table(const Identification& identification);
+
+/// The parameters, the parts of the records, the checks of the residuals and the fragment of a manifest.
+document::AnswerDescription<Identification> identification_answer();
 
 }  // namespace zerocount::identification

@@ -1,5 +1,3 @@
-#include "analysis/identification/identification_description.hpp"
-
 #include <algorithm>
 #include <optional>
 #include <vector>
@@ -8,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "analysis/identification/fit_refusals.hpp"
+#include "analysis/identification/identification.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::identification {

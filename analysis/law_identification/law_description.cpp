@@ -1,8 +1,7 @@
-#include "analysis/law_identification/law_description.hpp"
-
 #include <fmt/format.h>
 
 #include "analysis/identification/fit_report.hpp"
+#include "analysis/law_identification/law_identification.hpp"
 #include "analysis/text/text.hpp"
 #include "core/friction/law.hpp"
 

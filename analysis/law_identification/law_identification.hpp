@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/document/answer.hpp"
 #include "analysis/identification/contact_fit.hpp"
 #include "analysis/identification/identification.hpp"
 #include "analysis/record_fit/residual_checks.hpp"
@@ -59,5 +60,8 @@ struct LawChoice {
 /// law cannot be simulated along the records
 LawComparison compare_laws(std::vector<record_fit::TestRecord> records, const LawChoice& choice,
                            const identification::StageReport& report = {});
+
+/// The comparison, the parameters of every law, and the fragment of a manifest of the best one.
+document::AnswerDescription<LawComparison> laws_answer();
 
 }  // namespace zerocount::law_identification

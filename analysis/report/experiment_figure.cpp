@@ -1,9 +1,8 @@
-#include "analysis/report/experiment_figure.hpp"
-
 #include <algorithm>
 
 #include <fmt/format.h>
 
+#include "analysis/report/answer_figures.hpp"
 #include "analysis/report/html.hpp"
 #include "analysis/report/thinning.hpp"
 

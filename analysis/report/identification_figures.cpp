@@ -1,11 +1,10 @@
-#include "analysis/report/identification_figures.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
 
+#include "analysis/report/answer_figures.hpp"
 #include "analysis/report/html.hpp"
 #include "analysis/report/thinning.hpp"
 

@@ -9,7 +9,6 @@
 
 #include "analysis/sensitivity/rank_correlation.hpp"
 #include "analysis/statistics/distributions.hpp"
-#include "analysis/statistics/normal.hpp"
 
 namespace zerocount::sensitivity {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "analysis/sensitivity/factor_matrix.hpp"
-#include "analysis/statistics/normal.hpp"
+#include "analysis/statistics/distributions.hpp"
 #include "core/numerics/dense.hpp"
 
 namespace zerocount::sensitivity {

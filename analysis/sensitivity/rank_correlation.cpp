@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <numeric>
 
-#include "analysis/statistics/normal.hpp"
+#include "analysis/statistics/distributions.hpp"
 
 namespace zerocount::sensitivity {
 namespace {

@@ -1,11 +1,10 @@
-#include "analysis/sliding_identification/sliding_description.hpp"
-
 #include <algorithm>
 #include <functional>
 
 #include <fmt/format.h>
 
 #include "analysis/identification/fit_report.hpp"
+#include "analysis/sliding_identification/sliding_identification.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::sliding_identification {

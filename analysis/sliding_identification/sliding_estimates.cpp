@@ -1,11 +1,11 @@
-#include "analysis/sliding_identification/sliding_estimates.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "analysis/sliding_identification/sliding_fit.hpp"
+#include "analysis/sliding_identification/sliding_identification.hpp"
 #include "analysis/statistics/distributions.hpp"
 
 namespace zerocount::sliding_identification {

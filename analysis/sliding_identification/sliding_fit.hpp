@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "analysis/identification/fit_report.hpp"
 #include "analysis/sliding_identification/sliding_motion.hpp"
 
 namespace zerocount::sliding_identification {
@@ -59,5 +60,11 @@ SlidingFit fit_sliding(std::span<const SlidingRecord> records, const SlidingPoin
 /// How much of the sum of squares a Stribeck excess with this velocity (rad/s or m/s) would explain, by one
 /// Gauss–Newton step from a fit without.
 double stribeck_gain(const SlidingFit& fit, double velocity);
+
+constexpr double min_excess_ratio = 3.5;  ///< of the Stribeck excess to its standard error
+
+/// The reported parameters with their 95 % intervals. What the fit has no parameter for, or knows too badly,
+/// is not identifiable.
+std::vector<identification::ParameterEstimate> estimates_of(const SlidingFit& fit, parameters::AxisKind axis);
 
 }  // namespace zerocount::sliding_identification

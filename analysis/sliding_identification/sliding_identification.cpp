@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/sliding_identification/sliding_estimates.hpp"
+#include "analysis/sliding_identification/sliding_fit.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::sliding_identification {

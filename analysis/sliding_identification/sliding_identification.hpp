@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/document/answer.hpp"
 #include "analysis/identification/fit_report.hpp"
 #include "analysis/sliding_identification/sliding_record.hpp"
 
@@ -37,5 +38,8 @@ SlidingIdentification identify_sliding(std::vector<SlidingRecord> records);
 /// The parameters as a fragment of a manifest. If sliding shows no level above the Coulomb level, the
 /// breakaway torque is taken to be the Coulomb level.
 std::string sliding_fragment(const SlidingIdentification& identification);
+
+/// The parameters, what was used of the records, and the fragment of a manifest.
+document::AnswerDescription<SlidingIdentification> sliding_answer();
 
 }  // namespace zerocount::sliding_identification

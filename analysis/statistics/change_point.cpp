@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "analysis/statistics/normal.hpp"
+#include "analysis/statistics/distributions.hpp"
 #include "core/numerics/bisection.hpp"
 
 namespace zerocount::statistics {

@@ -8,7 +8,6 @@
 
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/mean_bounds.hpp"
-#include "analysis/statistics/normal.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "analysis/statistics/unknown.hpp"
 

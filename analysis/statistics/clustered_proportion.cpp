@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "analysis/statistics/distributions.hpp"
-#include "analysis/statistics/normal.hpp"
 
 namespace zerocount::statistics {
 namespace {

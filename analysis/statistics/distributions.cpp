@@ -5,9 +5,25 @@
 #include <boost/math/distributions/hypergeometric.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
+#include "analysis/statistics/proportion.hpp"
+#include "core/numerics/normal_distribution.hpp"
+
 namespace zerocount::statistics {
 
 using boost::math::complement;
+
+double normal_quantile(double p) {
+  return numerics::normal_quantile(p);
+}
+
+double normal_upper_tail(double z) {
+  return numerics::normal_probability(-z);
+}
+
+double two_sided_normal_quantile(double confidence) {
+  require_confidence(confidence);
+  return normal_quantile(0.5 * (1.0 + confidence));
+}
 
 double student_t_quantile(double degrees_of_freedom, double p) {
   return quantile(boost::math::students_t(degrees_of_freedom), p);

@@ -21,4 +21,14 @@ double binomial_upper_tail(std::int64_t trials, double success, std::int64_t k);
 /// P(X ≥ k), k > 0, for the number X of failures in a sample of `drawn` from `total` trials with `failures`.
 double hypergeometric_at_least(std::int64_t failures, std::int64_t drawn, std::int64_t total, std::int64_t k);
 
+/// Quantile at the probability p in (0, 1).
+double normal_quantile(double p);
+
+/// P(Z > z).
+double normal_upper_tail(double z);
+
+/// z = quantile at (1 + confidence)/2, so that P(|Z| ≤ z) = confidence.
+/// @throws Failure (bad_input) for a confidence outside (0, 1).
+double two_sided_normal_quantile(double confidence);
+
 }  // namespace zerocount::statistics

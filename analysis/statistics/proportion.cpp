@@ -10,7 +10,7 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <fmt/format.h>
 
-#include "analysis/statistics/normal.hpp"
+#include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "core/failure/failure.hpp"
 

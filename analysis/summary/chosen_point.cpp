@@ -11,7 +11,6 @@
 #include "analysis/statistics/clustered_proportion.hpp"
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/moments.hpp"
-#include "analysis/statistics/normal.hpp"
 #include "analysis/summary/best_point.hpp"
 #include "analysis/summary/judged_point.hpp"
 #include "analysis/summary/point_names.hpp"

@@ -1,11 +1,11 @@
-#include "analysis/theory/point_theory_description.hpp"
-
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include "analysis/theory/point_theory.hpp"
 
 namespace zerocount::theory {
 namespace {

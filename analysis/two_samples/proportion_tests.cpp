@@ -4,7 +4,6 @@
 #include <cstdint>
 
 #include "analysis/statistics/distributions.hpp"
-#include "analysis/statistics/normal.hpp"
 #include "core/numerics/bisection.hpp"
 
 namespace zerocount::two_samples {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/statistics/normal.hpp"
+#include "analysis/statistics/distributions.hpp"
 
 namespace zerocount::two_samples {
 namespace {

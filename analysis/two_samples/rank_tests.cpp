@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "analysis/statistics/normal.hpp"
+#include "analysis/statistics/distributions.hpp"
 
 namespace zerocount::two_samples {
 namespace {

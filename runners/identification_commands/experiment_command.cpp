@@ -9,10 +9,9 @@
 
 #include <fmt/format.h>
 
-#include "analysis/experiment_design/design_description.hpp"
 #include "analysis/experiment_design/experiment_design.hpp"
+#include "analysis/report/answer_figures.hpp"
 #include "analysis/report/answer_page.hpp"
-#include "analysis/report/experiment_figure.hpp"
 #include "core/text/number_text.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/command_line/option_values.hpp"

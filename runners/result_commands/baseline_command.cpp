@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/comparison/baseline.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "results/storage/output_lock.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/command.hpp"

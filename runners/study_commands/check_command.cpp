@@ -10,7 +10,7 @@
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/statistics/sample_size.hpp"
 #include "analysis/summary/point_names.hpp"
-#include "analysis/theory/point_theory_description.hpp"
+#include "analysis/theory/point_theory.hpp"
 #include "core/loop/encoder.hpp"
 #include "experiments/study/study.hpp"
 #include "runners/answers/answer_format.hpp"

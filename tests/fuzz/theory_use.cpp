@@ -5,7 +5,7 @@
 #include <string>
 
 #include "analysis/document/answer.hpp"
-#include "analysis/theory/point_theory_description.hpp"
+#include "analysis/theory/point_theory.hpp"
 #include "tests/fuzz/expectation.hpp"
 
 namespace zerocount::fuzz {

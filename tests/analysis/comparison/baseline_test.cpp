@@ -1,8 +1,7 @@
 // Making and replacing a baseline, with the reason on record.
-#include "analysis/comparison/baseline.hpp"
-
 #include <gtest/gtest.h>
 
+#include "analysis/comparison/comparison.hpp"
 #include "core/failure/failure.hpp"
 #include "tests/analysis/study_files.hpp"
 #include "tests/support/temporary_folder.hpp"

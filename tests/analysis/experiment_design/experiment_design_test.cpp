@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include "analysis/document/answer.hpp"
-#include "analysis/experiment_design/design_description.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "tests/analysis/identification/material_tests.hpp"

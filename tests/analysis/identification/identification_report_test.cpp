@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/identification/identification.hpp"
-#include "analysis/identification/identification_description.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/distributions/distribution.hpp"
 #include "experiments/manifest/load_study.hpp"

@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
-#include "analysis/identification/identification_description.hpp"
 #include "core/failure/failure.hpp"
 #include "tests/analysis/identification/material_tests.hpp"
 #include "tests/analysis/identification/quasistatic_judge.hpp"

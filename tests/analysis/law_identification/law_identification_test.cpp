@@ -11,7 +11,6 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/law_identification/law_description.hpp"
 #include "core/failure/failure.hpp"
 #include "core/friction/law.hpp"
 #include "tests/analysis/identification/material_tests.hpp"

@@ -1,6 +1,4 @@
 // The figures of an identification: what is drawn of a record is what the fit left of it.
-#include "analysis/report/identification_figures.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -9,7 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/identification/identification_description.hpp"
+#include "analysis/identification/identification.hpp"
+#include "analysis/report/answer_figures.hpp"
 #include "analysis/report/answer_page.hpp"
 #include "analysis/report/thinning.hpp"
 

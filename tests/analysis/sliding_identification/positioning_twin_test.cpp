@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "analysis/sliding_identification/sliding_description.hpp"
 #include "analysis/sliding_identification/sliding_fit.hpp"
 #include "analysis/sliding_identification/sliding_identification.hpp"
 #include "core/failure/failure.hpp"

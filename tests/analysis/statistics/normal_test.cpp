@@ -1,10 +1,9 @@
 // The standard normal distribution, beside published values.
-#include "analysis/statistics/normal.hpp"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "analysis/statistics/distributions.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::statistics {

@@ -1,11 +1,10 @@
 // What `check` says of the theory of points.
-#include "analysis/theory/point_theory_description.hpp"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "analysis/document/answer.hpp"
+#include "analysis/theory/point_theory.hpp"
 #include "experiments/manifest/load_study.hpp"
 
 namespace zerocount::theory {

@@ -4,7 +4,7 @@
 
 #include "analysis/comparison/measure_comparison.hpp"
 #include "analysis/goal/goal_verdict.hpp"
-#include "analysis/statistics/clustered_proportion.hpp"
+#include "analysis/statistics/clusters/clustered_proportion.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "analysis/two_samples/mean_tests.hpp"
 #include "analysis/two_samples/quick_tests.hpp"

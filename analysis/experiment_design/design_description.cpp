@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "analysis/experiment_design/experiment_design.hpp"
-#include "analysis/identification/fit_report.hpp"
+#include "analysis/identification/answer/fit_report.hpp"
 #include "core/loop/encoder.hpp"
 
 namespace zerocount::experiment_design {

@@ -5,8 +5,8 @@
 #include <limits>
 #include <optional>
 
-#include "analysis/identification/checked_record.hpp"
 #include "analysis/identification/confidence_interval.hpp"
+#include "analysis/identification/records/checked_record.hpp"
 #include "analysis/record_fit/encoder_noise.hpp"
 #include "analysis/record_fit/reading_replicates.hpp"
 #include "analysis/record_fit/residual_checks.hpp"

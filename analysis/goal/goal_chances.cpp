@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "analysis/goal/goal_verdict.hpp"
-#include "analysis/statistics/clustered_proportion.hpp"
+#include "analysis/statistics/clusters/clustered_proportion.hpp"
+#include "analysis/statistics/clusters/rig_proportion.hpp"
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/proportion.hpp"
-#include "analysis/statistics/rig_proportion.hpp"
 #include "core/numerics/bisection.hpp"
 
 namespace zerocount::goal {

@@ -5,8 +5,8 @@
 #include <numeric>
 #include <utility>
 
-#include "analysis/statistics/clustered_proportion.hpp"
-#include "analysis/statistics/rig_proportion.hpp"
+#include "analysis/statistics/clusters/clustered_proportion.hpp"
+#include "analysis/statistics/clusters/rig_proportion.hpp"
 
 namespace zerocount::goal {
 namespace {

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "analysis/goal/success_bounds.hpp"
-#include "analysis/statistics/clustered_proportion.hpp"
+#include "analysis/statistics/clusters/clustered_proportion.hpp"
 #include "core/failure/failure.hpp"
 #include "results/layout/layout.hpp"
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "analysis/statistics/clustered_proportion.hpp"
+#include "analysis/statistics/clusters/clustered_proportion.hpp"
+#include "analysis/statistics/clusters/rig_statistics.hpp"
 #include "analysis/statistics/confidence_sequence.hpp"
-#include "analysis/statistics/rig_statistics.hpp"
 
 namespace zerocount::goal {
 

@@ -3,8 +3,8 @@
 #include <cstddef>
 
 #include "analysis/measures/point_statistics.hpp"
+#include "analysis/statistics/clusters/tolerance.hpp"
 #include "analysis/statistics/proportion.hpp"
-#include "analysis/statistics/tolerance.hpp"
 
 /// What the trials of a design point show of success, although the point was chosen by them.
 ///

@@ -12,8 +12,8 @@
 
 #include "analysis/jerks/jerk_rates.hpp"
 #include "analysis/jerks/observed_move.hpp"
-#include "analysis/statistics/clustered_quantile.hpp"
-#include "analysis/statistics/histogram.hpp"
+#include "analysis/statistics/clusters/clustered_quantile.hpp"
+#include "analysis/statistics/sums/histogram.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::jerks {

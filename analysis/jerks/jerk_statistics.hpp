@@ -7,7 +7,7 @@
 
 #include "analysis/jerks/creep_comparison.hpp"
 #include "analysis/jerks/laplace_trend.hpp"
-#include "analysis/statistics/clustered_proportion.hpp"
+#include "analysis/statistics/clusters/clustered_proportion.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "analysis/statistics/unknown.hpp"

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "analysis/identification/starting_point.hpp"
+#include "analysis/identification/starting_values/starting_point.hpp"
 #include "analysis/law_identification/law_model.hpp"
 
 namespace zerocount::law_identification {

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "analysis/identification/fit_report.hpp"
+#include "analysis/identification/answer/fit_report.hpp"
 #include "analysis/law_identification/law_identification.hpp"
 #include "analysis/text/text.hpp"
 #include "core/friction/law.hpp"

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "analysis/identification/contact_fit.hpp"
-#include "analysis/identification/starting_point.hpp"
+#include "analysis/identification/starting_values/starting_point.hpp"
 #include "core/friction/law.hpp"
 
 namespace zerocount::law_identification {

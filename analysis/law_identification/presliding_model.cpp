@@ -1,5 +1,5 @@
 #include "analysis/identification/confidence_interval.hpp"
-#include "analysis/identification/starting_point.hpp"
+#include "analysis/identification/starting_values/starting_point.hpp"
 #include "analysis/law_identification/law_model.hpp"
 
 namespace zerocount::law_identification {

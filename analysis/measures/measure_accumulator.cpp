@@ -9,7 +9,7 @@
 
 #include "analysis/measures/point_accumulator.hpp"
 #include "analysis/measures/trial_value.hpp"
-#include "analysis/statistics/clustered_proportion.hpp"
+#include "analysis/statistics/clusters/clustered_proportion.hpp"
 #include "analysis/statistics/mean_bounds.hpp"
 #include "core/trial/divergence.hpp"
 #include "experiments/designs/random_key.hpp"

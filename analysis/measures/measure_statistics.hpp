@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/statistics/moments.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/quantile.hpp"
+#include "analysis/statistics/sums/moments.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "results/layout/measure_table.hpp"
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "analysis/statistics/clustered_proportion.hpp"
-#include "analysis/statistics/rig_proportion.hpp"
+#include "analysis/statistics/clusters/clustered_proportion.hpp"
+#include "analysis/statistics/clusters/rig_proportion.hpp"
 
 namespace zerocount::measures {
 

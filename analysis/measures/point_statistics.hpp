@@ -8,9 +8,9 @@
 #include "analysis/measures/goal_counts.hpp"
 #include "analysis/measures/measure_statistics.hpp"
 #include "analysis/measures/undecided_moves.hpp"
+#include "analysis/statistics/clusters/rig_statistics.hpp"
+#include "analysis/statistics/clusters/tolerance.hpp"
 #include "analysis/statistics/proportion.hpp"
-#include "analysis/statistics/rig_statistics.hpp"
-#include "analysis/statistics/tolerance.hpp"
 #include "analysis/statistics/unknown.hpp"
 
 /// Statistics of a design point. All bounds have the confidence of the summary. Every proportion and mean

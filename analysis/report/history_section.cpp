@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "analysis/report/answer_figures.hpp"
+#include "analysis/report/figures/answer_figures.hpp"
 #include "analysis/report/report_sections.hpp"
 
 namespace zerocount::report {

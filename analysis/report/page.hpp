@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/report/figure.hpp"
+#include "analysis/report/figures/figure.hpp"
 
 namespace zerocount::report {
 

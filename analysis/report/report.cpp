@@ -4,12 +4,12 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/document/markup.hpp"
-#include "analysis/report/answer_figures.hpp"
 #include "analysis/report/embedded_files.hpp"
+#include "analysis/report/figures/answer_figures.hpp"
+#include "analysis/report/figures/report_figures.hpp"
+#include "analysis/report/figures/standalone_figure.hpp"
 #include "analysis/report/html.hpp"
-#include "analysis/report/report_figures.hpp"
 #include "analysis/report/report_sections.hpp"
-#include "analysis/report/standalone_figure.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::report {

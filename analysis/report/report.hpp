@@ -8,8 +8,8 @@
 
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/history/series.hpp"
+#include "analysis/report/figures/thinned_trace.hpp"
 #include "analysis/report/page.hpp"
-#include "analysis/report/thinned_trace.hpp"
 #include "results/reading/study_file.hpp"
 
 /// The report on a results file, and its single figures.

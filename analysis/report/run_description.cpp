@@ -9,7 +9,7 @@
 #include "analysis/report/html.hpp"
 #include "analysis/report/report_sections.hpp"
 #include "analysis/report/reported_study.hpp"
-#include "analysis/statistics/moments.hpp"
+#include "analysis/statistics/sums/moments.hpp"
 #include "analysis/text/text.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "results/layout/table_io.hpp"

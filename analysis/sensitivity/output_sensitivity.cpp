@@ -13,7 +13,7 @@
 #include "analysis/sensitivity/logistic_fit.hpp"
 #include "analysis/sensitivity/rank_correlation.hpp"
 #include "analysis/sensitivity/saltelli_indices.hpp"
-#include "analysis/statistics/moments.hpp"
+#include "analysis/statistics/sums/moments.hpp"
 
 namespace zerocount::sensitivity {
 namespace {

@@ -8,7 +8,7 @@
 #include "analysis/sensitivity/output_sensitivity.hpp"
 #include "analysis/sensitivity/sensitivity.hpp"
 #include "analysis/sensitivity/trial_outputs.hpp"
-#include "analysis/statistics/moments.hpp"
+#include "analysis/statistics/sums/moments.hpp"
 #include "analysis/text/percent.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/designs/random_key.hpp"

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/identification/fit_report.hpp"
+#include "analysis/identification/answer/fit_report.hpp"
 #include "analysis/sliding_identification/sliding_identification.hpp"
 #include "analysis/text/text.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "analysis/identification/fit_report.hpp"
+#include "analysis/identification/answer/fit_report.hpp"
 #include "analysis/sliding_identification/sliding_motion.hpp"
 
 namespace zerocount::sliding_identification {

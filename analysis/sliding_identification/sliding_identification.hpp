@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "analysis/document/answer.hpp"
-#include "analysis/identification/fit_report.hpp"
+#include "analysis/identification/answer/fit_report.hpp"
 #include "analysis/sliding_identification/sliding_record.hpp"
 
 namespace zerocount::sliding_identification {

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/identification/checked_record.hpp"
+#include "analysis/identification/records/checked_record.hpp"
 #include "analysis/sliding_identification/presliding_travel.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "core/failure/failure.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/statistics/moments.hpp"
 #include "analysis/statistics/proportion.hpp"
+#include "analysis/statistics/sums/moments.hpp"
 
 namespace zerocount::statistics {
 

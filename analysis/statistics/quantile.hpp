@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/statistics/histogram.hpp"
 #include "analysis/statistics/proportion.hpp"
+#include "analysis/statistics/sums/histogram.hpp"
 
 namespace zerocount::statistics {
 

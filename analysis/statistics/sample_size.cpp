@@ -6,9 +6,9 @@
 #include <boost/math/special_functions/beta.hpp>
 #include <fmt/format.h>
 
+#include "analysis/statistics/clusters/rig_statistics.hpp"
 #include "analysis/statistics/confidence_sequence.hpp"
 #include "analysis/statistics/proportion.hpp"
-#include "analysis/statistics/rig_statistics.hpp"
 #include "analysis/text/percent.hpp"
 #include "core/failure/failure.hpp"
 #include "core/numerics/bisection.hpp"

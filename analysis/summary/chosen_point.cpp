@@ -8,9 +8,9 @@
 #include <fmt/ranges.h>
 
 #include "analysis/goal/success_bounds.hpp"
-#include "analysis/statistics/clustered_proportion.hpp"
+#include "analysis/statistics/clusters/clustered_proportion.hpp"
 #include "analysis/statistics/distributions.hpp"
-#include "analysis/statistics/moments.hpp"
+#include "analysis/statistics/sums/moments.hpp"
 #include "analysis/summary/best_point.hpp"
 #include "analysis/summary/judged_point.hpp"
 #include "analysis/summary/point_names.hpp"

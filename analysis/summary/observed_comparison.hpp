@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "analysis/measures/point_statistics.hpp"
-#include "analysis/statistics/observed_test.hpp"
+#include "analysis/statistics/clusters/observed_test.hpp"
 #include "analysis/text/report_field.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"

@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_invoke.h>
 
+#include "analysis/iso230/results_group.hpp"
+#include "analysis/measures/point_columns.hpp"
 #include "analysis/measures/trial_value.hpp"
 #include "core/failure/failure.hpp"
 

@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include "analysis/iso230/repeatability_file.hpp"
-#include "analysis/iso230/repeatability_statistics.hpp"
+#include "analysis/iso230/point_statistics.hpp"
+#include "analysis/iso230/results_group.hpp"
 #include "analysis/measures/point_columns.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "analysis/summary/study_statistics.hpp"

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/statistics/state.hpp"
+#include "analysis/statistics/sums/state.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::summary {

@@ -4,7 +4,8 @@
 #include <span>
 
 #include "analysis/measures/undecided_moves.hpp"
-#include "analysis/statistics/histogram.hpp"
+#include "analysis/statistics/sums/histogram.hpp"
+#include "analysis/summary/summary.hpp"
 #include "experiments/study/study.hpp"
 
 /// Moves that are off target: stalled, or still on their way when their hold ended. They are undecided,

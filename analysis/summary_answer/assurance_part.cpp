@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/statistics/tolerance.hpp"
+#include "analysis/statistics/clusters/tolerance.hpp"
 #include "analysis/summary_answer/parts.hpp"
 #include "analysis/text/percent.hpp"
 

@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
-#include "analysis/iso230/repeatability_columns.hpp"
+#include "analysis/iso230/columns.hpp"
 #include "analysis/measures/field_description.hpp"
-#include "analysis/statistics/tolerance.hpp"
+#include "analysis/statistics/clusters/tolerance.hpp"
 #include "analysis/summary_answer/parts.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "analysis/statistics/clustered_proportion.hpp"
+#include "analysis/statistics/clusters/clustered_proportion.hpp"
 #include "analysis/statistics/proportion.hpp"
 
 namespace zerocount::worlds {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "analysis/report/figure.hpp"
+#include "analysis/report/figures/figure.hpp"
 #include "analysis/report/page.hpp"
 #include "runners/command_line/command_line.hpp"
 

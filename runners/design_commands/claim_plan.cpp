@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "analysis/statistics/clusters/rig_statistics.hpp"
 #include "analysis/statistics/proportion.hpp"
-#include "analysis/statistics/rig_statistics.hpp"
 #include "analysis/statistics/sample_size.hpp"
 #include "analysis/summary/summary.hpp"
 #include "analysis/text/percent.hpp"

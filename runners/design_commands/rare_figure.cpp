@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "analysis/report/figure.hpp"
+#include "analysis/report/figures/figure.hpp"
 
 namespace zerocount::design_commands {
 namespace {

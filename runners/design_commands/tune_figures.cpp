@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/report/report_figures.hpp"
+#include "analysis/report/figures/report_figures.hpp"
 #include "results/reading/study_file.hpp"
 
 namespace zerocount::design_commands {

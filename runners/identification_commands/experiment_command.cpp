@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "analysis/experiment_design/experiment_design.hpp"
-#include "analysis/report/answer_figures.hpp"
 #include "analysis/report/answer_page.hpp"
+#include "analysis/report/figures/answer_figures.hpp"
 #include "core/text/number_text.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/command_line/option_values.hpp"

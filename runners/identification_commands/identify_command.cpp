@@ -10,12 +10,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/identification/checked_record.hpp"
 #include "analysis/identification/identification.hpp"
+#include "analysis/identification/records/checked_record.hpp"
 #include "analysis/law_identification/law_identification.hpp"
 #include "analysis/records/raw_series.hpp"
-#include "analysis/report/answer_figures.hpp"
 #include "analysis/report/answer_page.hpp"
+#include "analysis/report/figures/answer_figures.hpp"
 #include "analysis/sliding_identification/sliding_identification.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/reading/study_file.hpp"

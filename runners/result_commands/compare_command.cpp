@@ -9,7 +9,7 @@
 
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/comparison/comparison_report.hpp"
-#include "analysis/report/answer_figures.hpp"
+#include "analysis/report/figures/answer_figures.hpp"
 #include "analysis/text/text.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/reading/study_file.hpp"

@@ -10,8 +10,8 @@
 
 #include "analysis/history/database.hpp"
 #include "analysis/history/run_record.hpp"
-#include "analysis/report/answer_figures.hpp"
 #include "analysis/report/answer_page.hpp"
+#include "analysis/report/figures/answer_figures.hpp"
 #include "results/reading/study_file.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/command_line/output_place.hpp"

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/identification/checked_record.hpp"
+#include "analysis/identification/records/checked_record.hpp"
 #include "analysis/records/text_table.hpp"
 #include "analysis/sliding_identification/sliding_record.hpp"
 #include "runners/identification_commands/record_options.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/iso230/repeatability_file.hpp"
+#include "analysis/iso230/results_group.hpp"
 #include "analysis/summary/summary.hpp"
 #include "analysis/summary_answer/summary_answer.hpp"
 #include "analysis/text/report_json.hpp"

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "analysis/statistics/observed_test.hpp"
+#include "analysis/statistics/clusters/observed_test.hpp"
 #include "results/reading/study_file.hpp"
 #include "tests/runners/program.hpp"
 

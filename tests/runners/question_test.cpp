@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "analysis/report/report_figures.hpp"
+#include "analysis/report/figures/report_figures.hpp"
 #include "results/reading/study_file.hpp"
 #include "tests/runners/program.hpp"
 

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/identification/checked_record.hpp"
 #include "analysis/identification/identification.hpp"
+#include "analysis/identification/records/checked_record.hpp"
 #include "core/plant/plant.hpp"
 #include "tests/analysis/identification/material_tests.hpp"
 

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "analysis/iso230/repeatability_statistics.hpp"
+#include "analysis/iso230/point_statistics.hpp"
 #include "analysis/summary/summary.hpp"
 #include "tests/analysis/iso230/sequence_studies.hpp"
 #include "tests/analysis/summary_forms.hpp"

@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "analysis/iso230/repeatability_columns.hpp"
+#include "analysis/iso230/columns.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace zerocount::iso230 {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/measures/move_counts.hpp"
-#include "analysis/statistics/state.hpp"
+#include "analysis/statistics/sums/state.hpp"
 #include "core/failure/failure.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/each_seed.hpp"

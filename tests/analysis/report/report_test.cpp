@@ -11,8 +11,9 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/comparison/comparison.hpp"
-#include "analysis/report/report_figures.hpp"
+#include "analysis/report/figures/report_figures.hpp"
 #include "analysis/summary/stored_statistics.hpp"
+#include "analysis/summary/study_statistics.hpp"
 #include "analysis/summary/summary.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "tests/analysis/report/run_studies.hpp"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/statistics/rig_statistics.hpp"
+#include "analysis/statistics/clusters/rig_statistics.hpp"
 #include "analysis/statistics/sample_size.hpp"
 #include "core/failure/failure.hpp"
 

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/measures/point_accumulator.hpp"
-#include "analysis/statistics/tolerance.hpp"
+#include "analysis/statistics/clusters/tolerance.hpp"
 #include "analysis/text/percent.hpp"
 #include "core/failure/failure.hpp"
 #include "tests/analysis/summary/swept_study.hpp"

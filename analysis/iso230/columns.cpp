@@ -1,0 +1,189 @@
+#include "analysis/iso230/columns.hpp"
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace zerocount::iso230 {
+namespace {
+
+using Trial = const SequenceTrial&;
+using Point = const PointRepeatability&;
+using TrialColumns = RepeatabilityColumns<SequenceTrial>;
+using PointColumns = RepeatabilityColumns<PointRepeatability>;
+
+/// A column for every value of `fields`, from every source. `values(repeatability, target)` has them.
+template <typename Values, typename ValuesOf>
+void add_values(TrialColumns& columns, std::span<const RepeatabilityField<Values>> fields, ValuesOf values) {
+  for (const DeviationSource& source : deviation_sources()) {
+    for (const RepeatabilityField<Values>& field : fields) {
+      columns.push_back({source.name, std::string(field.name), source.unit,
+                         fmt::format("{}, {}", field.long_name, source.long_name),
+                         [&source, &field, values](Trial trial, std::size_t target) {
+                           if (!trial.values) return statistics::unknown;
+                           return values((*trial.values).*source.values, target).*field.value;
+                         }});
+    }
+  }
+}
+
+/// A column for every statistic of every value of `fields`, from every source. `values(source, target)` has
+/// the statistics, [field].
+template <typename Values, typename ValuesOf>
+void add_statistics(PointColumns& columns, std::span<const RepeatabilityField<Values>> fields,
+                    bool of_targets, ValuesOf values) {
+  for (std::size_t i = 0; i < deviation_sources().size(); ++i) {
+    const DeviationSource& source = deviation_sources()[i];
+    for (std::size_t field = 0; field < fields.size(); ++field) {
+      for (const ValueStatisticField& statistic : value_statistic_fields()) {
+        if (of_targets && !statistic.of_targets) continue;
+        columns.push_back(
+            {source.name, fmt::format("{}_{}", fields[field].name, statistic.name), source.unit,
+             fmt::format("{} {}, {}", statistic.long_name, fields[field].long_name, source.long_name),
+             [i, field, &statistic, values](Point point, std::size_t target) {
+               return statistic.value(values(point.sources[i], target)[field]);
+             }});
+      }
+    }
+  }
+}
+
+layout::Column scale(const char* name, const char* long_name) {
+  return {name, "1", long_name, hdf5::Element::int64};
+}
+
+layout::Column rows_of_trials() {
+  return scale("trial", "global row of the trial");
+}
+layout::Column rows_of_points() {
+  return scale("point", "index of the design point");
+}
+layout::Column targets_of_list() {
+  return scale("target", "index of the target in its list");
+}
+
+template <typename Row>
+layout::Table table_of(const char* group, layout::Column rows, std::optional<layout::Column> second,
+                       const RepeatabilityColumns<Row>& columns) {
+  layout::Table table{group, std::move(rows), std::move(second), {}};
+  for (const RepeatabilityColumn<Row>& column : columns) {
+    table.columns.push_back(
+        {column.source.empty() ? column.name : fmt::format("{}/{}", column.source, column.name),
+         std::string(column.unit), column.long_name});
+  }
+  return table;
+}
+
+}  // namespace
+
+TrialColumns trial_axis_columns() {
+  TrialColumns columns;
+  add_values(columns, axis_fields(), [](const Repeatability& r, std::size_t) { return r.axis; });
+  return columns;
+}
+
+TrialColumns trial_target_columns() {
+  TrialColumns columns{{"", "position", "count", "the target, from the start of the trial",
+                        [](Trial trial, std::size_t target) { return trial.positions[target]; }}};
+  add_values(columns, target_fields(),
+             [](const Repeatability& r, std::size_t target) { return r.targets[target]; });
+  return columns;
+}
+
+PointColumns point_axis_columns() {
+  PointColumns columns;
+  for (const text::ReportField<PointRepeatability>& field : point_repeatability_fields()) {
+    columns.push_back({"", field.name, field.unit, field.long_name,
+                       [&field](Point point, std::size_t) { return field.value(point); }});
+  }
+  add_statistics(columns, axis_fields(), false,
+                 [](const SourceRepeatability& source, std::size_t) { return std::span(source.axis); });
+  return columns;
+}
+
+PointColumns point_target_columns() {
+  PointColumns columns{{"", "position_min", "count", "smallest position of the target in a trial",
+                        [](Point point, std::size_t target) { return point.positions[target].min; }},
+                       {"", "position_max", "count", "largest position of the target in a trial",
+                        [](Point point, std::size_t target) { return point.positions[target].max; }}};
+  add_statistics(columns, target_fields(), true, [](const SourceRepeatability& source, std::size_t target) {
+    return std::span(source.targets[target]);
+  });
+  return columns;
+}
+
+layout::Table trial_table_of_axis() {
+  layout::Table table = table_of("repeatability/trial", rows_of_trials(), {}, trial_axis_columns());
+  const char* const meaning = "the trial has no nonfinite move, and so has values";
+  table.columns.insert(table.columns.begin(),
+                       {"evaluated", "1", meaning, hdf5::Element::flag, {{0, "no"}, {1, "yes"}}});
+  return table;
+}
+
+layout::Table trial_table_of_targets() {
+  return table_of("repeatability/trial_target", rows_of_trials(), targets_of_list(), trial_target_columns());
+}
+
+layout::Table point_table_of_axis() {
+  return table_of("repeatability/point", rows_of_points(), {}, point_axis_columns());
+}
+
+layout::Table point_table_of_targets() {
+  return table_of("repeatability/point_target", rows_of_points(), targets_of_list(), point_target_columns());
+}
+
+std::span<const DeviationSource> deviation_sources() {
+  static constexpr std::array<DeviationSource, 2> sources{
+      {{"true", "rad", "from the true position", &TrialRepeatability::from_position},
+       {"encoder", "count", "from the fine encoder", &TrialRepeatability::from_encoder}}};
+  return sources;
+}
+
+std::span<const RepeatabilityField<AxisRepeatability>> axis_fields() {
+  using A = AxisRepeatability;
+  static constexpr std::array<RepeatabilityField<A>, 12> fields{{
+      {"reversal", "B", "reversal value of the axis", &A::reversal},
+      {"mean_reversal", "B̄", "mean reversal value of the axis", &A::mean_reversal},
+      {"repeatability_positive", "R↑", "repeatability of the axis, positive approach",
+       &A::repeatability_positive},
+      {"repeatability_negative", "R↓", "repeatability of the axis, negative approach",
+       &A::repeatability_negative},
+      {"repeatability", "R", "bidirectional repeatability of the axis", &A::repeatability},
+      {"systematic_positive", "E↑", "systematic deviation of the axis, positive approach",
+       &A::systematic_positive},
+      {"systematic_negative", "E↓", "systematic deviation of the axis, negative approach",
+       &A::systematic_negative},
+      {"systematic", "E", "bidirectional systematic deviation of the axis", &A::systematic},
+      {"mean_bidirectional", "M", "range of the mean bidirectional deviations of the axis",
+       &A::mean_bidirectional},
+      {"accuracy_positive", "A↑", "accuracy of the axis, positive approach", &A::accuracy_positive},
+      {"accuracy_negative", "A↓", "accuracy of the axis, negative approach", &A::accuracy_negative},
+      {"accuracy", "A", "bidirectional accuracy of the axis", &A::accuracy},
+  }};
+  return fields;
+}
+
+std::span<const RepeatabilityField<TargetRepeatability>> target_fields() {
+  using T = TargetRepeatability;
+  static constexpr std::array<RepeatabilityField<T>, 9> fields{{
+      {"mean_positive", "x̄↑", "mean deviation at the target, positive approach", &T::mean_positive},
+      {"mean_negative", "x̄↓", "mean deviation at the target, negative approach", &T::mean_negative},
+      {"mean", "x̄", "mean bidirectional deviation at the target", &T::mean},
+      {"reversal", "B", "reversal value at the target", &T::reversal},
+      {"uncertainty_positive", "s↑", "standard uncertainty at the target, positive approach",
+       &T::uncertainty_positive},
+      {"uncertainty_negative", "s↓", "standard uncertainty at the target, negative approach",
+       &T::uncertainty_negative},
+      {"repeatability_positive", "R↑", "repeatability at the target, positive approach",
+       &T::repeatability_positive},
+      {"repeatability_negative", "R↓", "repeatability at the target, negative approach",
+       &T::repeatability_negative},
+      {"repeatability", "R", "bidirectional repeatability at the target", &T::repeatability},
+  }};
+  return fields;
+}
+
+}  // namespace zerocount::iso230

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+
+#include "analysis/comparison/comparison.hpp"
+#include "analysis/document/answer.hpp"
+#include "analysis/document/figure.hpp"
+#include "analysis/experiment_design/experiment_design.hpp"
+#include "analysis/history/series.hpp"
+#include "analysis/identification/identification.hpp"
+#include "analysis/report/figures/figure.hpp"
+#include "analysis/sensitivity/sensitivity.hpp"
+
+/// Answers with their figures, for pages.
+namespace zerocount::report {
+
+/// comparison::comparison_answer() with figures of all measures against their margins, and of the success
+/// rate or the goal of each point.
+document::AnswerDescription<comparison::StudyComparison> comparison_answer();
+
+/// sensitivity::sensitivity_answer() with a figure of the Sobol' indices of each output.
+document::AnswerDescription<sensitivity::StudySensitivity> sensitivity_answer();
+
+/// history::history_answer() with a figure of each series, at most
+/// `max_figures`, those that changed first.
+document::AnswerDescription<history::History> history_answer(
+    std::size_t max_figures = std::numeric_limits<std::size_t>::max());
+
+/// The torque of a designed experiment, and the readings that the median machine would give.
+document::Figure experiment_figure(const experiment_design::ExperimentDesign& design);
+
+/// A figure for each record: the readings and the fit over time, the residuals over time with the band of
+/// rounding and noise, and the torque over both angles.
+std::vector<Figure> identification_figures(const identification::Identification& identification);
+
+/// The samples of a record for a figure: of each of at most `buckets` groups of equal length, and of the
+/// parts of a group that are masked or not, the first, the last, and those with the extreme torque, reading,
+/// fitted value and residual.
+std::vector<std::size_t> drawn_samples(const identification::FittedRecord& record, std::size_t buckets);
+
+/// Standard deviation of the noise of a record's readings, in their unit. Of readings that are not counts by
+/// the differences of successive residuals, to which slow departures of the model from the record add little:
+/// σ² is half their mean square (von Neumann et al., Ann. Math. Statist. 12 (1941) 153).
+double reading_noise(const identification::RecordSummary& record, const identification::FittedRecord& fit);
+
+/// Half the width of the band in which rounding and noise leave the residuals, in the record's unit: half a
+/// count for counts, plus 1.96 standard deviations of the noise.
+double residual_band(const identification::RecordSummary& record, const identification::FittedRecord& fit);
+
+}  // namespace zerocount::report

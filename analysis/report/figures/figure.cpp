@@ -1,0 +1,148 @@
+#include "analysis/report/figures/figure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "analysis/report/embedded_files.hpp"
+#include "core/text/number_text.hpp"
+
+namespace zerocount::report {
+namespace {
+
+/// Adds "too narrow" to the title of a bound; returns whether it was one.
+bool qualify(std::string& title) {
+  if (title.find("bound") == std::string::npos) return false;
+  title += ", too narrow";
+  return true;
+}
+
+/// Calls `change` for all titles in a specification.
+template <class Change>
+void change_titles(nlohmann::ordered_json& part, const Change& change) {
+  if (!part.is_structured()) return;
+  for (auto& [key, value] : part.items()) {
+    if (key == "title" && value.is_string()) {
+      change(value.template get_ref<std::string&>());
+    } else {
+      change_titles(value, change);
+    }
+  }
+}
+
+/// Converts a title to an axis: "$rotor_angle (µrad)" becomes "position (µm)" on a linear one.
+void reword_title(std::string& title, parameters::AxisKind axis) {
+  const std::size_t unit = title.ends_with(')') ? title.rfind('(') : std::string::npos;
+  if (unit == std::string::npos) {
+    title = parameters::text_on(axis, title);
+  } else {
+    title = parameters::text_on(axis, title.substr(0, unit)) + parameters::unit_on(axis, title.substr(unit));
+  }
+}
+
+}  // namespace
+
+Figure figure_of(std::string_view specification, std::string name, std::string title, std::string caption,
+                 std::vector<FigureData> data) {
+  return {std::move(name), std::move(title), std::move(caption),
+          nlohmann::ordered_json::parse(embedded_file(fmt::format("{}.vl.json", specification))),
+          std::move(data)};
+}
+
+void call_bounds_too_narrow(Figure& figure, const std::string& why) {
+  bool found = false;
+  for (FigureData& data : figure.data) {
+    for (FigureColumn& column : data.columns) found = qualify(column.title) || found;
+  }
+  if (!found) return;
+  change_titles(figure.specification, qualify);
+  if (!figure.caption.ends_with(' ')) figure.caption += ' ';
+  figure.caption += why;
+}
+
+void retitle(Figure& figure, const std::map<std::string_view, std::string_view>& words) {
+  change_titles(figure.specification, [&](std::string& title) {
+    if (const auto found = words.find(title); found != words.end()) title = found->second;
+  });
+}
+
+void put_on_axis(Figure& figure, parameters::AxisKind axis) {
+  const auto reword = [axis](std::string& title) { reword_title(title, axis); };
+  figure.title = parameters::text_on(axis, figure.title);
+  figure.caption = parameters::text_on(axis, figure.caption);
+  change_titles(figure.specification, reword);
+  for (FigureData& data : figure.data) {
+    for (FigureColumn& column : data.columns) {
+      reword(column.title);
+      column.unit = parameters::unit_on(axis, column.unit);
+    }
+  }
+}
+
+nlohmann::ordered_json data_json(const Figure& figure) {
+  nlohmann::ordered_json data = nlohmann::ordered_json::array();
+  for (const FigureData& part : figure.data) {
+    nlohmann::ordered_json columns = nlohmann::ordered_json::array();
+    for (const FigureColumn& column : part.columns)
+      columns.push_back({column.field, column.title, column.unit});
+    data.push_back({{"name", part.name}, {"columns", columns}, {"rows", part.rows}});
+  }
+  return data;
+}
+
+void set_rows(Figure& figure, std::size_t rows, int row) {
+  figure.specification["height"] = static_cast<int>(rows) * row;
+}
+
+nlohmann::ordered_json datum(double value, int digits) {
+  if (!std::isfinite(value)) return nullptr;
+  const double rounded = text::round_to_digits(value, digits);
+  if (rounded == std::floor(rounded) && std::abs(rounded) < 1e15) return static_cast<std::int64_t>(rounded);
+  return rounded;
+}
+
+nlohmann::ordered_json round_numbers(double low, double high, double smallest) {
+  const double largest = std::max(std::abs(low), std::abs(high));
+  if (!std::isfinite(largest) || !std::isfinite(smallest) || smallest <= 0.0)
+    return nlohmann::ordered_json::array();
+  const bool many = largest > 300.0 * smallest;
+  nlohmann::ordered_json numbers = nlohmann::ordered_json::array();
+  const auto add = [&](double value) {
+    if (value >= low && value <= high) numbers.push_back(datum(value));
+  };
+  add(0.0);
+  const int most = static_cast<int>(std::floor(std::log10(std::max(largest, smallest))));
+  for (int power = static_cast<int>(std::floor(std::log10(smallest))); power <= most; ++power) {
+    for (const double digit : {1.0, 2.0, 5.0}) {
+      const double value = digit * std::pow(10.0, power);
+      if (value < 0.999 * smallest || (many && digit != 1.0)) continue;
+      add(value);
+      add(-value);
+    }
+  }
+  return numbers;
+}
+
+void set_number_format(nlohmann::ordered_json& axis, double largest) {
+  if (largest < 0.01) axis["labelExpr"] = "datum.value === 0 ? '0' : format(datum.value, '~e')";
+}
+
+bool spaced_by_ratio(const std::vector<double>& sorted) {
+  if (sorted.size() < 3 || sorted.front() <= 0.0) return false;
+  const double steps = static_cast<double>(sorted.size() - 1);
+  const double ratio = std::log(sorted.back() / sorted.front()) / steps;
+  const double difference = (sorted.back() - sorted.front()) / steps;
+  double by_ratio = 0.0;
+  double by_difference = 0.0;
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    const double step = static_cast<double>(i);
+    by_ratio += std::abs(std::log(sorted[i] / sorted.front()) - step * ratio) / (steps * ratio);
+    by_difference += std::abs(sorted[i] - sorted.front() - step * difference) / (steps * difference);
+  }
+  return by_ratio < by_difference;
+}
+
+}  // namespace zerocount::report

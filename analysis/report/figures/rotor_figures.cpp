@@ -1,0 +1,215 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "analysis/report/figures/report_figures.hpp"
+#include "analysis/statistics/spread_over.hpp"
+#include "results/layout/layout.hpp"
+
+namespace zerocount::report {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::int64_t max_profiles = 4;
+constexpr std::int64_t profile_points = 512;
+constexpr std::int64_t max_failures = 250;
+
+/// Final position of a trial on the rotor, and its outcome.
+struct EndOnRotor {
+  std::int64_t trial{0};  ///< index within the point
+  double angle{0.0};      ///< rad or m, in [0, period)
+  trial::Outcome outcome{trial::Outcome::zero_count};
+  bool met{true};  ///< the trial meets the question
+};
+
+double on_rotor(double angle, double period) {
+  const double within = std::fmod(angle, period);
+  return within < 0.0 ? within + period : within;
+}
+
+/// The input column with the start position of each trial.
+std::optional<std::size_t> position_column(const reading::StudyFile& file) {
+  const std::vector<study::InputColumn>& inputs = file.input_columns();
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (inputs[i].name == "initial.position") return i;
+  }
+  return std::nullopt;
+}
+
+/// The trials of a figure: those of a point, or of one rig at that point.
+struct ShownTrials {
+  std::int64_t point{0};
+  std::optional<std::int64_t> rig{};
+};
+
+/// Visits the trials with their final positions. Trials with a non-finite state have no position.
+template <class Visit>
+void visit_ends(const ReportedStudy& reported, const ShownTrials& shown, std::size_t column,
+                const Visit& visit) {
+  const layout::RowRange rows = rows_of(reported, shown.point);
+  const std::vector<double> starts = reported.file.input(column, rows);
+  measures::visit_trials(
+      reported.file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
+        if (shown.rig && study::rig_of(reported.study, row - rows.first) != *shown.rig) return;
+        const double end = starts[static_cast<std::size_t>(row - rows.first)] + moves.back().final_position;
+        const double start = starts[static_cast<std::size_t>(row - rows.first)];
+        visit(EndOnRotor{row - rows.first, on_rotor(std::isfinite(end) ? end : start, reported.study.period),
+                         trial::worst_outcome(moves), meets(question_of(reported), moves)});
+      });
+}
+
+/// A profile's point: the one in its name, otherwise the chosen one.
+std::int64_t point_of_profile(const ReportedStudy& reported, const std::string& profile) {
+  const std::size_t at = profile.find('@');
+  return at == std::string::npos ? reported.chosen.point : std::stoll(profile.substr(at + 1));
+}
+
+double value_at(const reading::StoredProfile& profile, double angle, double period) {
+  const double size = static_cast<double>(profile.value.size());
+  const double place = angle / period * size;
+  const auto before = static_cast<std::size_t>(place) % profile.value.size();
+  const double fraction = place - std::floor(place);
+  return (1.0 - fraction) * profile.value[before] +
+         fraction * profile.value[(before + 1) % profile.value.size()];
+}
+
+FigureData profile_data(const reading::StoredProfile& profile) {
+  FigureData data{"profile", {{"theta", "$rotor_angle", "rad"}, {"value", profile.name, profile.unit}}};
+  for (const std::int64_t i : statistics::spread_over(std::ssize(profile.theta), profile_points)) {
+    const auto at = static_cast<std::size_t>(i);
+    data.rows.push_back(ordered_json::array({datum(profile.theta[at]), datum(profile.value[at])}));
+  }
+  return data;
+}
+
+/// Rate of the trials that meet the question in equal sectors of the rotor.
+struct Sectors {
+  std::vector<std::int64_t> trials, successes;
+  double period;  ///< rad or m
+
+  Sectors(std::size_t count, double length) : trials(count), successes(count), period(length) {}
+  void add(const EndOnRotor& end) {
+    const auto sector = static_cast<std::size_t>(end.angle / period * static_cast<double>(trials.size()));
+    ++trials[std::min(sector, trials.size() - 1)];
+    successes[std::min(sector, trials.size() - 1)] += end.met;
+  }
+};
+
+FigureData sector_data(const Sectors& sectors, const goal::QuestionWords& words) {
+  FigureData data{"sectors",
+                  {{"from", "from", "rad"},
+                   {"to", "to", "rad"},
+                   {"rate", std::string(words.trial_rate), "1"},
+                   {"low", "lower 95 % bound", "1"},
+                   {"high", "upper 95 % bound", "1"},
+                   {"successes", "trials that met it", "1"},
+                   {"trials", "trials", "1"}}};
+  const double width = sectors.period / static_cast<double>(sectors.trials.size());
+  for (std::size_t i = 0; i < sectors.trials.size(); ++i) {
+    if (sectors.trials[i] == 0) continue;
+    const statistics::ConfidenceInterval bounds =
+        statistics::clopper_pearson(sectors.successes[i], sectors.trials[i]);
+    data.rows.push_back(ordered_json::array(
+        {datum(width * static_cast<double>(i)), datum(width * static_cast<double>(i + 1)),
+         datum(statistics::rate(sectors.successes[i], sectors.trials[i])), datum(bounds.low),
+         datum(bounds.high), sectors.successes[i], sectors.trials[i]}));
+  }
+  return data;
+}
+
+/// The rig that meets the question least often at the point.
+std::int64_t worst_rig(const ReportedStudy& reported, std::int64_t point) {
+  const std::vector<statistics::RigMoves> rigs =
+      counts_of(question_of(reported), point_of(reported, point)).rigs;
+  return std::ranges::min_element(rigs, {}, &statistics::RigMoves::met) - rigs.begin();
+}
+
+reading::StoredProfile rotor_of_rig(const reading::StoredProfile& profile, std::int64_t rig) {
+  reading::StoredProfile rotor{profile.name, profile.unit, profile.theta, {}};
+  const auto first = profile.value.begin() + rig * std::ssize(profile.theta);
+  rotor.value.assign(first, first + std::ssize(profile.theta));
+  return rotor;
+}
+
+std::string caption_of(const ReportedStudy& reported, const std::string& parameter, const ShownTrials& shown,
+                       bool failed) {
+  const std::string& label = label_of(reported, shown.point);
+  const std::string trials =
+      shown.rig ? fmt::format("rig {} at point {}", *shown.rig, label) : fmt::format("point {}", label);
+  const goal::QuestionWords& words = words_of(question_of(reported));
+  std::string caption =
+      shown.rig ? fmt::format("The line is {} along the $track of rig {}, the rig with the lowest {}. ",
+                              parameter, *shown.rig, words.rate)
+                : fmt::format("The line is {} along the $track, the same in all trials. ", parameter);
+  caption += failed ? fmt::format("The marks are the {} of {}, at the $rotor_angle where they ended. ",
+                                  words.failing, trials)
+                    : fmt::format("No trial of {} {}. ", trials, words.failed);
+  return caption +
+         fmt::format(
+             "Below: {} that ended in each sector of the $track, with 95 % Clopper-Pearson bounds. If "
+             "it follows the line, the minimum of the profile limits it, as the paper states for k1 "
+             "(practical issue 1).",
+             words.trial_rate);
+}
+
+Figure rotor_figure(const ReportedStudy& reported, const reading::StoredProfile& stored, std::size_t column) {
+  ShownTrials shown{point_of_profile(reported, stored.name)};
+  if (stored.rigs > 0) shown.rig = worst_rig(reported, shown.point);
+  const reading::StoredProfile profile = shown.rig ? rotor_of_rig(stored, *shown.rig) : stored;
+  const std::int64_t trials_shown = reported.file.header().trials / std::max<std::int64_t>(stored.rigs, 1);
+  const double period = reported.study.period;
+  Sectors sectors(trials_shown >= 480 ? 24 : 12, period);
+  std::vector<EndOnRotor> failures;
+  visit_ends(reported, shown, column, [&](const EndOnRotor& end) {
+    sectors.add(end);
+    if (!end.met) failures.push_back(end);
+  });
+  FigureData trials{"trials",
+                    {{"trial", "trial of the point", "1"},
+                     {"theta", "$rotor_angle at the end", "rad"},
+                     {"value", profile.name, profile.unit},
+                     {"outcome", "outcome", ""}}};
+  for (const std::int64_t i : statistics::spread_over(std::ssize(failures), max_failures)) {
+    const EndOnRotor& end = failures[static_cast<std::size_t>(i)];
+    trials.rows.push_back(
+        ordered_json::array({end.trial, datum(end.angle), datum(value_at(profile, end.angle, period)),
+                             layout::outcome_labels()[static_cast<std::size_t>(end.outcome)].word}));
+  }
+  const std::string parameter = profile.name.substr(0, profile.name.find('@'));
+  const goal::QuestionWords& words = words_of(question_of(reported));
+  std::string caption = caption_of(reported, parameter, shown, !failures.empty());
+  if (std::ssize(failures) > max_failures) {
+    caption += fmt::format(" {} of {} failures are shown, evenly spaced.", max_failures, failures.size());
+  }
+  Figure figure = figure_of("rotor", fmt::format("rotor-{}", profile.name),
+                            fmt::format("{} along the $track{}", parameter,
+                                        failures.empty() ? "" : fmt::format(", and the {}", words.failing)),
+                            caption, {std::move(trials), profile_data(profile), sector_data(sectors, words)});
+  figure.specification["vconcat"][0]["layer"][0]["encoding"]["y"]["title"] =
+      profile.unit == "1" ? parameter : fmt::format("{} ({})", parameter, profile.unit);
+  figure.specification["vconcat"][1]["encoding"]["x"]["scale"]["domain"] = {0.0, period};
+  retitle(figure, {{"success rate", words.trial_rate}, {"failed trials", words.failing}});
+  if (failures.empty()) {
+    figure.specification["vconcat"][0]["layer"].erase(1);
+    std::rotate(figure.data.begin(), figure.data.begin() + 2, figure.data.end());
+  }
+  return figure;
+}
+
+}  // namespace
+
+std::vector<Figure> rotor_figures(const ReportedStudy& reported) {
+  std::vector<Figure> figures;
+  const std::optional<std::size_t> column = position_column(reported.file);
+  if (reported.study.open_loop || !column || !reported.file.has_profiles()) return figures;
+  const std::vector<reading::StoredProfile> profiles = reported.file.profiles();
+  for (const std::int64_t i : statistics::spread_over(std::ssize(profiles), max_profiles))
+    figures.push_back(rotor_figure(reported, profiles[static_cast<std::size_t>(i)], *column));
+  return figures;
+}
+
+}  // namespace zerocount::report

@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <numeric>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "analysis/report/figures/report_figures.hpp"
+#include "analysis/report/reported_study.hpp"
+#include "analysis/statistics/spread_over.hpp"
+
+namespace zerocount::report {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::int64_t max_lines = 60;  ///< maximum number of points with a line of their own
+constexpr std::int64_t max_series = 8;  ///< number of colours
+
+std::string bounds_note(const ReportedStudy& reported) {
+  return fmt::format("The bars or bands are {}, for each point separately.", shown_bounds(reported));
+}
+
+std::vector<FigureColumn> common_columns(const ReportedStudy& reported) {
+  const goal::QuestionWords& words = words_of(question_of(reported));
+  return {{"label", "point", ""},
+          {"rate", std::string(words.rate), "1"},
+          {"low", "lower bound", "1"},
+          {"high", "upper bound", "1"},
+          {"successes", std::string(words.hits), "1"},
+          {"trials", std::string(words.events), "1"}};
+}
+
+ordered_json row_of(const ReportedStudy& reported, std::int64_t point) {
+  const goal::QuestionRate rate = shown_rate(reported, point);
+  return ordered_json::array({marked_label_of(reported, point), datum(rate.value), datum(rate.bounds.low),
+                              datum(rate.bounds.high), rate.hits, rate.events});
+}
+
+/// Puts the words of the question in place of those of success.
+void speak_of_question(Figure& figure, const goal::QuestionWords& words) {
+  retitle(figure, {{"success rate", words.rate}, {"successes", words.hits}, {"trials", words.events}});
+}
+
+/// The points by decreasing rate; evenly spaced points of that order if there are too many.
+std::vector<std::int64_t> points_with_lines(const ReportedStudy& reported) {
+  std::vector<std::int64_t> order(reported.summary.points.size());
+  std::iota(order.begin(), order.end(), std::int64_t{0});
+  if (std::ssize(order) <= max_lines) return order;
+  std::stable_sort(order.begin(), order.end(), [&](std::int64_t a, std::int64_t b) {
+    return shown_rate(reported, a).value > shown_rate(reported, b).value;
+  });
+  std::vector<std::int64_t> shown;
+  const std::vector<std::int64_t> leading = leading_points(reported);
+  const std::vector<std::int64_t> spread = statistics::spread_over(std::ssize(order), max_lines);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool wanted = std::ranges::binary_search(spread, static_cast<std::int64_t>(i)) ||
+                        std::ranges::find(leading, order[i]) != leading.end();
+    if (wanted) shown.push_back(order[i]);
+  }
+  return shown;
+}
+
+Figure line_per_point(const ReportedStudy& reported) {
+  const std::vector<std::int64_t> shown = points_with_lines(reported);
+  const goal::Question& question = question_of(reported);
+  const goal::QuestionWords& words = words_of(question);
+  std::string caption = fmt::format("Proportion of the {}, of all of each point{}. ", words.meeting,
+                                    goal::is_of_worst_world(question) ? " in its worst world" : "");
+  if (!reported.summary.features.dependent_trials) {
+    caption +=
+        "Points whose bounds do not overlap differ significantly. A dot at 100 % does not exclude failures: "
+        "their "
+        "probability may be up to 100 % minus the lower bound. ";
+  }
+  if (std::ssize(shown) < std::ssize(reported.summary.points)) {
+    caption += fmt::format("Shown are {} of {} points, evenly spaced from the best to the worst. ",
+                           shown.size(), reported.summary.points.size());
+  }
+  FigureData data{"points", common_columns(reported)};
+  double lowest = 1.0;
+  for (const std::int64_t point : shown) {
+    data.rows.push_back(row_of(reported, point));
+    lowest = std::min(lowest, shown_rate(reported, point).bounds.low);
+  }
+  Figure figure = figure_of("success", "success", fmt::format("{} at each point", words.title),
+                            caption + bounds_note(reported), {std::move(data)});
+  speak_of_question(figure, words);
+  const double from = lowest > 0.9 ? std::floor(lowest * 100.0) / 100.0 : 0.0;
+  figure.specification["layer"][0]["encoding"]["x"]["scale"]["domain"] = {from, 1};
+  set_rows(figure, shown.size(), 24);
+  return figure;
+}
+
+/// Evenly spaced groups, the nearest one replaced by that of the chosen point.
+std::vector<std::int64_t> groups_shown(const ReportedStudy& reported, const std::vector<PointGroup>& groups) {
+  std::vector<std::int64_t> shown = statistics::spread_over(std::ssize(groups), max_series);
+  const auto chosen = std::ranges::find_if(groups, [&](const PointGroup& group) {
+    return std::ranges::find(group.points, reported.chosen.point) != group.points.end();
+  });
+  const std::int64_t wanted = chosen - groups.begin();
+  *std::ranges::min_element(shown, {}, [&](std::int64_t group) { return std::abs(group - wanted); }) = wanted;
+  return shown;
+}
+
+Figure along_axis(const ReportedStudy& reported, std::size_t axis) {
+  const study::SweepAxis& swept = reported.summary.axes[axis];
+  const goal::QuestionWords& words = words_of(question_of(reported));
+  const std::vector<PointGroup> groups = groups_along(reported, {axis});
+  std::string caption = fmt::format(
+      "Proportion of the {}, of all of each point (line), over {}. A star marks the chosen point. ",
+      words.meeting, axis_title(swept));
+  if (std::ssize(groups) > max_series) {
+    caption += fmt::format("Shown are {} of {} lines: that of the chosen point, and others evenly spaced. ",
+                           max_series, groups.size());
+  }
+  FigureData data{"points", common_columns(reported)};
+  data.columns.push_back({"x", swept.name, swept.unit});
+  data.columns.push_back({"series", "", ""});
+  for (const std::int64_t group : groups_shown(reported, groups)) {
+    for (const std::int64_t point : groups[static_cast<std::size_t>(group)].points) {
+      ordered_json row = row_of(reported, point);
+      row.push_back(swept.numbers[static_cast<std::size_t>(point)]);
+      row.push_back(groups[static_cast<std::size_t>(group)].label);
+      data.rows.push_back(std::move(row));
+    }
+  }
+  Figure figure = figure_of("success-along", "success", fmt::format("{} over {}", words.title, swept.name),
+                            caption + bounds_note(reported), {std::move(data)});
+  speak_of_question(figure, words);
+  ordered_json& encoding = figure.specification["encoding"];
+  encoding["x"]["title"] = axis_title(swept);
+  set_number_format(encoding["x"]["axis"], values_of(swept).back());
+  if (spaced_by_ratio(values_of(swept))) encoding["x"]["scale"]["type"] = "log";
+  encoding["x"]["scale"]["domain"] = {values_of(swept).front(), values_of(swept).back()};
+  if (groups.size() == 1) encoding["color"]["legend"] = nullptr;
+  return figure;
+}
+
+}  // namespace
+
+std::optional<Figure> success_figure(const ReportedStudy& reported) {
+  if (reported.study.open_loop) return std::nullopt;
+  const std::vector<std::size_t> numeric = numeric_axes(reported, 3);
+  return numeric.empty() ? line_per_point(reported) : along_axis(reported, numeric.front());
+}
+
+}  // namespace zerocount::report

@@ -1,0 +1,191 @@
+#include "analysis/statistics/clusters/clustered_mean.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+
+#include "analysis/statistics/distributions.hpp"
+#include "analysis/statistics/mean_bounds.hpp"
+#include "analysis/statistics/quantile.hpp"
+#include "analysis/statistics/unknown.hpp"
+
+namespace zerocount::statistics {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// ClusterTotals as doubles.
+struct Clusters {
+  std::vector<double> sums;
+  std::vector<double> numbers;
+
+  explicit Clusters(const ClusterTotals& totals) {
+    for (std::size_t i = 0; i < totals.sums.size(); ++i) {
+      if (totals.added[i] == 0) continue;
+      sums.push_back(totals.sums[i].value());
+      numbers.push_back(static_cast<double>(totals.numbers[i]));
+    }
+  }
+};
+
+/// A mean with its standard error.
+struct Estimate {
+  double mean{unknown};
+  double error{0.0};
+};
+
+/// @param drawn [cluster] weight: how often the resample contains it
+Estimate estimate_of(const Clusters& totals, const std::vector<std::int32_t>& drawn, double clusters) {
+  double sum = 0.0, number = 0.0, sum_sum = 0.0, sum_number = 0.0, number_number = 0.0;
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    const auto times = static_cast<double>(drawn[i]);
+    const double s = totals.sums[i];
+    const double n = totals.numbers[i];
+    sum += times * s;
+    number += times * n;
+    sum_sum += times * s * s;
+    sum_number += times * s * n;
+    number_number += times * n * n;
+  }
+  if (!(number > 0.0)) return {};
+  const double mean = sum / number;
+  const double squares = sum_sum - 2.0 * mean * sum_number + mean * mean * number_number;
+  // A smaller remainder of the cancelling squares is rounding error.
+  if (!(squares > 1e-13 * sum_sum)) return {mean, 0.0};
+  return {mean, std::sqrt(clusters / (clusters - 1.0) * squares) / number};
+}
+
+/// (θ* − θ)/e* of every resample, sorted. Infinite for a resample without spread.
+std::vector<double> studentised_means(const Clusters& totals, double mean, const random::RandomStream& stream,
+                                      std::int64_t resamples) {
+  const std::size_t clusters = totals.sums.size();
+  std::vector<double> result;
+  std::vector<std::int32_t> drawn(clusters);
+  for (std::int64_t r = 0; r < resamples; ++r) {
+    std::fill(drawn.begin(), drawn.end(), 0);
+    for (std::size_t i = 0; i < clusters; ++i) {
+      const double place = random::open_uniform(random::random_bits(stream, static_cast<std::uint64_t>(r),
+                                                                    static_cast<std::uint32_t>(i))) *
+                           static_cast<double>(clusters);
+      ++drawn[static_cast<std::size_t>(place)];
+    }
+    const Estimate estimate = estimate_of(totals, drawn, static_cast<double>(clusters));
+    if (std::isnan(estimate.mean)) continue;
+    const double difference = estimate.mean - mean;
+    if (estimate.error > 0.0) {
+      result.push_back(difference / estimate.error);
+    } else {
+      result.push_back(difference > 0.0 ? infinite : -infinite);
+    }
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+std::int64_t number_of_positive(const std::vector<double>& values) {
+  return std::count_if(values.begin(), values.end(), [](double value) { return value > 0.0; });
+}
+
+double student_limit(double degrees_of_freedom, double confidence) {
+  return student_t_quantile(degrees_of_freedom, 0.5 * (1.0 + confidence));
+}
+
+double finite_or_unknown(double bound) {
+  return std::isfinite(bound) ? bound : unknown;
+}
+
+double sum_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+/// Variance of the mean divided by that of a Poisson number; at least 1.
+double overdispersion(const Clusters& totals, const Estimate& estimate) {
+  const double number = sum_of(totals.numbers);
+  const double of_poisson = estimate.mean / number;
+  return of_poisson > 0.0 ? std::max(1.0, estimate.error * estimate.error / of_poisson) : 1.0;
+}
+
+/// See clustered_mean_bounds of ClusterTotals.
+ConfidenceInterval mean_bounds(const Clusters& totals, const random::RandomStream& stream, double confidence,
+                               std::int64_t resamples) {
+  constexpr ConfidenceInterval none{unknown, unknown};
+  if (number_of_positive(totals.numbers) < 2) return none;
+  const auto clusters = static_cast<double>(totals.sums.size());
+  const Estimate estimate = estimate_of(totals, std::vector<std::int32_t>(totals.sums.size(), 1), clusters);
+  if (!(estimate.error > 0.0)) return none;
+  const std::vector<double> studentised = studentised_means(totals, estimate.mean, stream, resamples);
+  if (studentised.empty()) return none;
+  const double tail = 0.5 * (1.0 - confidence);
+  const double t = student_limit(clusters - 1.0, confidence);
+  const double above = std::max(t, interpolated_quantile(studentised, 1.0 - tail));
+  const double below = std::min(-t, interpolated_quantile(studentised, tail));
+  return {finite_or_unknown(estimate.mean - above * estimate.error),
+          finite_or_unknown(estimate.mean - below * estimate.error)};
+}
+
+}  // namespace
+
+void ClusterTotals::add(std::int64_t cluster, std::span<const double> values) {
+  const auto place = static_cast<std::size_t>(cluster % max_clusters);
+  if (place >= sums.size()) {
+    sums.resize(place + 1);
+    numbers.resize(place + 1);
+    added.resize(place + 1);
+  }
+  for (const double value : values) sums[place].add(value);
+  numbers[place] += std::ssize(values);
+  ++added[place];
+  highest = std::max(highest, cluster);
+}
+
+ClusterTotals& ClusterTotals::operator+=(const ClusterTotals& other) {
+  if (sums.size() < other.sums.size()) {
+    sums.resize(other.sums.size());
+    numbers.resize(other.sums.size());
+    added.resize(other.sums.size());
+  }
+  for (std::size_t i = 0; i < other.sums.size(); ++i) {
+    sums[i] += other.sums[i];
+    numbers[i] += other.numbers[i];
+    added[i] += other.added[i];
+  }
+  highest = std::max(highest, other.highest);
+  return *this;
+}
+
+std::int64_t ClusterTotals::clusters() const {
+  return std::min(highest + 1, std::accumulate(added.begin(), added.end(), std::int64_t{0}));
+}
+
+ConfidenceInterval clustered_mean_bounds(const ClusterTotals& totals, const random::RandomStream& stream,
+                                         double confidence, std::int64_t resamples) {
+  require_confidence(confidence);
+  return mean_bounds(Clusters(totals), stream, confidence, resamples);
+}
+
+ConfidenceInterval clustered_count_bounds(const ClusterTotals& sample, const random::RandomStream& stream,
+                                          double confidence, std::int64_t resamples) {
+  require_confidence(confidence);
+  const Clusters totals(sample);
+  const auto clusters = static_cast<double>(totals.sums.size());
+  const double number = sum_of(totals.numbers);
+  if (!(number > 0.0)) return {unknown, unknown};
+  const double count = sum_of(totals.sums);
+  if (count == 0.0) {
+    return {0.0, poisson_bounds(0.0, confidence).high / static_cast<double>(sample.clusters())};
+  }
+  if (number_of_positive(totals.sums) >= min_counting_clusters) {
+    return mean_bounds(totals, stream, confidence, resamples);
+  }
+  if (clusters < 2.0) return {unknown, unknown};
+  const Estimate estimate = estimate_of(totals, std::vector<std::int32_t>(totals.sums.size(), 1), clusters);
+  const double shorter = two_sided_normal_quantile(confidence) / student_limit(clusters - 1.0, confidence);
+  const double events = count / overdispersion(totals, estimate) * shorter * shorter;
+  const ConfidenceInterval bounds = poisson_bounds(events, confidence);
+  const double scale = estimate.mean / events;
+  return {bounds.low * scale, bounds.high * scale};
+}
+
+}  // namespace zerocount::statistics

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "analysis/statistics/proportion.hpp"
+#include "analysis/statistics/sums/exact_sum.hpp"
+#include "core/random/random_numbers.hpp"
+
+namespace zerocount::statistics {
+
+/// A larger number of clusters is merged into this many groups, which again are independent clusters. More
+/// groups would slow the bootstrap without better bounds.
+inline constexpr std::int64_t max_clusters = 4096;
+
+inline constexpr std::int64_t bootstrap_resamples = 2000;
+
+/// Sum and number of the values of each cluster. The mean is Σ sums/Σ numbers. Totals of parts of a sample,
+/// added in any order, are those of the whole.
+struct ClusterTotals {
+  std::vector<ExactSum> sums;         ///< [cluster], in the values' unit
+  std::vector<std::int64_t> numbers;  ///< [cluster]
+  std::vector<std::int64_t> added;    ///< [cluster] how often values were added to it, none being values too
+  std::int64_t highest{-1};           ///< of the clusters before grouping
+
+  /// Adds values to a cluster; it belongs to group `cluster` mod max_clusters. A cluster to which none were
+  /// ever added is none.
+  void add(std::int64_t cluster, std::span<const double> values);
+  ClusterTotals& operator+=(const ClusterTotals& other);
+  /// Number of clusters before grouping, where each was added to once, or none below the highest is missing.
+  std::int64_t clusters() const;
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    archive(self.sums, self.numbers, self.added, self.highest);
+  }
+};
+
+/// Bounds of the mean of values in independent clusters, in the values' unit: the outer bounds of two
+/// intervals. With the mean θ = Σsᵢ/Σnᵢ of m clusters and its standard error by linearisation,
+///
+///   e² = m/(m − 1)·Σ(sᵢ − θ·nᵢ)²/(Σnᵢ)²,
+///
+/// Student's is θ ± t(m − 1)·e, and the studentised bootstrap's θ − q·e, q the quantiles of (θ* − θ)/e* over
+/// samples of m clusters drawn with replacement.
+///
+/// Student's interval alone lies too low if long times are rare. The bootstrap's alone covers too rarely with
+/// heavy tails. The outer bounds have the stated coverage if the sample contains some of the rare values. NaN
+/// for fewer than two clusters with values, for no spread, and if so few clusters differ that many resamples
+/// have no spread. Sources: Efron and Tibshirani, An Introduction to the Bootstrap (1993), section 12.5;
+/// Davison and Hinkley, Bootstrap Methods and their Application (1997), sections 2.4 and 5.2; Field and
+/// Welsh, J. R. Statist. Soc. B 69 (2007) 369 (clusters).
+/// @throws Failure (bad_input) for a confidence outside (0, 1).
+ConfidenceInterval clustered_mean_bounds(const ClusterTotals& totals, const random::RandomStream& stream,
+                                         double confidence = summary_confidence,
+                                         std::int64_t resamples = bootstrap_resamples);
+
+/// Bounds of the mean of a count in clusters, such as the jerks of a trial: sums are the counts, numbers the
+/// trials. If at least min_counting_clusters clusters have a count above 0: clustered_mean_bounds().
+/// Otherwise Garwood's bounds for k/φ events, scaled by φ, where k = Σsᵢ and φ ≥ 1 is the variance of the
+/// mean divided by that of a Poisson number, t-adjusted like adjusted_events().
+///
+/// If all counts are 0, the
+/// upper bound is Garwood's −ln(tail) per cluster, as if all trials of a cluster were equal: 3.7/m at 95 %
+/// for m clusters.
+inline constexpr std::int64_t min_counting_clusters = 20;
+ConfidenceInterval clustered_count_bounds(const ClusterTotals& totals, const random::RandomStream& stream,
+                                          double confidence = summary_confidence,
+                                          std::int64_t resamples = bootstrap_resamples);
+
+}  // namespace zerocount::statistics

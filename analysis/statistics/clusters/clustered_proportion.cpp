@@ -1,0 +1,102 @@
+#include "analysis/statistics/clusters/clustered_proportion.hpp"
+
+#include <algorithm>
+
+#include "analysis/statistics/distributions.hpp"
+
+namespace zerocount::statistics {
+namespace {
+
+/// Whether the variance between clusters can be estimated.
+bool variance_is_known(const ClusterSums& sums) {
+  return sums.clusters > 1 && sums.hits > 0 && sums.hits < sums.events;
+}
+
+bool are_single_events(const ClusterSums& sums) {
+  return sums.clusters == sums.events;
+}
+
+/// Clopper–Pearson bounds for any number of events, not only whole ones.
+double lower_bound(double proportion, double events, double tail) {
+  if (!(proportion > 0.0)) return 0.0;
+  const double hits = proportion * events;
+  return lower_bound_on_p(hits, events, tail);
+}
+double upper_bound(double proportion, double events, double tail) {
+  if (!(proportion < 1.0)) return 1.0;
+  const double hits = proportion * events;
+  return upper_bound_on_p(hits, events, tail);
+}
+
+}  // namespace
+
+void ClusterSums::add(std::int64_t cluster_hits, std::int64_t cluster_events) {
+  if (cluster_events == 0) return;
+  const auto k = static_cast<double>(cluster_hits);
+  const auto n = static_cast<double>(cluster_events);
+  ++clusters;
+  hits += cluster_hits;
+  events += cluster_events;
+  hits_squared += k * k;
+  hits_by_events += k * n;
+  events_squared += n * n;
+}
+
+ClusterSums& ClusterSums::operator+=(const ClusterSums& other) {
+  clusters += other.clusters;
+  hits += other.hits;
+  events += other.events;
+  hits_squared += other.hits_squared;
+  hits_by_events += other.hits_by_events;
+  events_squared += other.events_squared;
+  return *this;
+}
+
+double effective_events(const ClusterSums& sums) {
+  if (sums.events == 0) return 0.0;
+  const auto n = static_cast<double>(sums.events);
+  const auto m = static_cast<double>(sums.clusters);
+  if (are_single_events(sums)) return n;
+  if (!variance_is_known(sums)) return n * n / sums.events_squared;
+  const double p = rate(sums.hits, sums.events);
+  const double squares = sums.hits_squared - 2.0 * p * sums.hits_by_events + p * p * sums.events_squared;
+  const double variance = m / (m - 1.0) * std::max(0.0, squares) / (n * n);
+  const double of_independent = p * (1.0 - p) / n;
+  return variance > of_independent ? std::max(1.0, n * of_independent / variance) : n;
+}
+
+double adjusted_events(const ClusterSums& sums, double tail) {
+  const double events = effective_events(sums);
+  if (!variance_is_known(sums) || are_single_events(sums)) return events;
+  // The quantiles of 1 − tail have the same ratio.
+  const double of_events = student_t_quantile(static_cast<double>(sums.events - 1), tail);
+  const double of_clusters = student_t_quantile(static_cast<double>(sums.clusters - 1), tail);
+  return events * (of_events / of_clusters) * (of_events / of_clusters);
+}
+
+ClusteredProportion clustered_proportion(const ClusterSums& sums, double confidence) {
+  require_confidence(confidence);
+  ClusteredProportion result{.hits = sums.hits, .events = sums.events};
+  if (sums.events == 0) return result;
+  const double tail = 0.5 * (1.0 - confidence);
+  const double events = adjusted_events(sums, tail);
+  result.value = rate(sums.hits, sums.events);
+  result.effective_events = effective_events(sums);
+  result.korn_graubard = {lower_bound(result.value, events, tail), upper_bound(result.value, events, tail)};
+  result.wilson = wilson_interval(result.value, events, -normal_quantile(tail));
+  return result;
+}
+
+double clustered_at_least(const ClusterSums& sums, double confidence) {
+  require_confidence(confidence);
+  if (sums.events == 0) return 0.0;
+  return lower_bound(rate(sums.hits, sums.events), adjusted_events(sums, 1.0 - confidence), 1.0 - confidence);
+}
+
+double clustered_at_most(const ClusterSums& sums, double confidence) {
+  require_confidence(confidence);
+  if (sums.events == 0) return 1.0;
+  return upper_bound(rate(sums.hits, sums.events), adjusted_events(sums, 1.0 - confidence), 1.0 - confidence);
+}
+
+}  // namespace zerocount::statistics

@@ -1,0 +1,126 @@
+#pragma once
+
+#include <cstdint>
+#include <iterator>
+#include <map>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "analysis/statistics/clusters/clustered_proportion.hpp"
+#include "analysis/statistics/quantile.hpp"
+#include "analysis/statistics/sums/histogram.hpp"
+
+namespace zerocount::statistics {
+
+/// Values in independent clusters, such as the settling times of the moves of a trial. Values may be
+/// censored: a move that never arrived has a settling time larger than all observed ones. A quantile that
+/// falls among censored values is NaN.
+///
+/// Memory grows with the number of distinct values, not with the number
+/// of clusters.
+class ClusteredSample {
+ public:
+  /// Adds a cluster of `size` values: those in `observed`; the others are censored.
+  void add_cluster(const Histogram<double>& observed, std::int64_t size);
+  /// @param observed in any order; they are sorted
+  void add_cluster(std::span<double> observed, std::int64_t size);
+  /// Adds the clusters of another sample.
+  ClusteredSample& operator+=(const ClusteredSample& other);
+
+  /// The observed values.
+  const Histogram<double>& observed() const { return observed_; }
+  /// Number of all values, including the censored ones.
+  std::int64_t size() const { return totals_.events; }
+
+  /// Hits and events of the clusters, where a hit is a value ≤ x.
+  ClusterSums at_most(double x) const;
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    archive(self.single_values_, self.observed_, self.steps_, self.totals_);
+    if constexpr (!std::is_const_v<Self>) archive.require(self.observed_.size <= self.totals_.events);
+  }
+
+ private:
+  /// Increments at x of sums over the clusters' numbers kᵢ(x) of values ≤ x.
+  struct Step {
+    double hits_squared{0.0};    ///< of Σ kᵢ(x)²
+    double hits_by_events{0.0};  ///< of Σ kᵢ(x)·nᵢ
+
+    template <class Self, class Archive>
+    static void transfer(Self& self, Archive& archive) {
+      archive(self.hits_squared, self.hits_by_events);
+    }
+  };
+  void begin_cluster(std::int64_t size);
+  void count_in_steps();
+  void add_step(double value, std::int64_t before, std::int64_t count, std::int64_t size);
+
+  bool single_values_{true};  ///< every cluster so far has one value: the histogram gives the increments
+  Histogram<double> observed_;
+  std::map<double, Step> steps_;
+  ClusterSums totals_;
+};
+
+/// The sample quantile (the smallest value x such that a proportion of at least `probability` of all values
+/// is ≤ x) with order-statistic bounds. Their ranks are those for adjusted_events() independent values,
+/// scaled to the number of values; a hit of a cluster is a value ≤ the sample quantile.
+///
+/// value, low and high
+/// are NaN if they fall among the censored values, or if there are too few values for a bound. Sources:
+/// Woodruff, J. Amer. Statist. Assoc. 47 (1952) 635; David and Nagaraja, Order Statistics, section 7.1.
+/// @throws Failure (bad_input) for a probability or confidence outside (0, 1).
+Quantile clustered_quantile(const ClusteredSample& sample, double probability,
+                            double confidence = summary_confidence);
+
+/// Upper tolerance limit (Wilks): with the stated confidence, at least the proportion `content` of all values
+/// is not above it. NaN if there are too few values. For clusters of one value it is the observation of rank
+/// tolerance_rank().
+double clustered_upper_limit(const ClusteredSample& sample, double content, double confidence);
+
+/// Collects the values of trials into clusters. A cluster is a trial, or with rigs all trials of a rig; trial
+/// i runs on rig i mod rigs.
+class TrialClusters {
+ public:
+  /// @param rigs number of rigs; 0: every trial is a cluster
+  explicit TrialClusters(std::int64_t rigs = 0) : rigs_in_all_(rigs) {}
+
+  /// Adds a trial with `size` values: those in `observed`; the others are censored (larger than all observed
+  /// ones).
+  /// @param observed in any order; sorted by the call
+  void add_trial(std::int64_t trial, std::vector<double>& observed, std::int64_t size);
+  /// Adds other trials, of as many rigs.
+  TrialClusters& operator+=(const TrialClusters& other);
+
+  /// The sample of all trials added so far.
+  ClusteredSample sample() const;
+  std::int64_t size() const;  ///< of the sample
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    archive(self.rigs_, self.trials_);
+    if constexpr (!std::is_const_v<Self>) {
+      archive.require(std::ssize(self.rigs_) <= self.rigs_in_all_);
+      for (const Rig& rig : self.rigs_)
+        archive.require(rig.observed.size <= rig.size &&
+                        rig.size <= (std::int64_t{1} << 53) / std::ssize(self.rigs_));
+    }
+  }
+
+ private:
+  struct Rig {
+    Histogram<double> observed;
+    std::int64_t size{0};
+
+    template <class Self, class Archive>
+    static void transfer(Self& self, Archive& archive) {
+      archive(self.observed, self.size);
+    }
+  };
+  std::int64_t rigs_in_all_;
+  std::vector<Rig> rigs_;   ///< rigs that have trials
+  ClusteredSample trials_;  ///< without rigs
+};
+
+}  // namespace zerocount::statistics

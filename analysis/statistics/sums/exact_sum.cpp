@@ -1,0 +1,168 @@
+#include "analysis/statistics/sums/exact_sum.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/multiprecision/cpp_int.hpp>
+
+namespace zerocount::statistics {
+namespace {
+
+using boost::multiprecision::cpp_int;
+
+constexpr int digit_bits = 32;
+constexpr std::int64_t digit_base = std::int64_t{1} << digit_bits;
+constexpr std::int64_t digit_mask = digit_base - 1;
+/// Weight of digit 0: below that of the last bit of the square of the smallest double, 2^(−2·1074).
+constexpr std::int64_t min_exponent = -2176;
+/// An addition changes a digit by less than 2^32.
+constexpr std::int64_t additions_without_carry = std::int64_t{1} << 30;
+
+/// |value| = whole·2^exponent.
+struct Scaled {
+  std::int64_t whole{0};
+  std::int64_t exponent{0};
+};
+
+/// The fields of an IEEE 754 double: 52 bits of the mantissa, whose first is not stored, and the exponent.
+Scaled scaled(double value) {
+  constexpr int stored_bits = 52;
+  constexpr std::int64_t first_bit = std::int64_t{1} << stored_bits;
+  constexpr std::int64_t bias = 1075, all_exponents = 0x7ff;
+  const auto bits = std::bit_cast<std::int64_t>(value);
+  const std::int64_t field = (bits >> stored_bits) & all_exponents;
+  const std::int64_t stored = bits & (first_bit - 1);
+  return field == 0 ? Scaled{stored, 1 - bias} : Scaled{stored | first_bit, field - bias};
+}
+
+/// Σ digits[i]·2^(32·i).
+cpp_int whole_number(const std::vector<std::int64_t>& digits) {
+  cpp_int number = 0;
+  for (auto digit = digits.rbegin(); digit != digits.rend(); ++digit) {
+    number <<= digit_bits;
+    number += *digit;
+  }
+  return number;
+}
+
+/// number·2^exponent/divisor. The quotient has more bits than a double before it is rounded.
+double rounded(const cpp_int& number, std::int64_t exponent, std::int64_t divisor) {
+  using Wide = boost::multiprecision::cpp_bin_float_100;
+  const Wide quotient = Wide(number) / Wide(divisor);
+  return static_cast<double>(boost::multiprecision::ldexp(quotient, static_cast<int>(exponent)));
+}
+
+}  // namespace
+
+void ExactSum::reach(std::int64_t low, std::int64_t high) {
+  if (digits_.empty()) first_ = low;
+  if (low < first_) {
+    digits_.insert(digits_.begin(), static_cast<std::size_t>(first_ - low), 0);
+    first_ = low;
+  }
+  if (high >= first_ + std::ssize(digits_)) digits_.resize(static_cast<std::size_t>(high - first_ + 1), 0);
+}
+
+/// Adds sign·whole·2^exponent, 0 ≤ whole < 2^54.
+void ExactSum::add_scaled(std::int64_t sign, std::int64_t whole, std::int64_t exponent) {
+  if (whole == 0) return;
+  if (++additions_ > additions_without_carry) normalise();
+  const std::int64_t place = (exponent - min_exponent) / digit_bits;
+  const auto shift = static_cast<int>((exponent - min_exponent) % digit_bits);
+  const std::int64_t low = (whole & digit_mask) << shift;  // below 2^63
+  const std::int64_t high = ((whole >> digit_bits) << shift) + (low >> digit_bits);
+  reach(place, place + 2);
+  std::int64_t* digit = digits_.data() + (place - first_);
+  digit[0] += sign * (low & digit_mask);
+  digit[1] += sign * (high & digit_mask);
+  digit[2] += sign * (high >> digit_bits);
+}
+
+void ExactSum::add(double value) {
+  const Scaled number = scaled(value);
+  add_scaled(std::signbit(value) ? -1 : 1, number.whole, number.exponent);
+}
+
+/// With whole = a·2^27 + b: its square is a²·2^54 + 2·a·b·2^27 + b².
+void ExactSum::add_square(double value) {
+  constexpr int half = 27;
+  const Scaled number = scaled(value);
+  const std::int64_t a = number.whole >> half;
+  const std::int64_t b = number.whole & ((std::int64_t{1} << half) - 1);
+  const std::int64_t exponent = 2 * number.exponent;
+  add_scaled(1, a * a, exponent + 2 * half);
+  add_scaled(1, a * b, exponent + half + 1);
+  add_scaled(1, b * b, exponent);
+}
+
+bool ExactSum::is_valid() const {
+  const auto is_digit = [](std::int64_t digit) { return digit > -digit_base && digit < digit_base; };
+  constexpr std::int64_t max_digits = last_place + 4;  // of sums of up to 2^63 squares
+  return first_ >= 0 && std::ssize(digits_) <= max_digits && first_ <= max_digits - std::ssize(digits_) &&
+         std::all_of(digits_.begin(), digits_.end(), is_digit);
+}
+
+void ExactSum::normalise() {
+  constexpr std::int64_t half = digit_base / 2;
+  additions_ = 0;
+  for (std::size_t i = 0; i < digits_.size(); ++i) {
+    const std::int64_t carry = digits_[i] >> digit_bits;
+    const bool is_last = i + 1 == digits_.size();
+    if (is_last && digits_[i] >= -half && digits_[i] < half) break;
+    if (is_last) digits_.push_back(0);
+    digits_[i] &= digit_mask;
+    digits_[i + 1] += carry;
+  }
+  // The last digit has the sign; one that the digit before could have is too many.
+  while (digits_.size() > 1) {
+    const std::int64_t joined = digits_.back() * digit_base + digits_[digits_.size() - 2];
+    if (joined < -half || joined >= half) break;
+    digits_.pop_back();
+    digits_.back() = joined;
+  }
+  const auto used =
+      std::find_if(digits_.begin(), digits_.end(), [](std::int64_t digit) { return digit != 0; });
+  first_ = used == digits_.end() ? 0 : first_ + (used - digits_.begin());
+  digits_.erase(digits_.begin(), used);
+}
+
+ExactSum& ExactSum::operator+=(const ExactSum& other) {
+  if (other.digits_.empty()) return *this;
+  ExactSum added = other;
+  added.normalise();
+  normalise();
+  if (added.digits_.empty()) return *this;
+  reach(added.first_, added.first_ + std::ssize(added.digits_) - 1);
+  for (std::size_t i = 0; i < added.digits_.size(); ++i)
+    digits_[static_cast<std::size_t>(added.first_ - first_) + i] += added.digits_[i];
+  normalise();
+  return *this;
+}
+
+double ExactSum::value() const {
+  if (digits_.empty()) return 0.0;
+  return rounded(whole_number(digits_), min_exponent + digit_bits * first_, 1);
+}
+
+bool operator==(ExactSum one, ExactSum other) {
+  one.normalise();
+  other.normalise();
+  return one.first_ == other.first_ && one.digits_ == other.digits_;
+}
+
+double squared_deviations(const ExactSum& sum, const ExactSum& squares, std::int64_t n) {
+  const cpp_int total = whole_number(sum.digits_);
+  // The places of the last digits of n·Σx² and of (Σx)².
+  const std::int64_t of_squares = squares.first_ - min_exponent / digit_bits;
+  const std::int64_t of_total = 2 * sum.first_;
+  const std::int64_t last = std::min(of_squares, of_total);
+  const auto shift = [&](std::int64_t place) { return static_cast<unsigned>(digit_bits * (place - last)); };
+  const cpp_int number =
+      ((whole_number(squares.digits_) * n) << shift(of_squares)) - ((total * total) << shift(of_total));
+  return rounded(number, 2 * min_exponent + digit_bits * last, n);
+}
+
+}  // namespace zerocount::statistics

@@ -1,0 +1,201 @@
+#include "analysis/iso230/results_group.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "analysis/iso230/trial_values.hpp"
+#include "analysis/summary/summary.hpp"
+#include "core/failure/failure.hpp"
+#include "experiments/manifest/load_study.hpp"
+#include "tests/analysis/iso230/sequence_studies.hpp"
+#include "tests/analysis/summary_forms.hpp"
+#include "tests/support/raw_hdf5.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace zerocount::iso230 {
+namespace {
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// What the judge is told of the study: all but the results.
+nlohmann::json facts_of(const study::Study& study) {
+  nlohmann::json facts{{"points", study::point_count(study)}, {"trials", study.trials}};
+  for (const study::SequenceMove& move : study.sequence)
+    facts["sequence"].push_back({move.target, move.direction});
+  for (std::int64_t row = 0; row < study::trial_count(study); ++row) {
+    const trial::TrialParameters p =
+        study::study_trial(study, row / study.trials, row % study.trials).parameters;
+    facts["rows"].push_back({{"targets", p.command.targets},
+                             {"phase", p.initial.encoder_phase},
+                             {"resolution", 2.0 * std::numbers::pi / p.encoder.fine}});
+  }
+  return facts;
+}
+
+/// Has the group /repeatability, the summary and the documentation of a file judged by Python.
+void expect_judged_right(const study::Study& study, const std::vector<shards::TrialResult>& results) {
+  const testing::TemporaryFolder folder;
+  testing::write_sequence_file(folder / "study.h5", study, results);
+  const summary::StudySummary summary = summary::summarise(reading::StudyFile(folder / "study.h5"));
+  folder.write("facts.json", facts_of(study).dump());
+  folder.write("summary.json", testing::summary_json(summary).dump());
+  folder.write("summary.csv", testing::summary_csv(summary));
+  const std::string command =
+      fmt::format("{} {} file {} {} > {} 2>&1", ZEROCOUNT_PYTHON, ZEROCOUNT_REPEATABILITY_JUDGE,
+                  folder.path().string(), ZEROCOUNT_FORMAT_DOCUMENTATION, (folder / "output").string());
+  EXPECT_EQ(std::system(command.c_str()), 0) << folder.read("output");
+}
+
+TEST(RepeatabilityFile, AgreesWithAPythonJudgeOfTheWholeFile) {
+  const study::Study study = testing::sequence_study("cycles: 3", 40);
+  std::vector<shards::TrialResult> results = testing::sequence_results(study);
+  results[5].outcome.moves[9].outcome = trial::Outcome::nonfinite;
+  results[5].outcome.moves[9].final_position = std::numeric_limits<double>::quiet_NaN();
+  results[8].outcome.moves[0].outcome = trial::Outcome::nonfinite;  // a move that only goes to the other side
+  results[11].outcome.moves[4].outcome = trial::Outcome::oscillating;
+  expect_judged_right(study, results);
+}
+
+TEST(RepeatabilityFile, OfOneSideAgreesWithThePythonJudge) {
+  for (const char* approach : {"positive", "negative"}) {
+    const study::Study study = testing::sequence_study(fmt::format("cycles: 3, approach: {}", approach), 30);
+    expect_judged_right(study, testing::sequence_results(study));
+  }
+}
+
+TEST(RepeatabilityFile, OfOneCycleAndOfOneTrialAgreesWithThePythonJudge) {
+  const study::Study one_cycle = testing::sequence_study("cycles: 1", 30);
+  expect_judged_right(one_cycle, testing::sequence_results(one_cycle));
+  const study::Study one_trial = testing::sequence_study("cycles: 2", 1);
+  expect_judged_right(one_trial, testing::sequence_results(one_trial));
+}
+
+TEST(RepeatabilityFile, CountsTheTrialsThatRepeatExactlyByTheEncoder) {
+  const study::Study study = testing::sequence_study("cycles: 3", 60);
+  std::vector<shards::TrialResult> results = testing::sequence_results(study);
+  for (std::size_t row = 60; row < 120; ++row) {
+    for (trial::MoveOutcome& move : results[row].outcome.moves) move.final_error = 0;
+  }
+  // Everywhere one count beside the target is as repeatable as on it; one move beside it is not.
+  for (trial::MoveOutcome& move : results[7].outcome.moves) --move.final_error;
+  results[61].outcome.moves[3].final_error = 1;
+  // Beyond the ends nothing is measured.
+  results[62].outcome.moves[0].final_error = 99;
+  // What was lost did not repeat.
+  results[63].outcome.moves[3].outcome = trial::Outcome::nonfinite;
+  const testing::TemporaryFolder folder;
+  testing::write_sequence_file(folder / "study.h5", study, results);
+  const auto points = study_repeatability(reading::StudyFile(folder / "study.h5"), study).points;
+  EXPECT_EQ(points[0].zero_repeatability, 9);  // trials 0, 7, … 56
+  EXPECT_EQ(points[0].evaluated, 60);
+  EXPECT_EQ(points[1].zero_repeatability, 58);
+  EXPECT_EQ(points[1].evaluated, 59);
+  EXPECT_DOUBLE_EQ(points[1].zero_rate, 58.0 / 60.0);
+  EXPECT_DOUBLE_EQ(points[1].zero_bounds.high, statistics::clopper_pearson(58, 60).high);
+}
+
+TEST(RepeatabilityFile, NoTrialLeftHasNoValuesButItsCounts) {
+  const study::Study study = testing::sequence_study("cycles: 2", 4);
+  std::vector<shards::TrialResult> results = testing::sequence_results(study);
+  for (shards::TrialResult& result : results) result.outcome.moves[1].outcome = trial::Outcome::nonfinite;
+  const testing::TemporaryFolder folder;
+  testing::write_sequence_file(folder / "study.h5", study, results);
+  const PointRepeatability point =
+      study_repeatability(reading::StudyFile(folder / "study.h5"), study).points[0];
+  EXPECT_EQ(point.trials, 4);
+  EXPECT_EQ(point.evaluated, 0);
+  EXPECT_EQ(point.zero_rate, 0.0);
+  EXPECT_EQ(point.sources[0].axis[0].n, 0);
+  EXPECT_TRUE(std::isnan(point.sources[0].axis[0].median.value));
+}
+
+TEST(RepeatabilityFile, IsTheSameHoweverTheTrialsAreReadAtOnce) {
+  // More rows than are read at once, and not a multiple: 16384/8 = 2048 rows of 8 moves.
+  const study::Study study = testing::sequence_study("cycles: 1, approach: positive", 2049);
+  const std::vector<shards::TrialResult> results = testing::sequence_results(study);
+  const testing::TemporaryFolder folder;
+  testing::write_sequence_file(folder / "study.h5", study, results);
+  const hdf5::File file = hdf5::File::open_to_read(folder / "study.h5");
+  const hdf5::Dataset values = file.open_dataset("repeatability/trial/true/systematic_positive");
+  ASSERT_EQ(values.extent(), (std::vector<hdf5::Size>{4098}));
+  for (const std::int64_t row : {0LL, 4095LL, 4096LL, 4097LL}) {
+    const trial::TrialParameters parameters = study::study_trial(study, row / 2049, row % 2049).parameters;
+    double value = 0.0;
+    values.read(row, 1, &value);
+    const auto expected =
+        trial_repeatability(study.sequence, parameters, results[static_cast<std::size_t>(row)].outcome.moves);
+    EXPECT_EQ(value, expected->from_position.axis.systematic_positive) << row;
+  }
+}
+
+TEST(RepeatabilityFile, IsExportedAsCsv) {
+  const study::Study study = testing::sequence_study("cycles: 2", 3);
+  const testing::TemporaryFolder folder;
+  testing::write_sequence_file(folder / "study.h5", study, testing::sequence_results(study));
+  const reading::StudyFile file(folder / "study.h5");
+  const auto paths = reading::export_csv(file, folder / "csv", repeatability_exports(file));
+  ASSERT_EQ(paths.size(), 8U);
+  const std::vector<std::string> trials = lines_of(folder.read("csv/repeatability_trials.csv"));
+  ASSERT_EQ(trials.size(), 7U);
+  EXPECT_EQ(trials[0].rfind("trial,evaluated,true_reversal [rad],true_mean_reversal [rad],", 0), 0U);
+  EXPECT_EQ(trials[6].rfind("5,1,", 0), 0U);
+  const std::vector<std::string> targets = lines_of(folder.read("csv/repeatability_trial_targets.csv"));
+  ASSERT_EQ(targets.size(), 1U + 6U * 3U);
+  EXPECT_EQ(targets[0].rfind("trial,target,position [count],true_mean_positive [rad],", 0), 0U);
+  double value = 0.0;
+  hdf5::File::open_to_read(folder / "study.h5")
+      .open_dataset("repeatability/trial/true/reversal")
+      .read(4, 1, &value);
+  EXPECT_EQ(trials[5].rfind("4,1," + reading::number_text(value) + ",", 0), 0U) << trials[5];
+  EXPECT_EQ(targets[1 + 3 * 4 + 2].rfind("4,2,700,", 0), 0U);
+  EXPECT_EQ(lines_of(folder.read("csv/repeatability_points.csv")).size(), 3U);
+  EXPECT_EQ(lines_of(folder.read("csv/repeatability_point_targets.csv")).size(), 7U);
+}
+
+TEST(RepeatabilityFile, AStudyWithoutSequenceHasNone) {
+  const study::Study study = manifest::parse_study(
+      "zerocount: 1\nname: plain\nseed: 1\ntrials: 3\ncommand: {targets: [1, 2], hold: 0.1}\n", "test");
+  const testing::TemporaryFolder folder;
+  testing::write_sequence_file(folder / "study.h5", study, testing::sequence_results(study));
+  EXPECT_FALSE(hdf5::File::open_to_read(folder / "study.h5").contains("repeatability"));
+  EXPECT_FALSE(summary::summarise(reading::StudyFile(folder / "study.h5")).repeatability);
+  EXPECT_TRUE(repeatability_exports(reading::StudyFile(folder / "study.h5")).empty());
+}
+
+TEST(RepeatabilityFile, ThatIsOfAnotherSequenceIsRefused) {
+  const study::Study study = testing::sequence_study("cycles: 2", 4);
+  const testing::TemporaryFolder folder;
+  testing::write_sequence_file(folder / "study.h5", study, testing::sequence_results(study));
+  const reading::StudyFile file(folder / "study.h5");
+  const auto expect_bad = [&](const study::Study& other, const std::string& words) {
+    try {
+      study_repeatability(file, other);
+      ADD_FAILURE() << "expected a failure: " << words;
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.code(), ExitCode::bad_data);
+      EXPECT_NE(std::string(failure.what()).find(words), std::string::npos) << failure.what();
+    }
+  };
+  expect_bad(testing::sequence_study("cycles: 2", 5), "it is not of all trials of the study");
+  study::Study fewer = study;
+  for (study::SequenceMove& move : fewer.sequence) move.target = std::min<std::int64_t>(move.target, 1);
+  expect_bad(fewer, "it is of another number of targets");
+}
+
+}  // namespace
+}  // namespace zerocount::iso230

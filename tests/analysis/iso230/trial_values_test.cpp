@@ -1,0 +1,122 @@
+#include "analysis/iso230/trial_values.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/failure/failure.hpp"
+
+namespace zerocount::iso230 {
+namespace {
+
+constexpr double fine = 1620000.0;
+constexpr double count = 2.0 * std::numbers::pi / fine;  // rad
+
+/// Two targets, two cycles, from both sides.
+std::vector<study::SequenceMove> two_targets() {
+  std::vector<study::SequenceMove> moves;
+  for (std::int64_t cycle = 0; cycle < 2; ++cycle) {
+    for (const auto& [target, direction] : {std::pair{-1, -1}, {0, 1}, {1, 1}, {-1, 1}, {1, -1}, {0, -1}}) {
+      moves.push_back({target, direction, cycle});
+    }
+  }
+  return moves;
+}
+
+trial::TrialParameters with_targets(double phase) {
+  trial::TrialParameters parameters;
+  parameters.encoder.fine = fine;
+  parameters.initial.encoder_phase = phase;
+  parameters.command.targets = {90, 100, 250, 260, 250, 100, 90, 100, 250, 260, 250, 100};
+  return parameters;
+}
+
+/// Moves that end so many counts from the middle of the target's count.
+std::vector<trial::MoveOutcome> ending_at(const trial::TrialParameters& parameters,
+                                          const std::vector<double>& offsets) {
+  std::vector<trial::MoveOutcome> moves(offsets.size());
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    const double middle = static_cast<double>(parameters.command.targets[i]) + 0.5;
+    moves[i].outcome = trial::Outcome::zero_count;
+    moves[i].final_position = (middle + offsets[i] - parameters.initial.encoder_phase) * count;
+    moves[i].final_error = static_cast<std::int64_t>(std::floor(middle)) -
+                           static_cast<std::int64_t>(std::floor(middle + offsets[i]));
+  }
+  return moves;
+}
+
+TEST(SequenceShape, IsCountedFromTheMoves) {
+  const SequenceShape both = shape_of(two_targets());
+  EXPECT_EQ(both.targets, 2);
+  EXPECT_EQ(both.cycles, 2);
+  EXPECT_TRUE(both.positive && both.negative);
+  const SequenceShape one_side =
+      shape_of(std::vector<study::SequenceMove>{{-1, 1, 0}, {2, -1, 0}, {1, -1, 0}, {0, -1, 0}});
+  EXPECT_EQ(one_side.targets, 3);
+  EXPECT_EQ(one_side.cycles, 1);
+  EXPECT_FALSE(one_side.positive);
+  EXPECT_TRUE(one_side.negative);
+  EXPECT_EQ(shape_of({}).targets, 0);
+}
+
+TEST(TrialRepeatability, DeviatesFromTheMiddleOfTheTargetsCountAndByWholeCounts) {
+  for (const double phase : {0.0, 0.3, 0.5, 0.999}) {
+    const trial::TrialParameters parameters = with_targets(phase);
+    // Target 0: from below 0.25 and 0.25, from above −0.25 and −1.75 (which reads −2 counts).
+    const std::vector<double> offsets{9, 0.25, 0, 9, 0, -0.25, 9, 0.25, 0, 9, 0, -1.75};
+    const auto result = trial_repeatability(two_targets(), parameters, ending_at(parameters, offsets));
+    ASSERT_TRUE(result);
+    const TargetRepeatability& truly = result->from_position.targets[0];
+    EXPECT_NEAR(truly.mean_positive, 0.25 * count, 1e-9 * count);
+    EXPECT_NEAR(truly.mean_negative, -1.0 * count, 1e-9 * count);
+    EXPECT_NEAR(truly.repeatability_positive, 0.0, 1e-9 * count);
+    EXPECT_NEAR(truly.repeatability_negative, 4.0 * 1.5 / std::sqrt(2.0) * count, 1e-9 * count);
+    const TargetRepeatability& read = result->from_encoder.targets[0];
+    EXPECT_EQ(read.mean_positive, 0.0);
+    EXPECT_EQ(read.mean_negative, -1.0);
+    EXPECT_EQ(read.repeatability_positive, 0.0);
+    EXPECT_DOUBLE_EQ(read.repeatability_negative, 4.0 * std::sqrt(2.0));
+    EXPECT_EQ(result->from_encoder.targets[1].repeatability, 0.0);
+  }
+}
+
+TEST(TrialRepeatability, TargetsHaveTheOrderOfTheirList) {
+  EXPECT_EQ(listed_targets(two_targets(), with_targets(0.5)), (std::vector<double>{100, 250}));
+}
+
+TEST(TrialRepeatability, MeasuresMovesAsTheyEndedWhateverTheirVerdict) {
+  const trial::TrialParameters parameters = with_targets(0.5);
+  std::vector<trial::MoveOutcome> moves = ending_at(parameters, std::vector<double>(12, 0.0));
+  for (trial::MoveOutcome& move : moves) move.outcome = trial::Outcome::oscillating;
+  EXPECT_TRUE(trial_repeatability(two_targets(), parameters, moves));
+  moves[1].final_error = 40;
+  EXPECT_EQ(trial_repeatability(two_targets(), parameters, moves)->from_encoder.targets[0].mean_positive,
+            -20.0);
+}
+
+TEST(TrialRepeatability, IsEmptyWhereTheMotionWasLost) {
+  const trial::TrialParameters parameters = with_targets(0.5);
+  const std::vector<trial::MoveOutcome> sound = ending_at(parameters, std::vector<double>(12, 0.0));
+  for (std::size_t i = 0; i < sound.size(); ++i) {
+    std::vector<trial::MoveOutcome> moves = sound;
+    moves[i].outcome = trial::Outcome::nonfinite;
+    EXPECT_FALSE(trial_repeatability(two_targets(), parameters, moves)) << i;
+    moves = sound;
+    moves[i].final_position = std::numeric_limits<double>::infinity();
+    EXPECT_FALSE(trial_repeatability(two_targets(), parameters, moves)) << i;
+  }
+}
+
+TEST(TrialRepeatability, OfOtherMovesThanThoseOfTheSequenceIsRefused) {
+  trial::TrialParameters parameters = with_targets(0.5);
+  const std::vector<trial::MoveOutcome> moves = ending_at(parameters, std::vector<double>(12, 0.0));
+  EXPECT_THROW(trial_repeatability(two_targets(), parameters, std::span(moves).first(11)), Failure);
+  parameters.command.targets.pop_back();
+  EXPECT_THROW(trial_repeatability(two_targets(), parameters, moves), Failure);
+}
+
+}  // namespace
+}  // namespace zerocount::iso230

@@ -1,0 +1,127 @@
+#include "analysis/statistics/clusters/clustered_mean.hpp"
+
+#include <cmath>
+#include <random>
+#include <span>
+#include <vector>
+
+#include <boost/math/distributions/students_t.hpp>
+#include <gtest/gtest.h>
+
+#include "analysis/statistics/mean_bounds.hpp"
+#include "core/failure/failure.hpp"
+
+namespace zerocount::statistics {
+namespace {
+
+constexpr random::RandomStream stream{{12, 34}, 5};
+
+ClusterTotals totals_of(const std::vector<double>& values) {
+  ClusterTotals totals;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    totals.add(static_cast<std::int64_t>(i), std::span(&values[i], 1));
+  return totals;
+}
+
+Moments moments_of(const std::vector<double>& values) {
+  Moments moments;
+  for (const double value : values) moments.add(value);
+  return moments;
+}
+
+TEST(ClusteredMean, OfNormalValuesIsAboutStudents) {
+  std::mt19937_64 random(51);
+  std::normal_distribution<double> normal(3.0, 0.5);
+  for (int round = 0; round < 10; ++round) {
+    std::vector<double> values(150);
+    for (double& value : values) value = normal(random);
+    const ConfidenceInterval expected = student_t(moments_of(values));
+    const ConfidenceInterval found = clustered_mean_bounds(totals_of(values), stream);
+    EXPECT_LE(found.low, expected.low * (1.0 + 1e-12));  // the outer of both
+    EXPECT_GE(found.high, expected.high * (1.0 - 1e-12));
+    EXPECT_NEAR(found.low, expected.low, 0.25 * (expected.high - expected.low));
+    EXPECT_NEAR(found.high, expected.high, 0.25 * (expected.high - expected.low));
+  }
+}
+
+TEST(ClusteredMean, BootstrapReachesFurtherTowardsTheLongTail) {
+  std::mt19937_64 random(52);
+  std::exponential_distribution<double> exponential;
+  std::vector<double> values(60);
+  for (double& value : values) value = exponential(random);
+  const double mean = moments_of(values).mean;
+  const ConfidenceInterval bounds = clustered_mean_bounds(totals_of(values), stream);
+  EXPECT_GT(bounds.high - mean, 1.1 * (mean - bounds.low));
+}
+
+TEST(ClusteredMean, ValuesThatAreAlikeInTheirClusterCountOnce) {
+  std::mt19937_64 random(53);
+  std::gamma_distribution<double> gamma(3.0);
+  std::vector<double> values(80);
+  for (double& value : values) value = gamma(random);
+  ClusterTotals tens;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    tens.add(static_cast<std::int64_t>(i), std::vector<double>(10, values[i]));
+  const ConfidenceInterval single = clustered_mean_bounds(totals_of(values), stream);
+  const ConfidenceInterval alike = clustered_mean_bounds(tens, stream);
+  EXPECT_NEAR(alike.low, single.low, 1e-12);
+  EXPECT_NEAR(alike.high, single.high, 1e-12);
+}
+
+TEST(ClusteredMean, ManyClustersAreGatheredIntoGroupsWithoutLoss) {
+  std::mt19937_64 random(54);
+  std::exponential_distribution<double> exponential;
+  std::vector<double> values(100'000);
+  for (double& value : values) value = exponential(random);
+  const ClusterTotals totals = totals_of(values);
+  EXPECT_EQ(std::ssize(totals.sums), max_clusters);
+  EXPECT_EQ(totals.clusters(), 100'000);
+  const ConfidenceInterval expected = student_t(moments_of(values));
+  const ConfidenceInterval found = clustered_mean_bounds(totals, stream);
+  EXPECT_NEAR(found.low, expected.low, 0.1 * (expected.high - expected.low));
+  EXPECT_NEAR(found.high, expected.high, 0.1 * (expected.high - expected.low));
+}
+
+TEST(ClusteredMean, ResamplesDependOnTheirStreamAlone) {
+  const ClusterTotals totals = totals_of({1.0, 2.0, 4.0, 8.0, 16.0, 3.0, 2.5, 7.0});
+  const ConfidenceInterval once = clustered_mean_bounds(totals, stream);
+  EXPECT_EQ(clustered_mean_bounds(totals, stream).high, once.high);
+  EXPECT_NE(clustered_mean_bounds(totals, {{12, 34}, 6}).high, once.high);
+}
+
+TEST(ClusteredMean, SaysNothingWhereThereIsNothingToResample) {
+  for (const std::vector<double>& values : {std::vector<double>{}, {1.0}, {0.3, 0.3, 0.3}}) {
+    const ConfidenceInterval bounds = clustered_mean_bounds(totals_of(values), stream);
+    EXPECT_TRUE(std::isnan(bounds.low));
+    EXPECT_TRUE(std::isnan(bounds.high));
+  }
+  EXPECT_THROW(clustered_mean_bounds(totals_of({1.0, 2.0}), stream, 1.0), Failure);
+}
+
+TEST(ClusteredCount, WithoutAnEventHasTheBoundOfOneEventPerCluster) {
+  EXPECT_EQ(clustered_count_bounds(totals_of(std::vector<double>(300, 0.0)), stream).low, 0.0);
+  EXPECT_NEAR(clustered_count_bounds(totals_of(std::vector<double>(300, 0.0)), stream).high,
+              -std::log(0.025) / 300.0, 1e-12);
+  EXPECT_NEAR(clustered_count_bounds(totals_of(std::vector<double>(9000, 0.0)), stream).high,
+              -std::log(0.025) / 9000.0, 1e-12);  // also of more trials than groups
+  ClusterTotals rigs;                             // 100 rigs of 30 trials are worth 100 trials
+  for (std::int64_t trial = 0; trial < 3000; ++trial) rigs.add(trial % 100, std::vector<double>{0.0});
+  EXPECT_NEAR(clustered_count_bounds(rigs, stream).high, -std::log(0.025) / 100.0, 1e-12);
+}
+
+TEST(ClusteredCount, OfFewEventsIsGarwoodsWithStudentsFactor) {
+  std::vector<double> values(400, 0.0);
+  for (std::size_t i = 0; i < 5; ++i) values[10 * i] = 1.0;
+  const boost::math::students_t_distribution<double> student(399.0);
+  const double factor = std::pow(1.959963984540054 / boost::math::quantile(student, 0.975), 2);
+  const ConfidenceInterval expected = poisson_bounds(5.0 * factor);
+  const ConfidenceInterval found = clustered_count_bounds(totals_of(values), stream);
+  EXPECT_NEAR(found.low, expected.low / factor / 400.0, 1e-9);
+  EXPECT_NEAR(found.high, expected.high / factor / 400.0, 1e-9);
+  values[0] = 5.0;  // five at once are worth less than five apart
+  const ConfidenceInterval uneven = clustered_count_bounds(totals_of(values), stream);
+  EXPECT_GT(uneven.high - uneven.low, 1.3 * (found.high - found.low));
+}
+
+}  // namespace
+}  // namespace zerocount::statistics

@@ -1,0 +1,128 @@
+#include "analysis/statistics/clusters/observed_test.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <random>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/failure/failure.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace zerocount::statistics {
+namespace {
+
+using Random = std::mt19937_64;
+
+TEST(ObservedTest, EqualsSciPys) {
+  const testing::TemporaryFolder folder;
+  std::ofstream cases(folder / "cases");
+  Random random(151);
+  constexpr int rounds = 200;
+  for (int round = 0; round < rounds; ++round) {
+    // Against all simulated trials, some of them many, and against rigs.
+    const auto n = static_cast<std::int64_t>(1 + random() % 40);
+    const auto k = static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(n + 1));
+    const std::int64_t simulated =
+        round % 3 == 0 ? 1'000'000 : static_cast<std::int64_t>(20 + random() % 500);
+    const auto successes = static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(simulated + 1));
+    cases << fmt::format("{} {} {} {} {}", fisher_test({k, n}, {successes, simulated}).p, k, n, successes,
+                         simulated);
+    std::vector<std::int64_t> of_rigs;
+    for (int rig = 0; rig < 5 + round % 60; ++rig)
+      of_rigs.push_back(static_cast<std::int64_t>(random() % 61));
+    cases << fmt::format(" {} 60", rig_rank_test({k, n}, of_rigs, 60).p);
+    for (const std::int64_t each : of_rigs) cases << ' ' << each;
+    cases << '\n';
+  }
+  cases.close();
+  const std::string command =
+      fmt::format("{} {} observed {} > {} 2>&1", ZEROCOUNT_PYTHON, ZEROCOUNT_STATISTICS_JUDGE,
+                  (folder / "cases").string(), (folder / "out").string());
+  EXPECT_EQ(std::system(command.c_str()), 0) << folder.read("out");
+  EXPECT_EQ(folder.read("out"), fmt::format("{} samples\n", rounds));
+}
+
+// Neither the order of the two samples nor the name of success matters. With up to 100 000 trials, terms that
+// each took a library's factorials would take minutes.
+TEST(ObservedTest, IsSymmetric) {
+  Random random(154);
+  for (int round = 0; round < 100; ++round) {
+    const auto up_to = [&](std::int64_t most) {
+      return static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(most + 1));
+    };
+    const std::int64_t n = 1 + up_to(round % 2 == 0 ? 50 : 2000);
+    const std::int64_t m = 1 + up_to(round % 4 < 2 ? 300 : 100'000);
+    const double rate = static_cast<double>(up_to(1000)) / 1000.0;
+    const std::int64_t k = std::binomial_distribution<std::int64_t>(n, rate)(random);
+    const std::int64_t successes = std::binomial_distribution<std::int64_t>(m, rate)(random);
+    const double p = fisher_test({k, n}, {successes, m}).p;
+    EXPECT_GT(p, 0.0);
+    EXPECT_NEAR(fisher_test({successes, m}, {k, n}).p / p, 1.0, 1e-9) << k << ' ' << n;
+    EXPECT_NEAR(fisher_test({n - k, n}, {m - successes, m}).p / p, 1.0, 1e-9) << successes << ' ' << m;
+  }
+}
+
+TEST(ObservedTest, RaisesFalseAlarmsNoMoreOftenThanItSays) {
+  Random random(152);
+  constexpr int rounds = 4000;
+  int fisher = 0;
+  for (int round = 0; round < rounds; ++round) {
+    std::binomial_distribution<std::int64_t> real(12, 0.8), simulated(300, 0.8);
+    fisher += fisher_test({real(random), 12}, {simulated(random), 300}).p <= 0.05;
+  }
+  EXPECT_LE(fisher, 0.05 * rounds + 3.0 * std::sqrt(0.0475 * rounds));
+  EXPECT_GE(fisher, 0.005 * rounds);
+  std::cout << "Fisher: " << 100.0 * fisher / rounds << " % false alarms\n";
+}
+
+/// The success probability of a rig: most are good, some are not.
+double of_a_rig(Random& random) {
+  return random() % 5 == 0 ? 0.3 : 0.95;
+}
+
+// The real rig is one more of these rigs. Taken for independent trials of all of them, its own would differ
+// far too often.
+TEST(ObservedTest, ARigIsOneOfThoseThatDiffer) {
+  Random random(153);
+  constexpr int rounds = 3000;
+  int ranks = 0, fisher = 0;
+  for (int round = 0; round < rounds; ++round) {
+    std::vector<std::int64_t> of_rigs;
+    std::int64_t all = 0;
+    for (int rig = 0; rig < 100; ++rig) {
+      of_rigs.push_back(std::binomial_distribution<std::int64_t>(20, of_a_rig(random))(random));
+      all += of_rigs.back();
+    }
+    const std::int64_t real = std::binomial_distribution<std::int64_t>(15, of_a_rig(random))(random);
+    ranks += rig_rank_test({real, 15}, of_rigs, 20).p <= 0.05;
+    fisher += fisher_test({real, 15}, {all, 2000}).p <= 0.05;
+  }
+  EXPECT_LE(ranks, 0.05 * rounds + 3.0 * std::sqrt(0.0475 * rounds));
+  EXPECT_GE(fisher, 0.15 * rounds);
+  std::cout << "rank among rigs: " << 100.0 * ranks / rounds << " % false alarms, Fisher on them "
+            << 100.0 * fisher / rounds << " %\n";
+}
+
+TEST(ObservedTest, FindsARigThatIsNone) {
+  std::vector<std::int64_t> of_rigs;
+  for (int rig = 0; rig < 100; ++rig) of_rigs.push_back(18 + rig % 3);
+  EXPECT_LE(rig_rank_test({4, 15}, of_rigs, 20).p, 0.02);
+  EXPECT_GT(rig_rank_test({14, 15}, of_rigs, 20).p, 0.3);
+  EXPECT_LT(fisher_test({2, 10}, {980, 1000}).p, 1e-6);
+}
+
+TEST(ObservedTest, KnowsWhatItCannotFind) {
+  EXPECT_GT(fisher_test({2, 2}, {50, 100}).lowest_p, 0.05);
+  EXPECT_LT(fisher_test({2, 2}, {98, 100}).lowest_p, 0.05);
+  const std::vector<std::int64_t> few(20, 10);
+  EXPECT_DOUBLE_EQ(rig_rank_test({0, 20}, few, 20).lowest_p, 2.0 / 21.0);
+  EXPECT_THROW(rig_rank_test({1, 21}, few, 20), Failure);
+  EXPECT_THROW(fisher_test({3, 2}, {1, 2}), Failure);
+}
+
+}  // namespace
+}  // namespace zerocount::statistics

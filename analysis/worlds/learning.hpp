@@ -28,9 +28,12 @@ struct Learned {
   std::int64_t decided() const { return decided_good + decided_bad; }
 };
 
-/// The parameters in order of the worlds that their measurement would decide less those it would misjudge,
-/// the most first. If a world is the truth, the worlds whose values lie within ±`precision` of its own remain
-/// possible, but at least the four nearest; the world does not judge itself.
+/// The parameters in order of decided − misjudged worlds, the most first.
+///
+///     for each input, for each world taken for the truth:
+///       possible = other worlds within ±precision of its value, or the four nearest if these are fewer
+///       all possible worlds are like it: decided; all are unlike it: misjudged; otherwise open
+///
 /// @param bad [world] @param precision relative error of the measurement, above 0 @param seed of the 399
 /// permutations for the p-values, which allow for the number of parameters and for what these have in common
 /// (the smallest p-value of each permutation: Westfall and Young, Resampling-Based Multiple Testing, 1993)

@@ -10,7 +10,7 @@
 /// A rule that separates bad worlds from the others.
 namespace zerocount::worlds {
 
-/// What differs between worlds: an unknown parameter, or what follows from several (derived_quantities.hpp).
+/// A quantity that differs between worlds: an unknown parameter, or a DerivedQuantity.
 struct WorldInput {
   std::string name;  ///< dotted path of a parameter, name of a derived quantity
   std::string unit;
@@ -53,12 +53,14 @@ struct WorldRule {
 /// Largest p-value of a rule that is told.
 inline constexpr double significance_of_rules = 0.05;
 
-/// The rule with the lowest mean of the two error rates, of bad worlds that it does not name and of others
-/// that it names. Two conditions take the place of one if they name at least two worlds fewer wrongly.
-/// Thresholds lie between the values of neighbouring worlds, and at 31 quantiles where there are more. The
-/// p-values are those of 399 permutations of the worlds' rates; they choose their rules, and the parameter
-/// with the strongest trend, likewise. Of inputs that separate the worlds alike, the first takes the rule,
-/// and the others are in WorldRule::same.
+/// Finds the rule that separates the bad worlds best.
+///
+///     for each input and each threshold between values of neighbouring worlds (31 quantiles of many):
+///       error = mean of the proportions of bad worlds that are not named, and of others that are
+///     one condition = that of the least error; of inputs with the same names the first, others in `same`
+///     two conditions (and, or) take its place if they name at least two worlds fewer wrongly
+///     p-value = by the same search on 399 permutations of the worlds' rates
+///
 /// @param rates [world] @param bad [world] those with rates too low @param seed of the permutations
 /// @returns nothing if all worlds are bad or none is, or the p-value is above significance_of_rules
 std::optional<WorldRule> find_rule(const std::vector<WorldInput>& inputs, const std::vector<double>& rates,

@@ -372,7 +372,7 @@ class Estimator {
     for (const TrialPoint& point : found.failing) searched_.add(point.z, each);
     for (const std::vector<TrialPoint>& level : found.above) {
       WeightedPoints points;
-      for (const TrialPoint& point : level) points.add(changed_part(settings_.space, point.z), 1.0);
+      for (const TrialPoint& point : level) points.add(proposal_coordinates(settings_.space, point.z), 1.0);
       levels_.push_back(fitted_normal(points, numbers));
     }
   }
@@ -388,7 +388,7 @@ class Estimator {
     WeightedPoints found;
     for (std::size_t i = 0; i < points.z.size(); ++i) {
       if (!is_pinned(settings_.space, state_.proposal, points.z[i]))
-        found.add(changed_part(settings_.space, points.z[i]), points.weights[i]);
+        found.add(proposal_coordinates(settings_.space, points.z[i]), points.weights[i]);
     }
     return found;
   }

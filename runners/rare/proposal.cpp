@@ -48,7 +48,7 @@ std::vector<PinnedValue> pinned_values(const TrialSpace& space, std::size_t draw
   return values;
 }
 
-std::vector<double> changed_part(const TrialSpace& space, std::span<const double> z) {
+std::vector<double> proposal_coordinates(const TrialSpace& space, std::span<const double> z) {
   std::vector<double> part;
   for (std::size_t i = 0; i < z.size(); ++i) {
     if (!std::ranges::binary_search(space.unordered, i)) part.push_back(z[i]);
@@ -63,7 +63,7 @@ bool is_pinned(const TrialSpace& space, const Proposal& proposal, std::span<cons
 double likelihood_ratio(const TrialSpace& space, const Proposal& proposal, std::span<const double> z) {
   double learned = proposal.pinned * density_of_pinned(space, proposal, z);
   if (!proposal.components.empty())
-    learned += (1.0 - proposal.pinned) * density_ratio(proposal.components, changed_part(space, z));
+    learned += (1.0 - proposal.pinned) * density_ratio(proposal.components, proposal_coordinates(space, z));
   return 1.0 / (proposal.natural + (1.0 - proposal.natural) * learned);
 }
 

@@ -28,17 +28,21 @@ struct PinnedValue {
   std::int64_t value{0};
   double probability{1.0};           ///< of the value
   double weight{1.0};                ///< among the pinned values of a proposal; they sum to 1
-  std::int64_t failures{0};          ///< of the trials by which it was chosen
-  std::int64_t trials{0};            ///< likewise
-  std::vector<std::int64_t> rows{};  ///< of the value
+  std::int64_t failures{0};          ///< among the trials at this value by which it was chosen
+  std::int64_t trials{0};            ///< number of these trials
+  std::vector<std::int64_t> rows{};  ///< of a table of samples that the value stands for
 };
 
 /// All values of a discrete draw.
 std::vector<PinnedValue> pinned_values(const TrialSpace& space, std::size_t draw);
 
-/// The distribution from which trials are drawn in place of their own: with the probability `natural` their
-/// own; otherwise with the probability `pinned` at one of the pinned values, else from a mixture of normal
-/// distributions of the coordinates that are not unordered, whose weights sum to 1.
+/// The distribution from which trials are drawn in place of their own, of the density
+///
+///     q(z) = natural·φ(z) + (1 − natural)·(pinned·Σ_v weight_v·φ(z | value v) + (1 − pinned)·Σ_c
+///     weight_c·N_c(z))
+///
+/// with φ the standard normal density and N_c the normal components, which are of the coordinates that are
+/// not unordered; the others keep φ.
 struct Proposal {
   double natural{1.0};
   double pinned{0.0};
@@ -48,8 +52,8 @@ struct Proposal {
   bool is_natural() const { return values.empty() && components.empty(); }
 };
 
-/// The coordinates that normal components change.
-std::vector<double> changed_part(const TrialSpace& space, std::span<const double> z);
+/// The coordinates that are drawn from the normal components: all but the unordered ones, in their order.
+std::vector<double> proposal_coordinates(const TrialSpace& space, std::span<const double> z);
 
 /// Whether the point has one of the pinned values.
 bool is_pinned(const TrialSpace& space, const Proposal& proposal, std::span<const double> z);

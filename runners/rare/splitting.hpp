@@ -23,23 +23,30 @@ struct SplittingSettings {
 /// The result of splitting along one score.
 struct SplittingResult {
   bool reached{false};      ///< enough trials of the last level fail
-  double probability{1.0};  ///< of the last level; of a failure if it was reached. Without a bound
+  double probability{1.0};  ///< estimate of P of the last level, or of a failure; without bounds
   int levels{0};
   std::int64_t trials{0};
-  std::int64_t plain_trials{0};  ///< of them those at the beginning, drawn from their own distribution
-  std::vector<TrialPoint> plain_failing;  ///< of these, those with a move that failed
+  std::int64_t plain_trials{0};           ///< of the first level, drawn from their own distribution
+  std::vector<TrialPoint> plain_failing;  ///< plain trials with a move that failed
   std::vector<TrialPoint> failing;        ///< approximately distributed as trials that fail
-  /// [level] likewise of trials above each level, from the first on.
+  /// [level] approximately distributed as trials above the level, from the first level on.
   std::vector<std::vector<TrialPoint>> above;
 };
 
-/// Multilevel splitting (subset simulation) towards larger values of one score: the level is the score that a
-/// fifth of the trials exceed; these are copied, and moved by steps of a Markov chain that keeps the
-/// distribution above the level, z' = √(1 − β²)·z + β·ξ; an unordered
-/// coordinate is kept, or drawn anew in one of five steps. The number of a trial is drawn anew in every other
-/// step. Sources: Au and Beck, Estimation of small failure probabilities in high dimensions by subset
-/// simulation, Probabilistic Engineering Mechanics 16 (2001); Papaioannou et al., MCMC algorithms for subset
-/// simulation, ibid. 41 (2015).
+/// Multilevel splitting (subset simulation) towards larger values of one score.
+///
+///     particles = plain trials; P = 1
+///     until enough particles fail, or P < least:
+///       level = the score that a fifth of the particles exceed
+///       P *= proportion of the particles above it
+///       replace the others by copies of those
+///       move each particle by `steps` steps of a Markov chain that keeps the distribution above the level
+///
+/// A step proposes z' = √(1 − β²)·z + β·ξ, ξ standard normal, and is refused where the score falls to the
+/// level; an unordered coordinate is kept, or drawn anew in one of five steps. The number of a trial is drawn
+/// anew in every other step. Sources: Au and Beck, Estimation of small failure probabilities in high
+/// dimensions by subset simulation, Probabilistic Engineering Mechanics 16 (2001); Papaioannou et al., MCMC
+/// algorithms for subset simulation, ibid. 41 (2015).
 /// @param go_on asked before each level; false ends without a result
 SplittingResult split(const SplittingSettings& settings, const Simulation& simulate, NumberSource& numbers,
                       const std::function<bool()>& go_on);

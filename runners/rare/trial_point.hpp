@@ -11,17 +11,17 @@
 /// of further random numbers that follow from its number.
 namespace zerocount::rare {
 
-/// A trial.
+/// A trial: the point at which the function is taken.
 struct TrialPoint {
-  std::vector<double> z;  ///< [coordinate]
-  std::int64_t number{0};
+  std::vector<double> z;   ///< [coordinate]
+  std::int64_t number{0};  ///< of which all other random numbers of the trial follow
 };
 
 /// The result of a trial.
 struct PointResult {
   double failed{0.0};  ///< proportion of its moves that fail
-  /// [score] Of its moves the largest: continuous, and larger the nearer a move is to failure, if the score
-  /// is apt. NaN: not known.
+  /// [score] The largest of its moves, continuous; a useful score is larger the nearer a move is to failure.
+  /// NaN: not known.
   std::vector<double> scores;
 };
 

@@ -151,7 +151,7 @@ class MachineSearch {
   }
 
   static bool is_worse(const UnitResult& a, const UnitResult& b, double late) {
-    if (met_share(a) != met_share(b)) return met_share(a) < met_share(b);
+    if (met_proportion(a) != met_proportion(b)) return met_proportion(a) < met_proportion(b);
     return lateness(a, late) > lateness(b, late);
   }
 
@@ -366,7 +366,7 @@ class MachineSearch {
         {trials_of_verdict, 1, [&](std::size_t) { return trials; }}, stop_,
         [&](std::size_t, std::span<const trial::TrialOutcome> outcomes) { result = result_of(outcomes); });
     machine.moves = result.moves;
-    machine.met = met_share(result);
+    machine.met = met_proportion(result);
     const auto latest = std::ranges::max_element(result.values) - result.values.begin();
     machine.trial = first + latest / given_.moves * rigs_of(point);
     return machine;

@@ -51,7 +51,7 @@ class Worst : public ::testing::Test {
     const study::Study study = layout::recorded_study(file.header(), "worst.h5");
     trials::Replicates units = trials::replicates_of(study, 0);
     if (study.rigs == 0) units = {1, study.trials, 0};
-    return met_share(
+    return met_proportion(
         tuning::results_in(file, study, units)[static_cast<std::size_t>(study.rigs == 0 ? 0 : rig)]);
   }
 

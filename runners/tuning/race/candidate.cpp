@@ -85,7 +85,7 @@ bool is_better(const Aim& aim, const Estimate& a, const Estimate& b) {
 
 double goal_loss(const Aim& aim, const UnitResult& unit) {
   if (aim.machines) return machine_meets(aim, unit) ? 0.0 : 1.0;
-  return unit.moves == 0 ? 0.0 : 1.0 - met_share(unit);
+  return unit.moves == 0 ? 0.0 : 1.0 - met_proportion(unit);
 }
 
 double late_part(const UnitResult& unit, double limit) {

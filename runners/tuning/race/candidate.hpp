@@ -15,12 +15,12 @@ namespace zerocount::tuning {
 struct UnitResult {
   std::int32_t moves{0};
   std::int32_t met{0};         ///< moves that meet the goal
-  std::vector<double> values;  ///< of the moves that have the criterion's measure; infinite for never
+  std::vector<double> values;  ///< [move] of the criterion's measure, where it has one; infinite for never
   bool slid{false};            ///< whether the axis slid in a move
 };
 
 /// Proportion of a unit's moves that meet the goal; 0 without moves.
-inline double met_share(const UnitResult& unit) {
+inline double met_proportion(const UnitResult& unit) {
   return unit.moves == 0 ? 0.0 : static_cast<double>(unit.met) / unit.moves;
 }
 

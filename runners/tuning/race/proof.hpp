@@ -14,8 +14,8 @@ namespace zerocount::tuning {
 
 /// One run of a finalist on units that neither the search nor another attempt has seen.
 struct Attempt {
-  int number{1};
-  std::size_t finalist{0};
+  int number{1};            ///< from 1
+  std::size_t finalist{0};  ///< of ProofProblem::promising
   std::int64_t units{0};
 };
 
@@ -49,9 +49,14 @@ struct ProvenFinalist {
   goal::Verdict verdict;
 };
 
-/// Proves the best finalist. One that misses the goal is followed by the next; one that stays undecided is
-/// run again on more units, if more are expected to decide. Nothing if the effort ended before the first
-/// attempt.
+/// Proves the best finalist.
+///
+///     finalist = 0
+///     for attempt = 1 … max_attempts, while the effort is enough:
+///       run the finalist on fresh units; verdict = judge_goal() with the attempt's part of α
+///       met: done; missed: the next finalist; undecided: again on more units, if more are expected to decide
+///
+/// @returns the last attempt; nothing if the effort ended before the first one
 std::optional<ProvenFinalist> prove(const ProofProblem& problem);
 
 }  // namespace zerocount::tuning

@@ -66,8 +66,16 @@ struct SearchResult {
   bool cut{false};        ///< the effort ended within a generation
 };
 
-/// Seeks the best values within the effort. Where that ends within a race, the candidates with the most units
-/// stay.
+/// Seeks the best values within the effort.
+///
+///     candidates = points that fill the ranges and the faces, and `starts`       // first generation
+///     repeat until generations improve nothing, or the effort is spent:
+///       for units = first_units, 2·first_units, … max_units:                     // race
+///         evaluate all candidates up to `units`
+///         drop those not admissible, significantly worse than the best, or beyond max_after(units)
+///       population = the best `elites`; candidates = points near them
+///
+/// Where the effort ends within a race, the candidates with the most units stay.
 /// @throws trial::Interrupted
 SearchResult search(const SearchProblem& problem, const SearchSettings& settings);
 

@@ -99,10 +99,13 @@ bool has_finite_bounds(const TestedMeasure& measure) {
          std::isfinite(measure.bounds.high);
 }
 
+double standard_error_of(const statistics::ConfidenceInterval& bounds, double confidence) {
+  return bounds.half_width() / statistics::normal_quantile(confidence);
+}
+
 double detectable_change(const MeasureComparison& measure, const GateRules& rules, std::size_t tests) {
   if (!has_finite_bounds(measure)) return statistics::unknown;
-  const double error =
-      (measure.bounds.high - measure.bounds.low) / 2.0 / statistics::normal_quantile(rules.confidence);
+  const double error = standard_error_of(measure.bounds, rules.confidence);
   const double rate = rules.false_discovery_rate / (measure.changed_fails ? 2.0 : 1.0);
   const double strictest = rate / (static_cast<double>(tests) * harmonic_number(tests));
   const double power = statistics::normal_quantile(decision_probability);

@@ -10,7 +10,6 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
-#include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "core/random/random_numbers.hpp"
 #include "core/random/variates.hpp"
@@ -88,8 +87,7 @@ class Simulator {
     std::vector<double> z;
     for (const ForecastMeasure& measure : measures) {
       const TestedMeasure& found = measure.found;
-      const double error =
-          (found.bounds.high - found.bounds.low) / 2.0 / statistics::normal_quantile(confidence);
+      const double error = standard_error_of(found.bounds, confidence);
       z.push_back(error > 0.0 ? found.effect / error : 0.0);
     }
     return zero_difference_probabilities(z);

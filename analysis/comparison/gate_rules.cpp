@@ -4,6 +4,8 @@
 #include <charconv>
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace zerocount::comparison {
 namespace {
 
@@ -20,9 +22,9 @@ void add_quantities(std::vector<RequirableQuantity>& quantities, const std::stri
   } else if (measure.measure->reduction == layout::MoveReduction::sum) {
     quantities.push_back({stem, measure.unit, RequirementKind::mean, measure});
   } else {
-    for (const auto& [quantile, probability] :
-         {std::pair(".median", 0.5), std::pair(".p95", 0.95), std::pair(".p99", 0.99)})
-      quantities.push_back({stem + quantile, measure.unit, RequirementKind::quantile, measure, probability});
+    for (const auto& [quantile, probability] : quantile_names)
+      quantities.push_back({fmt::format("{}.{}", stem, quantile), measure.unit, RequirementKind::quantile,
+                            measure, probability});
   }
 }
 

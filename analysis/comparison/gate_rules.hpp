@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "results/layout/measure_table.hpp"
@@ -56,6 +58,10 @@ std::vector<GateMeasure> all_gate_measures();
 
 /// The measure of this name among all_gate_measures().
 std::optional<GateMeasure> find_gate_measure(std::string_view name);
+
+/// Names of quantiles behind that of a measure, as in "settling_time.p95", and their probabilities.
+inline constexpr std::array<std::pair<std::string_view, double>, 3> quantile_names{
+    {{"median", 0.5}, {"p95", 0.95}, {"p99", 0.99}}};
 
 enum class RequirementKind {
   proportion,  ///< of trials with the quality of a gate measure

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "analysis/statistics/distributions.hpp"
 #include "analysis/two_samples/mean_tests.hpp"
 #include "analysis/two_samples/proportion_tests.hpp"
 #include "analysis/two_samples/quantile_tests.hpp"
@@ -332,7 +331,7 @@ MeasureSample sample_of_quantile(const MeasureComparison& found, const GateMeasu
   const two_samples::MeanDifference mean =
       paired ? two_samples::mean_difference(differences)
              : two_samples::mean_difference(sample.baseline, sample.current);
-  const double error = 0.5 * (found.bounds.high - found.bounds.low) / statistics::normal_quantile(confidence);
+  const double error = standard_error_of(found.bounds, confidence);
   const double scale = mean.standard_error > 0.0 ? error / mean.standard_error : error;
   const double rest = found.effect - scale * mean.value;
   for (double& value : sample.baseline) value *= scale;

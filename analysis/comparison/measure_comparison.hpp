@@ -44,6 +44,9 @@ std::vector<MeasureSample> measure_samples(const GateRules& rules, std::span<con
 /// Whether the measure was tested, with bounds that a forecast can start from.
 bool has_finite_bounds(const TestedMeasure& measure);
 
+/// The standard error of a normal distribution with these one-sided bounds.
+double standard_error_of(const statistics::ConfidenceInterval& bounds, double confidence);
+
 /// Adjusts the p-values of all measures of a comparison, and finds the verdict on the change of each.
 /// @param rate of false discoveries
 void decide(std::span<TestedMeasure> tested, double rate);

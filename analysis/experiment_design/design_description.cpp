@@ -130,7 +130,7 @@ document::Description<ExpectedParameter> expected_description() {
       .value(to_people("width", "±"),
              [](Of p) -> std::optional<std::string> {
                if (!is_estimated(p.found)) return {};
-               return percent(0.5 * (p.found.high - p.found.low) / p.guess);
+               return percent(p.found.half_width() / p.guess);
              })
       .value(in_data("told", "machines on which the record determines it"), &ExpectedParameter::told)
       .value(in_data("narrowest", "least half-width of the interval over the machines, relative", "1"),

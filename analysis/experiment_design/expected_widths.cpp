@@ -109,9 +109,8 @@ Widths expected_widths(const Machine& machine, const TorqueProtocol& protocol,
   for (const std::optional<identification::Quantity>& quantity : fit.quantities) {
     widths.push_back(std::numeric_limits<double>::infinity());
     if (!quantity) continue;
-    const record_fit::QuantityEstimate estimate = record_fit::interval_of_errors(
-        *quantity, found.errors.leftCols(identification::contact_dimension), 1.0);
-    widths.back() = 0.5 * (estimate.high - estimate.low);
+    const auto errors = found.errors.leftCols(identification::contact_dimension);
+    widths.back() = record_fit::interval_of_errors(*quantity, errors, 1.0).half_width();
   }
   return widths;
 }

@@ -65,10 +65,6 @@ RecordSummary summary_of(const TestRecord& record, const ContactFit& fit, std::s
   return summary;
 }
 
-double half_width(const QuantityEstimate& estimate) {
-  return 0.5 * (estimate.high - estimate.low);
-}
-
 bool is_time_offset(const Quantity& quantity) {
   return coordinate_of(quantity) == time_offset;
 }
@@ -79,7 +75,7 @@ bool is_sum(const Quantity& quantity) {
 }
 
 bool is_open(const Quantity& quantity, const QuantityEstimate& estimate) {
-  return !(half_width(estimate) <= record_fit::max_half_width(quantity.logarithmic));
+  return !(estimate.half_width() <= record_fit::max_half_width(quantity.logarithmic));
 }
 
 ParameterEstimate parameter_of(const Quantity& quantity, EstimateStatus status,
@@ -121,7 +117,7 @@ struct Estimation {
     const QuantityEstimate unwidened = interval_of_errors(quantity, replicates.errors, 1.0);
     if (is_open(quantity, unwidened)) return open(quantity);
     const bool has_profile = !quantity.key.empty();
-    if (has_profile && half_width(unwidened) > max_linear_halfwidth) {
+    if (has_profile && unwidened.half_width() > max_linear_halfwidth) {
       const QuantityEstimate profiled = interval_by_profile(records, fit, quantity, found);
       if (!is_open(quantity, profiled)) {
         jointly.push_back({quantity, found, profiled});
@@ -129,7 +125,7 @@ struct Estimation {
       }
       if (widening == 1.0) return open(quantity);
     }
-    if (quantity.logarithmic && half_width(found) > widest_widened) return beyond_the_model(quantity);
+    if (quantity.logarithmic && found.half_width() > widest_widened) return beyond_the_model(quantity);
     if (!is_sum(quantity)) jointly.push_back({quantity, found, found});
     return reported(quantity, found);
   }

@@ -27,7 +27,7 @@ ParameterEstimate estimate_of(const Quantity& quantity, const LawErrors& errors)
   ParameterEstimate estimate{record_fit::on_parameter_scale(quantity, found), quantity.name, quantity.key,
                              quantity.unit, EstimateStatus::estimated};
   // The fit of the law does not change which parameters the records determine.
-  const double widened = 0.5 * (found.high - found.low);
+  const double widened = found.half_width();
   const double half_width = widened / errors.checks.widening;
   const bool open = !(half_width <= record_fit::max_half_width(quantity.logarithmic));
   const bool vague = !(widened <= (quantity.logarithmic ? max_widened_log_halfwidth : max_widened_halfwidth));

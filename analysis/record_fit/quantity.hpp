@@ -31,6 +31,8 @@ struct QuantityEstimate {
   double standard_error{0.0};
   double low{0.0};
   double high{0.0};
+
+  double half_width() const { return 0.5 * (high - low); }
 };
 
 /// The interval of a quantity from the errors of replicates of the fit, multiplied by `widening` about their

@@ -58,12 +58,11 @@ std::vector<Quantity> quantities_of(const SlidingPoint& point) {
 
 /// Whether the interval of the quantity spans at most a factor of about 2 to each side.
 bool is_narrow(const ParameterEstimate& estimate, Scale scale) {
-  const double half_width = 0.5 * (estimate.high - estimate.low);
   switch (scale) {
     case Scale::positive:
-      return estimate.low > 0.0 && half_width <= record_fit::max_half_width(true) * estimate.value;
+      return estimate.low > 0.0 && estimate.half_width() <= record_fit::max_half_width(true) * estimate.value;
     case Scale::logarithmic:
-      return half_width <= record_fit::max_half_width(true);
+      return estimate.half_width() <= record_fit::max_half_width(true);
     case Scale::linear:
       break;
   }

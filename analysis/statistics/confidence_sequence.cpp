@@ -62,8 +62,7 @@ std::int64_t projected_trials(std::int64_t successes, std::int64_t trials, doubl
   const auto narrow = [&](std::int64_t blocks) {
     const std::int64_t n = std::min(blocks * block, max_trials);
     const auto s = static_cast<std::int64_t>(std::llround(proportion * static_cast<double>(n)));
-    const ConfidenceInterval bounds = confidence_sequence_bounds(s, n, confidence);
-    return 0.5 * (bounds.high - bounds.low) <= halfwidth;
+    return confidence_sequence_bounds(s, n, confidence).half_width() <= halfwidth;
   };
   const std::int64_t max_blocks = (max_trials + block - 1) / block;
   return std::min(numerics::first_where_by_doubling(1, max_blocks, narrow) * block, max_trials);

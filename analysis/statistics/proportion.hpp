@@ -9,6 +9,8 @@ namespace zerocount::statistics {
 struct ConfidenceInterval {
   double low{0.0};
   double high{0.0};
+
+  double half_width() const { return 0.5 * (high - low); }
 };
 
 /// Default confidence of the bounds in a summary, and confidence of all bounds in a results file.

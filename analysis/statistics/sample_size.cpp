@@ -65,8 +65,7 @@ ClusterSums expected_sums(double rate, double rig_sd, double rigs, double trials
 double halfwidth_of(double rate, double rig_sd, std::int64_t rigs, std::int64_t trials, double confidence) {
   const ClusterSums sums =
       expected_sums(rate, rig_sd, static_cast<double>(rigs), static_cast<double>(trials));
-  const ConfidenceInterval bounds = clustered_proportion(sums, confidence).korn_graubard;
-  return 0.5 * (bounds.high - bounds.low);
+  return clustered_proportion(sums, confidence).korn_graubard.half_width();
 }
 
 }  // namespace

@@ -37,10 +37,9 @@ std::optional<std::string> value_text(const ParameterEstimate& estimate) {
 /// Half the width of the interval: relative, of the time offset in samples.
 std::optional<std::string> half_width_text(const ParameterEstimate& estimate) {
   if (!is_estimated(estimate)) return {};
-  const double half_width = 0.5 * (estimate.high - estimate.low);
   return estimate.name == "time_offset"
-             ? fmt::format("{:.2g}", half_width)
-             : fmt::format("{:.2g} %", 100.0 * half_width / std::abs(estimate.value));
+             ? fmt::format("{:.2g}", estimate.half_width())
+             : fmt::format("{:.2g} %", 100.0 * estimate.half_width() / std::abs(estimate.value));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ bool machine_meets(const Aim& aim, const UnitResult& unit) {
 }
 
 /// Sums over the units of a world.
-struct Tally {
+struct WorldCounts {
   std::int64_t units{0};
   std::int64_t moves{0};
   std::int64_t met{0};
@@ -34,25 +34,25 @@ std::size_t common_units(const Candidate& a, const Candidate& b) {
 
 Estimate estimate_of(const Aim& aim, const Candidate& candidate, std::int64_t units) {
   const std::int64_t worlds = std::max<std::int64_t>(aim.worlds, 1);
-  std::vector<Tally> tallies(static_cast<std::size_t>(worlds));
+  std::vector<WorldCounts> counts(static_cast<std::size_t>(worlds));
   std::vector<double> values;
   units = std::min<std::int64_t>(units, std::ssize(candidate.units));
   for (std::int64_t i = 0; i < units; ++i) {
     const UnitResult& unit = candidate.units[static_cast<std::size_t>(i)];
-    Tally& tally = tallies[static_cast<std::size_t>(i % worlds)];
-    tally.moves += unit.moves;
-    tally.met += unit.met;
-    tally.machines += machine_meets(aim, unit) ? 1 : 0;
-    ++tally.units;
+    WorldCounts& world = counts[static_cast<std::size_t>(i % worlds)];
+    world.moves += unit.moves;
+    world.met += unit.met;
+    world.machines += machine_meets(aim, unit) ? 1 : 0;
+    ++world.units;
     values.insert(values.end(), unit.values.begin(), unit.values.end());
   }
   Estimate worst;
   bool none = true;
-  for (const Tally& tally : tallies) {
-    if (tally.moves == 0) continue;
-    const double moves = static_cast<double>(tally.met) / static_cast<double>(tally.moves);
+  for (const WorldCounts& world : counts) {
+    if (world.moves == 0) continue;
+    const double moves = static_cast<double>(world.met) / static_cast<double>(world.moves);
     const double rate =
-        aim.machines ? static_cast<double>(tally.machines) / static_cast<double>(tally.units) : moves;
+        aim.machines ? static_cast<double>(world.machines) / static_cast<double>(world.units) : moves;
     worst.moves = none ? moves : std::min(worst.moves, moves);
     worst.rate = none ? rate : std::min(worst.rate, rate);
     worst.near_goal += std::min(rate, wanted_rate(aim)) / static_cast<double>(worlds);

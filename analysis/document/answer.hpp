@@ -55,10 +55,10 @@ struct AnswerDescription {
 /// rows.
 std::string text(const Answer& answer);
 
-/// The same for people as GitHub-flavoured Markdown.
+/// The answer for people as GitHub-flavoured Markdown.
 std::string markdown(const Answer& answer);
 
-/// The same for people as a fragment of HTML, without figures.
+/// The answer for people as a fragment of HTML, without figures.
 std::string html(const Answer& answer);
 
 /// The figures of the answer, in their order.
@@ -69,7 +69,7 @@ std::vector<Figure> figures(const Answer& answer);
 /// double.
 nlohmann::ordered_json json(const Answer& answer);
 
-/// {…} of these items, likewise.
+/// The object of these items, as in json() of an answer.
 nlohmann::ordered_json json(const std::vector<Item>& items, const Members& contents);
 
 /// The rows of the type's csv_table: RFC 4180 with \n, a line with the names of the columns first. A member

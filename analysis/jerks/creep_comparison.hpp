@@ -53,8 +53,8 @@ struct CreepAgreement {
   std::int64_t predicted{0};  ///< of them, predicted to within two samples and 1 % of the time from `since`
   std::int64_t lasting{0};    ///< waits without a jerk
   std::int64_t lasting_predicted{0};              ///< of them, predicted to last as long
-  double median_deviation{statistics::unknown};   ///< of |onset − predicted|, s
-  double largest_deviation{statistics::unknown};  ///< likewise
+  double median_deviation{statistics::unknown};   ///< median of |onset − predicted|, s
+  double largest_deviation{statistics::unknown};  ///< largest |onset − predicted|, s
 };
 
 /// @param sample_time s.

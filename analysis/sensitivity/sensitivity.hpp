@@ -58,7 +58,7 @@ struct OutputSensitivity {
   std::int64_t trials{0};            ///< used; worlds where `of_worlds`
   bool of_worlds{false};             ///< of the means of the trials of each world
   double mean{statistics::unknown};  ///< of the output, in its unit
-  double standard_deviation{statistics::unknown};  ///< likewise
+  double standard_deviation{statistics::unknown};  ///< of the output, in its unit
   std::vector<FactorSensitivity> factors;          ///< strongest first
   std::vector<FactorLeftOut> left_out;
   std::vector<std::string> notes;  ///< what limits these numbers, a sentence each

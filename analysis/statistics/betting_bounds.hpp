@@ -14,8 +14,9 @@ namespace zerocount::statistics {
 /// A player who bets on X > m multiplies his capital by 1 + λ(X − m), 0 ≤ λ < 1/m. If μ ≤ m, the expected
 /// factor is at most 1, and by Ville's inequality the capital exceeds 2/(1 − confidence) with at most half
 /// the error probability. `low` is the smallest m at which it has not. The capital is divided among fixed λ·m
-/// from 0.001 to 0.9. Likewise 1 − λ(X − m) with λ < 1/cap for `high`. Source: Waudby-Smith and Ramdas,
-/// Estimating means of bounded random variables by betting, J. R. Stat. Soc. B 86 (2024), section 4.
+/// from 0.001 to 0.9. For `high` the player bets on X < m, and the factor is 1 − λ(X − m) with λ < 1/cap.
+/// Source: Waudby-Smith and Ramdas, Estimating means of bounded random variables by betting, J. R. Stat. Soc.
+/// B 86 (2024), section 4.
 ///
 /// `low` holds whatever the distribution. `high` is a bound of the mean of min(X, cap), and of μ where no X
 /// exceeds `cap`.

@@ -34,7 +34,7 @@ RankBounds quantile_rank_bounds(std::int64_t observations, double probability,
 struct Quantile {
   double value{0.0};  ///< NaN of an empty histogram
   double low{0.0};    ///< NaN if there are too few observations for a bound
-  double high{0.0};   ///< likewise
+  double high{0.0};   ///< NaN if there are too few observations for a bound
 };
 
 /// The sample quantile by the inverse of the empirical distribution function: the smallest observation x such

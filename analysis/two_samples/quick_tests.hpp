@@ -36,7 +36,7 @@ struct ValueSums {
 /// @param plausible difference of a single unit
 QuickResult quick_paired_mean(const ValueSums& differences, double plausible, double confidence);
 
-/// Welch's t likewise.
+/// Welch's t of two samples, approximated as quick_paired_mean().
 QuickResult quick_mean(const ValueSums& baseline, const ValueSums& current, double plausible,
                        double confidence);
 

@@ -76,7 +76,7 @@ std::int64_t net_of(const Learned& learned) {
 }
 
 /// Share of the values that are at least as large as one of them. @param sorted ascending
-double share_from(const std::vector<std::int64_t>& sorted, std::int64_t value) {
+double proportion_from(const std::vector<std::int64_t>& sorted, std::int64_t value) {
   return static_cast<double>(sorted.end() - std::ranges::lower_bound(sorted, value)) /
          static_cast<double>(sorted.size());
 }
@@ -89,9 +89,9 @@ std::vector<double> p_values_of(const std::vector<std::vector<std::int64_t>>& ne
   for (const std::vector<std::int64_t>& of_input : nets) {
     std::vector<std::int64_t> sorted = of_input;
     std::ranges::sort(sorted);
-    of_observed.push_back(share_from(sorted, of_input.front()));
+    of_observed.push_back(proportion_from(sorted, of_input.front()));
     for (std::size_t set = 0; set < of_input.size(); ++set)
-      smallest[set] = std::min(smallest[set], share_from(sorted, of_input[set]));
+      smallest[set] = std::min(smallest[set], proportion_from(sorted, of_input[set]));
   }
   for (double& p : of_observed)
     p = static_cast<double>(std::ranges::count_if(smallest, [&](double one) { return one <= p; })) /

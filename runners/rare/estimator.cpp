@@ -47,7 +47,7 @@ constexpr double cap_of_no_use = 0.5;               // plain trials have 1
 constexpr double narrow_cap = 30.0;                 // of the weights, over the probability
 constexpr std::size_t drawn_at_once = 500;
 constexpr std::size_t max_drawn = 2'000'000;  // some hundred bytes each
-constexpr double natural_share = 0.1;
+constexpr double natural_proportion = 0.1;
 constexpr double share_of_levels = 0.35;
 constexpr double share_of_new = 0.4;  // of the mixture, after a failure that it did not foresee
 constexpr double cap_beyond_usual = 2.0;
@@ -411,7 +411,7 @@ class Estimator {
   /// none.
   void set_components(std::vector<NormalComponent> components) {
     Proposal& proposal = state_.proposal;
-    proposal.natural = natural_share;
+    proposal.natural = natural_proportion;
     proposal.components = std::move(components);
     proposal.pinned = proposal.values.empty() ? 0.0 : proposal.components.empty() ? 1.0 : share_of_pinned;
   }

@@ -54,7 +54,7 @@ double effective_size(std::span<const double> weights);
 /// @param points at least one with a positive weight
 std::vector<NormalComponent> fitted_mixture(const WeightedPoints& points, NumberSource& numbers);
 
-/// The same with one component.
+/// fitted_mixture() with a single component.
 NormalComponent fitted_normal(const WeightedPoints& points, NumberSource& numbers);
 
 }  // namespace zerocount::rare

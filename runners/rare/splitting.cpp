@@ -11,12 +11,12 @@
 namespace zerocount::rare {
 namespace {
 
-constexpr double kept_share = 0.2;
+constexpr double kept_proportion = 0.2;
 constexpr double enough_failures = 0.2;  // of the trials of a level
 constexpr double min_failures = 10;      // from which copies are made
 constexpr double max_proportion = 0.6;   // of trials above a level: otherwise it is no progress
 constexpr double wanted_acceptance = 0.35;
-constexpr double redrawn_share = 0.2;  // of the steps of an unordered coordinate
+constexpr double redrawn_proportion = 0.2;  // of the steps of an unordered coordinate
 constexpr double failed_score = std::numeric_limits<double>::infinity();
 
 /// A trial with its score; a failure has the largest.
@@ -34,9 +34,10 @@ class Splitting {
     if (!go_on()) return std::move(result_);
     start();
     double level = -failed_score;
-    while (failing_share() < enough_failures) {
+    while (failing_proportion() < enough_failures) {
       const double next = next_level(level);
-      if (next == failed_score && failing_share() * static_cast<double>(particles_.size()) >= min_failures)
+      if (next == failed_score &&
+          failing_proportion() * static_cast<double>(particles_.size()) >= min_failures)
         break;
       if (!(next > level) || next == failed_score || result_.probability < settings_.least || !go_on())
         return std::move(result_);
@@ -59,13 +60,13 @@ class Splitting {
     return all;
   }
 
-  double failing_share() const {
+  double failing_proportion() const {
     const auto failing = std::ranges::count_if(
         particles_, [](const Particle& particle) { return particle.score == failed_score; });
     return static_cast<double>(failing) / static_cast<double>(particles_.size());
   }
 
-  double share_from(double level) const {
+  double proportion_from(double level) const {
     const auto above =
         std::ranges::count_if(particles_, [&](const Particle& particle) { return particle.score >= level; });
     return static_cast<double>(above) / static_cast<double>(particles_.size());
@@ -98,8 +99,8 @@ class Splitting {
     std::vector<double> scores;
     for (const Particle& particle : particles_) scores.push_back(particle.score);
     std::ranges::sort(scores, std::greater<>());
-    double next = scores[static_cast<std::size_t>(kept_share * static_cast<double>(scores.size()))];
-    if (next > level && share_from(next) <= max_proportion) return next;
+    double next = scores[static_cast<std::size_t>(kept_proportion * static_cast<double>(scores.size()))];
+    if (next > level && proportion_from(next) <= max_proportion) return next;
     const auto last_above =
         std::ranges::partition_point(scores, [&](double score) { return score > std::max(next, level); });
     return last_above == scores.begin() ? level : *std::prev(last_above);
@@ -107,7 +108,7 @@ class Splitting {
 
   /// Moves the particles at or above the level, copied to all places, in it.
   void climb(double level) {
-    result_.probability *= share_from(level);
+    result_.probability *= proportion_from(level);
     std::erase_if(particles_, [&](const Particle& particle) { return particle.score < level; });
     const std::vector<Particle> seeds = particles_;
     std::size_t next = 0;
@@ -117,7 +118,7 @@ class Splitting {
 
   double moved_coordinate(std::size_t i, double z, double kept) {
     if (!std::ranges::binary_search(settings_.unordered, i)) return kept * z + step_ * numbers_.normal();
-    return numbers_.uniform() < redrawn_share ? numbers_.normal() : z;
+    return numbers_.uniform() < redrawn_proportion ? numbers_.normal() : z;
   }
 
   void move_all(double level, bool new_numbers) {

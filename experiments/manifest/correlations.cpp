@@ -178,13 +178,13 @@ void make_copula(const yaml::Field& list, const std::vector<Pair>& pairs, Readin
 
 }  // namespace
 
-void read_correlations(const yaml::Field& root, Reading& reading, study::Study& study) {
+void read_correlations(const yaml::Field& root, Reading& reading) {
   const auto list = yaml::find_field(root, "correlation");
   if (!list) return;
   const std::string expected = fmt::format("a list of entries {}", entry_form);
   if (!yaml::check_list(*list, expected, reading.problems)) return;
   if (list->node->items.empty()) return;
-  if (study.design == study::Design::saltelli) {
+  if (reading.study.design == study::Design::saltelli) {
     reading.problems.add(*list, "the design saltelli needs independent parameters", "another design");
     return;
   }
@@ -202,9 +202,9 @@ void read_correlations(const yaml::Field& root, Reading& reading, study::Study& 
       continue;
     }
     pairs.push_back(*pair);
-    study.correlations.push_back({std::string(reading.plan.table.rows[pair->first].name),
-                                  std::string(reading.plan.table.rows[pair->second].name),
-                                  pair->coefficient});
+    reading.study.correlations.push_back({std::string(reading.plan.table.rows[pair->first].name),
+                                          std::string(reading.plan.table.rows[pair->second].name),
+                                          pair->coefficient});
   }
   if (complete) make_copula(*list, pairs, reading);
 }

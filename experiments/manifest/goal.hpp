@@ -1,8 +1,6 @@
 #pragma once
 
-#include "experiments/study/plan.hpp"
-#include "experiments/study/study.hpp"
-#include "experiments/yaml/scalars.hpp"
+#include "experiments/manifest/values.hpp"
 
 namespace zerocount::manifest {
 
@@ -11,7 +9,6 @@ void read_bands(const yaml::Field& field, trial::ErrorBands& bands, yaml::Proble
 
 /// Reads the goal of the study. Adds its band to those of the plan. The study's rigs and all parameters must
 /// be read already.
-void read_goal(const yaml::Field& field, study::StudyPlan& plan, study::Study& study,
-               yaml::Problems& problems);
+void read_goal(const yaml::Field& field, Reading& reading);
 
 }  // namespace zerocount::manifest

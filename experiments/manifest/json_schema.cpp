@@ -10,8 +10,7 @@
 
 #include "experiments/distributions/distribution_forms.hpp"
 #include "experiments/manifest/drawn_per.hpp"
-#include "experiments/manifest/manifest.hpp"
-#include "experiments/manifest/manifest_keys.hpp"
+#include "experiments/manifest/key_reading.hpp"
 #include "experiments/manifest/observations.hpp"
 #include "experiments/manifest/sweep.hpp"
 #include "experiments/parameters/element_lists.hpp"
@@ -256,66 +255,26 @@ Json sweep_schema() {
        {"cases", {{"type", "object"}, {"additionalProperties", by_pattern(std::move(assignments))}}}});
 }
 
-// A number of counts, not negative.
-Json count_schema() {
-  return {{"type", "integer"}, {"minimum", 0}, {"maximum", static_cast<std::int64_t>(parameters::max_count)}};
-}
-
-// A number between 0 and 1.
-Json tuning_schema() {
+// The ranges of tune.free.
+Json free_parameters_schema() {
   const Json ends{{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 2}};
-  const Json margin{{"anyOf", {{{"const", "off"}}, {{"type", "number"}, {"minimum", 0}}}}};
-  const Json free{{"type", "object"},
-                  {"minProperties", 1},
-                  {"additionalProperties", {{"anyOf", {ends, object_of({{"log", ends}}, {"log"})}}}}};
-  return object_of(
-      {{"free", free},
-       {"minimise", {{"type", "string"}}},
-       {"margins",
-        {{"anyOf",
-          {{{"const", "off"}}, object_of({{"gain", margin}, {"phase", margin}, {"delay", margin}})}}}}},
-      {"free"});
+  return {{"type", "object"},
+          {"minProperties", 1},
+          {"additionalProperties", {{"anyOf", {ends, object_of({{"log", ends}}, {"log"})}}}}};
 }
 
-Json open_unit_schema() {
-  return {{"type", "number"}, {"exclusiveMinimum", 0}, {"exclusiveMaximum", 1}};
-}
-
-// The schema of each general key, without its description.
-Json general_schemas() {
+// The schemas of general keys in forms of their own, by name.
+Json own_schemas() {
   const Json text{{"type", "string"}};
   return {
       {"zerocount", {{"const", manifest_version}}},
       {"name", {{"type", "string"}, {"pattern", "\\S"}}},
-      {"description", text},
       {"seed", {{"type", "integer"}, {"minimum", 0}, {"maximum", std::numeric_limits<std::uint64_t>::max()}}},
-      {"trials", {{"type", "integer"}, {"minimum", 1}, {"maximum", std::int64_t{1} << 53}}},
-      {"rigs", {{"type", "integer"}, {"minimum", min_rigs}, {"maximum", max_rigs}}},
-      {"worlds", {{"type", "integer"}, {"minimum", min_worlds}, {"maximum", max_worlds}}},
-      {"design", {{"enum", design_labels}}},
-      {"independent_points", {{"type", "boolean"}}},
       {"retain",
        object_of(
            {{"trials",
              {{"type", "array"}, {"items", {{"type", "integer"}, {"minimum", 0}}}, {"uniqueItems", true}}}})},
-      {"keep", {{"enum", kept_labels}}},
-      {"stop", object_of({{"success_rate_halfwidth",
-                           {{"type", "number"}, {"exclusiveMinimum", 0}, {"exclusiveMaximum", 0.5}}},
-                          {"confidence",
-                           {{"type", "number"},
-                            {"exclusiveMinimum", 0},
-                            {"exclusiveMaximum", 1},
-                            {"default", study::StoppingRule{}.confidence}}},
-                          {"min_trials", {{"type", "integer"}, {"minimum", 1}}},
-                          {"max_trials", {{"type", "integer"}, {"minimum", 1}}}},
-                         {"success_rate_halfwidth", "max_trials"})},
-      {"goal", object_of({{"band", count_schema()},
-                          {"within", number_in(numerics::above(0))},
-                          {"moves", open_unit_schema()},
-                          {"machines", open_unit_schema()},
-                          {"confidence", open_unit_schema()}},
-                         {"within", "moves"})},
-      {"tune", tuning_schema()},
+      {"free", free_parameters_schema()},
       {"correlation",
        {{"type", "array"},
         {"items",
@@ -326,7 +285,7 @@ Json general_schemas() {
       {"samples",
        {{"anyOf",
          {text,
-          object_of({{"file", text}, {std::string(per_key), {{"enum", {"study", "world", "rig", "trial"}}}}},
+          object_of({{"file", text}, {std::string(per_key), {{"enum", std::span(per_labels).first(4)}}}},
                     {"file"})}}}},
       {"observed",
        {{"type", "object"},
@@ -338,41 +297,74 @@ Json general_schemas() {
                        {"text", text}},
                       {"successes", "of"})}}}}}},
       {"sweep", sweep_schema()},
-      {"axis", {{"enum", parameters::axis_labels}, {"default", parameters::axis_labels.front()}}},
-      {"travel", number_in(numerics::above(0))},
-      {"controller.units",
-       {{"enum", parameters::gain_unit_labels}, {"default", parameters::gain_unit_labels.front()}}},
       {"controller.plugin", {{"type", "string"}, {"minLength", 1}}},
       {"controller.parameters",
        {{"type", "object"},
         {"patternProperties", {{fmt::format("^{}$", plugin_name), value_schema(plugin_value())}}},
         {"additionalProperties", false}}},
-      {"controller.filters", elements_schema(*parameters::find_element_list("controller.filters"))},
-      {"disturbance.ripple", elements_schema(*parameters::find_element_list("disturbance.ripple"))},
       {"disturbance.vibration", vibration_schema()},
-      {"controller.coarse.filters",
-       elements_schema(*parameters::find_element_list("controller.coarse.filters"))},
-      {"command.units",
-       {{"enum", parameters::target_unit_labels}, {"default", parameters::target_unit_labels.front()}}},
-      {"command.sequence.cycles",
-       {{"type", "integer"},
-        {"minimum", 1},
-        {"maximum", study::max_sequence_moves},
-        {"default", study::SequenceCycle{}.cycles}}},
-      {"command.sequence.approach", {{"enum", approach_labels}, {"default", approach_labels.front()}}},
       {"verdict.bands",
        {{"type", "array"},
-        {"items", count_schema()},
+        {"items", {{"type", "integer"}, {"minimum", 0}, {"maximum", max_band}}},
         {"minItems", 1},
         {"maxItems", trial::max_error_bands},
         {"uniqueItems", true},
         {"default", trial::ErrorBands{}.values()}}}};
 }
 
+Json general_schema(const GeneralKey& key);
+
+Json map_schema(const std::vector<GeneralKey>& keys) {
+  Json properties = Json::object();
+  Json required = Json::array();
+  for (const GeneralKey& key : keys) {
+    properties[std::string(key.name)] = general_schema(key);
+    if (key.required()) required.push_back(key.name);
+  }
+  return object_of(std::move(properties), std::move(required));
+}
+
+Json own_schema(std::string_view name) {
+  static const Json schemas = own_schemas();
+  const std::string key(name);
+  return schemas.contains(key) ? schemas[key] : elements_schema(*parameters::find_element_list(name));
+}
+
+// Schema of the value, but for the word in its place.
+Json form_schema(const GeneralKey& key) {
+  using Form = GeneralKey::Form;
+  const bool whole = key.form == Form::whole_number;
+  Json number{{"type", whole ? "integer" : "number"}};
+  switch (key.form) {
+    case Form::own:
+      return own_schema(key.name);
+    case Form::text:
+      return {{"type", "string"}};
+    case Form::truth:
+      return {{"type", "boolean"}};
+    case Form::label:
+      return {{"enum", key.labels}};
+    case Form::map:
+      return map_schema(key.keys);
+    case Form::whole_number:
+    case Form::real:
+      break;
+  }
+  limit(number, key.range, whole);
+  return number;
+}
+
+Json default_schema(const GeneralKey& key, double value) {
+  if (key.form == GeneralKey::Form::truth) return value != 0.0;
+  if (key.form == GeneralKey::Form::label) return key.labels[static_cast<std::size_t>(value)];
+  return key.form == GeneralKey::Form::whole_number ? Json(static_cast<std::int64_t>(value)) : Json(value);
+}
+
 Json general_schema(const GeneralKey& key) {
-  static const Json schemas = general_schemas();
-  Json schema = schemas.at(std::string(key.name));
-  schema["description"] = key.meaning;
+  Json schema = form_schema(key);
+  if (!key.none.empty()) schema = {{"anyOf", {{{"const", key.none}}, std::move(schema)}}};
+  if (const auto value = default_of(key)) schema["default"] = default_schema(key, *value);
+  if (!key.meaning.empty()) schema["description"] = key.meaning;
   return schema;
 }
 
@@ -440,7 +432,7 @@ nlohmann::ordered_json json_schema() {
   for (const std::string& key : keys_below("")) {
     const GeneralKey* general = find_general_key(key);
     properties[key] = general != nullptr ? general_schema(*general) : section_schema(key);
-    if (general != nullptr && general->required) required.push_back(key);
+    if (general != nullptr && general->required()) required.push_back(key);
   }
   required.push_back(required_section);
   Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "zerocount manifest"}};

@@ -1,6 +1,7 @@
 #include "experiments/manifest/manifest.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
@@ -10,7 +11,7 @@
 #include "experiments/manifest/checks.hpp"
 #include "experiments/manifest/correlations.hpp"
 #include "experiments/manifest/goal.hpp"
-#include "experiments/manifest/manifest_keys.hpp"
+#include "experiments/manifest/key_reading.hpp"
 #include "experiments/manifest/measured.hpp"
 #include "experiments/manifest/observations.hpp"
 #include "experiments/manifest/sections.hpp"
@@ -26,29 +27,20 @@
 namespace zerocount::manifest {
 namespace {
 
-constexpr std::int64_t max_study_trials = std::int64_t{1} << 53;
-
 // State of the reading of a manifest.
 struct Manifest {
   yaml::Field root;
   Reading reading;
   PlanPlaces places{};
   std::vector<SweptAxis> axes{};
-  study::Study study{};
 
   yaml::Problems& problems() { return reading.problems; }
   study::StudyPlan& plan() { return reading.plan; }
+  study::Study& study() { return reading.study; }
 };
 
-// The value of a top-level key. Reports a missing key.
-std::optional<yaml::Field> find_required(Manifest& m, std::string_view key, std::string_view expected) {
-  auto field = yaml::find_field(m.root, key);
-  if (!field) m.problems().add_missing(m.root.node->place, key, expected);
-  return field;
-}
-
-void read_version(Manifest& m) {
-  const auto field = find_required(m, "zerocount", fmt::format("zerocount: {}", manifest_version));
+void check_version(Manifest& m) {
+  const auto field = yaml::find_field(m.root, "zerocount");
   if (!field) return;
   const auto version = yaml::read_whole(*field, std::numeric_limits<std::int64_t>::min(),
                                         std::numeric_limits<std::int64_t>::max(), m.problems());
@@ -60,65 +52,38 @@ void read_version(Manifest& m) {
                    fmt::format("version {}{}", manifest_version, newer ? ", or a newer program" : ""));
 }
 
-void read_texts(Manifest& m) {
-  if (const auto field = find_required(m, "name", "a name for the study")) {
-    m.study.name = yaml::read_text(*field, m.problems()).value_or("");
-    if (field->node->kind == yaml::YamlNode::Kind::scalar &&
-        field->node->text.find_first_not_of(" \t\r\n") == std::string::npos) {
-      m.problems().add(*field, "the name is empty", "a name for the study");
-    }
-  }
-  if (const auto field = yaml::find_field(m.root, "description")) {
-    m.study.description = yaml::read_text(*field, m.problems()).value_or("");
-  }
-}
-
-void read_design(Manifest& m) {
-  const auto field = yaml::find_field(m.root, "design");
+void read_name(Manifest& m) {
+  const auto field = yaml::find_field(m.root, "name");
   if (!field) return;
-  if (const auto design = yaml::read_label(*field, design_labels, m.problems())) {
-    m.study.design = static_cast<study::Design>(*design);
+  m.study().name = yaml::read_text(*field, m.problems()).value_or("");
+  if (field->node->kind == yaml::YamlNode::Kind::scalar &&
+      field->node->text.find_first_not_of(" \t\r\n") == std::string::npos) {
+    m.problems().add(*field, "the name is empty", "a name for the study");
   }
 }
 
-void read_numbers(Manifest& m) {
-  if (const auto field = find_required(m, "seed", "a whole number")) {
-    m.study.seed = yaml::read_seed(*field, m.problems()).value_or(0);
+// Reads the keys with one value that do not depend on others.
+void read_values(Manifest& m) {
+  check_version(m);
+  read_name(m);
+  if (const auto seed = yaml::find_field(m.root, "seed"))
+    m.study().seed = yaml::read_seed(*seed, m.problems()).value_or(0);
+  for (const GeneralKey& key : general_keys()) {
+    const bool is_of_section = key.name.find('.') != std::string_view::npos;
+    if (!is_of_section && key.form != GeneralKey::Form::map) read_keys(m.root, {&key, 1}, m.reading);
   }
-  if (const auto field = find_required(m, "trials", "the number of trials at each design point")) {
-    m.study.trials = yaml::read_whole(*field, 1, max_study_trials, m.problems()).value_or(0);
-  }
-  if (const auto field = yaml::find_field(m.root, "rigs")) {
-    m.reading.groups.rigs = true;
-    m.study.rigs = yaml::read_whole(*field, min_rigs, max_rigs, m.problems()).value_or(0);
-  }
-  if (const auto field = yaml::find_field(m.root, "worlds")) {
-    m.reading.groups.worlds = true;
-    m.study.worlds = yaml::read_whole(*field, min_worlds, max_worlds, m.problems()).value_or(0);
-  }
-  if (const auto field = yaml::find_field(m.root, "independent_points")) {
-    m.study.independent_points = yaml::read_truth(*field, m.problems()).value_or(false);
-  }
+  m.reading.groups = {.rigs = yaml::find_field(m.root, "rigs").has_value(),
+                      .worlds = yaml::find_field(m.root, "worlds").has_value()};
 }
 
-// The key `units` of a section, if it has one.
-std::optional<yaml::Field> units_of_section(const yaml::Field& root, std::string_view section) {
-  const auto map = yaml::find_field(root, section);
-  return map ? yaml::find_field(*map, "units") : std::nullopt;
-}
-
-// Reads `axis`, `travel`, `controller.units` and `command.units`. Must come first, because all other values
-// depend on the units.
+// Reads `travel`, `controller.units` and `command.units`. Must come first, because all other values depend on
+// the units.
 void read_study_units(const yaml::Field& root, Reading& reading) {
   study::StudyPlan& plan = reading.plan;
-  if (const auto axis = yaml::find_field(root, "axis")) {
-    plan.units.axis = static_cast<parameters::AxisKind>(
-        yaml::read_label(*axis, parameters::axis_labels, reading.problems).value_or(0));
-  }
   const bool linear = plan.units.axis == parameters::AxisKind::linear;
   if (linear) plan.period.reset();
   if (const auto travel = yaml::find_field(root, "travel")) {
-    const auto length = yaml::read_real(*travel, numerics::above(0), reading.problems);
+    const auto length = yaml::read_real(*travel, find_general_key("travel")->range, reading.problems);
     if (linear) {
       plan.period = length;
     } else {
@@ -126,12 +91,11 @@ void read_study_units(const yaml::Field& root, Reading& reading) {
                            "axis: linear, or the key left out");
     }
   }
-  if (const auto gains = units_of_section(root, "controller"))
-    plan.units.gains = static_cast<parameters::GainUnits>(
-        yaml::read_label(*gains, parameters::gain_unit_labels, reading.problems).value_or(0));
-  if (const auto targets = units_of_section(root, "command"))
-    plan.units.targets = static_cast<parameters::TargetUnits>(
-        yaml::read_label(*targets, parameters::target_unit_labels, reading.problems).value_or(0));
+  for (const std::string_view section : {"controller", "command"}) {
+    const auto map = yaml::find_field(root, section);
+    const auto units = map ? yaml::find_field(*map, "units") : std::nullopt;
+    if (units) read_key(*units, *find_general_key(units->path), reading);
+  }
   if (plan.units.targets == parameters::TargetUnits::si) study::use_si_positions(plan.table);
 }
 
@@ -164,8 +128,8 @@ void check_trial_count(Manifest& m) {
   for (const study::PlanAxis& axis : m.plan().axes)
     points *= static_cast<std::int64_t>(study::option_count(axis));
   const auto field = yaml::find_field(m.root, "trials");
-  if (field && m.study.trials > max_study_trials / points) {
-    m.problems().add(*field, fmt::format("{} trials at {} points are too many", m.study.trials, points),
+  if (field && m.study().trials > max_study_trials / points) {
+    m.problems().add(*field, fmt::format("{} trials at {} points are too many", m.study().trials, points),
                      fmt::format("at most {} trials in all", max_study_trials));
   }
 }
@@ -178,7 +142,7 @@ std::string nearest_multiples(std::int64_t number, std::int64_t of) {
 // The design saltelli needs whole rows; a row has as many trials as there are factors, plus two.
 void check_rows(Manifest& m) {
   const auto field = yaml::find_field(m.root, "trials");
-  if (m.study.design != study::Design::saltelli || !field || m.study.trials == 0) return;
+  if (m.study().design != study::Design::saltelli || !field || m.study().trials == 0) return;
   const std::vector<std::string> names = study::factor_names(m.plan());
   if (names.empty()) {
     const yaml::Field design = yaml::find_field(m.root, "design").value();
@@ -186,33 +150,33 @@ void check_rows(Manifest& m) {
     return;
   }
   const auto row = static_cast<std::int64_t>(designs::saltelli_row_length(names.size()));
-  if (m.study.trials % row == 0) return;
+  if (m.study().trials % row == 0) return;
   m.problems().add(
       *field,
       fmt::format(
           "{} trials are not a multiple of {}, the row length of the design saltelli for {} factor{} ({})",
-          m.study.trials, row, names.size(), names.size() == 1 ? "" : "s", fmt::join(names, ", ")),
-      fmt::format("a multiple of {}, such as {}", row, nearest_multiples(m.study.trials, row)));
+          m.study().trials, row, names.size(), names.size() == 1 ? "" : "s", fmt::join(names, ", ")),
+      fmt::format("a multiple of {}, such as {}", row, nearest_multiples(m.study().trials, row)));
 }
 
 void require_multiple_of_rigs(Manifest& m, const yaml::Field& field, std::int64_t trials) {
-  if (trials % m.study.rigs == 0) return;
+  if (trials % m.study().rigs == 0) return;
   m.problems().add(
-      field, fmt::format("{} trials cannot be divided equally among {} rigs", trials, m.study.rigs),
-      fmt::format("a multiple of {}, such as {}", m.study.rigs, nearest_multiples(trials, m.study.rigs)));
+      field, fmt::format("{} trials cannot be divided equally among {} rigs", trials, m.study().rigs),
+      fmt::format("a multiple of {}, such as {}", m.study().rigs, nearest_multiples(trials, m.study().rigs)));
 }
 
 // Every rig must have the same number of trials, also after each block of sequential stopping.
 void check_rigs(Manifest& m) {
-  if (m.study.rigs == 0) return;
+  if (m.study().rigs == 0) return;
   const auto trials = yaml::find_field(m.root, "trials");
-  const std::int64_t block = m.study.stop ? m.study.stop->block : m.study.trials;
+  const std::int64_t block = m.study().stop ? m.study().stop->block : m.study().trials;
   if (trials && block > 0) require_multiple_of_rigs(m, *trials, block);
-  if (m.study.stop) {
+  if (m.study().stop) {
     const auto limit = yaml::find_field(yaml::find_field(m.root, "stop").value(), "max_trials");
-    if (limit) require_multiple_of_rigs(m, *limit, m.study.stop->max_trials);
+    if (limit) require_multiple_of_rigs(m, *limit, m.study().stop->max_trials);
   }
-  if (m.study.design == study::Design::saltelli) {
+  if (m.study().design == study::Design::saltelli) {
     const yaml::Field design = yaml::find_field(m.root, "design").value();
     m.problems().add(design,
                      "this design changes one factor at a time, but the trials of a rig share factors",
@@ -222,19 +186,20 @@ void check_rigs(Manifest& m) {
 
 // Every world must have the same number of rigs, or of trials.
 void check_worlds(Manifest& m) {
-  if (m.study.worlds == 0) return;
+  if (m.study().worlds == 0) return;
   const yaml::Field field = yaml::find_field(m.root, "worlds").value();
-  const std::int64_t units = m.study.rigs > 0 ? m.study.rigs : m.study.trials;
-  const std::string_view name = m.study.rigs > 0 ? "rigs" : "trials";
-  if (m.study.rigs > 0 && units % m.study.worlds != 0) {
+  const std::int64_t units = m.study().rigs > 0 ? m.study().rigs : m.study().trials;
+  const std::string_view name = m.study().rigs > 0 ? "rigs" : "trials";
+  if (m.study().rigs > 0 && units % m.study().worlds != 0) {
     m.problems().add(
-        field, fmt::format("{} rigs cannot be divided equally among {} worlds", units, m.study.worlds),
-        fmt::format("a divisor of the number of rigs, or {} rigs", nearest_multiples(units, m.study.worlds)));
-  } else if (units > 0 && units < m.study.worlds) {
+        field, fmt::format("{} rigs cannot be divided equally among {} worlds", units, m.study().worlds),
+        fmt::format("a divisor of the number of rigs, or {} rigs",
+                    nearest_multiples(units, m.study().worlds)));
+  } else if (units > 0 && units < m.study().worlds) {
     m.problems().add(field, fmt::format("the study has only {} {}", units, name),
                      fmt::format("at most {}", units));
   }
-  if (m.study.design == study::Design::saltelli) {
+  if (m.study().design == study::Design::saltelli) {
     m.problems().add(yaml::find_field(m.root, "design").value(),
                      "this design changes one factor at a time, but the trials of a world share factors",
                      "monte_carlo, latin_hypercube or sobol with worlds");
@@ -243,8 +208,8 @@ void check_worlds(Manifest& m) {
 
 // Warns if the worlds do not differ.
 void warn_of_equal_worlds(Manifest& m) {
-  if (m.study.worlds == 0) return;
-  for (const study::InputColumn& column : m.study.input_columns) {
+  if (m.study().worlds == 0) return;
+  for (const study::InputColumn& column : m.study().input_columns) {
     if (column.per == study::Per::world) return;
   }
   const yaml::Field field = yaml::find_field(m.root, "worlds").value();
@@ -258,9 +223,9 @@ void read_retained(Manifest& m) {
   parameters::check_keys(*field, std::vector<std::string>{"trials"}, m.problems());
   const auto list = yaml::find_field(*field, "trials");
   if (!list || !yaml::check_list(*list, "a list of trial indices", m.problems())) return;
-  std::vector<std::int64_t>& kept = m.study.retained_trials;
+  std::vector<std::int64_t>& kept = m.study().retained_trials;
   for (std::size_t i = 0; i < list->node->items.size(); ++i) {
-    const std::int64_t last = std::max<std::int64_t>(m.study.trials - 1, 0);
+    const std::int64_t last = std::max<std::int64_t>(m.study().trials - 1, 0);
     if (const auto index = yaml::read_whole(yaml::item_of(*list, i), 0, last, m.problems()))
       kept.push_back(*index);
   }
@@ -269,25 +234,18 @@ void read_retained(Manifest& m) {
     m.problems().add(*list, "duplicate trial", "each trial once");
 }
 
-void read_kept(Manifest& m) {
-  const auto field = yaml::find_field(m.root, "keep");
-  if (!field) return;
-  if (const auto kept = yaml::read_label(*field, kept_labels, m.problems()))
-    m.study.kept = static_cast<study::Kept>(*kept);
-}
-
 // Refuses other keys that need every trial after the run.
 void check_kept(Manifest& m) {
-  if (m.study.kept == study::Kept::trials) return;
+  if (m.study().kept == study::Kept::trials) return;
   const auto refuse = [&](std::string_view what, const char* expected) {
     m.problems().add(yaml::find_field(m.root, "keep").value(), std::string(what), expected);
   };
   constexpr const char* trials = "keep: trials";
-  if (!m.study.retained_trials.empty()) refuse("retain needs every trial", trials);
-  if (m.study.stop) refuse("stop needs every trial", trials);
+  if (!m.study().retained_trials.empty()) refuse("retain needs every trial", trials);
+  if (m.study().stop) refuse("stop needs every trial", trials);
   if (m.plan().sequence) refuse("command.sequence needs every trial", trials);
-  if (m.study.design == study::Design::saltelli) refuse("design: saltelli needs every trial", trials);
-  if (m.study.kept == study::Kept::failures && m.plan().open_loop)
+  if (m.study().design == study::Design::saltelli) refuse("design: saltelli needs every trial", trials);
+  if (m.study().kept == study::Kept::failures && m.plan().open_loop)
     refuse("trials of torque levels have no verdict, so none fails", "keep: statistics or trials");
 }
 
@@ -296,7 +254,7 @@ void read_observed(Manifest& m) {
   const bool complete =
       std::none_of(m.axes.begin(), m.axes.end(), [](const auto& axis) { return axis.labels.empty(); });
   if (!field || !complete) return;  // an incomplete axis is reported already
-  read_observations(*field, m.axes, m.plan().open_loop, m.study, m.problems());
+  read_observations(*field, m.axes, m.reading);
 }
 
 }  // namespace
@@ -304,46 +262,42 @@ void read_observed(Manifest& m) {
 study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, const Companions& companions,
                            const SamplesTable* samples, yaml::Problems& problems) {
   auto plan = std::make_shared<study::StudyPlan>();
-  Manifest m{.root = {&root, ""}, .reading = {problems, *plan, version}};
+  study::Study study;
+  Manifest m{.root = {&root, ""}, .reading = {problems, *plan, study, version}};
   if (!yaml::check_map({&root, "manifest"}, "a map with the keys zerocount, name, seed, trials, command",
                        problems))
     return {};
   parameters::check_keys(m.root, keys_below(""), problems);
-  read_version(m);
-  read_texts(m);
-  read_numbers(m);
-  read_design(m);
+  read_values(m);
   read_study_units(m.root, m.reading);
   read_plugin(m.root, companions.plugin, m.reading);
   read_sections(m.root, m.reading, m.places);
   read_axes(m);
-  if (samples != nullptr) join_samples(*samples, m.axes, m.reading, m.study);
+  if (samples != nullptr) join_samples(*samples, m.axes, m.reading);
   let_follow_from_measured(m.places, m.reading);
-  read_correlations(m.root, m.reading, m.study);
+  read_correlations(m.root, m.reading);
   read_retained(m);
-  read_kept(m);
-  if (const auto field = yaml::find_field(m.root, "stop"))
-    read_stop(*field, max_study_trials, m.study, problems);
-  if (const auto field = yaml::find_field(m.root, "goal")) read_goal(*field, m.plan(), m.study, problems);
-  if (const auto field = yaml::find_field(m.root, "tune")) read_tuning(*field, m.plan(), m.study, problems);
+  if (const auto field = yaml::find_field(m.root, "stop")) read_stop(*field, m.reading);
+  if (const auto field = yaml::find_field(m.root, "goal")) read_goal(*field, m.reading);
+  if (const auto field = yaml::find_field(m.root, "tune")) read_tuning(*field, m.reading);
   check_trial_count(m);
   check_rigs(m);
   check_worlds(m);
   read_observed(m);
-  realise_profiles(m.reading.profiles, m.study, companions.rotors, *plan);
+  realise_profiles(m.reading.profiles, study, companions.rotors, *plan);
   check_profiles(m.reading);
   check_what_follows(m.places, m.reading);
   check_points(m.places, m.reading);
   check_travel(m.root, m.reading);
   if (problems.empty()) check_rows(m);
   if (problems.empty()) check_kept(m);
-  if (problems.empty()) assemble_study(m.reading.profiles, m.axes, *plan, m.study);
+  if (problems.empty()) assemble_study(m.reading.profiles, m.axes, *plan, study);
   if (problems.empty()) warn_of_equal_worlds(m);
-  m.study.plugin = plan->plugin;
-  m.study.plan = plan;
-  if (problems.empty()) check_unseen_motions(m.study, m.places, m.reading);
-  m.study.warnings = std::move(m.reading.warnings);
-  return std::move(m.study);
+  study.plugin = plan->plugin;
+  study.plan = plan;
+  if (problems.empty()) check_unseen_motions(study, m.places, m.reading);
+  study.warnings = std::move(m.reading.warnings);
+  return study;
 }
 
 }  // namespace zerocount::manifest

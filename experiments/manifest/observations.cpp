@@ -54,8 +54,8 @@ void record(study::Study& study, const std::string& label, const Observation& ob
 
 }  // namespace
 
-void read_observations(const yaml::Field& field, const std::vector<SweptAxis>& axes, bool open_loop,
-                       study::Study& study, yaml::Problems& problems) {
+void read_observations(const yaml::Field& field, const std::vector<SweptAxis>& axes, Reading& reading) {
+  yaml::Problems& problems = reading.problems;
   if (!yaml::check_map(field, "a map from cases or point labels to observations", problems)) return;
   const std::vector<std::string> labels = label_points(axes);
   const bool has_cases = !axes.empty() && axes.front().cases;
@@ -64,7 +64,7 @@ void read_observations(const yaml::Field& field, const std::vector<SweptAxis>& a
   known.insert(known.end(), labels.begin(), labels.end());
   std::map<std::string, Observation> found;
   for (const yaml::YamlEntry& entry : field.node->entries) {
-    found[entry.key] = read_observation(yaml::entry_of(field, entry), open_loop, problems);
+    found[entry.key] = read_observation(yaml::entry_of(field, entry), reading.plan.open_loop, problems);
     if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
     problems.add(
         entry.place, yaml::entry_of(field, entry).path,
@@ -75,7 +75,7 @@ void read_observations(const yaml::Field& field, const std::vector<SweptAxis>& a
     auto observation = found.find(labels[point]);
     if (observation == found.end() && !cases.empty())
       observation = found.find(cases[point / (labels.size() / cases.size())]);
-    if (observation != found.end()) record(study, labels[point], observation->second);
+    if (observation != found.end()) record(reading.study, labels[point], observation->second);
   }
 }
 

@@ -3,8 +3,6 @@
 #include <vector>
 
 #include "experiments/manifest/sweep.hpp"
-#include "experiments/study/study.hpp"
-#include "experiments/yaml/scalars.hpp"
 
 namespace zerocount::manifest {
 
@@ -14,8 +12,7 @@ inline constexpr std::int64_t max_observed_trials = 1'000'000;
 /// Reads `observed`, a map from cases or point labels to observations on a real rig: study.observed and
 /// study.observed_counts. An observation is a text, or counts: {successes: 9, of: 10, text: what else}. That
 /// of a case applies to all its points, except those with one of their own.
-/// @param axes of the sweep, complete. @param open_loop the study has no successes to count
-void read_observations(const yaml::Field& field, const std::vector<SweptAxis>& axes, bool open_loop,
-                       study::Study& study, yaml::Problems& problems);
+/// @param axes of the sweep, complete
+void read_observations(const yaml::Field& field, const std::vector<SweptAxis>& axes, Reading& reading);
 
 }  // namespace zerocount::manifest

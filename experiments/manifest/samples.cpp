@@ -221,9 +221,8 @@ void insert_samples(yaml::YamlPointer& root, const SamplesReader& read, std::opt
   root = std::move(changed);
 }
 
-void join_samples(const SamplesTable& table, const std::vector<SweptAxis>& axes, Reading& reading,
-                  study::Study& study) {
-  if (study.design == study::Design::saltelli) {
+void join_samples(const SamplesTable& table, const std::vector<SweptAxis>& axes, Reading& reading) {
+  if (reading.study.design == study::Design::saltelli) {
     reading.problems.add(table.field, "the design saltelli needs independent parameters", "another design");
     return;
   }
@@ -236,8 +235,8 @@ void join_samples(const SamplesTable& table, const std::vector<SweptAxis>& axes,
   }
   if (slots.empty()) return;  // the table could not be read, which is reported
   if (!check_not_swept(table, slots, axes, reading) || !check_per(table, slots, reading)) return;
-  study.samples = table.samples;
-  study.samples->per = reading.plan.base[slots.front()].per;
+  reading.study.samples = table.samples;
+  reading.study.samples->per = reading.plan.base[slots.front()].per;
   reading.plan.sampled_slots = std::move(slots);
 }
 

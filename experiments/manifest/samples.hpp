@@ -29,7 +29,6 @@ void insert_samples(yaml::YamlPointer& root, const SamplesReader& read, std::opt
 
 /// Joins the draws of the columns: plan.sampled_slots and study.samples. Comes after the parameters and the
 /// sweep.
-void join_samples(const SamplesTable& table, const std::vector<SweptAxis>& axes, Reading& reading,
-                  study::Study& study);
+void join_samples(const SamplesTable& table, const std::vector<SweptAxis>& axes, Reading& reading);
 
 }  // namespace zerocount::manifest

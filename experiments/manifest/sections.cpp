@@ -7,7 +7,7 @@
 
 #include "experiments/distributions/distribution_forms.hpp"
 #include "experiments/manifest/goal.hpp"
-#include "experiments/manifest/manifest_keys.hpp"
+#include "experiments/manifest/key_reading.hpp"
 #include "experiments/manifest/spectrum.hpp"
 #include "experiments/parameters/earlier_defaults.hpp"
 #include "experiments/parameters/unknown_key.hpp"
@@ -188,15 +188,11 @@ void read_plugin_parameters(SectionReading& s, const yaml::Field& map) {
 
 // Reads the keys of sections that are not parameters. controller.units and command.units are read earlier,
 // before all values.
-void read_general_key(SectionReading& s, const yaml::Field& field) {
-  if (field.path == "verdict.bands") read_bands(field, s.plan().common.verdict.bands, s.problems());
-  if (!s.plan().sequence) return;
-  study::SequenceCycle& cycle = s.plan().sequence.value();
-  if (field.path == "command.sequence.approach") {
-    if (const auto approach = yaml::read_label(field, approach_labels, s.problems()))
-      cycle.approach = static_cast<study::SequenceApproach>(*approach);
-  } else if (field.path == "command.sequence.cycles") {
-    cycle.cycles = yaml::read_whole(field, 1, study::max_sequence_moves, s.problems()).value_or(cycle.cycles);
+void read_general_key(SectionReading& s, const yaml::Field& field, const GeneralKey& key) {
+  if (field.path == "verdict.bands") {
+    read_bands(field, s.plan().common.verdict.bands, s.problems());
+  } else if (!field.path.ends_with(".units")) {
+    read_key(field, key, s.reading);
   }
 }
 
@@ -240,8 +236,8 @@ void read_section(SectionReading& s, const yaml::Field& section) {
       read_elements(s, field, *list);
     } else if (field.path == "controller.parameters") {
       read_plugin_parameters(s, field);
-    } else if (find_general_key(field.path) != nullptr) {
-      read_general_key(s, field);
+    } else if (const GeneralKey* const general = find_general_key(field.path)) {
+      read_general_key(s, field, *general);
     } else {
       read_section(s, field);
     }

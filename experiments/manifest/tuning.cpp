@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "experiments/manifest/key_reading.hpp"
 #include "experiments/parameters/unknown_key.hpp"
 #include "experiments/study/study_table.hpp"
 
@@ -17,11 +18,7 @@ namespace {
 constexpr const char* expected_range = "a range such as [0, 1000] or {log: [5.0e+3, 3.0e+5]}";
 constexpr const char* expected_free =
     "a map of parameters and ranges: {controller.ki: {log: [5.0e+3, 3.0e+5]}}";
-constexpr double most_margin = 1e6;
-
 const std::array<std::string, 1> log_keys{"log"};
-const std::array<std::string, 3> margin_keys{"gain", "phase", "delay"};
-const std::array<std::string, 3> tuning_keys{"free", "minimise", "margins"};
 
 /// The two ends of a range in ascending order.
 void read_ends(const yaml::Field& field, const numerics::Interval& allowed, study::FreeParameter& parameter,
@@ -101,48 +98,18 @@ void read_free(const yaml::Field& map, const study::StudyPlan& plan, study::Tuni
   }
 }
 
-void read_margin(const yaml::Field& margins, std::string_view key, std::optional<double>& margin,
-                 yaml::Problems& problems) {
-  const auto field = yaml::find_field(margins, key);
-  if (!field) return;
-  if (field->node->kind == yaml::YamlNode::Kind::scalar && field->node->text == "off") {
-    margin.reset();
-    return;
-  }
-  const auto read = yaml::read_real(*field, numerics::closed(0, most_margin), problems, "off");
-  if (read) margin = *read;
-}
-
-void read_margins(const yaml::Field& field, study::LoopMargins& margins, yaml::Problems& problems) {
-  if (field.node->kind == yaml::YamlNode::Kind::scalar && field.node->text == "off") {
-    margins = {std::nullopt, std::nullopt, std::nullopt};
-    return;
-  }
-  if (!yaml::check_map(field, "off, or {gain: 6, phase: 30, delay: 0.5} (dB, degrees, samples)", problems))
-    return;
-  parameters::check_keys(field, margin_keys, problems);
-  read_margin(field, "gain", margins.gain, problems);
-  read_margin(field, "phase", margins.phase, problems);
-  read_margin(field, "delay", margins.delay, problems);
-}
-
 }  // namespace
 
-void read_tuning(const yaml::Field& field, const study::StudyPlan& plan, study::Study& study,
-                 yaml::Problems& problems) {
-  if (!yaml::check_map(field, "tune: {free: {controller.ki: {log: [5.0e+3, 3.0e+5]}}}", problems)) return;
-  parameters::check_keys(field, tuning_keys, problems);
-  yaml::require_key(field, "free", expected_free, problems);
-  study::Tuning tuning;
-  if (const auto free = yaml::find_field(field, "free")) read_free(*free, plan, tuning, problems);
-  if (const auto minimise = yaml::find_field(field, "minimise"))
-    tuning.minimise = yaml::read_text(*minimise, problems).value_or(tuning.minimise);
-  if (const auto margins = yaml::find_field(field, "margins"))
-    read_margins(*margins, tuning.margins, problems);
-  if (!study.goal)
-    problems.add(field, "without a goal there is nothing to meet",
-                 "goal: {band: 1, within: 0.05, moves: 0.99}");
-  study.tuning = std::move(tuning);
+void read_tuning(const yaml::Field& field, Reading& reading) {
+  std::optional<study::Tuning>& tuning = reading.study.tuning;
+  tuning.emplace();
+  read_key(field, *find_general_key("tune"), reading);
+  if (field.node->kind != yaml::YamlNode::Kind::map) return tuning.reset();
+  if (const auto free = yaml::find_field(field, "free"))
+    read_free(*free, reading.plan, *tuning, reading.problems);
+  if (!reading.study.goal)
+    reading.problems.add(field, "without a goal there is nothing to meet",
+                         "goal: {band: 1, within: 0.05, moves: 0.99}");
 }
 
 }  // namespace zerocount::manifest

@@ -7,6 +7,7 @@
 #include "experiments/manifest/drawn_per.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/plan.hpp"
+#include "experiments/study/study.hpp"
 #include "experiments/yaml/scalars.hpp"
 
 namespace zerocount::manifest {
@@ -23,7 +24,8 @@ struct ProfileRequest {
 /// The data that reading a manifest produces.
 struct Reading {
   yaml::Problems& problems;
-  study::StudyPlan& plan;                  ///< gets the distributions
+  study::StudyPlan& plan;  ///< gets the distributions
+  study::Study& study;
   std::int64_t version;                    ///< of the results files whose defaults apply
   TrialGroups groups{};                    ///< the study has the keys `rigs`, `worlds`
   bool plugin_failed{false};               ///< the user's controller could not be loaded

@@ -83,7 +83,7 @@ fs::path baseline_log(const fs::path& baseline) {
 }
 
 BaselineUpdate update_baseline(const fs::path& file, const fs::path& output, const std::string& reason) {
-  const reading::StudyFile study(file);
+  const reading::AllTrialsFile study(file);
   study.require_valid_values();
   const layout::FileHeader& header = study.header();
   const std::string bytes = bytes_of(file);

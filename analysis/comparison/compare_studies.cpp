@@ -39,8 +39,8 @@ std::string why_bits_may_differ(const layout::FileHeader& one, const layout::Fil
 }
 
 /// Finds the layer, and compares the datasets where that can be decisive.
-void find_layer(StudyComparison& result, const reading::StudyFile& baseline,
-                const reading::StudyFile& current) {
+void find_layer(StudyComparison& result, const reading::AllTrialsFile& baseline,
+                const reading::AllTrialsFile& current) {
   const std::string different = why_bits_may_differ(baseline.header(), current.header());
   if (baseline.header().study_sha256 == current.header().study_sha256) {
     result.first_difference = reading::first_difference(baseline.root(), current.root()).value_or("");
@@ -55,7 +55,7 @@ void find_layer(StudyComparison& result, const reading::StudyFile& baseline,
   result.layer_reason = different;
 }
 
-void require_same_kind(const reading::StudyFile& baseline, const reading::StudyFile& current,
+void require_same_kind(const reading::AllTrialsFile& baseline, const reading::AllTrialsFile& current,
                        const manifest::ManifestValues& old_values,
                        const manifest::ManifestValues& new_values) {
   const auto open_loop = [](const manifest::ManifestValues& values) {
@@ -70,7 +70,7 @@ void require_same_kind(const reading::StudyFile& baseline, const reading::StudyF
 
 /// Every test here takes trials for independent, and those of a saltelli design share most of their
 /// numbers.
-void require_independent_trials(const reading::StudyFile& file, const manifest::ManifestValues& values) {
+void require_independent_trials(const reading::AllTrialsFile& file, const manifest::ManifestValues& values) {
   const auto design = values.find("design");
   if (design == values.end() || design->second != "saltelli") return;
   throw Failure(ExitCode::bad_data,
@@ -91,8 +91,8 @@ std::int64_t rigs_of(const manifest::ManifestValues& values, bool other_worlds) 
 }
 
 /// Whether studies have worlds, and not the same ones.
-bool have_other_worlds(const reading::StudyFile& baseline, const manifest::ManifestValues& old_values,
-                       const reading::StudyFile& current, const manifest::ManifestValues& new_values) {
+bool have_other_worlds(const reading::AllTrialsFile& baseline, const manifest::ManifestValues& old_values,
+                       const reading::AllTrialsFile& current, const manifest::ManifestValues& new_values) {
   const std::string before = manifest::value_or(old_values, "worlds", "0");
   const std::string after = manifest::value_or(new_values, "worlds", "0");
   return before != after || (after != "0" && baseline.header().seed != current.header().seed);
@@ -163,7 +163,7 @@ void take_forecast(MeasureComparison& measure, const JudgementForecast& forecast
 }
 
 /// An open-loop study has moves, but none that could be judged. Its first moves tell.
-bool judges_nothing(const reading::StudyFile& file) {
+bool judges_nothing(const reading::AllTrialsFile& file) {
   const std::int64_t trials = std::min(file.rows().count, layout::chunk_rows(file.moves()));
   const std::vector<double> outcomes = file.measure("outcome", {file.rows().first, trials});
   return std::all_of(outcomes.begin(), outcomes.end(), [](double outcome) {
@@ -173,8 +173,8 @@ bool judges_nothing(const reading::StudyFile& file) {
 
 /// The design points to compare, and where their trials are.
 struct ComparedData {
-  const reading::StudyFile& baseline;
-  const reading::StudyFile& current;
+  const reading::AllTrialsFile& baseline;
+  const reading::AllTrialsFile& current;
   std::vector<MatchedPoint> points;
   std::int64_t baseline_rigs{0};
   std::int64_t current_rigs{0};
@@ -189,17 +189,17 @@ struct ComparedData {
 };
 
 /// The most trials of each point that are compared.
-std::int64_t trial_limit(const GateRules& rules, const reading::StudyFile& file) {
+std::int64_t trial_limit(const GateRules& rules, const reading::AllTrialsFile& file) {
   return std::max(std::int64_t{1}, rules.max_trials.value_or(default_compared_moves / file.moves()));
 }
 
 /// The trials of each point of a file that are compared: of every rig at least one.
-std::int64_t compared_trials(const GateRules& rules, const reading::StudyFile& file, std::int64_t rigs) {
+std::int64_t compared_trials(const GateRules& rules, const reading::AllTrialsFile& file, std::int64_t rigs) {
   return std::min(file.header().trials, std::max(trial_limit(rules, file), rigs));
 }
 
 /// The measure of the file's own bands in place of the one that a requirement names.
-GateMeasure in_file(const reading::StudyFile& file, const GateMeasure& wanted) {
+GateMeasure in_file(const reading::AllTrialsFile& file, const GateMeasure& wanted) {
   std::string bands;
   for (const layout::Measure& measure : file.table()) {
     if (measure.field.column.name == wanted.name) return {&measure, wanted.name, wanted.unit, wanted.margin};
@@ -214,16 +214,17 @@ GateMeasure in_file(const reading::StudyFile& file, const GateMeasure& wanted) {
 constexpr const char* expected_goal = "expected one such as goal: {band: 1, within: 0.05, moves: 0.99}";
 
 /// The goal of the manifest.
-std::optional<study::Goal> goal_of(const reading::StudyFile& file, const manifest::ManifestValues& values) {
+std::optional<study::Goal> goal_of(const reading::AllTrialsFile& file,
+                                   const manifest::ManifestValues& values) {
   const bool has_goal = std::any_of(values.begin(), values.end(), [](const auto& value) {
     return manifest::is_within(value.first, "goal");
   });
-  return has_goal ? layout::recorded_study(file.header(), file.path()).goal : std::nullopt;
+  return has_goal ? file.study().goal : std::nullopt;
 }
 
 /// The goal as the moves of the file are counted by it.
 /// @throws Failure (bad_data) where the file does not have its error band
-TrialGoal counted_in(const reading::StudyFile& file, const study::Goal& goal) {
+TrialGoal counted_in(const reading::AllTrialsFile& file, const study::Goal& goal) {
   const std::span<const std::int64_t> bands = file.features().bands.values();
   const auto band = std::find(bands.begin(), bands.end(), goal.band);
   if (band != bands.end()) return {goal, {static_cast<std::size_t>(band - bands.begin()), goal.within}};
@@ -235,7 +236,7 @@ TrialGoal counted_in(const reading::StudyFile& file, const study::Goal& goal) {
 }
 
 /// The goal that a requirement asks for.
-std::optional<TrialGoal> required_goal(const GateRules& rules, const reading::StudyFile& file,
+std::optional<TrialGoal> required_goal(const GateRules& rules, const reading::AllTrialsFile& file,
                                        const std::optional<study::Goal>& goal) {
   if (!requires_goal(rules)) return std::nullopt;
   if (goal) return counted_in(file, *goal);
@@ -245,7 +246,7 @@ std::optional<TrialGoal> required_goal(const GateRules& rules, const reading::St
 }
 
 /// The goal whose measures are judged: that of the baseline, else that of the current file.
-std::optional<study::Goal> judged_goal(const GateRules& rules, const reading::StudyFile& current,
+std::optional<study::Goal> judged_goal(const GateRules& rules, const reading::AllTrialsFile& current,
                                        const std::optional<study::Goal>& old_goal,
                                        const std::optional<study::Goal>& new_goal) {
   if (!judges_by_goal(rules)) return std::nullopt;
@@ -259,7 +260,7 @@ std::optional<study::Goal> judged_goal(const GateRules& rules, const reading::St
 }
 
 /// The trials of a file that its judgement by the goal needs.
-AlsoRead read_by(const std::optional<study::Goal>& goal, const reading::StudyFile& file,
+AlsoRead read_by(const std::optional<study::Goal>& goal, const reading::AllTrialsFile& file,
                  const manifest::ManifestValues& values, std::int64_t clusters) {
   AlsoRead also;
   also.rigs = clusters;
@@ -269,8 +270,8 @@ AlsoRead read_by(const std::optional<study::Goal>& goal, const reading::StudyFil
   return also;
 }
 
-ComparedData compared_data(const reading::StudyFile& baseline, const manifest::ManifestValues& old_values,
-                           const reading::StudyFile& current, const manifest::ManifestValues& new_values,
+ComparedData compared_data(const reading::AllTrialsFile& baseline, const manifest::ManifestValues& old_values,
+                           const reading::AllTrialsFile& current, const manifest::ManifestValues& new_values,
                            std::vector<MatchedPoint> points, const GateRules& rules) {
   const bool other = have_other_worlds(baseline, old_values, current, new_values);
   ComparedData data{baseline, current, std::move(points), rigs_of(old_values, other),
@@ -500,7 +501,7 @@ void judge(StudyComparison& result, const GateRules& rules, const ComparedData& 
   forecast(result, rules, data);
 }
 
-StudyComparison begin(const reading::StudyFile& baseline, const reading::StudyFile& current,
+StudyComparison begin(const reading::AllTrialsFile& baseline, const reading::AllTrialsFile& current,
                       const GateRules& rules) {
   StudyComparison result;
   result.baseline = {baseline.path().string(), baseline.header()};
@@ -525,7 +526,7 @@ DrawComparison compare_draws_within(const ComparedData& data, const manifest::Ma
 }
 
 /// The swept keys in which the two points differ.
-std::vector<manifest::ManifestDifference> axis_differences(const reading::StudyFile& file,
+std::vector<manifest::ManifestDifference> axis_differences(const reading::AllTrialsFile& file,
                                                            const MatchedPoint& point) {
   std::vector<manifest::ManifestDifference> differences;
   const std::vector<study::SweepAxis> axes = file.axes();
@@ -539,7 +540,7 @@ std::vector<manifest::ManifestDifference> axis_differences(const reading::StudyF
 
 }  // namespace
 
-StudyComparison compare_studies(const reading::StudyFile& baseline, const reading::StudyFile& current,
+StudyComparison compare_studies(const reading::AllTrialsFile& baseline, const reading::AllTrialsFile& current,
                                 const GateRules& rules) {
   std::vector<MatchedPoint> points = match_points(baseline, current);
   manifest::ManifestValues old_values = layout::manifest_values(baseline.header(), baseline.path().string());
@@ -561,8 +562,8 @@ StudyComparison compare_studies(const reading::StudyFile& baseline, const readin
   return result;
 }
 
-StudyComparison compare_points(const reading::StudyFile& file, std::int64_t baseline, std::int64_t current,
-                               const GateRules& rules) {
+StudyComparison compare_points(const reading::AllTrialsFile& file, std::int64_t baseline,
+                               std::int64_t current, const GateRules& rules) {
   const std::vector<std::string> labels = file.point_labels();
   const MatchedPoint point{labels[static_cast<std::size_t>(current)], baseline, current};
   const manifest::ManifestValues values = layout::manifest_values(file.header(), file.path().string());
@@ -585,8 +586,8 @@ GateRules rules_of(const CompareOptions& options, std::span<const std::string> l
 
 StudyComparison compare_files(const std::filesystem::path& baseline, const std::filesystem::path& current,
                               const CompareOptions& options) {
-  const reading::StudyFile before(baseline);
-  const reading::StudyFile after(current);
+  const reading::AllTrialsFile before(baseline);
+  const reading::AllTrialsFile after(current);
   StudyComparison result = compare_studies(before, after, rules_of(options, after.point_labels()));
   std::error_code error;
   if (std::filesystem::equivalent(baseline, current, error)) {

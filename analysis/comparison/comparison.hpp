@@ -164,13 +164,13 @@ inline bool compares_points(const StudyComparison& comparison) {
 /// tests every measure at every point, controls the false discoveries over all of them, and gives verdicts.
 /// @throws Failure (bad_data) where points cannot be matched, one file has targets and the other torque
 /// levels, or a file is damaged.
-StudyComparison compare_studies(const reading::StudyFile& baseline, const reading::StudyFile& current,
+StudyComparison compare_studies(const reading::AllTrialsFile& baseline, const reading::AllTrialsFile& current,
                                 const GateRules& rules = {});
 
 /// Compares two design points of one file: is the point `current` as good as the point `baseline`?
 /// @throws Failure (bad_data) as compare_studies
-StudyComparison compare_points(const reading::StudyFile& file, std::int64_t baseline, std::int64_t current,
-                               const GateRules& rules = {});
+StudyComparison compare_points(const reading::AllTrialsFile& file, std::int64_t baseline,
+                               std::int64_t current, const GateRules& rules = {});
 
 /// How two files are compared.
 struct CompareOptions {
@@ -184,7 +184,7 @@ struct CompareOptions {
 GateRules rules_of(const CompareOptions& options, std::span<const std::string> labels);
 
 /// Compares two files.
-/// @throws Failure as compare_studies and read_gate_rules, and as StudyFile
+/// @throws Failure as compare_studies and read_gate_rules, and as AllTrialsFile
 StudyComparison compare_files(const std::filesystem::path& baseline, const std::filesystem::path& current,
                               const CompareOptions& options = {});
 

@@ -64,7 +64,7 @@ std::optional<GateMargin> read_margin(const yaml::Field& field, yaml::Problems& 
     } else if (entry.key == "fail_on") {
       margin.changed_fails = read_changed_fails(value, problems);
     } else if (entry.key == "both_ways") {  // what files called it before there was fail_on
-      margin.changed_fails = yaml::read_truth(value, problems).value_or(false);
+      margin.changed_fails = yaml::read_bool(value, problems).value_or(false);
     } else {
       parameters::add_unknown_key(field, entry, margin_keys, problems);
     }

@@ -23,7 +23,7 @@ std::string some_of(const std::vector<std::string>& names) {
   return names.size() > shown ? fmt::format("{} and {} more", text, names.size() - shown) : text;
 }
 
-std::map<std::string, std::int64_t> points_by_label(const reading::StudyFile& file) {
+std::map<std::string, std::int64_t> points_by_label(const reading::AllTrialsFile& file) {
   std::map<std::string, std::int64_t> points;
   const std::vector<std::string> labels = file.point_labels();
   for (std::size_t point = 0; point < labels.size(); ++point) {
@@ -35,7 +35,7 @@ std::map<std::string, std::int64_t> points_by_label(const reading::StudyFile& fi
   return points;
 }
 
-std::vector<std::string> without_partner(const reading::StudyFile& file,
+std::vector<std::string> without_partner(const reading::AllTrialsFile& file,
                                          const std::map<std::string, std::int64_t>& others) {
   std::vector<std::string> lonely = file.point_labels();
   std::erase_if(lonely, [&](const std::string& label) { return others.contains(label); });
@@ -52,7 +52,7 @@ std::string exact_text(double value) {
   return std::isnan(value) ? "drawn" : fmt::format("{}", value);
 }
 
-void require_equal_axes(const reading::StudyFile& baseline, const reading::StudyFile& current,
+void require_equal_axes(const reading::AllTrialsFile& baseline, const reading::AllTrialsFile& current,
                         const std::vector<MatchedPoint>& points) {
   const std::vector<study::SweepAxis> before = baseline.axes();
   const std::vector<study::SweepAxis> after = current.axes();
@@ -89,7 +89,7 @@ InputRelation relation_of(const std::vector<double>& before, const std::vector<d
   return InputRelation::same_order;
 }
 
-const study::InputColumn* find_input(const reading::StudyFile& file, const std::string& name) {
+const study::InputColumn* find_input(const reading::AllTrialsFile& file, const std::string& name) {
   const std::vector<study::InputColumn>& inputs = file.input_columns();
   const auto found = std::find_if(inputs.begin(), inputs.end(),
                                   [&](const study::InputColumn& one) { return one.name == name; });
@@ -97,9 +97,10 @@ const study::InputColumn* find_input(const reading::StudyFile& file, const std::
 }
 
 /// The worst relation of one parameter over all points.
-InputRelation relation_over_points(const reading::StudyFile& baseline, const reading::StudyFile& current,
-                                   std::size_t old_column, std::size_t new_column,
-                                   const std::vector<MatchedPoint>& points, std::int64_t trials) {
+InputRelation relation_over_points(const reading::AllTrialsFile& baseline,
+                                   const reading::AllTrialsFile& current, std::size_t old_column,
+                                   std::size_t new_column, const std::vector<MatchedPoint>& points,
+                                   std::int64_t trials) {
   InputRelation worst = InputRelation::equal;
   for (const MatchedPoint& point : points) {
     const InputRelation relation =
@@ -122,8 +123,8 @@ std::string axis_value(const std::vector<study::SweepAxis>& axes, const std::str
   return "missing";
 }
 
-std::vector<MatchedPoint> match_points(const reading::StudyFile& baseline,
-                                       const reading::StudyFile& current) {
+std::vector<MatchedPoint> match_points(const reading::AllTrialsFile& baseline,
+                                       const reading::AllTrialsFile& current) {
   const std::map<std::string, std::int64_t> old_points = points_by_label(baseline);
   const std::map<std::string, std::int64_t> new_points = points_by_label(current);
   std::string problem;
@@ -144,7 +145,7 @@ std::vector<MatchedPoint> match_points(const reading::StudyFile& baseline,
   return points;
 }
 
-DrawComparison compare_draws(const reading::StudyFile& baseline, const reading::StudyFile& current,
+DrawComparison compare_draws(const reading::AllTrialsFile& baseline, const reading::AllTrialsFile& current,
                              const manifest::ManifestValues& old_values,
                              const manifest::ManifestValues& new_values,
                              const std::vector<MatchedPoint>& points, std::int64_t trials) {

@@ -19,7 +19,8 @@ struct MatchedPoint {
 /// Matches the design points of both files by label, in the order of the baseline. In studies with cases the
 /// axes may differ, because a case may have got another gain; otherwise they must be bitwise equal.
 /// @throws Failure (bad_data) that lists the points without a partner.
-std::vector<MatchedPoint> match_points(const reading::StudyFile& baseline, const reading::StudyFile& current);
+std::vector<MatchedPoint> match_points(const reading::AllTrialsFile& baseline,
+                                       const reading::AllTrialsFile& current);
 
 /// The value of a swept key at a design point, as text; "missing" if it is not swept.
 std::string axis_value(const std::vector<study::SweepAxis>& axes, const std::string& name,
@@ -35,7 +36,7 @@ struct DrawComparison {
 /// The draws are the same if the seeds and designs are equal and every random parameter of both files either
 /// has bitwise equal values in the first `trials` trials of the points or, after a change of its
 /// distribution, sorts them in the same order.
-DrawComparison compare_draws(const reading::StudyFile& baseline, const reading::StudyFile& current,
+DrawComparison compare_draws(const reading::AllTrialsFile& baseline, const reading::AllTrialsFile& current,
                              const manifest::ManifestValues& old_values,
                              const manifest::ManifestValues& new_values,
                              const std::vector<MatchedPoint>& points, std::int64_t trials);

@@ -84,7 +84,7 @@ PointTrials gather_trials(std::span<const trial::MoveOutcome> outcomes, std::int
   return result;
 }
 
-PointTrials read_point_trials(const reading::StudyFile& file, std::int64_t point, std::int64_t trials,
+PointTrials read_point_trials(const reading::AllTrialsFile& file, std::int64_t point, std::int64_t trials,
                               const AlsoRead& also) {
   PointTrials result = empty_trials(file.moves(), file.table(), also);
   measures::visit_blocks(

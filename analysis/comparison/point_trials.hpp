@@ -72,7 +72,7 @@ PointTrials gather_trials(std::span<const trial::MoveOutcome> outcomes, std::int
 
 /// The first `trials` trials of design point `point` of a whole study.
 /// @throws Failure (bad_data) where the file is damaged.
-PointTrials read_point_trials(const reading::StudyFile& file, std::int64_t point, std::int64_t trials,
+PointTrials read_point_trials(const reading::AllTrialsFile& file, std::int64_t point, std::int64_t trials,
                               const AlsoRead& also = {});
 
 /// The first `trials` of them. `undecided` stays that of all.

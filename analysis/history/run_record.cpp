@@ -103,12 +103,12 @@ std::vector<RunValue> values_of(const summary::StudySummary& summary) {
 
 }  // namespace
 
-std::string series_sha256(const reading::StudyFile& file) {
+std::string series_sha256(const reading::AllTrialsFile& file) {
   const layout::FileHeader& header = file.header();
   manifest::ManifestValues values = layout::manifest_values(header, file.path().string());
   for (const char* const key : {"description", "trials"}) values.erase(key);
   std::erase_if(values, [](const auto& entry) { return entry.first.ends_with(manifest::order_of_keys); });
-  if (!drawn_per_study(values, layout::recorded_study(header, file.path()))) values.erase("seed");
+  if (!drawn_per_study(values, file.study())) values.erase("seed");
   for (const parameters::EarlierDefault& earlier : parameters::earlier_defaults()) {
     const parameters::Parameter& parameter =
         parameters::parameter_table()[parameters::find_parameter(earlier.name).value()];
@@ -120,7 +120,7 @@ std::string series_sha256(const reading::StudyFile& file) {
   return hash::sha256_hex(text);
 }
 
-RunRecord record_of(const reading::StudyFile& file) {
+RunRecord record_of(const reading::AllTrialsFile& file) {
   const std::string name = file.path().string();
   const summary::StudySummary summary =
       summary::summarise(file, statistics::summary_confidence, /*bootstrap=*/true);

@@ -65,13 +65,13 @@ struct RunRecord {
 /// Identifies the series of runs that a file belongs to: the SHA-256 of its manifest's values with the
 /// overrides and the defaults of its format version, without description, trials and seed. The seed remains
 /// where something is drawn once per study: another seed is then another axis.
-std::string series_sha256(const reading::StudyFile& file);
+std::string series_sha256(const reading::AllTrialsFile& file);
 
 /// The values of a complete results file, with the bounds of its summary: the measures of its goal if it has
 /// one (comparison::goal_measures), then the gate measures.
 /// @throws Failure: inconclusive where there is no value, bad_input where the trials are not independent,
 /// and as summarise().
-RunRecord record_of(const reading::StudyFile& file);
+RunRecord record_of(const reading::AllTrialsFile& file);
 
 /// Adds to a run what the JSON of `zerocount compare` says of it.
 /// @throws Failure (bad_data) where the file is not such JSON, (bad_input) where it is of another run.

@@ -274,7 +274,7 @@ RepeatabilitySummary read_repeatability(const hdf5::Group& root, const study::St
   return summary;
 }
 
-RepeatabilitySummary study_repeatability(const reading::StudyFile& file, const study::Study& study,
+RepeatabilitySummary study_repeatability(const reading::AllTrialsFile& file, const study::Study& study,
                                          double confidence) {
   return read_repeatability(hdf5::File::open_to_read(file.path()), study, confidence);
 }

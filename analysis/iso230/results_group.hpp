@@ -23,7 +23,7 @@ RepeatabilitySummary read_repeatability(const hdf5::Group& root, const study::St
                                         double confidence = statistics::summary_confidence);
 
 /// As read_repeatability, of a complete results file.
-RepeatabilitySummary study_repeatability(const reading::StudyFile& file, const study::Study& study,
+RepeatabilitySummary study_repeatability(const reading::AllTrialsFile& file, const study::Study& study,
                                          double confidence = statistics::summary_confidence);
 
 /// The tables of the group as CSV: repeatability_trials.csv, repeatability_trial_targets.csv (a row per trial

@@ -8,7 +8,7 @@
 
 namespace zerocount::jerks {
 
-JerkReport jerk_report(const reading::StudyFile& file, const study::Study& study,
+JerkReport jerk_report(const reading::AllTrialsFile& file, const study::Study& study,
                        std::vector<std::int64_t> points, double confidence, std::int64_t creep_trials) {
   if (points.empty()) {
     points.resize(static_cast<std::size_t>(study::point_count(study)));
@@ -18,7 +18,7 @@ JerkReport jerk_report(const reading::StudyFile& file, const study::Study& study
   for (const std::int64_t point : points) {
     PointJerks jerks{.point = point, .label = {}, .statistics = {}, .creep = {}, .creep_agreement = {}};
     jerks.statistics = jerk_statistics(file, study, point, confidence);
-    jerks.label = study.point_labels[static_cast<std::size_t>(point)];
+    jerks.label = study.points.labels[static_cast<std::size_t>(point)];
     jerks.creep = compare_with_creep(study, point, std::min(creep_trials, file.header().trials));
     const double sample_time = 1.0 / study::study_trial(study, point, 0).parameters.controller.sample_rate;
     jerks.creep_agreement = agreement_of(jerks.creep, sample_time);

@@ -155,7 +155,7 @@ class JerkCollector {
   std::int64_t last_with_jerks_{-1};
 };
 
-void require_jerks(const reading::StudyFile& file, const study::Study& study, std::int64_t point) {
+void require_jerks(const reading::AllTrialsFile& file, const study::Study& study, std::int64_t point) {
   if (study.open_loop) {
     throw Failure(ExitCode::bad_data, fmt::format("{}: an open-loop study has no targets, and so no jerks",
                                                   file.path().string()));
@@ -168,8 +168,8 @@ void require_jerks(const reading::StudyFile& file, const study::Study& study, st
 
 }  // namespace
 
-JerkStatistics jerk_statistics(const reading::StudyFile& file, const study::Study& study, std::int64_t point,
-                               double confidence) {
+JerkStatistics jerk_statistics(const reading::AllTrialsFile& file, const study::Study& study,
+                               std::int64_t point, double confidence) {
   require_jerks(file, study, point);
   statistics::require_confidence(confidence);
   JerkCollector collector(confidence, study.rigs);

@@ -75,8 +75,8 @@ struct JerkStatistics {
 /// The jerks of one design point of a complete results file.
 /// @throws Failure: bad_input if there is no such point or the confidence is outside (0, 1); bad_data for an
 /// open-loop study, which has no jerks, and for inconsistent data.
-JerkStatistics jerk_statistics(const reading::StudyFile& file, const study::Study& study, std::int64_t point,
-                               double confidence = statistics::summary_confidence);
+JerkStatistics jerk_statistics(const reading::AllTrialsFile& file, const study::Study& study,
+                               std::int64_t point, double confidence = statistics::summary_confidence);
 
 /// The data of one point that the verb `jerks` reports.
 struct PointJerks {

@@ -16,7 +16,7 @@
 namespace zerocount::jerks {
 namespace {
 
-[[noreturn]] void fail(const reading::StudyFile& file, std::int64_t row, const std::string& what) {
+[[noreturn]] void fail(const reading::AllTrialsFile& file, std::int64_t row, const std::string& what) {
   throw Failure(ExitCode::bad_data, fmt::format("{}: trial {}: {}", file.path().string(), row, what));
 }
 
@@ -24,7 +24,7 @@ namespace {
 class Timings {
  public:
   Timings(const study::Study& study, std::int64_t point) : study_(study), point_(point) {
-    const std::vector<study::InputColumn>& inputs = study.input_columns;
+    const std::vector<study::InputColumn>& inputs = study.columns.inputs;
     vary_ = std::any_of(inputs.begin(), inputs.end(), [](const study::InputColumn& input) {
       return input.name == "controller.sample_rate" || input.name == "command.hold" ||
              input.name == "verdict.dwell";
@@ -90,7 +90,7 @@ void for_each_run_at_risk(const ObservedMove& move,
   if (first < move.end) take(first, move.end);
 }
 
-void for_each_move(const reading::StudyFile& file, const study::Study& study, std::int64_t point,
+void for_each_move(const reading::AllTrialsFile& file, const study::Study& study, std::int64_t point,
                    const std::function<void(const ObservedMove&)>& take) {
   const std::int64_t moves = file.moves();
   const std::int64_t trials = file.header().trials;

@@ -38,7 +38,7 @@ void for_each_run_at_risk(const ObservedMove& move,
 /// Calls `take` for each move of a point, in order of trial and move.
 /// @throws Failure (bad_data) if the jerks of a trial do not match the numbers that its moves counted, or are
 /// outside the time of the move.
-void for_each_move(const reading::StudyFile& file, const study::Study& study, std::int64_t point,
+void for_each_move(const reading::AllTrialsFile& file, const study::Study& study, std::int64_t point,
                    const std::function<void(const ObservedMove&)>& take);
 
 }  // namespace zerocount::jerks

@@ -28,7 +28,7 @@ double value_of_trial(const layout::Measure& measure, std::span<const trial::Mov
 /// Calls visit(block, outcomes) for the trials of these global rows in order. A block ends where a chunk of
 /// the file does. `outcomes` is a span of the outcomes of its moves, [trial, move].
 template <class Visit>
-void visit_blocks(const reading::StudyFile& file, layout::RowRange rows, const Visit& visit) {
+void visit_blocks(const reading::AllTrialsFile& file, layout::RowRange rows, const Visit& visit) {
   const std::int64_t chunk = layout::chunk_rows(file.moves());
   for (layout::RowRange block{rows.first, 0}; block.first < rows.end(); block.first = block.end()) {
     const std::int64_t in_file = block.first - file.rows().first;
@@ -41,7 +41,7 @@ void visit_blocks(const reading::StudyFile& file, layout::RowRange rows, const V
 /// Calls visit(row, moves) for the trials of these global rows in order, reading the file in blocks. `moves`
 /// is a span of the outcomes of the trial's moves.
 template <class Visit>
-void visit_trials(const reading::StudyFile& file, layout::RowRange rows, const Visit& visit) {
+void visit_trials(const reading::AllTrialsFile& file, layout::RowRange rows, const Visit& visit) {
   const auto moves = static_cast<std::size_t>(file.moves());
   visit_blocks(file, rows, [&](layout::RowRange block, std::span<const trial::MoveOutcome> rest) {
     for (std::int64_t row = block.first; row < block.end(); ++row, rest = rest.subspan(moves)) {

@@ -100,7 +100,7 @@ void unwrap(RawSeries& series);
 /// resolution, the delay and the amplifier's bandwidth are those of the trial, unless chosen otherwise. The
 /// angle is that of the fine encoder's counts, unless theta is chosen.
 /// @throws Failure: bad_input if the file has no such trial or no trace of it, or if a delay is chosen for
-/// the motor torque; and the failures of StudyFile.
+/// the motor torque; and the failures of AllTrialsFile.
 RawSeries read_study_series(const std::filesystem::path& path, std::int64_t point, std::int64_t index,
                             const SeriesChoice& choice);
 

@@ -15,12 +15,12 @@ namespace {
 
 /// Index of the first sample of global row `row` in the trace, which is ordered by trial; the size of the
 /// trace if there is none.
-std::int64_t first_record(const reading::StudyFile& file, std::int64_t row) {
+std::int64_t first_record(const reading::AllTrialsFile& file, std::int64_t row) {
   return numerics::first_where(0, file.trace_count(),
                                [&](std::int64_t at) { return file.trace_at(at, 1).front().trial >= row; });
 }
 
-std::vector<layout::TraceRecord> records_of(const reading::StudyFile& file, std::int64_t row) {
+std::vector<layout::TraceRecord> records_of(const reading::AllTrialsFile& file, std::int64_t row) {
   const std::int64_t first = first_record(file, row);
   return file.trace_at(first, first_record(file, row + 1) - first);
 }
@@ -39,7 +39,7 @@ std::vector<double> axis_inputs(const study::Study& study, std::int64_t point, s
   const std::vector<double> inputs = study::study_trial(study, point, index).inputs;
   std::vector<double> own;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const std::string& name = study.input_columns[i].name;
+    const std::string& name = study.columns.inputs[i].name;
     if (name.starts_with("plant.") || name.starts_with("friction.")) own.push_back(inputs[i]);
   }
   return own;
@@ -48,8 +48,8 @@ std::vector<double> axis_inputs(const study::Study& study, std::int64_t point, s
 }  // namespace
 
 TracedPoints traced_points(const std::filesystem::path& path, std::int64_t index) {
-  const reading::StudyFile file(path, reading::Require::any_part);
-  const study::Study study = layout::recorded_study(file.header(), path);
+  const reading::AllTrialsFile file(path, reading::Require::any_part);
+  const study::Study& study = file.study();
   TracedPoints traced;
   std::vector<double> of_first;
   if (index >= study.trials) return {{0}, {}};
@@ -62,7 +62,7 @@ TracedPoints traced_points(const std::filesystem::path& path, std::int64_t index
       traced.points.push_back(point);
     } else {
       traced.left_out.push_back(
-          fmt::format("point {} ({})", point, study.point_labels[static_cast<std::size_t>(point)]));
+          fmt::format("point {} ({})", point, study.points.labels[static_cast<std::size_t>(point)]));
     }
   }
   if (traced.points.empty()) traced.points.push_back(0);  // read_study_series() names what is missing
@@ -71,8 +71,8 @@ TracedPoints traced_points(const std::filesystem::path& path, std::int64_t index
 
 RawSeries read_study_series(const std::filesystem::path& path, std::int64_t point, std::int64_t index,
                             const SeriesChoice& choice) {
-  const reading::StudyFile file(path, reading::Require::any_part);
-  const study::Study study = layout::recorded_study(file.header(), path);
+  const reading::AllTrialsFile file(path, reading::Require::any_part);
+  const study::Study& study = file.study();
   if (point >= study::point_count(study) || index >= study.trials) {
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: has no point {}, trial {}; it has {} points of {} trials", path.string(),

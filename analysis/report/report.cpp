@@ -115,7 +115,7 @@ void qualify_bounds(const ReportedStudy& reported, ReportPage& page) {
 
 }  // namespace
 
-StudyReport study_report(const reading::StudyFile& file, const ReportOptions& options) {
+StudyReport study_report(const reading::AllTrialsFile& file, const ReportOptions& options) {
   const ReportedStudy reported = reported_study(file, options.point);
   Replays replays{reported, options};
   StudyReport report;

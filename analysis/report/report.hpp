@@ -32,8 +32,8 @@ struct StudyReport {
 
 /// The report of a complete results file. Reads the file several times and simulates some of its trials
 /// again.
-/// @throws Failure as StudyFile; bad_input if `point` is not a design point.
-StudyReport study_report(const reading::StudyFile& file, const ReportOptions& options = {});
+/// @throws Failure as AllTrialsFile; bad_input if `point` is not a design point.
+StudyReport study_report(const reading::AllTrialsFile& file, const ReportOptions& options = {});
 
 /// The names of all figures of a report.
 std::vector<std::string> figure_names(const ReportPage& page);

@@ -16,12 +16,12 @@
 
 namespace zerocount::report {
 
-ReportedStudy reported_study(const reading::StudyFile& file, std::optional<std::int64_t> point) {
+ReportedStudy reported_study(const reading::AllTrialsFile& file, std::optional<std::int64_t> point) {
   if (point && (*point < 0 || *point >= file.header().points)) {
     throw Failure(ExitCode::bad_input, fmt::format("{}: unknown design point {}; expected 0 to {}",
                                                    file.path().string(), *point, file.header().points - 1));
   }
-  ReportedStudy reported{file, layout::recorded_study(file.header(), file.path()), summary::summarise(file)};
+  ReportedStudy reported{file, file.study(), summary::summarise(file)};
   reported.bounds_name = reported.study.stop   ? "bounds that hold at whatever trial one stops"
                          : reported.study.rigs ? "Korn-Graubard bounds"
                                                : "Clopper-Pearson bounds";

@@ -19,8 +19,8 @@ namespace zerocount::report {
 
 /// A results file with the data that several parts of the report need.
 struct ReportedStudy {
-  const reading::StudyFile& file;
-  study::Study study;
+  const reading::AllTrialsFile& file;
+  const study::Study& study;
   summary::StudySummary summary;
   std::vector<statistics::ConfidenceInterval> success_bounds{};  ///< 95 %, [point]
   std::string bounds_name{};                                     ///< kind of these bounds, for captions
@@ -62,7 +62,7 @@ inline constexpr std::string_view too_narrow_sentence =
 /// @param file a complete study.
 /// @param point that the page speaks of; nothing: the best
 /// @throws Failure (bad_input) if there is no such point
-ReportedStudy reported_study(const reading::StudyFile& file, std::optional<std::int64_t> point = {});
+ReportedStudy reported_study(const reading::AllTrialsFile& file, std::optional<std::int64_t> point = {});
 
 /// The global rows of the trials of a point.
 layout::RowRange rows_of(const ReportedStudy& reported, std::int64_t point);

@@ -38,7 +38,7 @@ std::string design_text(const study::Study& study) {
 }
 
 /// Moments and extremes of an input column in the file.
-statistics::Moments moments_of(const reading::StudyFile& file, std::size_t column) {
+statistics::Moments moments_of(const reading::AllTrialsFile& file, std::size_t column) {
   statistics::Moments moments;
   const std::int64_t at_once = layout::chunk_rows(1);
   for (std::int64_t first = 0; first < file.rows().end(); first += at_once) {
@@ -48,7 +48,7 @@ statistics::Moments moments_of(const reading::StudyFile& file, std::size_t colum
   return moments;
 }
 
-std::string inputs_table(const reading::StudyFile& file) {
+std::string inputs_table(const reading::AllTrialsFile& file) {
   std::vector<HtmlColumn> columns{{"parameter", "", true, {}}, {"meaning", "", true, {}},
                                   {"unit", "", true, {}},      {"smallest", "", false, {}},
                                   {"mean", "", false, {}},     {"largest", "", false, {}}};
@@ -77,7 +77,7 @@ std::string fixed_table(const ReportedStudy& reported) {
     const auto is_it = [name](const auto& column) {
       return column.name == name || column.name.rfind(std::string(name) + ".", 0) == 0;
     };
-    return std::ranges::any_of(study.input_columns, is_it) || std::ranges::any_of(study.axes, is_it);
+    return std::ranges::any_of(study.columns.inputs, is_it) || std::ranges::any_of(study.points.axes, is_it);
   };
   const trial::TrialParameters parameters = study::study_trial(study, reported.chosen.point, 0).parameters;
   std::vector<HtmlColumn> columns{{"parameter", "", true, {}},

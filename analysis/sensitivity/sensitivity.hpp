@@ -115,7 +115,8 @@ struct SensitivityQuestion {
 /// Answers from a complete results file. Deterministic: the resampling is seeded by the study's seed.
 /// @throws Failure: bad_input for a point or an output that there is not, or a confidence outside (0, 0.999];
 /// bad_data where the file is damaged.
-StudySensitivity study_sensitivity(const reading::StudyFile& file, const SensitivityQuestion& question = {});
+StudySensitivity study_sensitivity(const reading::AllTrialsFile& file,
+                                   const SensitivityQuestion& question = {});
 
 /// Whether at least one output at one point could be estimated.
 bool any_estimated(const StudySensitivity& sensitivity);

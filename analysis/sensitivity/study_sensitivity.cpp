@@ -17,7 +17,8 @@
 namespace zerocount::sensitivity {
 namespace {
 
-std::vector<std::int64_t> points_asked(const reading::StudyFile& file, const SensitivityQuestion& question) {
+std::vector<std::int64_t> points_asked(const reading::AllTrialsFile& file,
+                                       const SensitivityQuestion& question) {
   const std::int64_t count = file.header().points;
   for (const std::int64_t point : question.points) {
     if (point < 0 || point >= count) {
@@ -59,7 +60,7 @@ std::int64_t trials_read(const study::Study& study, const SensitivityQuestion& q
   return std::min(study.trials, std::max(question.max_trials, study.rigs));
 }
 
-PointInputs point_inputs(const reading::StudyFile& file, const study::Study& study, std::int64_t point,
+PointInputs point_inputs(const reading::AllTrialsFile& file, const study::Study& study, std::int64_t point,
                          std::int64_t trials) {
   PointInputs inputs{.design = study.design,
                      .factors = study.factors,
@@ -151,10 +152,10 @@ OutputSensitivity between_worlds(const study::Study& study, const PointInputs& w
 
 }  // namespace
 
-StudySensitivity study_sensitivity(const reading::StudyFile& file, const SensitivityQuestion& question) {
+StudySensitivity study_sensitivity(const reading::AllTrialsFile& file, const SensitivityQuestion& question) {
   check_confidence(question.confidence);
   const layout::FileHeader& header = file.header();
-  const study::Study study = layout::recorded_study(header, file.path());
+  const study::Study& study = file.study();
   const std::vector<SensitivityOutput> outputs =
       outputs_asked(question, file.table(), goal::question_of(study));
   const std::vector<std::string> labels = file.point_labels();

@@ -91,7 +91,7 @@ SensitivityOutput find_sensitivity_output(std::string_view name, const layout::M
                                                  name, fmt::join(names, ", ")));
 }
 
-TrialOutputs trial_outputs(const reading::StudyFile& file, const study::Study& study, std::int64_t point,
+TrialOutputs trial_outputs(const reading::AllTrialsFile& file, const study::Study& study, std::int64_t point,
                            std::int64_t trials, const SensitivityOutput& output) {
   const layout::RowRange rows{point * file.header().trials, trials};
   TrialOutputs outputs;

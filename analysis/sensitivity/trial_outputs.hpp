@@ -23,7 +23,7 @@ SensitivityOutput find_sensitivity_output(std::string_view name, const layout::M
 
 /// @param study of the file. @param trials the first so many of the point. @param output of
 /// sensitivity_outputs().
-TrialOutputs trial_outputs(const reading::StudyFile& file, const study::Study& study, std::int64_t point,
+TrialOutputs trial_outputs(const reading::AllTrialsFile& file, const study::Study& study, std::int64_t point,
                            std::int64_t trials, const SensitivityOutput& output);
 
 /// Duration of a move of this trial, a whole number of samples, s; of a closed loop.

@@ -104,7 +104,8 @@ std::vector<layout::PointColumn> observed_columns(std::span<const measures::Poin
     layout::PointColumn& column =
         columns.emplace_back(layout::PointColumn{field.name, field.unit, field.long_name, {}});
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const auto counts = study.observed_counts.find(study.point_labels[static_cast<std::size_t>(first) + i]);
+      const auto counts =
+          study.observed_counts.find(study.points.labels[static_cast<std::size_t>(first) + i]);
       column.values.push_back(field.value(counts == study.observed_counts.end()
                                               ? std::optional<ObservedComparison>()
                                               : compare_observed(points[i], counts->second)));

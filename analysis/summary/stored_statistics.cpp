@@ -80,7 +80,7 @@ layout::StoredStatistics stored_statistics(std::span<const measures::PointSummar
   return stored;
 }
 
-void take_stored_statistics(const reading::StudyFile& file, const study::Study& study,
+void take_stored_statistics(const reading::AllTrialsFile& file, const study::Study& study,
                             std::span<const theory::PointPrediction> known,
                             const std::function<void(const layout::StoredStatistics&)>& take) {
   const std::vector<theory::PointPrediction> predictions = theory::study_predictions(study, known);

@@ -24,7 +24,7 @@ layout::StoredStatistics stored_statistics(std::span<const measures::PointSummar
 /// Gives those of all points of a file to `take`, in blocks of a chunk of the file: the memory does not grow
 /// with the number of points.
 /// @param file holds all trials of `study`. @param predictions see theory::study_predictions
-void take_stored_statistics(const reading::StudyFile& file, const study::Study& study,
+void take_stored_statistics(const reading::AllTrialsFile& file, const study::Study& study,
                             std::span<const theory::PointPrediction> predictions,
                             const std::function<void(const layout::StoredStatistics&)>& take);
 

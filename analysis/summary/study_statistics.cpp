@@ -21,7 +21,7 @@ namespace {
 constexpr std::int64_t jerks_at_once = 65536;
 constexpr std::int64_t trials_of_task = 1024;
 
-[[noreturn]] void fail(const reading::StudyFile& file, const std::string& what) {
+[[noreturn]] void fail(const reading::AllTrialsFile& file, const std::string& what) {
   throw Failure(ExitCode::bad_data, fmt::format("{}: {}", file.path().string(), what));
 }
 
@@ -29,7 +29,7 @@ constexpr std::int64_t trials_of_task = 1024;
 /// to rest may have thousands.
 class JerkStream {
  public:
-  JerkStream(const reading::StudyFile& file, layout::RowRange rows)
+  JerkStream(const reading::AllTrialsFile& file, layout::RowRange rows)
       : file_(file), end_(file.first_jerk_from(rows.end())), read_(file.first_jerk_from(rows.first)) {}
 
   /// The next `count` jerks, which must belong to the trial of the global row `row`. Valid until the next
@@ -58,7 +58,7 @@ class JerkStream {
     return !block_.empty();
   }
 
-  const reading::StudyFile& file_;
+  const reading::AllTrialsFile& file_;
   std::int64_t end_;   ///< position in the table
   std::int64_t read_;  ///< index of the first jerk that is not in the block
   std::vector<layout::JerkRecord> block_;
@@ -66,7 +66,7 @@ class JerkStream {
   std::vector<trial::Jerk> taken_;
 };
 
-void add_trial(SummedPoint& point, const reading::StudyFile& file, std::int64_t row,
+void add_trial(SummedPoint& point, const reading::AllTrialsFile& file, std::int64_t row,
                std::span<const trial::MoveOutcome> moves, JerkStream& jerk_stream) {
   std::int64_t count = 0;
   for (const trial::MoveOutcome& move : moves) count += move.jerk_count;
@@ -79,7 +79,7 @@ void add_trial(SummedPoint& point, const reading::StudyFile& file, std::int64_t 
 }
 
 /// Adds the trials `rows` of the file, all of one design point, with these moves.
-void add_trials(SummedPoint& point, const reading::StudyFile& file, layout::RowRange rows,
+void add_trials(SummedPoint& point, const reading::AllTrialsFile& file, layout::RowRange rows,
                 std::span<const trial::MoveOutcome> moves, JerkStream& jerks) {
   const auto moves_of_trial = static_cast<std::size_t>(file.moves());
   const auto add_counts = [&] {
@@ -106,7 +106,7 @@ StudyAccumulator::StudyAccumulator(const study::Study& study, const Wanted& want
   statistics::require_confidence(wanted.confidence);
 }
 
-void StudyAccumulator::add(const reading::StudyFile& file, layout::RowRange rows) {
+void StudyAccumulator::add(const reading::AllTrialsFile& file, layout::RowRange rows) {
   JerkStream jerks(file, rows);
   using Outcomes = std::span<const trial::MoveOutcome>;
   measures::visit_blocks(file, rows, [&](layout::RowRange block, Outcomes rest) {
@@ -158,14 +158,14 @@ void StudyAccumulator::finish() {
   take_(std::move(results));
 }
 
-void require_all_trials(const reading::StudyFile& file) {
+void require_all_trials(const reading::AllTrialsFile& file) {
   const layout::FileHeader& header = file.header();
   if (file.rows() == layout::RowRange{0, header.points * header.trials} && header.trials > 0) return;
   fail(file, fmt::format("trials {} to {}; expected all {} trials of the study", file.rows().first,
                          file.rows().end() - 1, header.points * header.trials));
 }
 
-std::vector<measures::PointSummary> study_statistics(const reading::StudyFile& file,
+std::vector<measures::PointSummary> study_statistics(const reading::AllTrialsFile& file,
                                                      const study::Study& study, const Wanted& wanted) {
   std::vector<measures::PointSummary> points;
   StudyAccumulator accumulator(study, wanted,
@@ -176,7 +176,7 @@ std::vector<measures::PointSummary> study_statistics(const reading::StudyFile& f
   return points;
 }
 
-measures::PointSummary point_statistics(const reading::StudyFile& file, const study::Study& study,
+measures::PointSummary point_statistics(const reading::AllTrialsFile& file, const study::Study& study,
                                         std::int64_t point, Wanted wanted) {
   measures::PointSummary statistics;
   wanted.first_point = point;

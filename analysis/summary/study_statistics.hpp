@@ -50,7 +50,7 @@ class StudyAccumulator {
 
   /// @param rows of the file, which follow those added before
   /// @throws Failure (bad_data) where the file contradicts itself; the message names the trial.
-  void add(const reading::StudyFile& file, layout::RowRange rows);
+  void add(const reading::AllTrialsFile& file, layout::RowRange rows);
   /// Adds the trials of a point by their sums; they follow those added before.
   /// @throws Failure (bad_data) where the sums cannot be those of the trials
   void add(const reading::ResultsFile& file, std::int64_t point);
@@ -71,16 +71,16 @@ class StudyAccumulator {
 };
 
 /// @throws Failure (bad_data) unless the file holds all trials of its study
-void require_all_trials(const reading::StudyFile& file);
+void require_all_trials(const reading::AllTrialsFile& file);
 
 /// The statistics of every design point of a complete results file, [point].
 /// @throws Failure (bad_data) where trials are missing or the file contradicts itself; the message names the
 /// trial.
-std::vector<measures::PointSummary> study_statistics(const reading::StudyFile& file,
+std::vector<measures::PointSummary> study_statistics(const reading::AllTrialsFile& file,
                                                      const study::Study& study, const Wanted& wanted = {});
 
 /// The statistics of one of its design points, likewise.
-measures::PointSummary point_statistics(const reading::StudyFile& file, const study::Study& study,
+measures::PointSummary point_statistics(const reading::AllTrialsFile& file, const study::Study& study,
                                         std::int64_t point, Wanted wanted);
 
 }  // namespace zerocount::summary

@@ -32,7 +32,7 @@ namespace {
 double hold_of(const study::Study& study, std::int64_t point) {
   if (study.open_loop) return statistics::unknown;
   const bool recorded =
-      std::any_of(study.input_columns.begin(), study.input_columns.end(),
+      std::any_of(study.columns.inputs.begin(), study.columns.inputs.end(),
                   [](const study::InputColumn& column) { return column.name == "command.hold"; });
   const double hold = study::study_trial(study, point, 0).parameters.command.hold;
   constexpr std::int64_t looked_at = 64;  // a hold that is drawn differs long before
@@ -83,7 +83,7 @@ class TrialsSoFar {
   TrialsSoFar(const study::Study& study, double confidence, bool bootstrap)
       : study_(study),
         in_order_(depend_on_order(study)),
-        counts_(study.point_labels.size()),
+        counts_(study.points.labels.size()),
         summary_(summary_without_points(study, confidence)),
         accumulator_(accumulator_of(
             study, summary_,
@@ -93,11 +93,11 @@ class TrialsSoFar {
 
   void add(const std::filesystem::path& path) {
     constexpr auto part = reading::Require::any_part;
-    if (study_.kept != study::Kept::trials) {
+    if (study_.kept != study::Retention::trials) {
       const reading::ResultsFile file(path, part);
       add(file, false, [&](std::int64_t point, layout::RowRange) { accumulator_.add(file, point); });
     } else {
-      const reading::StudyFile file(path, part);
+      const reading::AllTrialsFile file(path, part);
       add(file, true, [&](std::int64_t, layout::RowRange rows) { accumulator_.add(file, rows); });
     }
   }
@@ -174,8 +174,8 @@ StudySummary summary_of(const reading::ResultsFile& file, const study::Study& st
 StudySummary summary_without_points(const study::Study& study, double confidence) {
   StudySummary summary;
   summary.name = study.name;
-  summary.labels = study.point_labels;
-  summary.axes = study.axes;
+  summary.labels = study.points.labels;
+  summary.axes = study.points.axes;
   summary.observed = study.observed;
   // Trials of a saltelli design are not independent: no test applies to them.
   if (!study.features.dependent_trials) summary.observed_counts = study.observed_counts;
@@ -196,8 +196,8 @@ void describe_points(StudySummary& summary, const study::Study& study,
   }
 }
 
-StudySummary summarise(const reading::StudyFile& file, double confidence, bool bootstrap) {
-  const study::Study study = layout::recorded_study(file.header(), file.path());
+StudySummary summarise(const reading::AllTrialsFile& file, double confidence, bool bootstrap) {
+  const study::Study& study = file.study();
   if (file.moves() != study.moves) {
     throw Failure(ExitCode::bad_data,
                   fmt::format("{}: damaged: its trials have {} moves, and its manifest {}",
@@ -213,7 +213,7 @@ StudySummary summarise(const reading::StudyFile& file, double confidence, bool b
 }
 
 StudySummary summarise(const reading::ResultsFile& file, double confidence, bool bootstrap) {
-  const study::Study study = layout::recorded_study(file.header(), file.path());
+  const study::Study& study = file.study();
   StudySummary summary = summary_of(file, study, confidence);
   StudyAccumulator sums = accumulator_of(study, summary, {.confidence = confidence, .bootstrap = bootstrap});
   sums.add(file);
@@ -223,7 +223,7 @@ StudySummary summarise(const reading::ResultsFile& file, double confidence, bool
 }
 
 StudySummary summarise_file(const std::filesystem::path& path, double confidence, bool bootstrap) {
-  return shards::keeps_every_trial(path) ? summarise(reading::StudyFile(path), confidence, bootstrap)
+  return shards::keeps_every_trial(path) ? summarise(reading::AllTrialsFile(path), confidence, bootstrap)
                                          : summarise(reading::ResultsFile(path), confidence, bootstrap);
 }
 

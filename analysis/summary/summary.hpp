@@ -75,7 +75,7 @@ void describe_points(StudySummary& summary, const study::Study& study, std::span
 /// The summary of a complete results file. What was observed comes from its manifest, what the criteria say
 /// from the columns of its /point: the trials are not drawn again. Every bound is found anew.
 /// @throws Failure (bad_input) for a confidence outside (0, 1), (bad_data) where the file is damaged.
-StudySummary summarise(const reading::StudyFile& file, double confidence = statistics::summary_confidence,
+StudySummary summarise(const reading::AllTrialsFile& file, double confidence = statistics::summary_confidence,
                        bool bootstrap = false);
 
 /// Summarises the sums of a file that keeps statistics; errors as above.

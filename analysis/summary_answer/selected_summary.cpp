@@ -25,7 +25,8 @@ constexpr std::size_t max_selected = 200;
 
 /// A statistic of the points in the file: [point], or of an error band "NAME[b]". Nothing where the file does
 /// not have it.
-std::optional<std::vector<double>> stored_statistic(const reading::StudyFile& file, const std::string& name) {
+std::optional<std::vector<double>> stored_statistic(const reading::AllTrialsFile& file,
+                                                    const std::string& name) {
   const std::size_t open = name.find('[');
   const std::string dataset_name = name.substr(0, open);
   const hdf5::Group group = file.root().open_group("point");
@@ -52,7 +53,7 @@ std::optional<std::vector<double>> stored_statistic(const reading::StudyFile& fi
 }
 
 /// The only measure by which points are compared.
-std::shared_ptr<const layout::MeasureTable> measures_of_merit(const reading::StudyFile& file,
+std::shared_ptr<const layout::MeasureTable> measures_of_merit(const reading::AllTrialsFile& file,
                                                               const goal::Question& question) {
   auto table = std::make_shared<layout::MeasureTable>();
   const std::string name = goal::settling_measure(question);
@@ -63,7 +64,7 @@ std::shared_ptr<const layout::MeasureTable> measures_of_merit(const reading::Stu
 }
 
 /// Counts the moves of every point that meet the goal.
-void count_goal(StudySummary& summary, const reading::StudyFile& file, const study::Study& study) {
+void count_goal(StudySummary& summary, const reading::AllTrialsFile& file, const study::Study& study) {
   const measures::CountedGoal counted = summary.question.counted();
   const auto moves = static_cast<std::size_t>(file.moves());
   const std::string name = goal::settling_measure(summary.question);
@@ -82,7 +83,7 @@ void count_goal(StudySummary& summary, const reading::StudyFile& file, const stu
 }
 
 /// What points are compared by, of all points; nothing where the file does not store it.
-bool outline_points(StudySummary& summary, const reading::StudyFile& file, const study::Study& study,
+bool outline_points(StudySummary& summary, const reading::AllTrialsFile& file, const study::Study& study,
                     const layout::MeasureTable& table) {
   const std::optional<std::vector<double>> successes = stored_statistic(file, "zero_count");
   const std::optional<std::vector<double>> times =
@@ -115,7 +116,7 @@ bool outline_points(StudySummary& summary, const reading::StudyFile& file, const
 }
 
 /// The predictions of all points, from the columns that the file stores.
-bool read_predictions(StudySummary& summary, const reading::StudyFile& file) {
+bool read_predictions(StudySummary& summary, const reading::AllTrialsFile& file) {
   std::vector<layout::PointColumn> columns;
   for (const measures::PredictionField& field : measures::prediction_fields()) {
     std::optional<std::vector<double>> values = stored_statistic(file, std::string(field.name));
@@ -127,7 +128,7 @@ bool read_predictions(StudySummary& summary, const reading::StudyFile& file) {
 }
 
 /// The summary of these points alone; its axes are those of all points.
-StudySummary summary_of_points(const StudySummary& summary, const reading::StudyFile& file,
+StudySummary summary_of_points(const StudySummary& summary, const reading::AllTrialsFile& file,
                                const study::Study& study, std::span<const std::int64_t> numbers,
                                bool bootstrap) {
   StudySummary some = summary::summary_without_points(study, summary.confidence);
@@ -143,7 +144,7 @@ StudySummary summary_of_points(const StudySummary& summary, const reading::Study
 }
 
 /// Computes the statistics of the points `summary.complete`.
-void complete(StudySummary& summary, const reading::StudyFile& file, const study::Study& study,
+void complete(StudySummary& summary, const reading::AllTrialsFile& file, const study::Study& study,
               bool bootstrap) {
   StudySummary some = summary_of_points(summary, file, study, summary.complete, bootstrap);
   for (std::size_t i = 0; i < some.points.size(); ++i)
@@ -161,8 +162,8 @@ std::optional<SelectedSummary> summarise_selected(const std::filesystem::path& p
                                                   std::optional<std::int64_t> point) {
   if (!selection.sort && !selection.top && selection.where.empty()) return std::nullopt;
   if (!shards::keeps_every_trial(path)) return std::nullopt;
-  const reading::StudyFile file(path);
-  const study::Study study = layout::recorded_study(file.header(), file.path());
+  const reading::AllTrialsFile file(path);
+  const study::Study& study = file.study();
   if (!is_summarised_by_point(study) || file.moves() != study.moves) return std::nullopt;
   SelectedSummary selected{summary::summary_without_points(study, statistics::summary_confidence),
                            {},

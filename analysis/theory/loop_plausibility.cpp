@@ -166,7 +166,7 @@ std::vector<std::string> doubtful_loops(const study::Study& study) {
   for (const Worst& one : worst) {
     if (one.text.empty()) continue;
     lines.push_back(fmt::format("point {} ({}): {}", one.point,
-                                study.point_labels[static_cast<std::size_t>(one.point)], one.text));
+                                study.points.labels[static_cast<std::size_t>(one.point)], one.text));
   }
   return lines;
 }

@@ -78,7 +78,7 @@ std::optional<ProfileForm> read_profile(const yaml::Field& field, double period,
   number("cv", {.low = 0.0, .high = 10.0, .high_included = true}, form.description.cv);
   const double scale = period / (2.0 * std::numbers::pi);
   number("correlation_length",
-         numerics::closed(scale * shortest_correlation_length, scale * longest_correlation_length),
+         numerics::closed(scale * min_correlation_length, scale * max_correlation_length),
          form.description.correlation_length);
   parameters::check_keys(field, known, problems);
   if (const auto marginal = yaml::find_field(field, "marginal"))

@@ -23,8 +23,8 @@ struct ProfileDescription {
 };
 
 /// Limits of the correlation length for the period 2π; for other periods they scale with the period.
-constexpr double shortest_correlation_length = 1e-3;
-constexpr double longest_correlation_length = 6.283185307179586;
+constexpr double min_correlation_length = 1e-3;
+constexpr double max_correlation_length = 6.283185307179586;
 
 /// Variance S_m of each harmonic m = 0, 1, … of the field g of a Profile; Σ S_m = 1.
 ///

@@ -40,14 +40,14 @@ std::string fault_of(const study::Value& value) {
     case study::Value::Kind::distribution:
       break;
   }
-  switch (value.per) {
-    case study::Per::world:
-    case study::Per::rig:
-    case study::Per::trial:
+  switch (value.level) {
+    case study::DrawLevel::world:
+    case study::DrawLevel::rig:
+    case study::DrawLevel::trial:
       return "";
-    case study::Per::study:
+    case study::DrawLevel::study:
       return "it is drawn once for the study";
-    case study::Per::contact:
+    case study::DrawLevel::contact:
       break;
   }
   return "it is drawn anew at each contact";
@@ -121,11 +121,12 @@ std::optional<Pair> read_pair(const yaml::Field& entry, Reading& reading) {
 }
 
 // How often the values of the slots are drawn, if equally often for all of them at all points.
-std::optional<study::Per> common_per(const std::vector<std::uint32_t>& slots, const study::StudyPlan& plan) {
-  std::set<study::Per> found;
+std::optional<study::DrawLevel> common_level(const std::vector<std::uint32_t>& slots,
+                                             const study::StudyPlan& plan) {
+  std::set<study::DrawLevel> found;
   for (const std::uint32_t slot : slots) {
     for (const study::Value* value : study::values_of(plan, slot)) {
-      if (draws(*value)) found.insert(value->per);
+      if (draws(*value)) found.insert(value->level);
     }
   }
   return found.size() == 1 ? std::optional(*found.begin()) : std::nullopt;
@@ -158,13 +159,13 @@ study::SquareMatrix matrix_of(const std::vector<Pair>& pairs, const std::vector<
 void make_copula(const yaml::Field& list, const std::vector<Pair>& pairs, Reading& reading) {
   study::GaussianCopula copula;
   copula.slots = slots_of(pairs, reading.plan);
-  const auto per = common_per(copula.slots, reading.plan);
-  if (!per) {
+  const auto level = common_level(copula.slots, reading.plan);
+  if (!level) {
     reading.problems.add(list, "these parameters are not drawn equally often: for each world, rig or trial",
                          fmt::format("the same `{}` for all of them", per_key));
     return;
   }
-  copula.per = *per;
+  copula.level = *level;
   auto factor = study::cholesky_factor(matrix_of(pairs, copula.slots));
   if (!factor) {
     reading.problems.add(list,

@@ -15,24 +15,24 @@ constexpr Misfit profile_of_rotor{"a profile belongs to a rotor, which trials sh
 constexpr Misfit no_worlds{"the study has no worlds", "the key worlds, or study, rig, trial or contact here"};
 
 // The reason if the parameter cannot be drawn this often.
-std::optional<Misfit> misfit_of(study::Per per, const parameters::Parameter& parameter, Drawn drawn,
+std::optional<Misfit> misfit_of(study::DrawLevel level, const parameters::Parameter& parameter, Drawn drawn,
                                 const TrialGroups& groups) {
-  if (drawn == Drawn::interval && per != study::Per::world) {
+  if (drawn == Drawn::interval && level != study::DrawLevel::world) {
     return Misfit{"an interval has no distribution to draw from", "world, or uniform in place of interval"};
   }
-  switch (per) {
-    case study::Per::study:
+  switch (level) {
+    case study::DrawLevel::study:
       return std::nullopt;
-    case study::Per::world:
+    case study::DrawLevel::world:
       if (drawn == Drawn::profile) return profile_of_rotor;
       return groups.worlds ? std::nullopt : std::optional(no_worlds);
-    case study::Per::rig:
+    case study::DrawLevel::rig:
       if (groups.rigs) return std::nullopt;
       return Misfit{"the study has no rigs", "the key rigs, or study, trial or contact here"};
-    case study::Per::trial:
+    case study::DrawLevel::trial:
       if (drawn == Drawn::value) return std::nullopt;
       return profile_of_rotor;
-    case study::Per::contact:
+    case study::DrawLevel::contact:
       if (drawn == Drawn::profile) {
         return Misfit{"a profile belongs to a rotor; a contact takes the value at its position",
                       "study or rig"};
@@ -45,25 +45,26 @@ std::optional<Misfit> misfit_of(study::Per per, const parameters::Parameter& par
 
 }  // namespace
 
-study::Per usual_per(const parameters::Parameter& parameter, Drawn drawn, const TrialGroups& groups) {
+study::DrawLevel usual_level(const parameters::Parameter& parameter, Drawn drawn, const TrialGroups& groups) {
   switch (drawn) {
     case Drawn::interval:
-      return study::Per::world;
+      return study::DrawLevel::world;
     case Drawn::profile:
-      return groups.rigs && parameter.of_machine ? study::Per::rig : study::Per::study;
+      return groups.rigs && parameter.of_machine ? study::DrawLevel::rig : study::DrawLevel::study;
     case Drawn::value:
       break;
   }
-  return groups.rigs && parameter.of_machine ? study::Per::rig : study::Per::trial;
+  return groups.rigs && parameter.of_machine ? study::DrawLevel::rig : study::DrawLevel::trial;
 }
 
-std::optional<study::Per> read_per(const yaml::Field& field, const parameters::Parameter& parameter,
-                                   Drawn drawn, const TrialGroups& groups, yaml::Problems& problems) {
-  const auto label = yaml::read_label(field, per_labels, problems);
+std::optional<study::DrawLevel> read_draw_level(const yaml::Field& field,
+                                                const parameters::Parameter& parameter, Drawn drawn,
+                                                const TrialGroups& groups, yaml::Problems& problems) {
+  const auto label = yaml::read_label(field, draw_level_labels, problems);
   if (!label) return std::nullopt;
-  const auto per = static_cast<study::Per>(*label);
-  const auto misfit = misfit_of(per, parameter, drawn, groups);
-  if (!misfit) return per;
+  const auto level = static_cast<study::DrawLevel>(*label);
+  const auto misfit = misfit_of(level, parameter, drawn, groups);
+  if (!misfit) return level;
   problems.add(field, std::string(misfit->what), misfit->expected);
   return std::nullopt;
 }

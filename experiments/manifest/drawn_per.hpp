@@ -13,11 +13,12 @@ namespace zerocount::manifest {
 /// The key beside a distribution or profile that specifies how often it is drawn.
 constexpr std::string_view per_key = "per";
 
-/// Its values, in the order of the enumeration Per.
-inline constexpr std::array<std::string_view, 5> per_labels{"study", "world", "rig", "trial", "contact"};
+/// Its values, in the order of the enumeration DrawLevel.
+inline constexpr std::array<std::string_view, 5> draw_level_labels{"study", "world", "rig", "trial",
+                                                                   "contact"};
 
 /// Those that a profile may have.
-inline constexpr std::array<std::string_view, 2> per_labels_of_profiles{"study", "rig"};
+inline constexpr std::array<std::string_view, 2> draw_level_labels_of_profiles{"study", "rig"};
 
 /// The groups of trials that a study has.
 struct TrialGroups {
@@ -35,11 +36,12 @@ enum class Drawn {
 /// Default of `per`. With rigs, parameters of the machine are drawn for every rig and others for every trial.
 /// Without rigs, values are drawn for every trial and profiles once for the study. Intervals are drawn for
 /// every world.
-study::Per usual_per(const parameters::Parameter& parameter, Drawn drawn, const TrialGroups& groups);
+study::DrawLevel usual_level(const parameters::Parameter& parameter, Drawn drawn, const TrialGroups& groups);
 
 /// The value of the key `per` in `field`. Reports an unknown value or one that the parameter does not allow,
 /// and returns nothing then.
-std::optional<study::Per> read_per(const yaml::Field& field, const parameters::Parameter& parameter,
-                                   Drawn drawn, const TrialGroups& groups, yaml::Problems& problems);
+std::optional<study::DrawLevel> read_draw_level(const yaml::Field& field,
+                                                const parameters::Parameter& parameter, Drawn drawn,
+                                                const TrialGroups& groups, yaml::Problems& problems);
 
 }  // namespace zerocount::manifest

@@ -94,12 +94,12 @@ Json definitions() {
     const std::string name(form.name);
     all[name] = form_schema(form);
     all[name]["properties"][per] = form.name == distributions::interval_name
-                                       ? per_schema(std::span(&per_labels[1], 1))
-                                       : per_schema(per_labels);
+                                       ? per_schema(std::span(&draw_level_labels[1], 1))
+                                       : per_schema(draw_level_labels);
     all[name]["description"] = form.meaning;
   }
-  all["profile"] =
-      object_of({{"profile", profile_schema()}, {per, per_schema(per_labels_of_profiles)}}, {"profile"});
+  all["profile"] = object_of(
+      {{"profile", profile_schema()}, {per, per_schema(draw_level_labels_of_profiles)}}, {"profile"});
   all["profile"]["description"] = "friction along the rotor: a periodic random field";
   return all;
 }
@@ -110,7 +110,7 @@ Json reference(std::string_view name) {
 
 // Schema of one value of the parameter.
 Json value_schema(const parameters::Parameter& parameter) {
-  if (parameter.kind == parameters::ParameterKind::truth) return {{"type", "boolean"}};
+  if (parameter.kind == parameters::ParameterKind::boolean) return {{"type", "boolean"}};
   if (parameter.kind == parameters::ParameterKind::enumeration) return {{"enum", parameter.labels}};
   const bool whole = parameter.kind == parameters::ParameterKind::whole_number;
   Json number{{"type", whole ? "integer" : "number"}};
@@ -160,7 +160,7 @@ Json key_schema(const parameters::Parameter& parameter) {
     schema["maxItems"] = parameter.list->max_values;
   }
   schema["description"] = description_of(parameter);
-  if (parameter.kind == parameters::ParameterKind::truth) {
+  if (parameter.kind == parameters::ParameterKind::boolean) {
     schema["default"] = parameters::default_value(parameter) != 0.0;
   } else if (parameter.kind == parameters::ParameterKind::enumeration) {
     schema["default"] = parameters::default_text(parameter);
@@ -284,9 +284,9 @@ Json own_schemas() {
           {"maxItems", 3}}}}},
       {"samples",
        {{"anyOf",
-         {text,
-          object_of({{"file", text}, {std::string(per_key), {{"enum", std::span(per_labels).first(4)}}}},
-                    {"file"})}}}},
+         {text, object_of({{"file", text},
+                           {std::string(per_key), {{"enum", std::span(draw_level_labels).first(4)}}}},
+                          {"file"})}}}},
       {"observed",
        {{"type", "object"},
         {"additionalProperties",

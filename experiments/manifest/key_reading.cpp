@@ -31,7 +31,7 @@ std::optional<double> read_as_number(const yaml::Field& field, const GeneralKey&
   };
   switch (key.form) {
     case GeneralKey::Form::truth:
-      return number(yaml::read_truth(field, reading.problems));
+      return number(yaml::read_bool(field, reading.problems));
     case GeneralKey::Form::label:
       return number(yaml::read_label(field, key.labels, reading.problems));
     case GeneralKey::Form::whole_number:

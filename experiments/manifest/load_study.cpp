@@ -37,9 +37,9 @@ std::string joined(const yaml::YamlNode& root, const study::Study& study) {
 void require_effect(const study::Study& study, std::string_view source) {
   yaml::Problems problems;
   std::deque<std::string> sources;
-  const yaml::YamlPointer written = yaml::parse_yaml(study.manifest_text, source, false, problems);
-  const yaml::YamlPointer root = apply_overrides(written, study.overrides, sources, problems);
-  report_swept_overrides(*root, study.overrides, sources, problems);
+  const yaml::YamlPointer written = yaml::parse_yaml(study.manifest.text, source, false, problems);
+  const yaml::YamlPointer root = apply_overrides(written, study.manifest.overrides, sources, problems);
+  report_swept_overrides(*root, study.manifest.overrides, sources, problems);
   problems.raise_if_any();
 }
 
@@ -95,10 +95,10 @@ study::Study parse_study(std::string text, std::string_view source,
   study::Study study = read_manifest(*root, version, companions, samples ? &*samples : nullptr, problems);
   problems.raise_if_any();
 
-  study.manifest_sha256 = hash::sha256_hex(text);
+  study.manifest.sha256 = hash::sha256_hex(text);
   study.study_sha256 = hash::sha256_hex(joined(*written, study));
-  study.manifest_text = std::move(text);
-  study.overrides = std::move(overrides);
+  study.manifest.text = std::move(text);
+  study.manifest.overrides = std::move(overrides);
   return study;
 }
 

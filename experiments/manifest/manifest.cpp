@@ -209,8 +209,8 @@ void check_worlds(Manifest& m) {
 // Warns if the worlds do not differ.
 void warn_of_equal_worlds(Manifest& m) {
   if (m.study().worlds == 0) return;
-  for (const study::InputColumn& column : m.study().input_columns) {
-    if (column.per == study::Per::world) return;
+  for (const study::InputColumn& column : m.study().columns.inputs) {
+    if (column.level == study::DrawLevel::world) return;
   }
   const yaml::Field field = yaml::find_field(m.root, "worlds").value();
   m.reading.warnings.push_back(yaml::at_place(field.node->place, field.path,
@@ -235,8 +235,8 @@ void read_retained(Manifest& m) {
 }
 
 // Refuses other keys that need every trial after the run.
-void check_kept(Manifest& m) {
-  if (m.study().kept == study::Kept::trials) return;
+void check_retention(Manifest& m) {
+  if (m.study().retention == study::Retention::trials) return;
   const auto refuse = [&](std::string_view what, const char* expected) {
     m.problems().add(yaml::find_field(m.root, "keep").value(), std::string(what), expected);
   };
@@ -245,7 +245,7 @@ void check_kept(Manifest& m) {
   if (m.study().stop) refuse("stop needs every trial", trials);
   if (m.plan().sequence) refuse("command.sequence needs every trial", trials);
   if (m.study().design == study::Design::saltelli) refuse("design: saltelli needs every trial", trials);
-  if (m.study().kept == study::Kept::failures && m.plan().open_loop)
+  if (m.study().retention == study::Retention::failures && m.plan().open_loop)
     refuse("trials of torque levels have no verdict, so none fails", "keep: statistics or trials");
 }
 
@@ -290,7 +290,7 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, con
   check_points(m.places, m.reading);
   check_travel(m.root, m.reading);
   if (problems.empty()) check_rows(m);
-  if (problems.empty()) check_kept(m);
+  if (problems.empty()) check_retention(m);
   if (problems.empty()) assemble_study(m.reading.profiles, m.axes, *plan, study);
   if (problems.empty()) warn_of_equal_worlds(m);
   study.plugin = plan->plugin;

@@ -155,7 +155,7 @@ std::span<const GeneralKey> general_keys() {
           {"keep",
            "what the results file keeps besides the statistics: trials (default), failures (the trials that "
            "did not succeed) or statistics (no trials)"},
-          kept_labels, &study::Study::kept),
+          retention_labels, &study::Study::retention),
       map({"goal",
            "what the axis must achieve: {band: 1, within: 0.05, moves: 0.99, machines: 0.99, confidence: "
            "0.95}: the error is within 1 count for good after 0.05 s in at least 99 % of the moves of at "

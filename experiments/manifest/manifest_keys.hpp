@@ -78,8 +78,8 @@ constexpr std::int64_t max_study_trials = std::int64_t{1} << 53;
 /// Maximum error band, counts: that of a target.
 constexpr std::int64_t max_band = 1'000'000'000'000;
 
-/// The values of the key `keep`, in the order of the enumeration Kept.
-inline constexpr std::array<std::string_view, 3> kept_labels{"trials", "failures", "statistics"};
+/// The values of the key `keep`, in the order of the enumeration Retention.
+inline constexpr std::array<std::string_view, 3> retention_labels{"trials", "failures", "statistics"};
 
 /// The values of the key `design`, in the order of the enumeration Design.
 inline constexpr std::array<std::string_view, 4> design_labels{"monte_carlo", "latin_hypercube", "sobol",

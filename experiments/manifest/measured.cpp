@@ -33,7 +33,7 @@ void require_all(const parameters::MeasuredParameters& group, std::span<const st
 
 bool is_drawn_per_contact(const study::StudyPlan& plan, std::uint32_t slot) {
   return std::ranges::any_of(study::values_of(plan, slot), [](const study::Value* value) {
-    return value->kind == study::Value::Kind::distribution && value->per == study::Per::contact;
+    return value->kind == study::Value::Kind::distribution && value->level == study::DrawLevel::contact;
   });
 }
 

@@ -81,8 +81,8 @@ YamlPointer without(const YamlPointer& root, std::string_view path) {
 class ManifestTree {
  public:
   explicit ManifestTree(const study::Study& study) : study_(study) {
-    root_ = yaml::parse_yaml(study.manifest_text, study.name, false, problems_);
-    if (root_) root_ = apply_overrides(root_, study.overrides, sources_, problems_);
+    root_ = yaml::parse_yaml(study.manifest.text, study.name, false, problems_);
+    if (root_) root_ = apply_overrides(root_, study.manifest.overrides, sources_, problems_);
     problems_.raise_if_any();
   }
 

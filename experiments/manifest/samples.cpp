@@ -158,14 +158,15 @@ std::optional<std::string> read_table(const yaml::Field& file, const SamplesRead
 }
 
 /// True if the values of the sampled slots are drawn equally often; reports an error if they are not.
-bool check_per(const SamplesTable& table, const std::vector<std::uint32_t>& slots, Reading& reading) {
-  const auto per_of = [&](std::uint32_t slot) { return reading.plan.base[slot].per; };
-  const auto other = std::find_if(slots.begin(), slots.end(),
-                                  [&](std::uint32_t slot) { return per_of(slot) != per_of(slots.front()); });
+bool check_draw_levels(const SamplesTable& table, const std::vector<std::uint32_t>& slots, Reading& reading) {
+  const auto level_of = [&](std::uint32_t slot) { return reading.plan.base[slot].level; };
+  const auto other = std::find_if(slots.begin(), slots.end(), [&](std::uint32_t slot) {
+    return level_of(slot) != level_of(slots.front());
+  });
   if (other == slots.end()) return true;
   const auto text_of = [&](std::uint32_t slot) {
     return fmt::format("{} for each {}", reading.plan.table.rows[slot].name,
-                       per_labels[static_cast<std::size_t>(per_of(slot))]);
+                       draw_level_labels[static_cast<std::size_t>(level_of(slot))]);
   };
   reading.problems.add(table.field,
                        fmt::format("a row is drawn as a whole, but the defaults of `per` differ: {}, and {}",
@@ -234,9 +235,9 @@ void join_samples(const SamplesTable& table, const std::vector<SweptAxis>& axes,
     slots.push_back(static_cast<std::uint32_t>(range->first));
   }
   if (slots.empty()) return;  // the table could not be read, which is reported
-  if (!check_not_swept(table, slots, axes, reading) || !check_per(table, slots, reading)) return;
+  if (!check_not_swept(table, slots, axes, reading) || !check_draw_levels(table, slots, reading)) return;
   reading.study.samples = table.samples;
-  reading.study.samples->per = reading.plan.base[slots.front()].per;
+  reading.study.samples->level = reading.plan.base[slots.front()].level;
   reading.plan.sampled_slots = std::move(slots);
 }
 

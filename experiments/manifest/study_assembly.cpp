@@ -39,7 +39,7 @@ std::vector<bool> swept_slots(const study::StudyPlan& plan) {
 bool differs_between_contacts(const study::StudyPlan& plan, std::size_t slot) {
   const std::vector<const study::Value*> values = study::values_of(plan, slot);
   return std::any_of(values.begin(), values.end(), [](const study::Value* value) {
-    return value->kind == study::Value::Kind::distribution && value->per == study::Per::contact;
+    return value->kind == study::Value::Kind::distribution && value->level == study::DrawLevel::contact;
   });
 }
 
@@ -131,47 +131,47 @@ std::string column_meaning(const parameters::Parameter& parameter, const paramet
 }
 
 // How often the slot's value is drawn; the most frequent of all points.
-study::Per most_frequent_per(const study::StudyPlan& plan, std::size_t slot) {
-  study::Per per = study::Per::study;
+study::DrawLevel most_frequent_level(const study::StudyPlan& plan, std::size_t slot) {
+  study::DrawLevel level = study::DrawLevel::study;
   for (const study::Value* value : study::values_of(plan, slot)) {
     switch (value->kind) {
       case study::Value::Kind::number:
         break;
       case study::Value::Kind::distribution:
-        per = std::max(per, value->per);
+        level = std::max(level, value->level);
         break;
       case study::Value::Kind::profile:  // its value at the trial's start position
-        per = std::max(per, study::Per::trial);
+        level = std::max(level, study::DrawLevel::trial);
         break;
       case study::Value::Kind::following:
         for (const std::uint32_t source : plan.following[value->index].from)
-          per = std::max(per, most_frequent_per(plan, source));
+          level = std::max(level, most_frequent_level(plan, source));
         break;
     }
   }
-  return per;
+  return level;
 }
 
 // How often the mean of the slot's profile is drawn, if it is drawn at some design point.
-std::optional<study::Per> drawn_mean(const study::StudyPlan& plan, std::size_t slot) {
-  std::optional<study::Per> per;
+std::optional<study::DrawLevel> drawn_mean(const study::StudyPlan& plan, std::size_t slot) {
+  std::optional<study::DrawLevel> level;
   for (const study::Value* value : study::values_of(plan, slot)) {
     if (value->kind == study::Value::Kind::profile && plan.profiles[value->index]->drawn_mean())
-      per = std::max(per.value_or(value->per), value->per);
+      level = std::max(level.value_or(value->level), value->level);
   }
-  return per;
+  return level;
 }
 
 void add_column(const study::InputColumn& column, const study::InputSource& source, bool swept,
                 study::StudyPlan& plan, study::Study& study) {
-  study.input_columns.push_back(column);
+  study.columns.inputs.push_back(column);
   plan.inputs.push_back(source);
   if (swept) return;
-  if (column.per == study::Per::rig) {
-    study.rig_columns.push_back(column);
+  if (column.level == study::DrawLevel::rig) {
+    study.columns.rigs.push_back(column);
     plan.rig_inputs.push_back(source);
-  } else if (column.per == study::Per::world) {
-    study.world_columns.push_back(column);
+  } else if (column.level == study::DrawLevel::world) {
+    study.columns.worlds.push_back(column);
     plan.world_inputs.push_back(source);
   }
 }
@@ -184,10 +184,10 @@ void list_input_columns(const std::vector<bool>& swept, study::StudyPlan& plan, 
     const std::string name(parameter.name);
     const std::string unit = parameters::unit_of(parameter, plan.units);
     plan.input_slots.push_back(number);
-    add_column({name, unit, column_meaning(parameter, plan.units), most_frequent_per(plan, slot)},
+    add_column({name, unit, column_meaning(parameter, plan.units), most_frequent_level(plan, slot)},
                {number, false}, swept[slot], plan, study);
-    if (const auto per = drawn_mean(plan, slot)) {
-      add_column({profile_mean_name(name), unit, fmt::format("mean of the profile of {}", name), *per},
+    if (const auto level = drawn_mean(plan, slot)) {
+      add_column({profile_mean_name(name), unit, fmt::format("mean of the profile of {}", name), *level},
                  {number, true}, swept[slot], plan, study);
     }
   }
@@ -211,13 +211,13 @@ void list_profiles(const std::vector<ProfileRequest>& requests, const std::vecto
     const bool asked =
         std::any_of(requests.begin(), requests.end(), [&](const auto& r) { return r.slot == slot; });
     if (!asked) continue;
-    const auto used = profiles_in_use(plan, slot, swept[slot] ? study.point_labels.size() : 1);
+    const auto used = profiles_in_use(plan, slot, swept[slot] ? study.points.labels.size() : 1);
     for (const auto& [index, point] : used) {
       const std::string suffix = used.size() > 1 ? fmt::format("@{}", point) : "";
       const std::shared_ptr<const study::Rotors> rotors = plan.profiles[index];
       study::RealisedProfile profile{std::string(parameter.name) + suffix,
                                      parameters::unit_of(parameter, plan.units), rotors->rotor(0)};
-      if (requests[index].per == study::Per::rig) {
+      if (requests[index].level == study::DrawLevel::rig) {
         profile.of_rig = [rotors](std::int64_t rig) { return rotors->rotor(rig); };
       }
       study.profiles.push_back(std::move(profile));
@@ -232,7 +232,7 @@ study::DrawnMean mean_of(const ProfileRequest& request, const parameters::Parame
   if (study.design == study::Design::sobol) {
     const std::size_t dimension = parameters::sobol_dimension_of_mean(parameter.sobol_dimension);
     mean.randomness.directions = designs::sobol_directions({&dimension, 1}).front();
-    if (request.per == study::Per::rig) mean.worlds = static_cast<std::uint64_t>(study.worlds);
+    if (request.level == study::DrawLevel::rig) mean.worlds = static_cast<std::uint64_t>(study.worlds);
     mean.places = study::sobol_place_key_of_worlds(study.seed);
   }
   return mean;
@@ -247,7 +247,8 @@ void realise_profiles(const std::vector<ProfileRequest>& requests, const study::
     const parameters::Parameter& parameter = plan.table.rows[request.slot];
     std::optional<study::DrawnMean> mean;
     if (request.form.mean) mean = mean_of(request, parameter, study);
-    const std::int64_t count = request.per == study::Per::rig ? std::max<std::int64_t>(study.rigs, 1) : 1;
+    const std::int64_t count =
+        request.level == study::DrawLevel::rig ? std::max<std::int64_t>(study.rigs, 1) : 1;
     auto rotors = std::make_shared<const study::Rotors>(request.form.description, std::move(mean), study.seed,
                                                         parameter.name, count);
     const auto same = std::ranges::find_if(known, [&](const auto& one) { return one->is_same(*rotors); });
@@ -263,8 +264,8 @@ void assemble_study(const std::vector<ProfileRequest>& requests, const std::vect
   study.period = plan.period.value_or(study.period);
   study.moves = plan.sequence ? std::ssize(study.sequence) : listed;
   study.open_loop = plan.open_loop;
-  study.point_labels = label_points(axes);
-  study.axes = describe_axes(axes, plan);
+  study.points.labels = label_points(axes);
+  study.points.axes = describe_axes(axes, plan);
   study.features = study::find_features(plan, study);
   const std::vector<bool> swept = swept_slots(plan);
   list_input_columns(swept, plan, study);

@@ -131,7 +131,7 @@ std::int64_t trials_to_try(std::int64_t points) {
 std::string point_text(const study::Study& study, std::size_t point, std::int64_t different) {
   if (different == 1) return "";
   const std::int64_t others = study::point_count(study) / different - 1;
-  return fmt::format(" at point {} ({}){}", point, study.point_labels[point],
+  return fmt::format(" at point {} ({}){}", point, study.points.labels[point],
                      others > 0 ? fmt::format(" and {} others", others) : "");
 }
 

@@ -29,7 +29,7 @@ study::Value refuse(Reading& reading, const yaml::Field& field, std::string_view
 }
 
 study::Value read_truth_value(const yaml::Field& field, yaml::Problems& problems) {
-  const auto truth = yaml::read_truth(field, problems);
+  const auto truth = yaml::read_bool(field, problems);
   return truth ? number_value(*truth ? 1.0 : 0.0) : unreadable_value();
 }
 
@@ -93,7 +93,7 @@ study::Value read_drawn(const distributions::DistributionForm& form, const yaml:
           .index = static_cast<std::uint32_t>(reading.plan.distributions.size() - 1)};
 }
 
-study::Value read_profile_value(const yaml::Field& field, std::size_t slot, study::Per per,
+study::Value read_profile_value(const yaml::Field& field, std::size_t slot, study::DrawLevel level,
                                 Reading& reading) {
   constexpr std::size_t max_profiles = 1000;
   if (!reading.plan.period) {
@@ -106,10 +106,10 @@ study::Value read_profile_value(const yaml::Field& field, std::size_t slot, stud
     return refuse(reading, field, "there are too many profiles",
                   fmt::format("at most {} in a study", max_profiles));
   }
-  reading.profiles.push_back({slot, *form, per, field.node->place, field.path});
+  reading.profiles.push_back({slot, *form, level, field.node->place, field.path});
   return {.kind = study::Value::Kind::profile,
           .index = static_cast<std::uint32_t>(reading.profiles.size() - 1),
-          .per = per};
+          .level = level};
 }
 
 // The only entry of the map besides `per`, or null.
@@ -138,20 +138,20 @@ study::Value read_map(const yaml::Field& field, std::size_t slot, Reading& readi
         "a number or a distribution other than profile");
     return unreadable_value();
   }
-  study::Per per = usual_per(parameter, drawn, reading.groups);
+  study::DrawLevel level = usual_level(parameter, drawn, reading.groups);
   if (const auto given = yaml::find_field(field, per_key)) {
-    per = read_per(*given, parameter, drawn, reading.groups, reading.problems).value_or(per);
+    level = read_draw_level(*given, parameter, drawn, reading.groups, reading.problems).value_or(level);
   } else if (drawn == Drawn::interval && !reading.groups.worlds) {
     return refuse(reading, field,
                   "a value without a distribution is drawn for each world, and the study has none",
                   "the key worlds, or uniform in place of interval");
   }
-  if (drawn == Drawn::profile) return read_profile_value(yaml::entry_of(field, *entry), slot, per, reading);
+  if (drawn == Drawn::profile) return read_profile_value(yaml::entry_of(field, *entry), slot, level, reading);
   const distributions::DistributionForm* form =
       distributions::find_form(field, *entry, {std::string(profile_name)}, expected, reading.problems);
   if (form == nullptr) return unreadable_value();
   study::Value value = read_drawn(*form, yaml::entry_of(field, *entry), parameter, reading);
-  value.per = per;
+  value.level = level;
   return value;
 }
 
@@ -165,7 +165,7 @@ bool check_rotor(const ProfileRequest& request, const study::Rotors& rotors, std
     return true;  // a fast sufficient test
   const friction::ValueRange values = friction::range_over_revolution(*profile);
   if (numerics::contains(parameter.range, numerics::closed(values.low, values.high))) return true;
-  const std::string of_rig = request.per == study::Per::rig ? fmt::format(" of rig {}", rotor) : "";
+  const std::string of_rig = request.level == study::DrawLevel::rig ? fmt::format(" of rig {}", rotor) : "";
   reading.problems.add(
       request.place, request.path,
       fmt::format("its values {}{}, {:.6g} to {:.6g} with this seed, exceed the allowed range {}",
@@ -206,7 +206,7 @@ study::Value unreadable_value() {
 study::Value read_value(const yaml::Field& field, std::size_t slot, Reading& reading) {
   const parameters::Parameter& parameter = reading.plan.table.rows[slot];
   if (!check_exists(field, parameter, reading)) return unreadable_value();
-  if (parameter.kind == parameters::ParameterKind::truth) return read_truth_value(field, reading.problems);
+  if (parameter.kind == parameters::ParameterKind::boolean) return read_truth_value(field, reading.problems);
   if (parameter.kind == parameters::ParameterKind::enumeration)
     return read_enumeration(field, parameter, reading.problems);
   if (field.node->kind == yaml::YamlNode::Kind::map) return read_map(field, slot, reading);

@@ -16,8 +16,8 @@ namespace zerocount::manifest {
 struct ProfileRequest {
   std::size_t slot{0};  ///< in the plan
   distributions::ProfileForm form;
-  study::Per per{study::Per::study};  ///< study or rig
-  yaml::Place place;                  ///< in the manifest, for messages
+  study::DrawLevel level{study::DrawLevel::study};  ///< study or rig
+  yaml::Place place;                                ///< in the manifest, for messages
   std::string path;
 };
 

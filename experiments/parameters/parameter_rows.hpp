@@ -108,7 +108,7 @@ Parameter bool_row(std::string_view name, std::size_t sobol_dimension, std::stri
                     "1",
                     meaning,
                     source,
-                    ParameterKind::truth,
+                    ParameterKind::boolean,
                     numerics::closed(0, 1),
                     {"false", "true"},
                     sobol_dimension},

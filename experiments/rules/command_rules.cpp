@@ -175,13 +175,13 @@ ValueRule reach_of_the_overrun() {
 }
 
 // The longest travel between consecutive targets, including the start, counts.
-double longest_step(Limits targets) {
+double max_step(Limits targets) {
   return std::ranges::max(longest_travels(targets));
 }
 
 // The longest travel of a sequence, which moves beyond its targets before it reverses, counts.
-double longest_step_of_sequence(Limits targets, const study::ValueLimits& overrun,
-                                const study::SequenceCycle& cycle) {
+double max_step_of_sequence(Limits targets, const study::ValueLimits& overrun,
+                            const study::SequenceCycle& cycle) {
   const study::ValueLimits below{targets.front().low - overrun.high, targets.front().high - overrun.low};
   const study::ValueLimits above{targets.back().low + overrun.low, targets.back().high + overrun.high};
   const bool starts_below = cycle.approach != study::SequenceApproach::negative;
@@ -252,8 +252,7 @@ ValueRule time_of_travel(const parameters::StudyUnits& units,
     slowest.acceleration_limit = l[acceleration].low;
     slowest.jerk_limit = l[jerk].low;
     const double count = longest_count(units.axis, l[fine]);
-    const double step =
-        sequence ? longest_step_of_sequence(targets, l[overrun], *sequence) : longest_step(targets);
+    const double step = sequence ? max_step_of_sequence(targets, l[overrun], *sequence) : max_step(targets);
     // Each end of a travel in rad is rounded to a count.
     const bool si = units.targets == parameters::TargetUnits::si;
     const double counts = si ? std::floor(step / count) + 1.0 : step;

@@ -11,8 +11,8 @@ using Limits = std::span<const study::ValueLimits>;
 using Faults = std::vector<ValueFault>;
 
 // The spring softens over a travel of 1/β.
-constexpr double least_softening = 0.1;
-constexpr double least_counts = 5.0;
+constexpr double min_softening = 0.1;
+constexpr double min_counts = 5.0;
 
 bool has_spring(const study::ValueLimits& model) {
   return friction::has_spring(static_cast<friction::FrictionModel>(static_cast<int>(model.low)));
@@ -34,7 +34,7 @@ ValueRule softening(const std::string& unit, const std::string& micro_unit) {
       {"friction.beta", "friction.breakaway", "friction.k1", "friction.k2", "friction.model"},
       [unit, micro_unit](Limits l) -> Faults {
         const double softening = l[0].typical * range_of(l[2], l[3], l[0], l[1]);
-        if (!has_spring(l[4]) || l[3].typical == 0.0 || softening >= least_softening) return {};
+        if (!has_spring(l[4]) || l[3].typical == 0.0 || softening >= min_softening) return {};
         return {{fmt::format("the spring slides before it softens from k1 + k2 to k1: beta times the "
                              "pre-sliding range is {:.3g}, with beta {:.4g} {}",
                              softening, l[0].typical, unit),
@@ -51,11 +51,11 @@ ValueRule counts_before_sliding(const study::StudyPlan& plan) {
        length = parameters::unit_on(plan.units.axis, "rad")](Limits l) -> Faults {
         const double range = range_of(l[1], l[2], l[3], l[0]);
         const double count = typical_count(plan, l[4].typical);
-        if (!has_spring(l[5]) || range / count >= least_counts) return {};
+        if (!has_spring(l[5]) || range / count >= min_counts) return {};
         return {{fmt::format("the spring yields by {:.3g} counts before it slides: it reaches the breakaway "
                              "of {:.4g} {} after {:.3g} {}, and a count is {:.3g} {}",
                              range / count, l[0].typical, torque, range, length, count, length),
-                 fmt::format("at least {} counts; is a power of ten wrong, or a unit?", least_counts)}};
+                 fmt::format("at least {} counts; is a power of ten wrong, or a unit?", min_counts)}};
       });
 }
 

@@ -14,7 +14,7 @@ using Faults = std::vector<ValueFault>;
 
 constexpr double lowest_natural_frequency = 2.0;  // Hz; that of a positioning axis is tens to hundreds
 
-constexpr double least_delay = 0.01;  // samples; nobody measures less
+constexpr double min_delay = 0.01;  // samples; nobody measures less
 
 /// Stiffness at rest and its name; 0 for a law that is not characterised by these parameters.
 struct Stiffness {
@@ -34,10 +34,10 @@ Stiffness stiffness_at_rest(friction::FrictionModel model, double k1, double k2,
 std::vector<ValueRule> plausible_delay(const study::StudyPlan&) {
   return {plausibility_rule({"controller.delay", "controller.sample_rate"}, [](Limits l) -> Faults {
     const double delay = l[0].typical;
-    if (delay == 0.0 || delay >= least_delay) return {};
+    if (delay == 0.0 || delay >= min_delay) return {};
     return {{fmt::format("a delay of {:.6g} samples is {:.3g} s at {:.6g} Hz", delay, delay / l[1].typical,
                          l[1].typical),
-             fmt::format("a number of samples, 0 or at least {}; {:.6g} s are {:.6g} samples", least_delay,
+             fmt::format("a number of samples, 0 or at least {}; {:.6g} s are {:.6g} samples", min_delay,
                          delay, delay * l[1].typical)}};
   })};
 }

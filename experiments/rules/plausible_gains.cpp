@@ -55,7 +55,7 @@ double per_count(const study::StudyPlan& plan, const Gain& gain, Limits l) {
 }
 
 /// Largest torque of the converter.
-double largest_torque(Limits l) {
+double max_torque(Limits l) {
   loop::DacParameters dac{.bits = static_cast<int>(l[bits].typical), .resolution = l[resolution].typical};
   return l[range].typical > 0.0 ? l[range].typical : -loop::lowest_torque(dac);
 }
@@ -71,7 +71,7 @@ ValueRule within_the_converter(const study::StudyPlan& plan, const Gain& gain) {
         if (l[structure].low != static_cast<double>(loop::ControlStructure::pid)) return {};
         if (coarse && !study::can_have_coarse_phase(l[coarse_beyond])) return {};
         const double torque = per_count(plan, gain, l);
-        const double largest = largest_torque(l);
+        const double largest = max_torque(l);
         if (!(torque > largest)) return {};
         const bool si = plan.units.gains == parameters::GainUnits::si;
         parameters::StudyUnits other = plan.units;

@@ -14,13 +14,13 @@
 namespace zerocount::study {
 
 std::optional<SquareMatrix> cholesky_factor(const SquareMatrix& correlations) {
-  constexpr double smallest_pivot = 1e-6;  // of L: below it a value would follow from the others
+  constexpr double min_pivot = 1e-6;  // of L: below it a value would follow from the others
   const auto size = static_cast<Eigen::Index>(correlations.size());
   Eigen::MatrixXd matrix(size, size);
   for (Eigen::Index i = 0; i < size; ++i)
     matrix.row(i) = Eigen::RowVectorXd::Map(correlations[static_cast<std::size_t>(i)].data(), size);
   matrix = numerics::cholesky_factor(matrix);
-  if (!(matrix.diagonal().minCoeff() >= smallest_pivot)) return std::nullopt;
+  if (!(matrix.diagonal().minCoeff() >= min_pivot)) return std::nullopt;
   SquareMatrix factor = correlations;
   for (Eigen::Index i = 0; i < size; ++i)
     Eigen::RowVectorXd::Map(factor[static_cast<std::size_t>(i)].data(), size) = matrix.row(i);
@@ -53,7 +53,7 @@ std::string samples_text(const JointSamples& samples) {
                                                   "each contact"};
   return fmt::format("{}: a row of {} ({} draw{}) for {}", fmt::join(samples.parameters, ", "), samples.file,
                      samples.rows, samples.rows == 1 ? "" : "s",
-                     names[static_cast<std::size_t>(samples.per)]);
+                     names[static_cast<std::size_t>(samples.level)]);
 }
 
 }  // namespace zerocount::study

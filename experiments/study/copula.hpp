@@ -14,9 +14,9 @@ using SquareMatrix = std::vector<std::vector<double>>;  ///< [row][column]
 /// A Gaussian copula: the normal scores zᵢ = Φ⁻¹(uᵢ) of the values of some slots are correlated by R, and the
 /// distribution of each value stays its own (Nelsen, An Introduction to Copulas, 2nd ed., 2006, section 2.3).
 struct GaussianCopula {
-  std::vector<std::uint32_t> slots;  ///< in the order of columns
-  Per per{Per::trial};               ///< how often all of them are drawn: world, rig or trial
-  SquareMatrix factor;               ///< L, lower triangular, R = L·Lᵀ
+  std::vector<std::uint32_t> slots;   ///< in the order of columns
+  DrawLevel level{DrawLevel::trial};  ///< how often all of them are drawn: world, rig or trial
+  SquareMatrix factor;                ///< L, lower triangular, R = L·Lᵀ
 };
 
 /// L of the correlation matrix R; nothing if R is not positive definite.

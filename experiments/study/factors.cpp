@@ -13,7 +13,7 @@ namespace {
 bool is_drawn_somewhere(const StudyPlan& plan, std::size_t slot) {
   const std::vector<const Value*> values = values_of(plan, slot);
   return std::any_of(values.begin(), values.end(), [](const Value* value) {
-    return value->kind == Value::Kind::distribution && value->per != Per::study;
+    return value->kind == Value::Kind::distribution && value->level != DrawLevel::study;
   });
 }
 

@@ -13,15 +13,15 @@ bool is_of_the_move(std::string_view name) {
 
 }  // namespace
 
-bool differs_between_machines(const Study& study, Per per, std::string_view name) {
-  switch (per) {
-    case Per::world:
-    case Per::rig:
+bool differs_between_machines(const Study& study, DrawLevel level, std::string_view name) {
+  switch (level) {
+    case DrawLevel::world:
+    case DrawLevel::rig:
       return true;
-    case Per::trial:
+    case DrawLevel::trial:
       return study.rigs == 0 && !is_of_the_move(name);
-    case Per::study:
-    case Per::contact:
+    case DrawLevel::study:
+    case DrawLevel::contact:
       break;
   }
   return false;
@@ -36,7 +36,7 @@ std::vector<MachineInput> machine_inputs(const Study& study, std::int64_t point)
   for (const std::uint32_t slot : plan.input_slots) {
     if (values[slot]->kind != Value::Kind::distribution) continue;
     const std::string name(plan.table.rows[slot].name);
-    const bool differs = differs_between_machines(study, values[slot]->per, name);
+    const bool differs = differs_between_machines(study, values[slot]->level, name);
     if (std::ranges::find(plan.sampled_slots, slot) != plan.sampled_slots.end()) {
       joint.name += (joint.name.empty() ? "" : ", ") + name;
       joint.slots.push_back(slot);

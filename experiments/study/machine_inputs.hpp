@@ -12,7 +12,7 @@ namespace zerocount::study {
 /// Whether a value that is drawn so often differs between machines but not between the moves of one: drawn
 /// per world or rig; without rigs also per trial, unless it is of the command or the initial conditions.
 /// @param name dotted path
-bool differs_between_machines(const Study& study, Per per, std::string_view name);
+bool differs_between_machines(const Study& study, DrawLevel level, std::string_view name);
 
 /// A drawn quantity of a machine.
 struct MachineInput {

@@ -20,8 +20,6 @@
 
 namespace zerocount::study {
 
-// The compiled form of a manifest. A slot stores one value of a trial: that of a row of the study's table.
-
 /// The value of one slot in the manifest.
 struct Value {
   enum class Kind : std::uint8_t {
@@ -31,9 +29,9 @@ struct Value {
     following  ///< computed from the values of other slots
   };
   Kind kind{Kind::number};
-  std::uint32_t index{0};  ///< into the plan's distributions, profiles or following values
-  Per per{Per::trial};     ///< how often it is drawn; for a profile study or rig
-  double number{0.0};      ///< if kind is number
+  std::uint32_t index{0};             ///< into the plan's distributions, profiles or following values
+  DrawLevel level{DrawLevel::trial};  ///< how often it is drawn; for a profile study or rig
+  double number{0.0};                 ///< if kind is number
 };
 
 /// A value that follows from those of other slots, which are numbers or distributions.
@@ -76,6 +74,16 @@ inline std::size_t factor_count(const TrialFactors& factors) {
   return factors.slots.size() + (factors.within_trial ? 1 : 0);
 }
 
+/// The compiled form of a manifest: the value or distribution of every parameter at every design point, and
+/// the random numbers that each of them draws. A *slot* stands for one number of a trial: a row of `table`. A
+/// trial is made from it in three steps:
+///
+///     value(slot) = assignment of the last axis that has the slot at this point, otherwise base[slot]
+///     number(slot) = its number, the quantile of its distribution at the slot's uniform number, or what
+///     follows parameters = common, with number(slot) set for the slots in input_slots and those that axes
+///     assign
+///
+/// study_trial() (study.hpp) does this, point_limits.hpp has the limits of a slot over all trials.
 struct StudyPlan {
   parameters::StudyUnits units;
   /// Period of profiles: a revolution, rad; on a linear axis the travel, m, if it is given.

@@ -12,14 +12,14 @@ namespace {
 
 using Kind = RandomCoordinate::Kind;
 
-bool is_drawn_for_trials(Per per) {
-  switch (per) {
-    case Per::rig:
-    case Per::trial:
-    case Per::contact:
+bool is_drawn_for_trials(DrawLevel level) {
+  switch (level) {
+    case DrawLevel::rig:
+    case DrawLevel::trial:
+    case DrawLevel::contact:
       return true;
-    case Per::study:
-    case Per::world:
+    case DrawLevel::study:
+    case DrawLevel::world:
       break;
   }
   return false;
@@ -38,12 +38,12 @@ void add_coordinates(const Study& study, std::uint32_t slot, const Value& value,
     case Value::Kind::following:
       break;
     case Value::Kind::distribution:
-      if (is_drawn_for_trials(value.per))
+      if (is_drawn_for_trials(value.level))
         coordinates.push_back(
-            {name, Kind::values, {slot}, 0, differs_between_machines(study, value.per, name)});
+            {name, Kind::values, {slot}, 0, differs_between_machines(study, value.level, name)});
       break;
     case Value::Kind::profile:
-      if (value.per != Per::rig) break;
+      if (value.level != DrawLevel::rig) break;
       if (study.plan->profiles[value.index]->drawn_mean())
         coordinates.push_back({name + ".mean", Kind::profile_mean, {slot}, 0, true});
       coordinates.push_back({name, Kind::profile_at_start, {slot}, 0, true});
@@ -55,7 +55,7 @@ void add_coordinates(const Study& study, std::uint32_t slot, const Value& value,
 void add_fixed_members(const Study& study, const std::vector<const Value*>& values,
                        std::vector<RandomCoordinate>& coordinates) {
   const std::optional<GaussianCopula>& copula = study.plan->copula;
-  if (!copula || !is_drawn_for_trials(copula->per)) return;
+  if (!copula || !is_drawn_for_trials(copula->level)) return;
   for (const std::uint32_t slot : copula->slots) {
     if (values[slot]->kind == Value::Kind::distribution) continue;
     const std::string name(study.plan->table.rows[slot].name);
@@ -63,7 +63,7 @@ void add_fixed_members(const Study& study, const std::vector<const Value*>& valu
                            Kind::values,
                            {slot},
                            0,
-                           differs_between_machines(study, copula->per, name)});
+                           differs_between_machines(study, copula->level, name)});
   }
 }
 
@@ -97,10 +97,10 @@ std::vector<RandomCoordinate> random_coordinates(const Study& study, std::int64_
   for (const std::uint32_t slot : plan.input_slots) {
     if (!is_member(plan.sampled_slots, slot)) {
       add_coordinates(study, slot, *values[slot], coordinates);
-    } else if (is_drawn_for_trials(values[slot]->per)) {
+    } else if (is_drawn_for_trials(values[slot]->level)) {
       joint.name += (joint.name.empty() ? "" : ", ") + std::string(plan.table.rows[slot].name);
-      joint.of_machine =
-          joint.of_machine && differs_between_machines(study, values[slot]->per, plan.table.rows[slot].name);
+      joint.of_machine = joint.of_machine &&
+                         differs_between_machines(study, values[slot]->level, plan.table.rows[slot].name);
       joint.slots.push_back(slot);
     }
   }

@@ -21,7 +21,7 @@ namespace zerocount::study {
 enum class Design { monte_carlo, latin_hypercube, sobol, saltelli };
 
 /// How often a random value is drawn: once per study, world, rig, trial or contact. In order of frequency.
-enum class Per : std::uint8_t {
+enum class DrawLevel : std::uint8_t {
   study,
   world,  ///< what all machines share, and nobody knows
   rig,
@@ -53,10 +53,11 @@ struct SweepAxis {
 
 /// One column of trial inputs: a parameter that differs between trials or points.
 struct InputColumn {
-  std::string name;     ///< dotted path, e.g. "friction.k1" or "command.targets.0"
-  std::string unit;     ///< "1" where dimensionless
-  std::string meaning;  ///< one line, from the table of parameters
-  Per per{Per::study};  ///< how often it is drawn, the most frequent of all points; study if it is not drawn
+  std::string name;                   ///< dotted path, e.g. "friction.k1" or "command.targets.0"
+  std::string unit;                   ///< "1" where dimensionless
+  std::string meaning;                ///< one line, from the table of parameters
+  DrawLevel level{DrawLevel::study};  ///< how often it is drawn, the most frequent of all points; study if it
+                                      ///< is not drawn
 };
 
 /// A friction profile realised for this study's seed.
@@ -81,7 +82,7 @@ struct JointSamples {
   std::string text;                     ///< of the table
   std::vector<std::string> parameters;  ///< [column] dotted path
   std::int64_t rows{0};
-  Per per{Per::trial};  ///< how often a row is drawn
+  DrawLevel level{DrawLevel::trial};  ///< how often a row is drawn
 };
 
 /// One move of a sequence (`command.sequence`).
@@ -146,7 +147,7 @@ struct Goal {
 };
 
 /// The trials that a results file keeps beside the statistics.
-enum class Kept {
+enum class Retention {
   trials,     ///< all
   failures,   ///< those that did not succeed in all their moves
   statistics  ///< none
@@ -158,56 +159,72 @@ struct ObservedCounts {
   std::int64_t of{1};         ///< trials, all on one rig
 };
 
-struct StudyPlan;  // compiled form of the manifest, private to this folder
+/// A manifest as it was given.
+struct ManifestSource {
+  std::string text;                    ///< exact bytes
+  std::string sha256;                  ///< of the text, lower-case hexadecimal
+  std::vector<std::string> overrides;  ///< "key=value", as given with --set, in order
+};
+
+/// The design points of a study.
+struct DesignPoints {
+  std::vector<std::string> labels;  ///< [point]
+  std::vector<SweepAxis> axes;      ///< of the sweep
+};
+
+/// What differs between the trials, rigs and worlds of a study: the columns of its tables of inputs.
+struct InputColumns {
+  std::vector<InputColumn> inputs;  ///< of trials
+  std::vector<InputColumn> rigs;    ///< drawn for each rig, the same at all points; empty without rigs
+  std::vector<InputColumn> worlds;  ///< drawn for each world, likewise
+};
+
+struct StudyPlan;  // see plan.hpp
 
 /// The checked contents of one manifest: everything that determines its trials.
 struct Study {
+  // What the manifest says.
+  ManifestSource manifest;
   std::string name;
   std::string description;
+  std::vector<std::string> warnings;  ///< possibly unintended input, one line each
+
+  // What it means: the trials to run and the question to answer.
   parameters::StudyUnits units;
   double period{
       2.0 * std::numbers::pi};  ///< period of profiles along the axis: a revolution, rad; or the travel, m
   std::uint64_t seed{0};
-  std::int64_t trials{0};            ///< per design point; the maximum with `stop`
-  std::int64_t rigs{0};              ///< number of rigs; 0: no trials share a rig
-  std::int64_t worlds{0};            ///< number of worlds, which divides `rigs`; 0: nothing is drawn for each
-  std::optional<StoppingRule> stop;  ///< set for sequential stopping
-  std::optional<Goal> goal{};
-  std::optional<Tuning> tuning{};
+  std::int64_t trials{0};  ///< per design point; the maximum with `stop`
+  std::int64_t rigs{0};    ///< number of rigs; 0: no trials share a rig
+  std::int64_t worlds{0};  ///< number of worlds, which divides `rigs`; 0: nothing is drawn for each
   Design design{Design::monte_carlo};
+  bool independent_points{false};
   std::vector<Correlation> correlations;  ///< of drawn parameters; all others are independent
   std::optional<JointSamples> samples;    ///< joint draws of several parameters
-  std::vector<std::string> factors;       ///< factors of the design saltelli, in its order; otherwise empty
-  bool independent_points{false};
-  Engine engine{Engine::batch};  ///< chosen for the run; not part of the manifest
-
-  std::string manifest_text;           ///< exact bytes of the manifest
-  std::string manifest_sha256;         ///< of manifest_text, lower-case hexadecimal
-  std::vector<std::string> overrides;  ///< "key=value", as given with --set, in order
-  /// The user's controller, which runs the trials if it is loaded; null: there is none.
-  std::shared_ptr<const plugin::ControllerPlugin> plugin;
-  /// Hash of the values of manifest and overrides, of plugin and samples: equal hashes mean the same trials.
-  std::string study_sha256;
-
-  std::vector<std::string> point_labels;  ///< [point]
-  std::vector<SweepAxis> axes;
-  std::vector<InputColumn> input_columns;
-  std::vector<InputColumn>
-      rig_columns;  ///< columns drawn for each rig, the same at all points; empty without rigs
-  std::vector<InputColumn> world_columns;  ///< likewise of each world
-  std::vector<RealisedProfile> profiles;
+  std::optional<StoppingRule> stop;       ///< set for sequential stopping
+  std::optional<Goal> goal{};
+  std::optional<Tuning> tuning{};
   std::map<std::string, std::string>
       observed;  ///< point label → observation on the real rig (the text of a case for all its points)
   std::map<std::string, ObservedCounts> observed_counts;  ///< point label → its counts, where it has any
   std::vector<std::int64_t> retained_trials;  ///< trial indices whose traces are kept, at every point
-  Kept kept{Kept::trials};
+  Retention retention{Retention::trials};
+  /// The user's controller, which runs the trials if it is loaded; null: there is none.
+  std::shared_ptr<const plugin::ControllerPlugin> plugin;
+  Engine engine{Engine::batch};  ///< chosen for the run; not part of the manifest
+
+  // What was compiled from it.
+  /// Hash of the values of manifest and overrides, of plugin and samples: equal hashes mean the same trials.
+  std::string study_sha256;
+  DesignPoints points;
+  InputColumns columns;
+  std::vector<std::string> factors;  ///< factors of the design saltelli, in its order; otherwise empty
+  std::vector<RealisedProfile> profiles;
   std::int64_t moves{1};               ///< per trial
   std::vector<SequenceMove> sequence;  ///< [move]; empty without a sequence
   bool open_loop{false};               ///< the moves are torque levels, without targets
   StudyFeatures features;
-  std::vector<std::string> warnings;  ///< possibly unintended input, one line each
-
-  std::shared_ptr<const StudyPlan> plan;
+  std::shared_ptr<const StudyPlan> plan;  ///< from which study_trial() makes the parameters of a trial
 };
 
 /// The parameters of one trial, and its inputs as stored in the results file.
@@ -230,7 +247,7 @@ std::string samples_text(const JointSamples& samples);
 std::string correlations_text(const std::vector<Correlation>& correlations);
 
 inline std::int64_t point_count(const Study& study) {
-  return static_cast<std::int64_t>(study.point_labels.size());
+  return static_cast<std::int64_t>(study.points.labels.size());
 }
 inline std::int64_t trial_count(const Study& study) {
   return point_count(study) * study.trials;

@@ -52,19 +52,19 @@ std::uint64_t source_trial(const TrialDraws& draws, std::uint32_t slot) {
                                   factor_count(draws.plan().factors));
 }
 
-double drawn_uniform(const TrialDraws& draws, std::uint32_t slot, Per per) {
+double drawn_uniform(const TrialDraws& draws, std::uint32_t slot, DrawLevel level) {
   const Study& study = draws.study;
   const SlotRandomness& randomness = draws.plan().randomness[slot];
-  switch (per) {
-    case Per::study:
+  switch (level) {
+    case DrawLevel::study:
       return design_uniform(study.design, randomness, 0, 0, 1);
-    case Per::world:
+    case DrawLevel::world:
       return design_uniform(Design::latin_hypercube, randomness, 0, draws.world,
                             static_cast<std::uint64_t>(study.worlds));
-    case Per::rig:
+    case DrawLevel::rig:
       return design_uniform(study.design, randomness, 0, draws.rig, static_cast<std::uint64_t>(study.rigs));
-    case Per::trial:
-    case Per::contact:
+    case DrawLevel::trial:
+    case DrawLevel::contact:
       break;
   }
   return design_uniform(study.design, randomness, draws.stream, source_trial(draws, slot),
@@ -72,15 +72,15 @@ double drawn_uniform(const TrialDraws& draws, std::uint32_t slot, Per per) {
 }
 
 /// The uniform number of a drawn value, with the copula of the study.
-double uniform_of(const TrialDraws& draws, std::uint32_t slot, Per per) {
+double uniform_of(const TrialDraws& draws, std::uint32_t slot, DrawLevel level) {
   const auto given = draws.given.uniforms.find(slot);
   if (given != draws.given.uniforms.end()) return given->second;
   const std::optional<GaussianCopula>& copula = draws.plan().copula;
-  if (!copula) return drawn_uniform(draws, slot, per);
+  if (!copula) return drawn_uniform(draws, slot, level);
   const auto member = std::find(copula->slots.begin(), copula->slots.end(), slot);
-  if (member == copula->slots.end()) return drawn_uniform(draws, slot, per);
+  if (member == copula->slots.end()) return drawn_uniform(draws, slot, level);
   return copula_uniform(*copula, static_cast<std::size_t>(member - copula->slots.begin()),
-                        [&](std::size_t j) { return drawn_uniform(draws, copula->slots[j], copula->per); });
+                        [&](std::size_t j) { return drawn_uniform(draws, copula->slots[j], copula->level); });
 }
 
 friction::ContactParameter contact_parameter(const TrialDraws& draws, std::uint32_t slot,
@@ -97,7 +97,7 @@ friction::ContactParameter contact_parameter(const TrialDraws& draws, std::uint3
 }
 
 std::int64_t rotor_of(const TrialDraws& draws, const Value& profile) {
-  if (profile.per != Per::rig) return 0;
+  if (profile.level != DrawLevel::rig) return 0;
   return draws.given.rotor.value_or(static_cast<std::int64_t>(draws.index) % draws.study.rigs);
 }
 
@@ -183,7 +183,7 @@ double base_number(const TrialDraws& draws, std::uint32_t slot) {
   const Value& value = plan.base[slot];
   switch (value.kind) {
     case Value::Kind::distribution:
-      return distributions::quantile(plan.distributions[value.index], uniform_of(draws, slot, value.per));
+      return distributions::quantile(plan.distributions[value.index], uniform_of(draws, slot, value.level));
     case Value::Kind::following:
       return following_value(plan.following[value.index],
                              [&](std::uint32_t source) { return base_number(draws, source); });
@@ -235,7 +235,7 @@ std::optional<std::uint32_t> contact_source(const TrialDraws& draws, const Follo
                                             std::int64_t point) {
   const auto source = std::ranges::find_if(following.from, [&](std::uint32_t slot) {
     const Value& value = value_of(draws.plan(), slot, point);
-    return value.kind == Value::Kind::distribution && value.per == Per::contact;
+    return value.kind == Value::Kind::distribution && value.level == DrawLevel::contact;
   });
   return source == following.from.end() ? std::nullopt : std::optional(*source);
 }
@@ -268,8 +268,8 @@ TrialInProgress begin_trial(const TrialDraws& draws, std::int64_t point) {
       t.set(slot, value.number);
     } else if (value.kind == Value::Kind::distribution) {
       t.set(slot,
-            distributions::quantile(plan.distributions[value.index], uniform_of(draws, slot, value.per)));
-      if (value.per == Per::contact && plan.table.rows[slot].profiled != nullptr)
+            distributions::quantile(plan.distributions[value.index], uniform_of(draws, slot, value.level)));
+      if (value.level == DrawLevel::contact && plan.table.rows[slot].profiled != nullptr)
         t.trial.parameters.friction.per_contact.push_back(contact_parameter(draws, slot, value));
     }
   }
@@ -337,7 +337,7 @@ std::vector<double> drawn_quantiles(const Study& study, std::int64_t point, std:
   for (const MachineInput& input : inputs) {
     const std::uint32_t slot = input.slots.front();
     const Value& value = *value_at_point(*study.plan, slot, static_cast<std::size_t>(point));
-    quantiles.push_back(uniform_of(draws, slot, value.per));
+    quantiles.push_back(uniform_of(draws, slot, value.level));
   }
   return quantiles;
 }
@@ -357,13 +357,14 @@ std::vector<WorldValues> world_values(const Study& study, std::int64_t point) {
   const GivenDraws none;
   for (const std::uint32_t slot : plan.input_slots) {
     const Value& value = *value_at_point(plan, slot, static_cast<std::size_t>(point));
-    if (value.kind != Value::Kind::distribution || value.per != Per::world) continue;
+    if (value.kind != Value::Kind::distribution || value.level != DrawLevel::world) continue;
     const parameters::Parameter& parameter = plan.table.rows[slot];
     WorldValues& values = found.emplace_back(
         WorldValues{std::string(parameter.name), parameters::unit_of(parameter, plan.units), {}});
     for (std::int64_t world = 0; world < study.worlds; ++world) {
-      values.values.push_back(distributions::quantile(
-          plan.distributions[value.index], uniform_of(draws_of(study, point, world, none), slot, value.per)));
+      values.values.push_back(
+          distributions::quantile(plan.distributions[value.index],
+                                  uniform_of(draws_of(study, point, world, none), slot, value.level)));
     }
   }
   return found;

@@ -194,7 +194,7 @@ std::optional<std::uint64_t> read_seed(const Field& field, Problems& problems) {
   return read_whole_of<std::uint64_t>(field, 0, std::numeric_limits<std::uint64_t>::max(), problems);
 }
 
-std::optional<bool> read_truth(const Field& field, Problems& problems) {
+std::optional<bool> read_bool(const Field& field, Problems& problems) {
   const YamlNode& node = *field.node;
   if (is_plain_scalar(node) && (node.text == "true" || node.text == "false")) return node.text == "true";
   const std::string what =

@@ -38,7 +38,7 @@ std::optional<std::int64_t> read_whole(const Field& field, std::int64_t low, std
 std::optional<std::uint64_t> read_seed(const Field& field, Problems& problems);
 
 /// `true` or `false`.
-std::optional<bool> read_truth(const Field& field, Problems& problems);
+std::optional<bool> read_bool(const Field& field, Problems& problems);
 
 /// Index of the field's text in `labels`.
 std::optional<std::size_t> read_label(const Field& field, std::span<const std::string_view> labels,

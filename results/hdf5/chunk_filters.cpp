@@ -97,14 +97,14 @@ std::vector<std::byte> deflate(std::span<const std::byte> bytes, int level) {
   const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
       libdeflate_alloc_compressor(level), libdeflate_free_compressor);
   if (!compressor) throw std::bad_alloc();
-  constexpr std::size_t largest_block = 15 * page;                  // of at most 65 535 bytes
+  constexpr std::size_t max_block = 15 * page;                      // of at most 65 535 bytes
   std::vector<std::byte> stream{std::byte{0x78}, std::byte{0x01}};  // window of 32 kB, fastest
   const std::size_t stored = random_front(bytes);
   const std::span<const std::byte> rest = bytes.subspan(stored);
   const std::size_t bound = libdeflate_deflate_compress_bound(compressor.get(), rest.size());
   stream.reserve(stored + stored / page + bound + 16);
-  for (std::size_t at = 0; at < stored; at += largest_block)
-    append_stored_block(stream, bytes.subspan(at, std::min(largest_block, stored - at)));
+  for (std::size_t at = 0; at < stored; at += max_block)
+    append_stored_block(stream, bytes.subspan(at, std::min(max_block, stored - at)));
   const std::size_t start = stream.size();
   stream.resize(start + bound);
   stream.resize(start + libdeflate_deflate_compress(compressor.get(), rest.data(), rest.size(),

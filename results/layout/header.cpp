@@ -43,11 +43,11 @@ std::string_view format_name(const FileHeader& header) {
     case FileKind::study:
       break;
   }
-  return formats[has_sums(header.kept) ? 1 : 0].name;
+  return formats[has_sums(header.retention) ? 1 : 0].name;
 }
 
-std::string_view keep_label(study::Kept kept) {
-  return manifest::kept_labels[static_cast<std::size_t>(kept)];
+std::string_view retention_label(study::Retention retention) {
+  return manifest::retention_labels[static_cast<std::size_t>(retention)];
 }
 
 /// A text with a zero byte would be cut there without a word.
@@ -106,14 +106,15 @@ const Format& read_format(const hdf5::File& file) {
                                                   name, formats.front().name));
 }
 
-study::Kept read_kept(const hdf5::File& file) {
-  if (!file.has_attribute("keep")) return study::Kept::trials;
+study::Retention read_retention(const hdf5::File& file) {
+  if (!file.has_attribute("keep")) return study::Retention::trials;
   const std::string name = file.text("keep");
-  for (const study::Kept kept : {study::Kept::failures, study::Kept::statistics}) {
-    if (name == keep_label(kept)) return kept;
+  for (const study::Retention retention : {study::Retention::failures, study::Retention::statistics}) {
+    if (name == retention_label(retention)) return retention;
   }
   file.fail(fmt::format("its attribute 'keep' is '{}'; expected '{}' or '{}'", name,
-                        keep_label(study::Kept::failures), keep_label(study::Kept::statistics)));
+                        retention_label(study::Retention::failures),
+                        retention_label(study::Retention::statistics)));
 }
 
 std::int64_t read_version(const hdf5::File& file) {
@@ -165,20 +166,20 @@ RareFile::RareFile(const std::filesystem::path& path)
                   "an estimate of 'zerocount rare', which holds no trials of the study; expected a results "
                   "file of 'zerocount run'") {}
 
-bool has_trials(study::Kept kept) {
-  return kept != study::Kept::statistics;
+bool has_trials(study::Retention retention) {
+  return retention != study::Retention::statistics;
 }
 
-bool has_sums(study::Kept kept) {
-  return kept != study::Kept::trials;
+bool has_sums(study::Retention retention) {
+  return retention != study::Retention::trials;
 }
 
 void require_every_trial(const std::filesystem::path& path, const FileHeader& header) {
-  if (!has_sums(header.kept)) return;
-  throw ForeignFile(path,
-                    fmt::format("it was made with keep: {}, and this needs every trial; a run with keep: {} "
-                                "has them, and 'zerocount summary' reads this file",
-                                keep_label(header.kept), keep_label(study::Kept::trials)));
+  if (!has_sums(header.retention)) return;
+  throw ForeignFile(
+      path, fmt::format("it was made with keep: {}, and this needs every trial; a run with keep: {} "
+                        "has them, and 'zerocount summary' reads this file",
+                        retention_label(header.retention), retention_label(study::Retention::trials)));
 }
 
 std::string_view name_of(study::Engine engine) {
@@ -191,7 +192,7 @@ RowRange all_rows(const study::Study& study) {
 
 FileHeader make_header(const study::Study& study, FileKind kind, RowRange rows, Provenance provenance) {
   return {kind,
-          study.kept,
+          study.retention,
           format_version,
           study.name,
           std::move(provenance),
@@ -202,9 +203,9 @@ FileHeader make_header(const study::Study& study, FileKind kind, RowRange rows, 
           rows,
           kind == FileKind::study && rows == all_rows(study),
           false,
-          study.manifest_text,
-          study.overrides,
-          study.manifest_sha256,
+          study.manifest.text,
+          study.manifest.overrides,
+          study.manifest.sha256,
           study.study_sha256,
           study.plugin ? std::optional(study.plugin->description) : std::nullopt,
           study.samples ? std::optional(study.samples->text) : std::nullopt};
@@ -212,8 +213,8 @@ FileHeader make_header(const study::Study& study, FileKind kind, RowRange rows, 
 
 void write_header(hdf5::File& file, const FileHeader& header) {
   file.set_text("format", std::string(format_name(header)));
-  if (has_sums(header.kept) && header.kind != FileKind::rare) {
-    file.set_text("keep", std::string(keep_label(header.kept)));
+  if (has_sums(header.retention) && header.kind != FileKind::rare) {
+    file.set_text("keep", std::string(retention_label(header.retention)));
     file.set_text("sums_form", sums_form());
   }
   file.set_integer("format_version", format_version);
@@ -253,7 +254,7 @@ namespace {
 FileHeader read_any_header(const hdf5::File& file) {
   FileHeader header;
   header.kind = read_format(file).kind;
-  header.kept = read_kept(file);
+  header.retention = read_retention(file);
   header.version = read_version(file);
   header.name = file.text("name");
   header.provenance = {file.text("zerocount_version"), file.text("git_commit"), file.text("compiler"),
@@ -334,7 +335,7 @@ std::string differences_from(const std::filesystem::path& path, const FileHeader
                              const study::Study& study) {
   return manifest::differences_text(manifest::manifest_differences(
       manifest::values_of(header.manifest, path.string() + ":/manifest", header.overrides),
-      manifest::values_of(study.manifest_text, study.name, study.overrides)));
+      manifest::values_of(study.manifest.text, study.name, study.manifest.overrides)));
 }
 
 void require_same_study(const std::filesystem::path& path, const FileHeader& header,

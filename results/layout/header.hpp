@@ -40,15 +40,15 @@ enum class FileKind {
 };
 
 /// Whether files of a study with this `keep` have the tables of trials: of every trial, or of the failures.
-bool has_trials(study::Kept kept);
+bool has_trials(study::Retention retention);
 /// Whether they have /sums, from which the statistics of the design points follow: exactly those that do not
 /// have every trial.
-bool has_sums(study::Kept kept);
+bool has_sums(study::Retention retention);
 
 /// The description of a results file: the attributes of its root, and the manifest.
 struct FileHeader {
   FileKind kind{FileKind::study};
-  study::Kept kept{study::Kept::trials};
+  study::Retention retention{study::Retention::trials};
   std::int64_t version{format_version};  ///< of the layout
   std::string name;
   Provenance provenance;

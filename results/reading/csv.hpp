@@ -19,7 +19,7 @@ std::string value_text(const layout::RecordField<Record>& field, const Record& r
   const double value = layout::value_of(field, record);
   if (field.column.element == hdf5::Element::float64) return number_text(value);
   const auto whole = static_cast<std::int64_t>(value);
-  return field.column.element == hdf5::Element::int8 ? layout::word_of(field.column, whole)
+  return field.column.element == hdf5::Element::int8 ? layout::value_text(field.column, whole)
                                                      : std::to_string(whole);
 }
 

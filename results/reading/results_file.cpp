@@ -121,8 +121,13 @@ ResultsFile::ResultsFile(const std::filesystem::path& path, Require require,
       file_(layout::open_results(
           path, require == Require::unfinished ? layout::Checksum::not_yet : layout::Checksum::required)),
       header_(read_required(file_, path, require)) {
-  if (layout::has_trials(header_.kept)) trials_.emplace(file_, header_, table);
-  if (layout::has_sums(header_.kept)) sums_.emplace(file_, points());
+  if (layout::has_trials(header_.retention)) trials_.emplace(file_, header_, table);
+  if (layout::has_sums(header_.retention)) sums_.emplace(file_, points());
+}
+
+const study::Study& ResultsFile::study() const {
+  if (!study_) study_ = std::make_shared<const study::Study>(layout::recorded_study(header_, path_));
+  return *study_;
 }
 
 std::vector<std::string> ResultsFile::point_labels() const {

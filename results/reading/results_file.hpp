@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,6 +60,9 @@ class ResultsFile {
 
   const std::filesystem::path& path() const { return path_; }
   const layout::FileHeader& header() const { return header_; }
+  /// The study whose trials the file holds, without the user's controller (see layout::recorded_study). Its
+  /// manifest is parsed by the first call.
+  const study::Study& study() const;
   const hdf5::Group& root() const { return file_; }  ///< for groups that this class does not know
   layout::RowRange rows() const { return header_.rows; }
 
@@ -100,6 +104,7 @@ class ResultsFile {
   std::filesystem::path path_;
   hdf5::File file_;
   layout::FileHeader header_;
+  mutable std::shared_ptr<const study::Study> study_;
   std::optional<TrialTables> trials_;
   std::optional<StoredSums> sums_;
 };

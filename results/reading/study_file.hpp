@@ -16,11 +16,11 @@ namespace zerocount::reading {
 /// A results file that keeps every trial, open to be read. Rows are global rows, here and in the file. Every
 /// function may find that the file is damaged, or holds impossible values (see validation.hpp), and throws
 /// Failure (bad_data) then; what the functions return is described at TrialTables. One thread at a time.
-class StudyFile : public ResultsFile {
+class AllTrialsFile : public ResultsFile {
  public:
   /// @throws as ResultsFile does, and ForeignFile for a file that does not keep every trial
-  explicit StudyFile(const std::filesystem::path& path, Require require = Require::complete,
-                     const layout::MeasureTable* table = nullptr);
+  explicit AllTrialsFile(const std::filesystem::path& path, Require require = Require::complete,
+                         const layout::MeasureTable* table = nullptr);
 
   parameters::AxisKind axis() const { return features().axis; }
   std::int64_t moves() const { return trials()->moves(); }

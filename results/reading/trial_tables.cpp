@@ -89,7 +89,7 @@ TrialTables::TrialTables(const hdf5::File& file, const layout::FileHeader& heade
       outcomes_(layout::TableIo::open(file, layout::outcome_table(header.version, features_, *table_))),
       jerks_(layout::TableIo::open(file, layout::jerk_table())) {
   if (file.contains("trace")) trace_ = layout::TableIo::open(file, layout::trace_table(features_));
-  if (!layout::has_sums(header.kept)) first_row_ = header.rows.first;
+  if (!layout::has_sums(header.retention)) first_row_ = header.rows.first;
   if (first_row_ && trials_.rows() != header.rows.count)
     trials_.row_scale().fail("its size differs from the attribute 'trial_count'");
   if (features_.bands.count > 0) bands_ = layout::TableIo::open(file, layout::band_table(features_.bands));

@@ -106,7 +106,7 @@ void validate_numbering(const layout::FileHeader& header, const layout::TableIo&
                         const layout::TableIo& jerks) {
   const layout::RowRange rows = header.rows;
   const auto global = [&](std::int64_t row) { return rows.first + row; };
-  if (layout::has_sums(header.kept)) {
+  if (layout::has_sums(header.retention)) {
     require_kept_rows(header, trials);
   } else {
     require_numbers(trials.column(0), rows.count,

@@ -84,11 +84,11 @@ layout::Provenance merged_provenance(std::span<const ShardInfo> shards, layout::
 
 void write_points(hdf5::File& file, const study::Study& study) {
   const std::int64_t points = study::point_count(study);
-  layout::TableIo io = layout::TableIo::create(file, layout::point_table(study.axes, {}), points, 1);
+  layout::TableIo io = layout::TableIo::create(file, layout::point_table(study.points.axes, {}), points, 1);
   io.number_rows(0);
-  io.column(0).write_texts(study.point_labels);
-  for (std::size_t index = 0; index < study.axes.size(); ++index) {
-    const study::SweepAxis& axis = study.axes[index];
+  io.column(0).write_texts(study.points.labels);
+  for (std::size_t index = 0; index < study.points.axes.size(); ++index) {
+    const study::SweepAxis& axis = study.points.axes[index];
     if (axis.kind == study::SweepAxis::Kind::text) {
       io.column(1 + index).write_texts(axis.texts);
     } else {
@@ -132,12 +132,12 @@ hdf5::WrittenValues write_trials_of(std::span<const ShardInfo> shards, const stu
                         std::optional<std::int64_t> first_number, const Renumbering& renumber = {}) {
     concatenate(file, table, shards, width, first_number, {renumber, options.stop});
   };
-  const bool sparse = layout::has_sums(study.kept);
-  if (layout::has_trials(study.kept)) {
+  const bool sparse = layout::has_sums(study.retention);
+  if (layout::has_trials(study.retention)) {
     const layout::MeasureTable& measures =
         options.measures != nullptr ? *options.measures : layout::measure_table(study.features.bands);
     const auto first_row = sparse ? std::nullopt : std::optional(rows.first);
-    join(layout::trial_table(study.input_columns), 1, first_row);
+    join(layout::trial_table(study.columns.inputs), 1, first_row);
     join(layout::on_axis(layout::outcome_table(layout::format_version, study.features, measures),
                          study.units.axis),
          study.moves, first_row);
@@ -159,7 +159,7 @@ void write_point_statistics(hdf5::File& file, const study::Study& study,
   std::vector<layout::PointColumn> columns;
   for (const layout::PointColumn& column : statistics.points)
     columns.push_back(layout::on_axis(column, study.units.axis));
-  layout::write_point_columns(file, layout::point_table(study.axes, {}), columns, study.features.bands,
+  layout::write_point_columns(file, layout::point_table(study.points.axes, {}), columns, study.features.bands,
                               points);
 }
 
@@ -196,7 +196,7 @@ MergedFile::MergedFile(std::span<const ShardInfo> shards, const study::Study& st
       written_(write_trials_of(shards_, study, part_.path(), rows, options)),
       file_(hdf5::File::open_to_change(part_.path(), written_)) {}
 
-const reading::StudyFile& MergedFile::trials() {
+const reading::AllTrialsFile& MergedFile::trials() {
   if (!trials_) trials_.emplace(part_.path(), reading::Require::unfinished, measures_);
   return *trials_;
 }

@@ -60,7 +60,7 @@ class MergedFile {
   const std::vector<ShardInfo>& shards() const { return shards_; }  ///< in order of rows
   bool is_whole() const { return rows_ == layout::all_rows(study_); }
   /// The trials, which can be read although the file is unfinished, if it keeps every one.
-  const reading::StudyFile& trials();
+  const reading::AllTrialsFile& trials();
 
   /// @param sums [point, from that of the first trial]
   void write_sums(std::span<const layout::PointSums> sums);
@@ -82,7 +82,7 @@ class MergedFile {
   storage::UnfinishedFile part_;
   hdf5::WrittenValues written_;
   hdf5::File file_;
-  std::optional<reading::StudyFile> trials_;
+  std::optional<reading::AllTrialsFile> trials_;
   std::int64_t described_{0};  ///< points with statistics
 };
 

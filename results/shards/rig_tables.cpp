@@ -92,12 +92,12 @@ void write_profiles(hdf5::File& file, const study::Study& study) {
 }
 
 void write_rigs(hdf5::File& file, const study::Study& study) {
-  write_inputs(file, layout::rig_table(study.rig_columns), study.rigs,
+  write_inputs(file, layout::rig_table(study.columns.rigs), study.rigs,
                [&](std::int64_t rig) { return study::rig_inputs(study, rig); });
 }
 
 void write_worlds(hdf5::File& file, const study::Study& study) {
-  write_inputs(file, layout::world_table(study.world_columns), study.worlds,
+  write_inputs(file, layout::world_table(study.columns.worlds), study.worlds,
                [&](std::int64_t world) { return study::world_inputs(study, world); });
 }
 

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 void require_fit(const study::Study& study, layout::RowRange rows, std::span<const TrialResult> trials,
                  std::span<const layout::PointSums> sums) {
-  const bool sparse = layout::has_sums(study.kept);
+  const bool sparse = layout::has_sums(study.retention);
   const std::int64_t points = (rows.end() - 1) / study.trials - rows.first / study.trials + 1;
   if (rows.count < 1 || rows.first < 0 || rows.end() > study::trial_count(study) ||
       (!sparse && std::ssize(trials) != rows.count) || std::ssize(sums) != (sparse ? points : 0))
@@ -30,7 +30,7 @@ void require_fit(const study::Study& study, layout::RowRange rows, std::span<con
   std::int64_t next = rows.first;
   for (const TrialResult& trial : trials) {
     const bool fits = (sparse ? trial.row >= next && trial.row < rows.end() : trial.row == next) &&
-                      trial.inputs.size() == study.input_columns.size() &&
+                      trial.inputs.size() == study.columns.inputs.size() &&
                       std::ssize(trial.outcome.moves) == study.moves;
     if (!fits)
       throw std::invalid_argument(fmt::format("the result for row {} does not fit the study", trial.row));
@@ -49,7 +49,7 @@ void write_trials(hdf5::File& file, const study::Study& study, std::span<const T
                   hdf5::Compression compression) {
   const std::int64_t rows = std::ssize(results);
   layout::TableIo io =
-      layout::TableIo::create(file, layout::trial_table(study.input_columns), rows, 1, compression);
+      layout::TableIo::create(file, layout::trial_table(study.columns.inputs), rows, 1, compression);
   write_row_numbers(io, results);
   const auto write = [&](std::size_t column, const auto& value_of) {
     std::vector<std::invoke_result_t<decltype(value_of), const TrialResult&>> values(results.size());
@@ -58,7 +58,7 @@ void write_trials(hdf5::File& file, const study::Study& study, std::span<const T
   };
   write(0, [&](const TrialResult& result) { return result.row / study.trials; });
   write(1, [&](const TrialResult& result) { return result.row % study.trials; });
-  for (std::size_t input = 0; input < study.input_columns.size(); ++input)
+  for (std::size_t input = 0; input < study.columns.inputs.size(); ++input)
     write(2 + input, [input](const TrialResult& result) { return result.inputs[input]; });
 }
 
@@ -163,8 +163,8 @@ void write_shard(const fs::path& path, const study::Study& study, layout::RowRan
   const storage::UnfinishedFile part(path);
   hdf5::File file = hdf5::File::create(part.path());
   layout::write_header(file, layout::make_header(study, layout::FileKind::shard, rows, options.provenance));
-  if (layout::has_trials(study.kept)) write_trial_tables(file, study, trials, options);
-  if (layout::has_sums(study.kept)) layout::write_sums(file, rows.first / study.trials, sums);
+  if (layout::has_trials(study.retention)) write_trial_tables(file, study, trials, options);
+  if (layout::has_sums(study.retention)) layout::write_sums(file, rows.first / study.trials, sums);
   layout::mark_finished(file);
   finish_results(path, file.close());
 }
@@ -185,7 +185,7 @@ layout::FileHeader inspect_header(const fs::path& path, layout::Checksum checksu
 }
 
 bool keeps_every_trial(const fs::path& path) {
-  return !layout::has_sums(inspect_header(path, layout::Checksum::not_yet).kept);
+  return !layout::has_sums(inspect_header(path, layout::Checksum::not_yet).retention);
 }
 
 std::vector<fs::path> shard_files(const fs::path& directory) {

@@ -157,7 +157,7 @@ EquivalencePlan plan_of(const command_line::Arguments& arguments) {
   status::Progress progress(study::point_count(study) * plan.pilot, 0, trials::samples_per_trial(study),
                             false);
   for (std::int64_t i = 0; i < study::point_count(study); ++i) {
-    samples.add(planned_point(plan, study.point_labels[static_cast<std::size_t>(i)],
+    samples.add(planned_point(plan, study.points.labels[static_cast<std::size_t>(i)],
                               run_point(study, i, plan.pilot)));
     progress.update((i + 1) * plan.pilot);
   }

@@ -25,13 +25,13 @@ study::Study study_in_file(const command_line::Arguments& arguments) {
                   fmt::format("{}: its controller is a plugin, which the file does not contain; expected its "
                               "manifest",
                               path));
-  return layout::recorded_study(file.header(), path);
+  return file.study();
 }
 
 }  // namespace
 
 std::int64_t named_point(const command_line::Arguments& arguments, const study::Study& study) {
-  const std::optional<std::int64_t> point = command_line::point_option(arguments, study.point_labels);
+  const std::optional<std::int64_t> point = command_line::point_option(arguments, study.points.labels);
   if (!point && study::point_count(study) > 1)
     throw Failure(ExitCode::bad_input, fmt::format("{}: it has {} design points; expected one with --point",
                                                    arguments.operands()[0], study::point_count(study)));

@@ -40,7 +40,7 @@ std::string extent_sentence(const GoalPlans& plans) {
   std::string lines;
   if (plans.study.worlds > 0)
     lines += fmt::format("in all {} worlds together, each with as many as the others\n", plans.study.worlds);
-  if (const std::size_t points = plans.study.point_labels.size(); points > 1)
+  if (const std::size_t points = plans.study.points.labels.size(); points > 1)
     lines += fmt::format("at the best of the {} points\n", points);
   return lines +
          "Moves that miss it take more: 'zerocount plan PILOT' says how many, from the results of a small "
@@ -104,7 +104,7 @@ document::Answer plan_of_manifest(const command_line::Arguments& arguments) {
   const study::Study study = commands::load_study(path, arguments);
   goal::require_claim(study.goal, path, other_plans);
   return goal_answer().of({study, goal::smallest_studies(*study.goal, study.rigs > 0, study.moves,
-                                                         study.point_labels.size(), study.worlds)});
+                                                         study.points.labels.size(), study.worlds)});
 }
 
 document::Answer plan_of_pilot(const std::string& path) {

@@ -75,7 +75,8 @@ report::ReportPage tuning_page(const Tuning& tuning) {
   page.sections.front().name = "tuning";
   page.sections.front().title = "Tuning";
   if (!tuning.answer.proof) return page;
-  for (report::PageSection& section : report::study_report(reading::StudyFile(tuning.output)).page.sections)
+  for (report::PageSection& section :
+       report::study_report(reading::AllTrialsFile(tuning.output)).page.sections)
     page.sections.push_back(std::move(section));
   return page;
 }

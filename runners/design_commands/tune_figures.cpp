@@ -176,7 +176,8 @@ Figure limits_figure(const TuneAnswer& answer) {
   return figure;
 }
 
-Figure worst_figure(const WorstMachine& worst, const study::Study& study, const reading::StudyFile& file) {
+Figure worst_figure(const WorstMachine& worst, const study::Study& study,
+                    const reading::AllTrialsFile& file) {
   constexpr std::int64_t buckets = 400;
   const report::SampleTrial trial{"worst-machine", "The worst machine of the proof", 0, worst.trial, buckets};
   Figure figure = report::trace_figure(report::reported_study(file, std::nullopt), trial,
@@ -197,7 +198,8 @@ std::vector<Figure> tune_figures(const Tuning& tuning) {
   if (!answer.room.empty()) figures.push_back(room_figure(answer));
   if (!answer.limits.empty()) figures.push_back(limits_figure(answer));
   if (answer.worst && !tuning.study.plugin)
-    figures.push_back(worst_figure(*answer.worst, answer.proof->study, reading::StudyFile(tuning.output)));
+    figures.push_back(
+        worst_figure(*answer.worst, answer.proof->study, reading::AllTrialsFile(tuning.output)));
   return figures;
 }
 

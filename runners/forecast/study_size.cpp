@@ -38,7 +38,7 @@ constexpr double sampling_limit = 2.0;  // s
 
 shards::TrialResult trial_without_jerks(const study::Study& study) {
   shards::TrialResult trial;
-  trial.inputs.resize(study.input_columns.size());
+  trial.inputs.resize(study.columns.inputs.size());
   trial.outcome.moves.resize(static_cast<std::size_t>(study.moves));
   return trial;
 }
@@ -98,7 +98,7 @@ double bytes_of_row(const layout::Table& table, const Ratios& ratios, double rat
 
 /// Bytes of a trial with its jerks, without sample records.
 double bytes_of_trial(const study::Study& study, double jerks, const Ratios& ratios) {
-  const double inputs = 8.0 * static_cast<double>(study.input_columns.size()) * ratios.drawn;
+  const double inputs = 8.0 * static_cast<double>(study.columns.inputs.size()) * ratios.drawn;
   const double numbers = 3.0 * sizeof(std::int64_t) * ratios.number;  // row, point and index
   return numbers + inputs +
          static_cast<double>(study.moves) *
@@ -120,8 +120,8 @@ double bytes_of_records(const study::Study& study, const Ratios& ratios) {
 /// Bytes of the datasets of the trials without their values.
 double bytes_of_descriptions(const study::Study& study) {
   const std::size_t columns =
-      layout::has_trials(study.kept)
-          ? study.input_columns.size() +
+      layout::has_trials(study.retention)
+          ? study.columns.inputs.size() +
                 layout::outcome_table(layout::format_version, study.features).columns.size() +
                 layout::jerk_table().columns.size() +
                 (study.retained_trials.empty() ? 0 : layout::trace_table(study.features).columns.size())
@@ -165,7 +165,7 @@ struct SumBytes {
 
 SumBytes bytes_of_sums(const study::Study& study, const std::vector<shards::TrialResult>& trials) {
   constexpr double growth = 4.0;  // distinct values that more trials add; measured
-  if (!layout::has_sums(study.kept)) return {};
+  if (!layout::has_sums(study.retention)) return {};
   const double all = numbers_of_sums(study, trials);
   const auto sampled = static_cast<double>(trials.size());
   double of_rigs = 0.0;  // numbers of the rigs that no sampled trial is on
@@ -190,8 +190,8 @@ double shards_of_run(const study::Study& study, int threads) {
 
 /// The proportion of trials that the study keeps.
 double kept_proportion(const study::Study& study, std::span<const shards::TrialResult> trials) {
-  if (!layout::has_trials(study.kept)) return 0.0;
-  if (!layout::has_sums(study.kept)) return 1.0;
+  if (!layout::has_trials(study.retention)) return 0.0;
+  if (!layout::has_sums(study.retention)) return 1.0;
   const auto failed = std::count_if(trials.begin(), trials.end(), [](const shards::TrialResult& trial) {
     return !trial::succeeded(trial.outcome.moves);
   });
@@ -220,7 +220,7 @@ StudySize measure_size(const study::Study& study, int threads) {
   size.shard_bytes =
       bytes_of_descriptions(study) + kept * bytes_of_trial(study, jerks, uncompressed) + raw_records;
   size.memory_bytes = trials::peak_memory(study, memory, raw_records, threads);
-  if (layout::has_sums(study.kept)) {
+  if (layout::has_sums(study.retention)) {
     size.shard_bytes +=
         compressed_sums * sums.of_all * (shards_of_run(study, trials::threads_to_use(threads)) + points);
     size.memory_bytes +=

@@ -132,7 +132,7 @@ ExitCode experiment(const command_line::Arguments& arguments) {
   settings.max_travel = positive_option(arguments, "travel", settings.max_travel, settings.max_travel,
                                         "a positive travel, in rad or, on a linear axis, m");
   settings.machines = arguments.whole_number("machines", 1, 1000).value_or(settings.machines);
-  settings.point = command_line::point_option(arguments, study.point_labels).value_or(0);
+  settings.point = command_line::point_option(arguments, study.points.labels).value_or(0);
   read_budget(arguments, settings.search);
   const experiment_design::ExperimentDesign design = [&] {
     commands::StageProgress progress("zerocount experiment", arguments.has("quiet"));

@@ -198,7 +198,7 @@ identification::IdentificationOptions identification_options(const command_line:
 std::vector<std::int64_t> points_of(const command_line::Arguments& arguments, const std::string& path,
                                     std::int64_t index) {
   if (arguments.has("point")) {
-    return command_line::point_options(arguments, reading::StudyFile(path).point_labels());
+    return command_line::point_options(arguments, reading::AllTrialsFile(path).point_labels());
   }
   const records::TracedPoints traced = records::traced_points(path, index);
   if (!traced.left_out.empty()) {

@@ -15,10 +15,10 @@ namespace {
 
 /// The labels of the design points of a manifest or a results file.
 std::vector<std::string> point_labels(const command_line::Arguments& arguments, const std::string& file) {
-  if (!commands::is_results_file(file)) return commands::load_study(file, arguments).point_labels;
+  if (!commands::is_results_file(file)) return commands::load_study(file, arguments).points.labels;
   if (arguments.has("set")) arguments.refuse("option '--set' needs a manifest instead of a results file");
   const reading::ResultsFile results(file, reading::Require::any_part);
-  return layout::recorded_study(results.header(), file, nullptr).point_labels;
+  return layout::recorded_study(results.header(), file, nullptr).points.labels;
 }
 
 ExitCode print_completion(const command_line::Arguments& arguments) {

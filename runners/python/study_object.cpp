@@ -79,13 +79,13 @@ py::dict axis_of(const study::SweepAxis& axis) {
 
 py::list axes_of(const study::Study& study) {
   py::list axes;
-  for (const study::SweepAxis& axis : study.axes) axes.append(axis_of(axis));
+  for (const study::SweepAxis& axis : study.points.axes) axes.append(axis_of(axis));
   return axes;
 }
 
 py::list inputs_of(const study::Study& study) {
   py::list inputs;
-  for (const study::InputColumn& column : study.input_columns) {
+  for (const study::InputColumn& column : study.columns.inputs) {
     py::dict input;
     input["name"] = column.name;
     input["unit"] = column.unit;

@@ -137,7 +137,7 @@ std::vector<FailureInput> failure_inputs(const Question& question, const Estimat
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const std::vector<double>& all = usual_columns[i];
     if (!(all.front() < all.back())) continue;
-    const study::InputColumn& column = question.study.input_columns[i];
+    const study::InputColumn& column = question.study.columns.inputs[i];
     found.push_back({column.name, column.unit,
                      mean_coordinate(question, column.name, failed).value_or(mean_score(all, columns[i])),
                      range_of(all), range_of(columns[i])});

@@ -356,7 +356,7 @@ void add_question(Description<RareReading>& items) {
              })
       .value(in_data("point", "number of the design point"), [](Of r) { return r.question.point; })
       .value(in_data("label", "label of the design point"),
-             [](Of r) { return r.question.study.point_labels[static_cast<std::size_t>(r.question.point)]; })
+             [](Of r) { return r.question.study.points.labels[static_cast<std::size_t>(r.question.point)]; })
       .value(in_data("world", "the world, of a study with worlds"), [](Of r) { return r.question.world; });
 }
 

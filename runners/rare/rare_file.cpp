@@ -149,7 +149,7 @@ std::vector<std::vector<double>> columns_of(const Question& question, const Esti
 }
 
 void write_drawn(hdf5::File& file, const Question& question, const EstimatorState& state) {
-  const layout::Table table = drawn_table(question.coordinates, question.study.input_columns);
+  const layout::Table table = drawn_table(question.coordinates, question.study.columns.inputs);
   const std::int64_t rows = std::ssize(state.drawn);
   layout::TableIo io = layout::TableIo::create(file, table, rows, 1);
   io.number_rows(0);

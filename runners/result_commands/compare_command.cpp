@@ -85,7 +85,7 @@ std::vector<FormatPlace> places_of(const command_line::Arguments& arguments,
 comparison::StudyComparison compare_points(const command_line::Arguments& arguments,
                                            const comparison::CompareOptions& options) {
   if (arguments.operands().size() > 1) arguments.refuse("option '--points' needs a single FILE");
-  const reading::StudyFile file(arguments.operands()[0]);
+  const reading::AllTrialsFile file(arguments.operands()[0]);
   const std::vector<std::string> labels = file.point_labels();
   const auto points = command_line::point_pair_option(arguments, "points", labels).value();
   if (points.first == points.second) {

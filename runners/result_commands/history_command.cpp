@@ -70,7 +70,7 @@ ExitCode add(const command_line::Arguments& arguments) {
   if (arguments.operands().size() != 2) arguments.refuse("'history add' needs the results FILE to add");
   const std::filesystem::path database = database_of(arguments);
   const std::string file = arguments.operands()[1];
-  history::RunRecord run = history::record_of(reading::StudyFile(file));
+  history::RunRecord run = history::record_of(reading::AllTrialsFile(file));
   if (const auto json = arguments.value("compare")) history::add_comparison(run, *json);
   switch (history::add_run(database, run, patience_with(database))) {
     case history::Addition::added:

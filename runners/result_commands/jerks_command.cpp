@@ -27,9 +27,9 @@ ExitCode print_jerks(const command_line::Arguments& arguments) {
       command_line::probability_option(arguments, "confidence").value_or(statistics::summary_confidence);
   const std::int64_t creep_trials =
       arguments.whole_number("creep-trials", 0, 1'000'000).value_or(default_creep_trials);
-  const reading::StudyFile file(arguments.operands()[0]);
-  const study::Study study = layout::recorded_study(file.header(), file.path());
-  const std::vector<std::int64_t> points = command_line::point_options(arguments, study.point_labels);
+  const reading::AllTrialsFile file(arguments.operands()[0]);
+  const study::Study& study = file.study();
+  const std::vector<std::int64_t> points = command_line::point_options(arguments, study.points.labels);
   const jerks::JerkReport report = jerks::jerk_report(file, study, points, confidence, creep_trials);
   const ExitCode code = jerks::any_arrival(report) ? ExitCode::success : ExitCode::inconclusive;
   return answers::print(arguments, jerks::jerk_answer().of(report, code));

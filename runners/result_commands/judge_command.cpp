@@ -100,7 +100,7 @@ void require_judgeable(const command_line::Arguments& arguments) {
                               path.string()));
   }
   const study::Study study = commands::described_study(path);
-  command_line::point_option(arguments, study.point_labels);
+  command_line::point_option(arguments, study.points.labels);
   goal::require_claim(study.goal, path.string());
 }
 

@@ -268,7 +268,7 @@ document::AnswerDescription<Outcome> learn_answer() {
 void require_worlds(const command_line::Arguments& arguments) {
   const std::string& path = arguments.operands()[0];
   const study::Study study = commands::described_study(path);
-  command_line::point_option(arguments, study.point_labels);
+  command_line::point_option(arguments, study.points.labels);
   if (study.worlds == 0) refuse_equal_worlds(path);
   if (study.open_loop) {
     throw Failure(

@@ -50,25 +50,25 @@ constexpr const char* plot_help =
     "Example: zerocount plot gains.h5 --figure success -o success.svg\n";
 
 /// The runs of the file's study in a history; nothing if there are fewer than two.
-history::History history_of_study(const std::filesystem::path& database, const reading::StudyFile& file) {
+history::History history_of_study(const std::filesystem::path& database, const reading::AllTrialsFile& file) {
   std::vector<history::RunRecord> runs = history::read_runs(database);
   const std::string series = history::series_sha256(file);
   std::erase_if(runs, [&](const history::RunRecord& run) { return run.series_sha256 != series; });
   return runs.size() < 2 ? history::History{} : history::history_of(runs);
 }
 
-report::StudyReport report_of(const command_line::Arguments& arguments, const reading::StudyFile& file) {
+report::StudyReport report_of(const command_line::Arguments& arguments, const reading::AllTrialsFile& file) {
   report::ReportOptions options;
   options.point = command_line::point_option(arguments, file.point_labels());
   if (const auto baseline = arguments.value("baseline")) {
     comparison::CompareOptions compare;
     if (const auto margins = arguments.value("margins")) compare.margins = *margins;
     compare.changed_fails = arguments.has("changed-fails");
-    options.comparison = comparison::compare_studies(reading::StudyFile(*baseline), file,
+    options.comparison = comparison::compare_studies(reading::AllTrialsFile(*baseline), file,
                                                      comparison::rules_of(compare, file.point_labels()));
   }
   if (const auto database = arguments.value("history")) options.history = history_of_study(*database, file);
-  const study::Study study = layout::recorded_study(file.header(), file.path());
+  const study::Study& study = file.study();
   options.check = [&](const report::ReplayedTrial& replayed) {
     auto [different, parting] = verification::compare_with_record(file, study, replayed.result);
     if (parting)
@@ -104,7 +104,7 @@ std::filesystem::path picture_or_page(const command_line::Arguments& arguments,
 
 ExitCode write_report(const command_line::Arguments& arguments) {
   const std::filesystem::path output = picture_or_page(arguments, {".html", ".htm"});
-  const reading::StudyFile file(arguments.operands()[0]);
+  const reading::AllTrialsFile file(arguments.operands()[0]);
   command_line::write_text(output, report::html_page(report_of(arguments, file).page));
   return ExitCode::success;
 }
@@ -125,13 +125,13 @@ std::string figure_text(const report::Figure& figure, const std::string& title,
 ExitCode plot(const command_line::Arguments& arguments) {
   const std::string input = arguments.operands()[0];
   if (!arguments.has("figure")) {
-    const reading::StudyFile file(input);
+    const reading::AllTrialsFile file(input);
     for (const std::string& name : report::figure_names(report_of(arguments, file).page))
       standard_output::write(name + "\n");
     return ExitCode::success;
   }
   const std::filesystem::path output = picture_or_page(arguments, {".svg", ".png", ".html", ".json"});
-  const reading::StudyFile file(input);
+  const reading::AllTrialsFile file(input);
   const report::StudyReport report = report_of(arguments, file);
   const report::Figure& figure = report::find_figure(report.page, arguments.required("figure"));
   command_line::write_text(output, figure_text(figure, report.page.title, output.extension().string()));

@@ -42,7 +42,7 @@ std::string full_help() {
 
 ExitCode print_sensitivity(const command_line::Arguments& arguments) {
   sensitivity::SensitivityQuestion question;
-  const reading::StudyFile file(arguments.operands()[0]);
+  const reading::AllTrialsFile file(arguments.operands()[0]);
   question.points = command_line::point_options(arguments, file.point_labels());
   question.outputs = arguments.values("output");
   question.confidence =

@@ -124,7 +124,7 @@ std::optional<summary_answer::SelectedSummary> summary_of_selected(const command
       is_there(layout::shards_directory(path)))
     return std::nullopt;
   const std::optional<std::int64_t> point =
-      command_line::point_option(arguments, commands::described_study(path).point_labels);
+      command_line::point_option(arguments, commands::described_study(path).points.labels);
   const bool bootstrap = shows_data(arguments);
   const summary_answer::PointSelection selection = selection_of(arguments);
   return selected_by(arguments,

@@ -180,11 +180,11 @@ document::Description<statistics::SequentialCost> stopping_description() {
 
 /// The names of the inputs that are drawn as often as this.
 void add_inputs(document::Description<Plan>& description, document::Item item,
-                std::vector<study::Per> drawn) {
+                std::vector<study::DrawLevel> drawn) {
   description.value(std::move(item), [drawn = std::move(drawn)](const Plan& plan) {
     std::vector<std::string> names;
-    for (const study::InputColumn& column : plan.study.input_columns) {
-      if (std::ranges::find(drawn, column.per) != drawn.end()) names.push_back(column.name);
+    for (const study::InputColumn& column : plan.study.columns.inputs) {
+      if (std::ranges::find(drawn, column.level) != drawn.end()) names.push_back(column.name);
     }
     return names;
   });
@@ -236,21 +236,21 @@ document::Description<Plan> plan_description() {
       .value(in_data("disk_bytes", "most space on the disk while it runs", "byte"), &Plan::disk_bytes)
       .value(in_data("memory_bytes", "most memory", "byte"), [](Of p) { return p.size.memory_bytes; })
       .sentence([](Of p) {
-        return p.study.input_columns.empty() ? std::string("differing between trials: nothing") : "";
+        return p.study.columns.inputs.empty() ? std::string("differing between trials: nothing") : "";
       });
-  using study::Per;
+  using study::DrawLevel;
   add_inputs(plan, {"differ_in_trials", "differing between trials", "inputs that differ between trials"},
-             {Per::trial, Per::contact});
+             {DrawLevel::trial, DrawLevel::contact});
   add_inputs(
       plan, {"differ_in_contacts", "of these, drawn anew at each contact", "of these, drawn at each contact"},
-      {Per::contact});
+      {DrawLevel::contact});
   add_inputs(plan, {"differ_in_rigs", "differing between rigs", "inputs that differ between rigs"},
-             {Per::rig});
+             {DrawLevel::rig});
   add_inputs(plan, {"differ_in_worlds", "differing between worlds", "inputs that differ between worlds"},
-             {Per::world});
+             {DrawLevel::world});
   add_inputs(
       plan, {"same_in_points", "the same in all trials of a point", "inputs that differ between points only"},
-      {Per::study});
+      {DrawLevel::study});
   return plan
       .value({"sampled_together", "sampled together", "inputs of a table of samples"},
              [](Of p) {
@@ -299,11 +299,11 @@ std::optional<std::string> targets_text(const study::Study& study, std::int64_t 
 }
 
 std::vector<PointReading> examined_points(const study::Study& study, std::int64_t count) {
-  const std::vector<std::string> names = summary::short_labels(study.point_labels, study.axes);
+  const std::vector<std::string> names = summary::short_labels(study.points.labels, study.points.axes);
   std::vector<PointReading> points;
   for (std::int64_t point = 0; point < count; ++point) {
     const auto index = static_cast<std::size_t>(point);
-    points.push_back({point, study.point_labels[index],
+    points.push_back({point, study.points.labels[index],
                       names.size() == 1 ? std::nullopt : std::optional(names[index]),
                       theory::examine(study, point), targets_text(study, point)});
     const theory::Approach& approach = points.back().theory.approach;

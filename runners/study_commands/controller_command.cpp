@@ -35,11 +35,11 @@ constexpr const char* controller_help =
 void require_values(const command_line::Arguments& arguments, const study::Study& study) {
   constexpr std::array<std::string_view, 6> sections{"controller.", "dac.bits",     "dac.resolution",
                                                      "dac.range",   "encoder.fine", "encoder.resolution"};
-  for (const study::InputColumn& column : study.input_columns) {
+  for (const study::InputColumn& column : study.columns.inputs) {
     const bool counts = std::any_of(sections.begin(), sections.end(), [&](std::string_view section) {
       return section.ends_with('.') ? column.name.starts_with(section) : column.name == section;
     });
-    if (counts && column.per != study::Per::study)
+    if (counts && column.level != study::DrawLevel::study)
       arguments.refuse(
           fmt::format("{} is drawn, so that every machine has another controller; expected a "
                       "number (--set {}=…)",
@@ -65,7 +65,7 @@ ExitCode write_controller(const command_line::Arguments& arguments) {
   const std::string input = arguments.operands()[0];
   const std::filesystem::path output = command_line::text_place(arguments, "output").value_or("-");
   const study::Study study = commands::load_study(input, arguments, std::span(&output, 1));
-  const std::int64_t point = command_line::point_option(arguments, study.point_labels).value_or(0);
+  const std::int64_t point = command_line::point_option(arguments, study.points.labels).value_or(0);
   require_values(arguments, study);
   const trial::TrialParameters p = study::study_trial(study, point, 0).parameters;
   if (!p.command.torque.levels.empty())
@@ -73,8 +73,8 @@ ExitCode write_controller(const command_line::Arguments& arguments) {
   if (const std::string_view why = controller_code::why_not_writable(p.controller); !why.empty())
     arguments.refuse(std::string(why));
   const std::string name =
-      study.point_labels.size() > 1
-          ? fmt::format("{}, {}", study.name, study.point_labels[static_cast<std::size_t>(point)])
+      study.points.labels.size() > 1
+          ? fmt::format("{}, {}", study.name, study.points.labels[static_cast<std::size_t>(point)])
           : study.name;
   const controller_code::ControllerToWrite chain{p.controller, loop::fine_resolution(p.encoder), p.dac,
                                                  p.initial.integral, name};

@@ -165,7 +165,7 @@ ExitCode trace(const command_line::Arguments& arguments) {
       file ? layout::recorded_study(file->header(), input, commands::plugin_option(arguments))
            : commands::load_study(input, arguments, std::span(&place, 1));
   require_loaded_plugin(arguments, study);
-  const std::int64_t point = command_line::point_option(arguments, study.point_labels).value_or(0);
+  const std::int64_t point = command_line::point_option(arguments, study.points.labels).value_or(0);
   const std::int64_t index = trial_option(arguments, study);
   const layout::RowRange row{point * study.trials + index, 1};
   if (file && (row.first < file->rows().first || row.end() > file->rows().end())) {

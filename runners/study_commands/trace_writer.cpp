@@ -57,7 +57,7 @@ void TraceWriter::begin(const TraceSubject& subject) {
   if (json_) {
     nlohmann::ordered_json inputs = nlohmann::ordered_json::object();
     for (std::size_t i = 0; i < subject.trial.inputs.size(); ++i) {
-      inputs[subject.study.input_columns[i].name] = subject.trial.inputs[i];
+      inputs[subject.study.columns.inputs[i].name] = subject.trial.inputs[i];
     }
     const std::string rig = subject.study.rigs > 0
                                 ? fmt::format(", \"rig\": {}", study::rig_of(subject.study, subject.index))

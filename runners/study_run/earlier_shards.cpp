@@ -32,7 +32,7 @@ void require_same_plugin(const fs::path& shard, const study::Study& study) {
 /// Checks the values of the trials and the sums.
 void check_contents(const reading::ResultsFile& shard, const study::Study& study) {
   shards::check_values(shard, study);
-  for (std::int64_t i = 0; layout::has_sums(study.kept) && i < shard.points(); ++i)
+  for (std::int64_t i = 0; layout::has_sums(study.retention) && i < shard.points(); ++i)
     summary::restored_point(shard, study, shard.first_point() + i);
 }
 

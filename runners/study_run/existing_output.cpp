@@ -54,7 +54,8 @@ void require_extensible(const fs::path& output, const layout::FileHeader& header
            fmt::format("has {} trials at each point and the study {}; {}", header.trials, study.trials, why));
   };
   if (!header.complete) refuse_more("a part of a study cannot be extended");
-  if (layout::has_sums(study.kept)) refuse_more("a study that does not keep its trials cannot be extended");
+  if (layout::has_sums(study.retention))
+    refuse_more("a study that does not keep its trials cannot be extended");
   if (study.trials < header.trials) refuse_more("a results file can only be extended");
   if (!study::trials_stay_when_extended(study.design)) {
     refuse_more(fmt::format("the trials of design: {} are laid out for their number, and all change with it",

@@ -12,7 +12,7 @@ constexpr std::int64_t max_moves_at_once = 1 << 16;
 
 }  // namespace
 
-std::vector<shards::ShardInfo> copy_trials(const reading::StudyFile& file, const study::Study& study,
+std::vector<shards::ShardInfo> copy_trials(const reading::AllTrialsFile& file, const study::Study& study,
                                            const std::filesystem::path& directory,
                                            std::span<const layout::RowRange> missing) {
   const RecordPlaces records = places_of_records(*file.trials());

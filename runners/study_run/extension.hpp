@@ -14,8 +14,8 @@ namespace zerocount::study_run {
 /// Copies trials of a finished file to shards of a study that differs only in having more trials: those in
 /// the ranges `missing` (rows of the study). Memory is bounded.
 /// @returns the written shards, in order of rows
-/// @throws Failure as StudyFile and write_shard.
-std::vector<shards::ShardInfo> copy_trials(const reading::StudyFile& file, const study::Study& study,
+/// @throws Failure as AllTrialsFile and write_shard.
+std::vector<shards::ShardInfo> copy_trials(const reading::AllTrialsFile& file, const study::Study& study,
                                            const std::filesystem::path& directory,
                                            std::span<const layout::RowRange> missing);
 

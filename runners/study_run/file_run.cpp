@@ -28,7 +28,7 @@ EarlierShards prepare_shards(const FileRun& request, const std::filesystem::path
   if (request.check_room) forecast::require_room(request.output, request.study, missing);
   storage::make_directory(directory);
   if (existing != ExistingUse::extend) return earlier;
-  const reading::StudyFile file(request.output);
+  const reading::AllTrialsFile file(request.output);
   if (!request.quiet) {
     status::tell("{}: {} trials at each point are kept, {} are added\n", request.output.string(),
                  file.header().trials, request.study.trials - file.header().trials);

@@ -26,7 +26,7 @@ class Successes {
       : study_(study), by_block_(static_cast<std::size_t>(study::point_count(study))) {}
 
   void add(const shards::ShardInfo& shard) {
-    const reading::StudyFile file(shard.path, reading::Require::any_part);
+    const reading::AllTrialsFile file(shard.path, reading::Require::any_part);
     const std::vector<trial::MoveOutcome> outcomes = file.outcomes(file.rows());
     for (std::int64_t i = 0; i < file.rows().count; ++i) {
       const auto first = outcomes.begin() + i * study_.moves;
@@ -99,10 +99,10 @@ std::vector<layout::RowRange> missing(const study::Study& study, const std::vect
 }
 
 study::Study decided_study(const study::Study& study, std::int64_t trials) {
-  std::vector<std::string> overrides = study.overrides;
+  std::vector<std::string> overrides = study.manifest.overrides;
   overrides.push_back(fmt::format("{}{}", decided_key, trials));
   study::Study decided =
-      manifest::parse_study(study.manifest_text, study.name, overrides, manifest::companions_of(study));
+      manifest::parse_study(study.manifest.text, study.name, overrides, manifest::companions_of(study));
   decided.engine = study.engine;
   return decided;
 }

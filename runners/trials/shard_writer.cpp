@@ -25,7 +25,7 @@ std::size_t bytes_of(const shards::TrialResult& result) {
 
 KeptBlock reduce(const study::Study& study, TrialBlock&& block) {
   KeptBlock kept{{block.results.front().row, std::ssize(block.results)}, {}, {}, {}};
-  if (!layout::has_sums(study.kept)) {
+  if (!layout::has_sums(study.retention)) {
     kept.trials = std::move(block.results);
     kept.predictions = std::move(block.predictions);
     return kept;
@@ -35,7 +35,7 @@ KeptBlock reduce(const study::Study& study, TrialBlock&& block) {
     if (kept.sums.empty() || kept.sums.back().point() != point)
       kept.sums.emplace_back(study, point, result.row % study.trials);
     kept.sums.back().add(result.row, result.outcome, result.jerks);
-    if (layout::has_trials(study.kept) && !trial::succeeded(result.outcome.moves))
+    if (layout::has_trials(study.retention) && !trial::succeeded(result.outcome.moves))
       kept.trials.push_back(std::move(result));
   }
   for (std::size_t i = 0; i < kept.sums.size(); ++i) kept.sums[i].add(block.predictions[i]);

@@ -154,7 +154,7 @@ double memory_of_statistics(const study::Study& study) {
       measures::statistic_fields(study.features, layout::measure_table(study.features.bands)).size();
   const double of_point =
       8.0 * copies *
-      static_cast<double>(std::ssize(study.axes) + std::int64_t(columns) + study.rigs + 3 * study.worlds);
+      static_cast<double>(std::ssize(study.points.axes) + std::int64_t(columns) + study.rigs + 3 * study.worlds);
   return all_statistics +
          of_point * static_cast<double>(std::min(study::point_count(study), layout::chunk_elements));
 }

@@ -128,7 +128,7 @@ double delay_margin(const trial::TrialParameters& p, const MachineLoops& machine
 /// Whether the drawn quantities change nothing of the loops but the stiffness of a spring.
 bool differ_in_stiffness_alone(const study::Study& study, friction::FrictionModel model) {
   if (!friction::has_spring(model) && friction::traits_of(model).has_presliding_motion) return false;
-  return std::ranges::all_of(study.input_columns, [](const study::InputColumn& column) {
+  return std::ranges::all_of(study.columns.inputs, [](const study::InputColumn& column) {
     const auto is_of = [&column](std::string_view section) { return column.name.starts_with(section); };
     return is_of("friction.") || is_of("initial.") || is_of("command.");
   });

@@ -59,9 +59,9 @@ std::vector<std::string> last_of_each(const std::vector<std::string>& entries) {
 /// Overrides of the study become part of the text too. A value that the text cannot take, such as a list,
 /// stays an override.
 study::Study with_values_in_text(const study::Study& study, const std::vector<std::string>& values) {
-  std::vector<std::string> all = study.overrides;
+  std::vector<std::string> all = study.manifest.overrides;
   all.insert(all.end(), values.begin(), values.end());
-  std::string text = study.manifest_text;
+  std::string text = study.manifest.text;
   std::vector<std::string> overrides;
   for (const std::string& one : last_of_each(all)) {
     const std::string_view key = key_of(one);
@@ -158,10 +158,10 @@ ProofRun run_proof(const study::Study& study, std::vector<std::string> values,
                    const trials::Effort& effort) {
   effort.spend(units.trials());
   for (const std::string& one : trials::overrides_for(study, units)) values.push_back(one);
-  if (layout::has_sums(study.kept)) values.emplace_back("keep=trials");
+  if (layout::has_sums(study.retention)) values.emplace_back("keep=trials");
   ProofRun run{with_values_in_text(study, values), {}};
   if (!holds_run(output, run.study)) make_run(run.study, output, threads, effort);
-  run.results = results_in(reading::StudyFile(output), run.study, units);
+  run.results = results_in(reading::AllTrialsFile(output), run.study, units);
   return run;
 }
 

@@ -178,7 +178,7 @@ std::vector<UnitResult> results_of(const study::Study& study, const trials::Repl
   return results;
 }
 
-std::vector<UnitResult> results_in(const reading::StudyFile& file, const study::Study& study,
+std::vector<UnitResult> results_in(const reading::AllTrialsFile& file, const study::Study& study,
                                    const trials::Replicates& units) {
   const TrialCounter counter(study);
   std::vector<UnitResult> results(static_cast<std::size_t>(units.count));

@@ -65,7 +65,7 @@ std::vector<UnitResult> results_of(const study::Study& study, const trials::Repl
                                    std::int64_t count, const Change* change, const trials::Effort& effort);
 
 /// The results of all units of a study of one point, from its results file.
-std::vector<UnitResult> results_in(const reading::StudyFile& file, const study::Study& study,
+std::vector<UnitResult> results_in(const reading::AllTrialsFile& file, const study::Study& study,
                                    const trials::Replicates& units);
 
 }  // namespace zerocount::tuning

@@ -107,7 +107,7 @@ class MachineSearch {
                                 study.name));
     for (const auto& [slot, value] : profiles()) {
       has_profile_ = true;
-      has_profile_per_rig_ |= value->per == study::Per::rig;
+      has_profile_per_rig_ |= value->level == study::DrawLevel::rig;
     }
   }
 
@@ -319,7 +319,7 @@ class MachineSearch {
       const study::Rotors& rotors = *given_.plan->profiles[value->index];
       if (rotors.drawn_mean())
         changes.values.emplace_back(fmt::format("{}.profile.mean", given_.plan->table.rows[slot].name),
-                                    rotors.mean(value->per == study::Per::rig ? point.rig : 0));
+                                    rotors.mean(value->level == study::DrawLevel::rig ? point.rig : 0));
     }
     for (const study::MachineInput& input : inputs_) {
       const std::vector<std::uint32_t>& rows = given_.plan->sampled_slots;
@@ -396,15 +396,15 @@ WorstMachine worst_machine(const study::Study& study, std::int64_t point,
   const auto machines = std::ssize(results);
   machine.trial = machine.rig + latest_move(*worst) / study.moves * machines;
   const bool of_rig =
-      study.rigs > 0 && (!study.rig_columns.empty() || (study.worlds > 0 && !study.world_columns.empty()));
-  const std::vector<study::InputColumn>& columns = of_rig ? study.rig_columns : study.input_columns;
+      study.rigs > 0 && (!study.columns.rigs.empty() || (study.worlds > 0 && !study.columns.worlds.empty()));
+  const std::vector<study::InputColumn>& columns = of_rig ? study.columns.rigs : study.columns.inputs;
   const std::vector<double> inputs =
       of_rig ? study::rig_inputs(study, machine.rig) : study::study_trial(study, point, machine.rig).inputs;
   for (std::size_t i = 0; i < inputs.size(); ++i) machine.inputs.emplace_back(columns[i].name, inputs[i]);
   if (of_rig && study.worlds > 0) {
     const std::vector<double> of_world = study::world_inputs(study, study::world_of(study, machine.rig));
     for (std::size_t i = 0; i < of_world.size(); ++i)
-      machine.inputs.emplace_back(study.world_columns[i].name, of_world[i]);
+      machine.inputs.emplace_back(study.columns.worlds[i].name, of_world[i]);
   }
   return machine;
 }

@@ -39,14 +39,14 @@ std::vector<layout::Table> tables_of(const reading::ResultsFile& file, const stu
     // Shards have the units of a rotary axis, whatever the study's.
     const parameters::AxisKind axis =
         header.kind == layout::FileKind::shard ? parameters::AxisKind::rotary : study.units.axis;
-    tables = {layout::trial_table(study.input_columns),
+    tables = {layout::trial_table(study.columns.inputs),
               layout::on_axis(layout::outcome_table(header.version, features, file.trials()->table()), axis),
               layout::jerk_table()};
     if (features.bands.count > 0) tables.push_back(layout::on_axis(layout::band_table(features.bands), axis));
     if (!study.retained_trials.empty())
       tables.push_back(layout::on_axis(layout::trace_table(features), axis));
   }
-  if (layout::has_sums(header.kept)) {
+  if (layout::has_sums(header.retention)) {
     for (const layout::Table& table :
          {layout::sums_table(), layout::whole_sums_table(), layout::real_sums_table()})
       tables.push_back(table);
@@ -138,7 +138,8 @@ void check_all_numbers(const reading::ResultsFile& file, const study::Study& stu
   const std::int64_t first = file.rows().first;
   const auto global = [first](std::int64_t row) { return first + row; };
   const auto same = [](std::int64_t row) { return row; };
-  if (!layout::has_sums(file.header().kept)) {  // the rows of failures were checked when they were opened
+  if (!layout::has_sums(
+          file.header().retention)) {  // the rows of failures were checked when they were opened
     check_numbers(file, "trial/trial", global, problems);
     check_numbers(file, "outcome/trial", global, problems);
     check_numbers(

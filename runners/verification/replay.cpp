@@ -105,7 +105,7 @@ std::vector<std::string> differences(const std::vector<study::InputColumn>& inpu
 std::vector<std::string> differences_from_record(const reading::ResultsFile& file,
                                                  const shards::TrialResult* recorded,
                                                  const shards::TrialResult& replayed, Equality equality) {
-  const bool kept = !layout::has_sums(file.header().kept) || !trial::succeeded(replayed.outcome.moves);
+  const bool kept = !layout::has_sums(file.header().retention) || !trial::succeeded(replayed.outcome.moves);
   if (kept != (recorded != nullptr)) {
     return {fmt::format("recorded as a {}, replayed as a {}", kept ? "success" : "failure",
                         kept ? "failure" : "success")};

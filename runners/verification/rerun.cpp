@@ -119,7 +119,7 @@ void check_trials(CheckReport& report, const reading::ResultsFile& file, const s
       return;
     }
     const std::vector<std::int64_t> rows =
-        layout::has_sums(study.kept) ? with_failures(chosen, *file.trials()) : chosen.rows;
+        layout::has_sums(study.retention) ? with_failures(chosen, *file.trials()) : chosen.rows;
     const RecordedFile recorded{file, study_run::places_of_records(*file.trials()), equality};
     run_in_tasks(study, rows, report.stop, [&](layout::RowRange range, const Results& results) {
       compare_range(recorded, range, results, problems);

@@ -88,7 +88,7 @@ void check_block(const reading::ResultsFile& file, const study::Study& study, la
     const std::vector<trial::MoveOutcome> moves = trials.outcomes(positions);
     check_times(trials, block, moves, problems);
     check_jerk_times(trials, block, problems);
-    if (!layout::has_sums(study.kept)) return;
+    if (!layout::has_sums(study.retention)) return;
     std::span<const trial::MoveOutcome> rest = moves;
     for (const std::int64_t row : block.rows) {
       if (trial::succeeded(rest.first(static_cast<std::size_t>(trials.moves()))))
@@ -119,7 +119,7 @@ void check_sums(const reading::ResultsFile& file, const study::Study& study, Pro
 void check_values(CheckReport& report, const reading::ResultsFile& file, const study::Study& study) {
   add_check(report, "values", [&](Check& check, ProblemList& problems) {
     std::vector<std::string> details;
-    if (layout::has_sums(study.kept)) {
+    if (layout::has_sums(study.retention)) {
       check_sums(file, study, problems);
       details.emplace_back("sums");
     }

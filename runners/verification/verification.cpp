@@ -33,7 +33,7 @@ struct OpenedFile {
 
 void require_plugin(const fs::path& path, const study::Study& study, const VerifySettings& settings) {
   if (!study.plugin || study.plugin->functions != nullptr || settings.trials == 0 ||
-      !layout::has_trials(study.kept))
+      !layout::has_trials(study.retention))
     return;
   throw Failure(
       ExitCode::bad_input,

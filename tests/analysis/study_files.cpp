@@ -16,16 +16,16 @@ study::Study plain_study(std::int64_t points, std::int64_t trials, std::int64_t 
   study.seed = 1;
   study.trials = trials;
   study.moves = moves;
-  study.manifest_text = "zerocount: 1\n";
-  study.manifest_sha256 = hash::sha256_hex(study.manifest_text);
-  study.study_sha256 = study.manifest_sha256;
+  study.manifest.text = "zerocount: 1\n";
+  study.manifest.sha256 = hash::sha256_hex(study.manifest.text);
+  study.study_sha256 = study.manifest.sha256;
   study::SweepAxis axis{
       "controller.ki", "N m/count", "integral gain", study::SweepAxis::Kind::number, {}, {}};
   for (std::int64_t point = 0; point < points; ++point) {
-    study.point_labels.push_back("point " + std::to_string(point));
+    study.points.labels.push_back("point " + std::to_string(point));
     axis.numbers.push_back(1e-5 * static_cast<double>(point + 1));
   }
-  study.axes = {axis};
+  study.points.axes = {axis};
   return study;
 }
 
@@ -95,7 +95,7 @@ TrialRecord random_open_loop_trial(std::int64_t row, std::int64_t moves) {
 void write_study_file(const std::filesystem::path& path, const study::Study& study,
                       const std::vector<TrialRecord>& trials,
                       const std::vector<layout::PointColumn>& statistics) {
-  write_study_file(path, study, trials, [&](const reading::StudyFile&) {
+  write_study_file(path, study, trials, [&](const reading::AllTrialsFile&) {
     return layout::StoredStatistics{statistics, {}, {}};
   });
 }
@@ -106,7 +106,7 @@ void write_study_file(const std::filesystem::path& path, const study::Study& stu
   std::vector<shards::TrialResult> results(trials.size());
   for (std::size_t row = 0; row < trials.size(); ++row) {
     results[row].row = static_cast<std::int64_t>(row);
-    results[row].inputs.assign(study.input_columns.size(), 0.0);
+    results[row].inputs.assign(study.columns.inputs.size(), 0.0);
     results[row].outcome = trials[row].outcome;
     results[row].jerks = trials[row].jerks;
   }

@@ -157,7 +157,7 @@ Json inputs() {
   Json all = Json::object();
   for (std::int64_t trial = 0; trial < study.trials; ++trial) {
     const std::vector<double> values = study::study_trial(study, 0, trial).inputs;
-    for (std::size_t i = 0; i < values.size(); ++i) all[study.input_columns[i].name].push_back(values[i]);
+    for (std::size_t i = 0; i < values.size(); ++i) all[study.columns.inputs[i].name].push_back(values[i]);
   }
   return all;
 }

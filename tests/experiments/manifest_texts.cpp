@@ -142,8 +142,8 @@ study::Study study_of(const std::string& text, const std::vector<std::string>& o
 }
 
 std::size_t column_of(const study::Study& study, const std::string& name) {
-  for (std::size_t i = 0; i < study.input_columns.size(); ++i) {
-    if (study.input_columns[i].name == name) return i;
+  for (std::size_t i = 0; i < study.columns.inputs.size(); ++i) {
+    if (study.columns.inputs[i].name == name) return i;
   }
   throw std::invalid_argument("no input column " + name);
 }

@@ -106,7 +106,7 @@ TEST(ManifestPages, ListThePointsOfTheirSweepInOrder) {
   const std::size_t sweep = index_of_block(blocks, "sweep:");
   ASSERT_LT(sweep + 1, blocks.size());
   std::string listed;
-  for (const std::string& label : study_of(completed(blocks[sweep].text)).point_labels)
+  for (const std::string& label : study_of(completed(blocks[sweep].text)).points.labels)
     listed += label + "\n";
   EXPECT_EQ(blocks[sweep + 1].text, listed);
 }

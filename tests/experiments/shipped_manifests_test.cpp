@@ -30,7 +30,7 @@ void expect_understood(const std::filesystem::path& manifest) {
   EXPECT_EQ(study.name, manifest.stem().string());
   EXPECT_TRUE(study.warnings.empty()) << manifest;
   EXPECT_FALSE(study.description.empty()) << manifest;
-  EXPECT_EQ(study.manifest_text.rfind("# ", 0), 0u) << manifest << " is explained in its own comments";
+  EXPECT_EQ(study.manifest.text.rfind("# ", 0), 0u) << manifest << " is explained in its own comments";
 }
 
 TEST(ShippedManifests, AllAreUnderstoodWithoutWarningsAndNamedLikeTheirFiles) {
@@ -79,14 +79,14 @@ TEST(ShippedManifests, TheGainsAreThoseOfThePaperWithWhatItSaw) {
   EXPECT_EQ(study.rigs, 10000);
   const std::vector<std::pair<double, double>> gains{
       {3.85e-5, 0}, {9.45e-5, 0}, {9.45e-5, 6.21e-4}, {2.08e-4, 0}};
-  ASSERT_EQ(study.point_labels.size(), gains.size() + 1);
+  ASSERT_EQ(study.points.labels.size(), gains.size() + 1);
   for (std::size_t point = 0; point < gains.size(); ++point) {
     const trial::TrialParameters p =
         study::study_trial(study, static_cast<std::int64_t>(point), 0).parameters;
     EXPECT_EQ(std::pair(p.controller.ki, p.controller.kp), gains[point]);
   }
   EXPECT_GT(study::study_trial(study, 4, 0).parameters.controller.ki, 3.01e-4);
-  for (const std::string& label : study.point_labels) EXPECT_EQ(study.observed.count(label), 1u) << label;
+  for (const std::string& label : study.points.labels) EXPECT_EQ(study.observed.count(label), 1u) << label;
 }
 
 // Samples, gain and targets of the work that benchmarks time.
@@ -124,7 +124,7 @@ TEST(ShippedManifests, TheBenchmarksHaveTheWorkThatTheyAreNamedFor) {
 TEST(ShippedManifests, TheBenchmarksLeaveAllFrictionToChance) {
   for (const std::string name : {"bench-transient", "bench-creep", "bench-marginal", "bench-million"}) {
     std::set<std::string> random;
-    for (const study::InputColumn& column : benchmark_study(name).input_columns) random.insert(column.name);
+    for (const study::InputColumn& column : benchmark_study(name).columns.inputs) random.insert(column.name);
     for (const std::string parameter : {"friction.k1", "friction.k2", "friction.beta", "friction.alpha",
                                         "friction.lambda", "initial.encoder_phase"}) {
       EXPECT_EQ(random.count(parameter), 1u) << name << ": " << parameter;
@@ -143,9 +143,9 @@ TEST(ShippedManifests, TheMillionIsOfTheTransientBenchmark) {
 
 TEST(ShippedManifests, TheStabilityMapIsAGrid) {
   const study::Study study = shipped("stability-map");
-  ASSERT_EQ(study.axes.size(), 2u);
-  EXPECT_EQ(study.axes[0].name, "controller.kp");
-  EXPECT_EQ(study.axes[1].name, "controller.ki");
+  ASSERT_EQ(study.points.axes.size(), 2u);
+  EXPECT_EQ(study.points.axes[0].name, "controller.kp");
+  EXPECT_EQ(study.points.axes[1].name, "controller.ki");
 }
 
 }  // namespace

@@ -24,8 +24,8 @@ using namespace zerocount;
 
 void read_shard(const std::filesystem::path& path) {
   const reading::ResultsFile file(path, reading::Require::any_part);
-  if (layout::has_sums(file.header().kept)) {
-    const study::Study study = layout::recorded_study(file.header(), path);
+  if (layout::has_sums(file.header().retention)) {
+    const study::Study& study = file.study();
     for (std::int64_t i = 0; i < file.points(); ++i)
       summary::restored_point(file, study, file.first_point() + i);
   }

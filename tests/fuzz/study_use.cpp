@@ -18,10 +18,10 @@ std::set<std::int64_t> ends_of(std::int64_t count) {
 
 void use_study(const study::Study& study) {
   for (const std::string& warning : study.warnings) require_text(warning);
-  for (const study::InputColumn& column : study.input_columns) require_text(column.name);
+  for (const study::InputColumn& column : study.columns.inputs) require_text(column.name);
   for (const manifest::ListedParameter& row : manifest::listed_parameters(study)) require_text(row.name);
   for (const std::int64_t point : ends_of(study::point_count(study))) {
-    require_text(study.point_labels[static_cast<std::size_t>(point)]);
+    require_text(study.points.labels[static_cast<std::size_t>(point)]);
     for (const std::int64_t index : ends_of(study.trials)) study::study_trial(study, point, index);
   }
   if (study.rigs == 0) return;

@@ -106,17 +106,17 @@ study::Study sample_study(std::int64_t points, std::int64_t trials, std::int64_t
   study.seed = 0xfedcba9876543210ULL;
   study.trials = trials;
   study.moves = moves;
-  study.manifest_text =
+  study.manifest.text =
       "zerocount: 1\n# \u03bb, a comment\nname: sample\ntrials: " + std::to_string(trials) + "\n";
-  study.manifest_sha256 = hash::sha256_hex(study.manifest_text);
-  study.overrides = {"trials=" + std::to_string(trials), "name=sample"};
+  study.manifest.sha256 = hash::sha256_hex(study.manifest.text);
+  study.manifest.overrides = {"trials=" + std::to_string(trials), "name=sample"};
   study.study_sha256 =
-      hash::sha256_hex(study.manifest_text + std::to_string(points) + "," + std::to_string(moves));
+      hash::sha256_hex(study.manifest.text + std::to_string(points) + "," + std::to_string(moves));
   for (std::int64_t point = 0; point < points; ++point)
-    study.point_labels.push_back("point " + std::to_string(point));
-  study.axes = {sample_number_axis(points), sample_case_axis(points)};
-  study.input_columns = {{"friction.k1", "N m/rad", "lowest stiffness"},
-                         {"command.targets.0", "count", "target"}};
+    study.points.labels.push_back("point " + std::to_string(point));
+  study.points.axes = {sample_number_axis(points), sample_case_axis(points)};
+  study.columns.inputs = {{"friction.k1", "N m/rad", "lowest stiffness"},
+                          {"command.targets.0", "count", "target"}};
   auto profile = std::make_shared<friction::Profile>();
   profile->location = std::log(110.0);
   profile->scale = 0.1;
@@ -134,12 +134,12 @@ study::Study sample_study_with_rigs(std::int64_t points, std::int64_t trials, st
   study::Study study = sample_study(points, trials, moves);
   study.rigs = 8;
   auto plan = std::make_shared<study::StudyPlan>();
-  plan->base = {{.kind = study::Value::Kind::distribution, .index = 0, .per = study::Per::rig}};
+  plan->base = {{.kind = study::Value::Kind::distribution, .index = 0, .level = study::DrawLevel::rig}};
   plan->distributions = {distributions::Uniform{100.0, 120.0}};
   plan->randomness.resize(1);
   plan->rig_inputs = {{0, false}};
   study.plan = std::move(plan);
-  study.rig_columns = {{"friction.k1", "N m/rad", "lowest stiffness", study::Per::rig}};
+  study.columns.rigs = {{"friction.k1", "N m/rad", "lowest stiffness", study::DrawLevel::rig}};
   study::RealisedProfile of_rigs{"friction.k2", "N m/rad", study.profiles[0].profile};
   of_rigs.of_rig = [one = study.profiles[0].profile](std::int64_t rig) {
     friction::Profile rotor = *one;
@@ -155,7 +155,7 @@ shards::TrialResult sample_result(const study::Study& study, std::int64_t row) {
   std::normal_distribution<double> normal;
   shards::TrialResult result;
   result.row = row;
-  for (std::size_t input = 0; input < study.input_columns.size(); ++input)
+  for (std::size_t input = 0; input < study.columns.inputs.size(); ++input)
     result.inputs.push_back(normal(random));
   for (std::int64_t move = 0; move < study.moves; ++move) {
     result.outcome.moves.push_back(sample_move(random, move, result.jerks));
@@ -198,7 +198,7 @@ std::vector<shards::ShardInfo> write_sample_shards(const std::filesystem::path& 
 }
 
 /// [point][rig] as if trial i were on rig i mod 8; empty without rigs.
-std::vector<std::vector<std::int64_t>> sample_rig_successes(const reading::StudyFile& file) {
+std::vector<std::vector<std::int64_t>> sample_rig_successes(const reading::AllTrialsFile& file) {
   const std::optional<reading::StoredGroups> rigs = file.rigs();
   if (!rigs) return {};
   const std::vector<trial::MoveOutcome> outcomes = file.outcomes(file.rows());
@@ -213,7 +213,7 @@ std::vector<std::vector<std::int64_t>> sample_rig_successes(const reading::Study
   return successes;
 }
 
-layout::StoredStatistics sample_statistics(const reading::StudyFile& file) {
+layout::StoredStatistics sample_statistics(const reading::AllTrialsFile& file) {
   const std::int64_t trials = file.header().trials;
   layout::PointColumn count{"trials", "1", "trials of the design point", {}};
   layout::PointColumn settling{"settling_time_mean", "s", "mean settling time of the first move", {}};
@@ -233,7 +233,7 @@ layout::StoredStatistics sample_statistics(const reading::StudyFile& file) {
 }
 
 /// The largest holding torque of every move at every design point.
-layout::StatisticTable sample_table(const reading::StudyFile& file) {
+layout::StatisticTable sample_table(const reading::AllTrialsFile& file) {
   const std::int64_t trials = file.header().trials;
   const auto moves = static_cast<std::size_t>(file.moves());
   layout::PointColumn largest{"torque_max", "N m", "largest holding torque", {}};
@@ -263,17 +263,17 @@ study::Study sample_study_in_worlds() {
   study::Study study = sample_study(3, 40, 2);
   study.worlds = 7;
   auto plan = std::make_shared<study::StudyPlan>();
-  plan->base = {{.kind = study::Value::Kind::distribution, .index = 0, .per = study::Per::world}};
+  plan->base = {{.kind = study::Value::Kind::distribution, .index = 0, .level = study::DrawLevel::world}};
   plan->distributions = {distributions::Uniform{100.0, 120.0}};
   plan->randomness.resize(1);
   plan->world_inputs = {{0, false}};
   study.plan = std::move(plan);
-  study.world_columns = {{"friction.k1", "N m/rad", "lowest stiffness", study::Per::world}};
+  study.columns.worlds = {{"friction.k1", "N m/rad", "lowest stiffness", study::DrawLevel::world}};
   return study;
 }
 
 /// Counts of the trials in the file. A trial is taken to meet the goal if its first move arrived.
-layout::WorldCounts counted_worlds(const reading::StudyFile& file, std::int64_t worlds) {
+layout::WorldCounts counted_worlds(const reading::AllTrialsFile& file, std::int64_t worlds) {
   const std::vector<std::vector<std::int64_t>> none(
       static_cast<std::size_t>(file.header().points),
       std::vector<std::int64_t>(static_cast<std::size_t>(worlds), 0));
@@ -295,7 +295,7 @@ std::filesystem::path write_file_in_worlds(const std::filesystem::path& director
   const std::filesystem::path path = directory / "worlds.h5";
   const std::vector<shards::ShardInfo> shards =
       write_sample_shards(directory / "shards", study, layout::all_rows(study), size);
-  const auto statistics = [&](const reading::StudyFile& file) {
+  const auto statistics = [&](const reading::AllTrialsFile& file) {
     layout::StoredStatistics stored = sample_statistics(file);
     stored.worlds = counted_worlds(file, study.worlds);
     if (!has_goal) stored.worlds->goal_met.clear();

@@ -37,8 +37,8 @@ std::vector<shards::ShardInfo> write_sample_shards(const std::filesystem::path& 
 
 /// Two statistics, computed from the file: trials per point, and the mean settling time of the first move;
 /// and sample_table.
-layout::StoredStatistics sample_statistics(const reading::StudyFile& file);
-layout::StatisticTable sample_table(const reading::StudyFile& file);
+layout::StoredStatistics sample_statistics(const reading::AllTrialsFile& file);
+layout::StatisticTable sample_table(const reading::AllTrialsFile& file);
 
 /// A whole results file of the study, by way of shards of `size` rows.
 std::filesystem::path write_sample_file(const std::filesystem::path& directory, const study::Study& study,
@@ -48,7 +48,7 @@ std::filesystem::path write_sample_file(const std::filesystem::path& directory, 
 study::Study sample_study_in_worlds();
 
 /// Counts of the trials in the file. A trial is taken to meet the goal if its first move arrived.
-layout::WorldCounts counted_worlds(const reading::StudyFile& file, std::int64_t worlds);
+layout::WorldCounts counted_worlds(const reading::AllTrialsFile& file, std::int64_t worlds);
 
 /// A results file of a study with worlds. A trial is taken to meet the goal if its first move arrived.
 /// @param size trials of a shard

@@ -48,7 +48,7 @@ void for_each_dataset(const std::filesystem::path& path,
 }
 
 void read_everything(const std::filesystem::path& path) {
-  const reading::StudyFile checked(path, reading::Require::any_part);
+  const reading::AllTrialsFile checked(path, reading::Require::any_part);
   for_each_dataset(path, read_whole);
 }
 

@@ -69,7 +69,7 @@ TEST_F(BoundsCommands, SummaryHasTheBoundsOfTheConfidenceAskedFor) {
 
 TEST_F(BoundsCommands, TheFileKeepsItsBoundsWhateverASummarySays) {
   json({"summary", "study.h5", "--confidence", "0.5"});
-  const reading::StudyFile file(*folder / "study.h5");
+  const reading::AllTrialsFile file(*folder / "study.h5");
   std::vector<double> zero, low;
   for (const layout::PointColumn& column : file.statistics()) {
     if (column.name == "zero_count") zero = column.values;

@@ -185,7 +185,7 @@ TEST_F(Compare, WhereEveryChangeFailsAnImprovementHasTheExitCodeOfARegression) {
 // Both manifests leave β out, and between the programs that ran them its default changed.
 TEST_F(Compare, TellsTheDefaultsThatChangedSinceAnEarlierFormatVersion) {
   const std::filesystem::path earlier = version_1_file(folder_.path());
-  study("now", reading::StudyFile(earlier).header().manifest);
+  study("now", reading::AllTrialsFile(earlier).header().manifest);
   const auto json = nlohmann::json::parse(run({"compare", "version-1.h5", "now.h5", "--format", "json"}).out);
   ASSERT_EQ(json["manifest_differences"].size(), 1u);
   EXPECT_EQ(json["manifest_differences"][0]["key"], "friction.beta");

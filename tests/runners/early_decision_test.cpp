@@ -33,7 +33,7 @@ class EarlyDecision : public ::testing::Test {
     return words;
   }
   static std::vector<double> measure(const char* file, const char* name) {
-    const reading::StudyFile study(*folder / file);
+    const reading::AllTrialsFile study(*folder / file);
     return study.measure(name, study.rows());
   }
   static double stopped_trials() {
@@ -70,8 +70,8 @@ TEST_F(EarlyDecision, MovesAfterOneThatDivergedAreReadAsNotRun) {
 }
 
 TEST_F(EarlyDecision, LeavesNoColumnWhereItIsNotUsed) {
-  EXPECT_FALSE(reading::StudyFile(*folder / "whole.h5").root().open_group("outcome").contains("stopped"));
-  EXPECT_TRUE(reading::StudyFile(*folder / "early.h5").root().open_group("outcome").contains("stopped"));
+  EXPECT_FALSE(reading::AllTrialsFile(*folder / "whole.h5").root().open_group("outcome").contains("stopped"));
+  EXPECT_TRUE(reading::AllTrialsFile(*folder / "early.h5").root().open_group("outcome").contains("stopped"));
   EXPECT_EQ(run({"summary", "whole.h5"}).out.find("stopped"), std::string::npos);
   EXPECT_EQ(run({"summary", "whole.h5", "--format", "csv"}).out.find("stopped"), std::string::npos);
   EXPECT_EQ(run({"summary", "whole.h5", "--format", "json"}).out.find("stopped"), std::string::npos);
@@ -81,7 +81,7 @@ TEST_F(EarlyDecision, IsCountedInTheSummaryAndInThePoints) {
   const auto json = nlohmann::json::parse(run({"summary", "early.h5", "--format", "json"}).out);
   double in_json = 0, in_file = 0;
   for (const auto& point : json["points"]) in_json += point["stopped"].get<double>();
-  for (const layout::PointColumn& column : reading::StudyFile(*folder / "early.h5").statistics()) {
+  for (const layout::PointColumn& column : reading::AllTrialsFile(*folder / "early.h5").statistics()) {
     if (column.name != "stopped") continue;
     for (const double value : column.values) in_file += value;
   }
@@ -101,7 +101,7 @@ TEST_F(EarlyDecision, TracesAndRecordsEndWhereTheTrialDoes) {
   ASSERT_LT(early.out.size(), whole.size());
   EXPECT_EQ(whole.substr(0, early.out.size()), early.out);
 
-  const reading::StudyFile file(*folder / "early.h5");
+  const reading::AllTrialsFile file(*folder / "early.h5");
   const auto lines = std::count(early.out.begin(), early.out.end(), '\n') - 1;
   EXPECT_EQ(file.trace_count(), 300 + lines);  // that trial of the other point is not stopped
   const layout::TraceRecord last = file.trace_at(file.trace_count() - 1, 1)[0];

@@ -53,7 +53,7 @@ bool same(double a, double b) {
   return a == b || (std::isnan(a) && std::isnan(b));
 }
 
-void expect_same_inputs(const reading::StudyFile& a, const reading::StudyFile& b) {
+void expect_same_inputs(const reading::AllTrialsFile& a, const reading::AllTrialsFile& b) {
   ASSERT_EQ(a.rows().count, b.rows().count);
   ASSERT_EQ(a.input_columns().size(), b.input_columns().size());
   for (std::size_t column = 0; column < a.input_columns().size(); ++column) {
@@ -65,8 +65,8 @@ TEST_F(EngineOption, GivesTheSameIntegersOnAStableStudy) {
   folder_.write("study.yaml", stable_manifest);
   complete("study.yaml", "batch.h5", {"--engine", "batch"});
   complete("study.yaml", "reference.h5", {"--engine", "reference"});
-  const reading::StudyFile batch(at("batch.h5"));
-  const reading::StudyFile reference(at("reference.h5"));
+  const reading::AllTrialsFile batch(at("batch.h5"));
+  const reading::AllTrialsFile reference(at("reference.h5"));
   expect_same_inputs(batch, reference);
 
   constexpr double counts = 1620000.0 / (2.0 * std::numbers::pi);  // a radian
@@ -103,10 +103,10 @@ TEST_F(EngineOption, IsBatchUnlessSaidOtherwiseAndIsRecorded) {
   complete("study.yaml", "default.h5");
   complete("study.yaml", "batch.h5", {"--engine", "batch"});
   complete("study.yaml", "reference.h5", {"--engine", "reference"});
-  EXPECT_EQ(reading::StudyFile(at("default.h5")).header().engine, study::Engine::batch);
-  EXPECT_EQ(reading::StudyFile(at("reference.h5")).header().engine, study::Engine::reference);
-  EXPECT_EQ(reading::StudyFile(at("default.h5")).root().text("engine"), "batch");
-  EXPECT_EQ(reading::StudyFile(at("reference.h5")).root().text("engine"), "reference");
+  EXPECT_EQ(reading::AllTrialsFile(at("default.h5")).header().engine, study::Engine::batch);
+  EXPECT_EQ(reading::AllTrialsFile(at("reference.h5")).header().engine, study::Engine::reference);
+  EXPECT_EQ(reading::AllTrialsFile(at("default.h5")).root().text("engine"), "batch");
+  EXPECT_EQ(reading::AllTrialsFile(at("reference.h5")).root().text("engine"), "reference");
   expect_same_datasets(at("default.h5"), at("batch.h5"));
 
   const ProgramResult unknown = run({"run", "study.yaml", "-o", "x.h5", "--engine", "steam"});
@@ -121,7 +121,7 @@ TEST_F(EngineOption, IsTheReferenceOfFilesThatDoNotSay) {
   folder_.write("study.yaml", small_manifest(3));
   complete("study.yaml", "old.h5", {"--engine", "reference"});
   remove_attribute(at("old.h5"), "engine");
-  EXPECT_EQ(reading::StudyFile(at("old.h5")).header().engine, study::Engine::reference);
+  EXPECT_EQ(reading::AllTrialsFile(at("old.h5")).header().engine, study::Engine::reference);
   complete("study.yaml", "odd.h5");
   replace_attribute(at("odd.h5"), "engine", "steam");
   const ProgramResult odd = run({"summary", "odd.h5"});
@@ -177,7 +177,7 @@ TEST_F(EngineOption, IsTheSameInAllPartsOfAMerge) {
     const std::string initial(1, engine[0]);
     const std::string merged = "merged-" + initial + ".h5";
     ASSERT_EQ(run({"merge", initial + "2.h5", initial + "1.h5", "-o", merged}).code, 0);
-    EXPECT_EQ(reading::StudyFile(at(merged)).root().text("engine"), engine);
+    EXPECT_EQ(reading::AllTrialsFile(at(merged)).root().text("engine"), engine);
     complete("study.yaml", "whole-" + initial + ".h5", {"--engine", engine});
     expect_same_datasets(at(merged), at("whole-" + initial + ".h5"));
   }
@@ -207,8 +207,8 @@ TEST_F(EngineOption, LeavesRecordsAndReplaysToTheReference) {
   folder_.write("study.yaml", std::string(stable_manifest) + "retain: {trials: [2]}\n");
   complete("study.yaml", "batch.h5", {"--set", "trials=4"});
   complete("study.yaml", "reference.h5", {"--set", "trials=4", "--engine", "reference"});
-  const reading::StudyFile batch(at("batch.h5"));
-  const reading::StudyFile reference(at("reference.h5"));
+  const reading::AllTrialsFile batch(at("batch.h5"));
+  const reading::AllTrialsFile reference(at("reference.h5"));
   ASSERT_EQ(batch.trace_count(), reference.trace_count());
   const std::vector<layout::TraceRecord> ours = batch.trace_at(0, batch.trace_count());
   const std::vector<layout::TraceRecord> theirs = reference.trace_at(0, reference.trace_count());

@@ -47,7 +47,7 @@ std::map<std::string, std::string> content_of(const fs::path& path) {
     return {{"", std::regex_replace(read_bytes(path), std::regex("date: [^\n]*"), "")}};
   }
   if (path.extension() != ".h5") return {{"", read_bytes(path)}};
-  const reading::StudyFile file(path);  // checks the checksum trailer
+  const reading::AllTrialsFile file(path);  // checks the checksum trailer
   return stored_datasets(path);
 }
 

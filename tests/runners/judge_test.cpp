@@ -47,7 +47,7 @@ double literal_time(const Json& samples, std::int64_t band, std::size_t dwell) {
 
 TEST_F(Judge, BandsOfTheFileAreThoseOfTheTraces) {
   run_study("goal: {band: 4, within: 0.1, moves: 0.5}\n", 12);
-  const reading::StudyFile file(folder_.path() / "out.h5");
+  const reading::AllTrialsFile file(folder_.path() / "out.h5");
   const std::vector<trial::MoveOutcome> moves = file.outcomes(file.rows());
   int entered = 0;
   for (int point = 0; point < 2; ++point) {

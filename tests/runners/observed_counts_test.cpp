@@ -47,7 +47,7 @@ TEST_F(ObservedCounts, AreTestedAgainstTheTrialsOfTheirPoint) {
   const nlohmann::json points = points_of(counts_of_both);
   EXPECT_EQ(points[0]["observed"], "19 of 20 succeeded; in the shop");
   EXPECT_EQ(points[1]["observed"], "0 of 12 succeeded");
-  const reading::StudyFile file(folder_ / "out.h5");
+  const reading::AllTrialsFile file(folder_ / "out.h5");
   for (const auto& [point, successes, of] : {std::tuple{0, 19, 20}, std::tuple{1, 0, 12}}) {
     const nlohmann::json& found = points[static_cast<std::size_t>(point)];
     const nlohmann::json& counts = found["observed_counts"];

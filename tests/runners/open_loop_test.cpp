@@ -81,7 +81,7 @@ TEST_F(OpenLoop, TableAndTablesHaveTheLevels) {
 
 TEST_F(OpenLoop, SampleRecordsHaveNoTarget) {
   ASSERT_EQ(run({"run", "loads.yaml", "-o", "loads.h5"}).code, 0);
-  const reading::StudyFile file(folder / "loads.h5");
+  const reading::AllTrialsFile file(folder / "loads.h5");
   ASSERT_GT(file.trace_count(), 0);
   for (const layout::TraceRecord& record : file.trace_at(0, file.trace_count())) {
     EXPECT_EQ(record.target, 0);
@@ -93,7 +93,7 @@ TEST_F(OpenLoop, SampleRecordsHaveNoTarget) {
 // results/datasets.md, /trace/code.
 TEST_F(OpenLoop, SampleRecordsOfAnExactTorqueHaveNoCode) {
   ASSERT_EQ(run({"run", "loads.yaml", "-o", "exact.h5", "--set", "command.torque.through=exact"}).code, 0);
-  const reading::StudyFile file(folder / "exact.h5");
+  const reading::AllTrialsFile file(folder / "exact.h5");
   double largest = 0.0;
   for (const layout::TraceRecord& record : file.trace_at(0, file.trace_count())) {
     EXPECT_EQ(record.code, 0);
@@ -120,7 +120,7 @@ TEST(SampleRecords, HaveTheColumnsThatTheStudyUsesInEveryPlace) {
     return zerocount_program(words, folder.path());
   };
   ASSERT_EQ(run({"run", "study.yaml", "-o", "out.h5"}).code, 0);
-  const reading::StudyFile file(folder / "out.h5");
+  const reading::AllTrialsFile file(folder / "out.h5");
   const std::vector<layout::TraceRecord> kept = file.trace_at(0, file.trace_count());
   const ProgramResult trace = run({"trace", "out.h5", "--trial", "1", "--format", "json"});
   ASSERT_EQ(trace.code, 0) << trace.err;

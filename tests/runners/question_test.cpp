@@ -149,7 +149,7 @@ TEST_F(QuestionOfAStudy, IsWhatEveryVerbSpeaksOfFirst) {
 
 TEST_F(QuestionOfAStudy, DecidesWhichTrialsAndRigsFailed) {
   for (const std::string name : {"goal", "success"}) {
-    const reading::StudyFile file(folder->path() / (name + ".h5"));
+    const reading::AllTrialsFile file(folder->path() / (name + ".h5"));
     const report::ReportedStudy reported = report::reported_study(file);
     const std::int64_t point = reported.chosen.point;
     const std::vector<trial::MoveOutcome> moves = file.outcomes(file.rows_of(point));

@@ -97,8 +97,8 @@ TEST_F(RigStudy, TheFileIsTheSameHoweverItWasRun) {
   run({"-o", "a.h5", "--shard", "1/2"});
   run({"-o", "b.h5", "--shard", "2/2"});
   ASSERT_EQ(program({"merge", "a.h5", "b.h5", "-o", "joined.h5"}).code, 0);
-  const reading::StudyFile once(folder_ / "once.h5");
-  const reading::StudyFile joined(folder_ / "joined.h5");
+  const reading::AllTrialsFile once(folder_ / "once.h5");
+  const reading::AllTrialsFile joined(folder_ / "joined.h5");
   EXPECT_EQ(reading::first_difference(once.root(), joined.root()).value_or("none"), "none");
   std::vector<std::int64_t> success(2 * 8, 0);  // counted from the outcomes
   const std::int64_t trials = once.header().trials;
@@ -113,7 +113,7 @@ TEST_F(RigStudy, TheFileIsTheSameHoweverItWasRun) {
 TEST_F(RigStudy, ATrialIsRunAgainAlone) {
   run({"-o", "once.h5", "--engine", "reference"});
   std::int64_t slid = 0;
-  const reading::StudyFile file(folder_ / "once.h5");
+  const reading::AllTrialsFile file(folder_ / "once.h5");
   for (const trial::MoveOutcome& move : file.outcomes(file.rows())) slid += move.broke_away;
   EXPECT_GT(slid, 20) << "the contacts after the first are to matter";
   for (const char* trial : {"3", "11", "39"}) {
@@ -129,8 +129,8 @@ TEST_F(RigStudy, ATrialIsRunAgainAlone) {
 TEST_F(RigStudy, BothEnginesHaveTheSameRigsAndContacts) {
   run({"-o", "batch.h5", "--engine", "batch", "--set", "command.hold=0.03"});
   run({"-o", "reference.h5", "--engine", "reference", "--set", "command.hold=0.03"});
-  const reading::StudyFile batch(folder_ / "batch.h5");
-  const reading::StudyFile reference(folder_ / "reference.h5");
+  const reading::AllTrialsFile batch(folder_ / "batch.h5");
+  const reading::AllTrialsFile reference(folder_ / "reference.h5");
   for (std::size_t column = 0; column < batch.input_columns().size(); ++column) {
     EXPECT_EQ(batch.input(column, batch.rows()), reference.input(column, reference.rows()));
   }

@@ -138,7 +138,7 @@ TEST_F(Run, LosesLittleWhenItIsKilled) {
   std::int64_t kept = 0;
   for (const auto& entry : fs::directory_iterator(at("killed.h5.shards"))) {
     if (entry.path().extension() == ".h5")
-      kept += reading::StudyFile(entry.path(), reading::Require::any_part).rows().count;
+      kept += reading::AllTrialsFile(entry.path(), reading::Require::any_part).rows().count;
   }
   EXPECT_GT(kept, 0);
 }
@@ -292,9 +292,9 @@ TEST_F(Run, AFullDiskLosesNothingThatWasFinished) {
 TEST_F(Run, RecordsOverridesAndTraceReplaysThem) {
   folder_.write("study.yaml", small_manifest(6));
   complete("study.yaml", "set.h5", {"--set", "trials=3", "--set", "plant.inertia=6e-4"});
-  EXPECT_EQ(reading::StudyFile(at("set.h5")).header().overrides,
+  EXPECT_EQ(reading::AllTrialsFile(at("set.h5")).header().overrides,
             (std::vector<std::string>{"trials=3", "plant.inertia=6e-4"}));
-  EXPECT_EQ(reading::StudyFile(at("set.h5")).rows().count, 6);
+  EXPECT_EQ(reading::AllTrialsFile(at("set.h5")).rows().count, 6);
   EXPECT_EQ(run({"trace", "set.h5", "--point", "1", "--trial", "2"}).code, 0);
 }
 

@@ -45,7 +45,7 @@ TEST_F(Samples, AreFoundBesideTheManifest) {
 TEST_F(Samples, AreRecordedSoThatTheFileStandsAlone) {
   ASSERT_EQ(run("out.h5").code, 0);
   std::filesystem::remove(folder_ / "studies/posterior.csv");
-  EXPECT_EQ(reading::StudyFile(folder_ / "out.h5").header().samples, table_text);
+  EXPECT_EQ(reading::AllTrialsFile(folder_ / "out.h5").header().samples, table_text);
   for (const std::string command : {"summary", "trace"}) {
     const ProgramResult result = program({command, "out.h5"});
     EXPECT_EQ(result.code, 0) << command << result.err;

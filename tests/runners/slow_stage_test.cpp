@@ -43,7 +43,7 @@ class SlowStage : public ::testing::Test {
   }
   Recorded recorded(const std::string& file) const {
     Recorded counted;
-    const reading::StudyFile study(folder_.path() / file);
+    const reading::AllTrialsFile study(folder_.path() / file);
     for (const trial::MoveOutcome& move : study.outcomes(study.rows())) {
       counted.arrived += move.arrived;
       if (move.outcome != trial::Outcome::off_target) continue;

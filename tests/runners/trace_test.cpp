@@ -98,7 +98,7 @@ TEST_F(Trace, ReplaysFromTheFileAloneAndEqualsTheRetainedRecord) {
   EXPECT_EQ(folder_.read("trial.csv"), from_manifest);
   EXPECT_EQ(run({"trace", "out.h5", "-o", "trial.csv"}).code, 2);  // never over an existing file
 
-  const reading::StudyFile file(folder_.path() / "out.h5");
+  const reading::AllTrialsFile file(folder_.path() / "out.h5");
   const std::vector<layout::TraceRecord> kept = file.trace_at(0, file.trace_count());
   ASSERT_EQ(kept.size(), 600u);  // trial 2 of both points
   EXPECT_EQ(kept[300].trial, 7);
@@ -114,7 +114,7 @@ TEST_F(Trace, ReplaysAFileOfFormatVersion1WithTheDefaultsOfItsTime) {
       EXPECT_EQ(replay.code, 0) << replay.err;
     }
   }
-  const std::vector<layout::TraceRecord> kept = reading::StudyFile(path).trace_at(0, 200);
+  const std::vector<layout::TraceRecord> kept = reading::AllTrialsFile(path).trace_at(0, 200);
   const auto json =
       nlohmann::json::parse(run({"trace", "version-1.h5", "--trial", "1", "--format", "json"}).out);
   ASSERT_EQ(json["samples"].size(), kept.size());

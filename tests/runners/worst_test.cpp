@@ -47,7 +47,7 @@ class Worst : public ::testing::Test {
     const ProgramResult run = program({"run", "worst.yaml", "-o", "worst.h5", "--force", "--quiet"});
     EXPECT_EQ(run.code, 0) << run.err;
     EXPECT_EQ(run.err.find("worlds"), std::string::npos) << "nothing differs between worlds: " << run.err;
-    const reading::StudyFile file(folder_.path() / "worst.h5");
+    const reading::AllTrialsFile file(folder_.path() / "worst.h5");
     const study::Study study = layout::recorded_study(file.header(), "worst.h5");
     trials::Replicates units = trials::replicates_of(study, 0);
     if (study.rigs == 0) units = {1, study.trials, 0};

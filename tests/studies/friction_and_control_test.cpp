@@ -57,8 +57,8 @@ TEST(Hunting, HasTheAmplitudeAndThePeriodOfTheStickSlipCycle) {
 
 TEST(Deadband, OfOneCountCostsZeroCounts) {
   const study::Study study = shipped_study("deadband");
-  EXPECT_TRUE(share_above(0.85, moves_at_zero("deadband", study.point_labels[0], 100), 100));
-  EXPECT_TRUE(share_below(0.4, moves_at_zero("deadband", study.point_labels[4], 100), 100));
+  EXPECT_TRUE(share_above(0.85, moves_at_zero("deadband", study.points.labels[0], 100), 100));
+  EXPECT_TRUE(share_below(0.4, moves_at_zero("deadband", study.points.labels[4], 100), 100));
 }
 
 TEST(Observer, DoesNotBeatTheIntegralAndChatters) {
@@ -73,7 +73,9 @@ TEST(Observer, DoesNotBeatTheIntegralAndChatters) {
 
 TEST(Resonance, LimitsALoopWithTheEncoderAtTheLoad) {
   const study::Study study = shipped_study("resonance");
-  const auto at = [&](std::size_t point) { return stable_moves("resonance", study.point_labels[point], 50); };
+  const auto at = [&](std::size_t point) {
+    return stable_moves("resonance", study.points.labels[point], 50);
+  };
   EXPECT_TRUE(share_above(0.85, at(0), 50)) << "at the motor, however soft the coupling";
   EXPECT_TRUE(share_below(0.2, at(1), 50)) << "at the load, 52 Hz";
   EXPECT_TRUE(share_above(0.85, at(11), 50)) << "at the load, 221 Hz";

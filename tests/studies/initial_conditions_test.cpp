@@ -31,7 +31,7 @@ TEST_P(PreslidingPast, IsStableInAllTests) {
 
 TEST(InitialConditions, AllTrialsSatisfyCriterionSix) {
   const study::Study study = shipped_study("initial-conditions");
-  for (const std::string& label : study.point_labels) {
+  for (const std::string& label : study.points.labels) {
     for (std::int64_t index = 0; index < study.trials; ++index) {
       const trial::TrialParameters p = trial_of(study, label, index);
       const double resolution = 2.0 * std::numbers::pi / p.encoder.fine;

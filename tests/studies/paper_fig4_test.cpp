@@ -142,7 +142,7 @@ TEST(PaperFig4, TheRecordHasTangentsBetweenTheTwoStiffnesses) {
   const ProgramResult run =
       zerocount_program({"run", manifest, "-o", "fig4.h5", "--set", "trials=1"}, folder.path());
   ASSERT_EQ(run.code, 0) << run.err;
-  const reading::StudyFile file(folder / "fig4.h5");
+  const reading::AllTrialsFile file(folder / "fig4.h5");
   const std::vector<layout::TraceRecord> record = file.trace_at(0, file.trace_count());
   const trial::TrialParameters parameters = trial_of(shipped_study("paper-fig4"), "all", 0);
   ASSERT_EQ(static_cast<std::int64_t>(record.size()), trial::samples_of_trial(parameters));

@@ -14,9 +14,9 @@ study::Study shipped_study(const std::string& name, const std::vector<std::strin
 }
 
 std::int64_t point_named(const study::Study& study, const std::string& label) {
-  const auto found = std::find(study.point_labels.begin(), study.point_labels.end(), label);
-  if (found == study.point_labels.end()) throw std::runtime_error(study.name + " has no point " + label);
-  return found - study.point_labels.begin();
+  const auto found = std::find(study.points.labels.begin(), study.points.labels.end(), label);
+  if (found == study.points.labels.end()) throw std::runtime_error(study.name + " has no point " + label);
+  return found - study.points.labels.begin();
 }
 
 trial::TrialParameters trial_of(const study::Study& study, const std::string& label, std::int64_t index) {

@@ -149,7 +149,7 @@ TEST_P(StudyDeterminism, ATrialThatIsReplayedIsTheRecordedOne) {
 TEST_P(StudyDeterminism, TheRetainedRecordIsTheReplayedOne) {
   write(5);
   complete("out.h5");
-  const reading::StudyFile file(folder_ / "out.h5");
+  const reading::AllTrialsFile file(folder_ / "out.h5");
   const std::vector<layout::TraceRecord> kept = file.trace_at(0, file.trace_count());
   std::size_t next = 0;
   for (const char* point : {"0", "1"}) {
@@ -181,14 +181,14 @@ TEST_P(StudyDeterminism, TheRetainedRecordIsTheReplayedOne) {
 TEST_P(StudyDeterminism, EachSourceOfRandomnessChangesTheData) {
   write(6);
   complete("all.h5");
-  const reading::StudyFile all(folder_ / "all.h5");
+  const reading::AllTrialsFile all(folder_ / "all.h5");
   const auto theta = all.measure("final_position", all.rows());
   int number = 0;
   for (const char* without : {"encoder.fine_errors.noise=0", "encoder.fine_errors.missed=0", "dac.noise=0",
                               "initial.history={reversals: 0}", "seed=77"}) {
     const std::string name = std::to_string(number++) + ".h5";
     complete(name, {"--set", without});
-    const reading::StudyFile other(folder_ / name);
+    const reading::AllTrialsFile other(folder_ / name);
     if (other.measure("final_position", other.rows()) != theta) continue;
     // In an open loop the encoders only watch.
     EXPECT_NE(other.measure("final_error", other.rows()), all.measure("final_error", all.rows())) << without;

@@ -69,7 +69,7 @@ bool one_place_has_both(const trial::TrialParameters& parameters, std::int64_t f
 
 TEST(TwoEncoders, DisagreementIsTheNumberOfImpossiblePairsOfCounts) {
   const study::Study study = shipped_study("two-encoders");
-  for (const std::string& label : study.point_labels) {
+  for (const std::string& label : study.points.labels) {
     for (std::int64_t index = 0; index < 6; ++index) {
       const WatchedTrial trial = watched(trial_of(study, label, index));
       std::int64_t impossible = 0;

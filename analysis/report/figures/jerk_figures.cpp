@@ -52,7 +52,7 @@ ShownMoves shown_moves(const ReportedStudy& reported, std::int64_t point) {
   return moves;
 }
 
-std::int64_t add_jerks(FigureData& data, const reading::StudyFile& file, const JerkingMove& move,
+std::int64_t add_jerks(FigureData& data, const reading::AllTrialsFile& file, const JerkingMove& move,
                        std::int64_t number) {
   std::int64_t left_out = 0;
   std::int64_t added = 0;

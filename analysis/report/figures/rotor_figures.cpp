@@ -32,7 +32,7 @@ double on_rotor(double angle, double period) {
 }
 
 /// The input column with the start position of each trial.
-std::optional<std::size_t> position_column(const reading::StudyFile& file) {
+std::optional<std::size_t> position_column(const reading::AllTrialsFile& file) {
   const std::vector<study::InputColumn>& inputs = file.input_columns();
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     if (inputs[i].name == "initial.position") return i;

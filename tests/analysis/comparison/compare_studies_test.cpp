@@ -24,10 +24,10 @@ constexpr std::int64_t trials = 120;
 study::Study study_of(const std::string& more = "", std::uint64_t seed = 1, std::int64_t count = trials) {
   study::Study study = plain_study(2, count, 1);
   study.seed = seed;
-  study.manifest_text = "zerocount: 1\nname: plain\nseed: " + std::to_string(seed) + "\n" + more;
-  study.manifest_sha256 = hash::sha256_hex(study.manifest_text);
-  study.study_sha256 = study.manifest_sha256;
-  study.input_columns = {{"friction.k1", "N m/rad", "stiffness"}};
+  study.manifest.text = "zerocount: 1\nname: plain\nseed: " + std::to_string(seed) + "\n" + more;
+  study.manifest.sha256 = hash::sha256_hex(study.manifest.text);
+  study.study_sha256 = study.manifest.sha256;
+  study.columns.inputs = {{"friction.k1", "N m/rad", "stiffness"}};
   return study;
 }
 
@@ -50,13 +50,13 @@ std::vector<TrialRecord> good_trials(std::int64_t count = trials) {
 
 class ComparedStudies : public ::testing::Test {
  protected:
-  reading::StudyFile write(const std::string& name, const study::Study& study,
+  reading::AllTrialsFile write(const std::string& name, const study::Study& study,
                            const std::vector<TrialRecord>& records) {
     write_study_file(folder_ / name, study, records);
-    return reading::StudyFile(folder_ / name);
+    return reading::AllTrialsFile(folder_ / name);
   }
 
-  std::string fault(const reading::StudyFile& one, const reading::StudyFile& other) {
+  std::string fault(const reading::AllTrialsFile& one, const reading::AllTrialsFile& other) {
     try {
       comparison::compare_studies(one, other);
     } catch (const Failure& failure) {
@@ -96,9 +96,9 @@ std::vector<TrialRecord> trials_with_undecided_moves(std::size_t step) {
 
 // Whether stability has changed is not known of moves that are neither stable nor shown unstable.
 TEST_F(ComparedStudies, UndecidedMovesOfBothFilesAreCounted) {
-  const reading::StudyFile none = write("none.h5", study_of(), good_trials());
-  const reading::StudyFile some = write("some.h5", study_of("", 2), trials_with_undecided_moves(6));
-  const reading::StudyFile many = write("many.h5", study_of("", 3), trials_with_undecided_moves(3));
+  const reading::AllTrialsFile none = write("none.h5", study_of(), good_trials());
+  const reading::AllTrialsFile some = write("some.h5", study_of("", 2), trials_with_undecided_moves(6));
+  const reading::AllTrialsFile many = write("many.h5", study_of("", 3), trials_with_undecided_moves(3));
   const comparison::StudyComparison result = comparison::compare_studies(some, many);
   for (const comparison::PointComparison& point : result.points) {
     EXPECT_EQ(point.baseline_undecided.moves, trials);
@@ -203,7 +203,7 @@ TEST_F(ComparedStudies, MoreTrialsOfTheSameDrawsAreComparedAsFarAsTheyGo) {
 
 TEST_F(ComparedStudies, PointsWithoutAPartnerAreNeverIgnored) {
   study::Study other = study_of("x: 1\n");
-  other.point_labels[1] = "point 7";
+  other.points.labels[1] = "point 7";
   EXPECT_EQ(fault(write("a.h5", study_of(), good_trials()), write("b.h5", other, good_trials())),
             "the files cannot be compared: not the same design points; only " + (folder_ / "a.h5").string() +
                 " has 'point 1'; only " + (folder_ / "b.h5").string() + " has 'point 7'");
@@ -211,7 +211,7 @@ TEST_F(ComparedStudies, PointsWithoutAPartnerAreNeverIgnored) {
 
 TEST_F(ComparedStudies, EqualLabelsOfOtherAxesAreNoPartners) {
   study::Study other = study_of("x: 1\n");
-  other.axes[0].numbers[1] = 9.0;
+  other.points.axes[0].numbers[1] = 9.0;
   const std::string what =
       fault(write("a.h5", study_of(), good_trials()), write("b.h5", other, good_trials()));
   EXPECT_NE(what.find("the axis controller.ki is 2e-05 there and 9 here"), std::string::npos) << what;
@@ -219,11 +219,11 @@ TEST_F(ComparedStudies, EqualLabelsOfOtherAxesAreNoPartners) {
 
 TEST_F(ComparedStudies, ACaseMayBeGivenAnotherGain) {
   study::Study before = study_of();
-  before.axes.insert(
-      before.axes.begin(),
-      study::SweepAxis{"case", "", "name", study::SweepAxis::Kind::text, {}, before.point_labels});
+  before.points.axes.insert(
+      before.points.axes.begin(),
+      study::SweepAxis{"case", "", "name", study::SweepAxis::Kind::text, {}, before.points.labels});
   study::Study after = before;
-  after.axes[1].numbers[1] = 9.0;
+  after.points.axes[1].numbers[1] = 9.0;
   after.study_sha256 = std::string(64, '0');
   const auto a = write("a.h5", before, good_trials());
   EXPECT_EQ(comparison::compare_studies(a, write("b.h5", after, good_trials())).layer,
@@ -329,12 +329,12 @@ TEST(Draws, RiseInTheSameOrderThroughAnotherDistribution) {
     shards::write_shard(folder / (name + ".shard"), study, {0, std::ssize(results)}, results);
     const std::vector<shards::ShardInfo> shards{{folder / (name + ".shard"), {0, 2 * trials}}};
     testing::merge_shards(shards, study, folder / name, {0, 2 * trials}, {});
-    return reading::StudyFile(folder / name);
+    return reading::AllTrialsFile(folder / name);
   };
   const auto draw = [](std::int64_t row) { return static_cast<double>((row * 37 + 11) % 101); };
-  const reading::StudyFile before = write("a.h5", draw);
-  const reading::StudyFile scaled = write("b.h5", [&](std::int64_t row) { return 0.95 * draw(row); });
-  const reading::StudyFile other = write("c.h5", [&](std::int64_t row) { return draw(row + 1); });
+  const reading::AllTrialsFile before = write("a.h5", draw);
+  const reading::AllTrialsFile scaled = write("b.h5", [&](std::int64_t row) { return 0.95 * draw(row); });
+  const reading::AllTrialsFile other = write("c.h5", [&](std::int64_t row) { return draw(row + 1); });
   const auto points = comparison::match_points(before, scaled);
   const comparison::DrawComparison same = comparison::compare_draws(before, scaled, {}, {}, points, trials);
   EXPECT_TRUE(same.same);

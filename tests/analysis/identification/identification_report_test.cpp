@@ -74,7 +74,7 @@ study::Study study_with(const std::string& fragment) {
 /// Quantile of the parameter over the study's trials.
 double sampled(const study::Study& study, const std::string& key, double proportion) {
   std::size_t column = 0;
-  while (study.input_columns[column].name != key) ++column;
+  while (study.columns.inputs[column].name != key) ++column;
   std::vector<double> values;
   for (std::int64_t i = 0; i < study.trials; ++i)
     values.push_back(study::study_trial(study, 0, i).inputs[column]);

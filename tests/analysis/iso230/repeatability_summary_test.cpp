@@ -53,7 +53,7 @@ summary::StudySummary summary_of(const study::Study& study, const Offset& offset
   }
   const testing::TemporaryFolder folder;
   testing::write_sequence_file(folder / "study.h5", study, results);
-  return summary::summarise(reading::StudyFile(folder / "study.h5"));
+  return summary::summarise(reading::AllTrialsFile(folder / "study.h5"));
 }
 
 /// Every approach from above ends one count higher.

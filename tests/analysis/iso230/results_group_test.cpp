@@ -51,7 +51,7 @@ nlohmann::json facts_of(const study::Study& study) {
 void expect_judged_right(const study::Study& study, const std::vector<shards::TrialResult>& results) {
   const testing::TemporaryFolder folder;
   testing::write_sequence_file(folder / "study.h5", study, results);
-  const summary::StudySummary summary = summary::summarise(reading::StudyFile(folder / "study.h5"));
+  const summary::StudySummary summary = summary::summarise(reading::AllTrialsFile(folder / "study.h5"));
   folder.write("facts.json", facts_of(study).dump());
   folder.write("summary.json", testing::summary_json(summary).dump());
   folder.write("summary.csv", testing::summary_csv(summary));
@@ -100,7 +100,7 @@ TEST(RepeatabilityFile, CountsTheTrialsThatRepeatExactlyByTheEncoder) {
   results[63].outcome.moves[3].outcome = trial::Outcome::nonfinite;
   const testing::TemporaryFolder folder;
   testing::write_sequence_file(folder / "study.h5", study, results);
-  const auto points = study_repeatability(reading::StudyFile(folder / "study.h5"), study).points;
+  const auto points = study_repeatability(reading::AllTrialsFile(folder / "study.h5"), study).points;
   EXPECT_EQ(points[0].zero_repeatability, 9);  // trials 0, 7, … 56
   EXPECT_EQ(points[0].evaluated, 60);
   EXPECT_EQ(points[1].zero_repeatability, 58);
@@ -116,7 +116,7 @@ TEST(RepeatabilityFile, NoTrialLeftHasNoValuesButItsCounts) {
   const testing::TemporaryFolder folder;
   testing::write_sequence_file(folder / "study.h5", study, results);
   const PointRepeatability point =
-      study_repeatability(reading::StudyFile(folder / "study.h5"), study).points[0];
+      study_repeatability(reading::AllTrialsFile(folder / "study.h5"), study).points[0];
   EXPECT_EQ(point.trials, 4);
   EXPECT_EQ(point.evaluated, 0);
   EXPECT_EQ(point.zero_rate, 0.0);
@@ -147,7 +147,7 @@ TEST(RepeatabilityFile, IsExportedAsCsv) {
   const study::Study study = testing::sequence_study("cycles: 2", 3);
   const testing::TemporaryFolder folder;
   testing::write_sequence_file(folder / "study.h5", study, testing::sequence_results(study));
-  const reading::StudyFile file(folder / "study.h5");
+  const reading::AllTrialsFile file(folder / "study.h5");
   const auto paths = reading::export_csv(file, folder / "csv", repeatability_exports(file));
   ASSERT_EQ(paths.size(), 8U);
   const std::vector<std::string> trials = lines_of(folder.read("csv/repeatability_trials.csv"));
@@ -173,15 +173,15 @@ TEST(RepeatabilityFile, AStudyWithoutSequenceHasNone) {
   const testing::TemporaryFolder folder;
   testing::write_sequence_file(folder / "study.h5", study, testing::sequence_results(study));
   EXPECT_FALSE(hdf5::File::open_to_read(folder / "study.h5").contains("repeatability"));
-  EXPECT_FALSE(summary::summarise(reading::StudyFile(folder / "study.h5")).repeatability);
-  EXPECT_TRUE(repeatability_exports(reading::StudyFile(folder / "study.h5")).empty());
+  EXPECT_FALSE(summary::summarise(reading::AllTrialsFile(folder / "study.h5")).repeatability);
+  EXPECT_TRUE(repeatability_exports(reading::AllTrialsFile(folder / "study.h5")).empty());
 }
 
 TEST(RepeatabilityFile, ThatIsOfAnotherSequenceIsRefused) {
   const study::Study study = testing::sequence_study("cycles: 2", 4);
   const testing::TemporaryFolder folder;
   testing::write_sequence_file(folder / "study.h5", study, testing::sequence_results(study));
-  const reading::StudyFile file(folder / "study.h5");
+  const reading::AllTrialsFile file(folder / "study.h5");
   const auto expect_bad = [&](const study::Study& other, const std::string& words) {
     try {
       study_repeatability(file, other);

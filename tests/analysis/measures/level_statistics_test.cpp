@@ -104,7 +104,7 @@ TEST(Levels, InTheFileAreThoseOfItsOutcomesByNumPyAndSciPy) {
   std::vector<testing::TrialRecord> trials;
   for (std::int64_t row = 0; row < study::trial_count(study); ++row)
     trials.push_back(testing::random_open_loop_trial(row, study.moves));
-  testing::write_study_file(folder / "study.h5", study, trials, [&](const reading::StudyFile& file) {
+  testing::write_study_file(folder / "study.h5", study, trials, [&](const reading::AllTrialsFile& file) {
     const std::vector<PointSummary> points = summary::study_statistics(file, study);
     return layout::StoredStatistics{point_columns(points), {level_table(points)}, {}};
   });

@@ -53,7 +53,7 @@ class AddedMeasure : public ::testing::Test {
     for (std::int64_t row = 0; row < study.trials; ++row) trials.push_back(testing::random_trial(row, 2));
     testing::write_study_file(
         path, study, trials,
-        [&](const reading::StudyFile& file) {
+        [&](const reading::AllTrialsFile& file) {
           const std::vector<PointSummary> points = summary::study_statistics(file, study);
           return layout::StoredStatistics{point_columns(points, {}, file.table()), {}, {}};
         },
@@ -61,7 +61,7 @@ class AddedMeasure : public ::testing::Test {
   }
 
   comparison::PointTrials read_trials() const {
-    return comparison::read_point_trials(reading::StudyFile(path, reading::Require::complete, &table), 0,
+    return comparison::read_point_trials(reading::AllTrialsFile(path, reading::Require::complete, &table), 0,
                                          study.trials);
   }
 
@@ -80,7 +80,7 @@ class AddedMeasure : public ::testing::Test {
 };
 
 TEST_F(AddedMeasure, StandsInTheResultsFileWithItsStatistics) {
-  const reading::StudyFile file(path, reading::Require::complete, &table);
+  const reading::AllTrialsFile file(path, reading::Require::complete, &table);
   const hdf5::Dataset column = file.root().open_group("outcome").open_dataset("torque_reserve");
   EXPECT_EQ(column.text("units"), "N m");
   EXPECT_EQ(column.text("long_name"), "peak torque less holding torque");
@@ -99,17 +99,17 @@ TEST_F(AddedMeasure, StandsInTheResultsFileWithItsStatistics) {
 
 TEST_F(AddedMeasure, IsCheckedWhenItIsRead) {
   const layout::MeasureTable strict = with_torque_reserve({.expected = "more than there is", .low = 1.0});
-  EXPECT_THROW(reading::StudyFile(path, reading::Require::complete, &strict).outcomes({0, 60}), Failure);
-  EXPECT_NO_THROW(reading::StudyFile(path, reading::Require::complete, &table).outcomes({0, 60}));
+  EXPECT_THROW(reading::AllTrialsFile(path, reading::Require::complete, &strict).outcomes({0, 60}), Failure);
+  EXPECT_NO_THROW(reading::AllTrialsFile(path, reading::Require::complete, &table).outcomes({0, 60}));
 }
 
 TEST_F(AddedMeasure, IsInEveryFormOfTheSummary) {
   summary::StudySummary summary;
   summary.name = study.name;
-  summary.labels = study.point_labels;
-  summary.axes = study.axes;
+  summary.labels = study.points.labels;
+  summary.axes = study.points.axes;
   summary.points =
-      summary::study_statistics(reading::StudyFile(path, reading::Require::complete, &table), study);
+      summary::study_statistics(reading::AllTrialsFile(path, reading::Require::complete, &table), study);
   const nlohmann::ordered_json json = testing::summary_json(summary)["points"][0]["torque_reserve"];
   EXPECT_EQ(json["n"], 120);
   EXPECT_NEAR(json["mean"].get<double>(), mean_reserve(), 1e-12);
@@ -121,7 +121,7 @@ TEST_F(AddedMeasure, IsInEveryFormOfTheSummary) {
 }
 
 TEST_F(AddedMeasure, IsAnOutputThatSensitivityExplains) {
-  const reading::StudyFile file(path, reading::Require::complete, &table);
+  const reading::AllTrialsFile file(path, reading::Require::complete, &table);
   const sensitivity::TrialOutputs outputs = sensitivity::trial_outputs(
       file, study, 0, study.trials, sensitivity::find_sensitivity_output("torque_reserve", file.table()));
   const auto known = std::find_if(outputs.values.begin(), outputs.values.end(),

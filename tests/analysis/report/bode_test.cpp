@@ -29,7 +29,7 @@ constexpr const char* fixed_study =
 ReportPage bode_page(const std::string& more) {
   const testing::TemporaryFolder folder;
   testing::run_study_file(folder / "a.h5", fixed_study + more);
-  return study_report(reading::StudyFile(folder / "a.h5")).page;
+  return study_report(reading::AllTrialsFile(folder / "a.h5")).page;
 }
 
 bool has_bode(const ReportPage& page) {
@@ -95,7 +95,7 @@ TEST(BodeFigure, IsOfThePointAskedFor) {
   for (const std::int64_t point : {0, 1}) {
     ReportOptions options;
     options.point = point;
-    const ReportPage page = study_report(reading::StudyFile(folder / "a.h5"), options).page;
+    const ReportPage page = study_report(reading::AllTrialsFile(folder / "a.h5"), options).page;
     loop::ControllerParameters controller;
     controller.ki = point == 0 ? 1e-5 : 2e-5;
     const FigureData& marks = data_named(find_figure(page, "bode"), "margins");

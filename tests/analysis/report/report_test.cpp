@@ -51,7 +51,7 @@ class Report : public ::testing::Test {
   static void TearDownTestSuite() { delete folder; }
 
   static TemporaryFolder* folder;
-  reading::StudyFile file{*folder / "rich.h5"};
+  reading::AllTrialsFile file{*folder / "rich.h5"};
 };
 
 TemporaryFolder* Report::folder = nullptr;
@@ -82,7 +82,7 @@ TEST_F(Report, EveryFigureHasACaptionAndUnitsAndATable) {
 }
 
 /// [point] the labels that figures show.
-std::vector<std::string> labels_in_figures(const reading::StudyFile& file) {
+std::vector<std::string> labels_in_figures(const reading::AllTrialsFile& file) {
   const ReportedStudy reported = reported_study(file);
   std::vector<std::string> labels;
   for (std::int64_t point = 0; point < file.header().points; ++point)
@@ -206,7 +206,7 @@ TEST_F(Report, ShowsTheTrialsOfThePointAskedFor) {
 
 TEST_F(Report, ComparesWithABaseline) {
   testing::run_study_file(*folder / "other.h5", testing::rich_manifest(30));
-  const reading::StudyFile baseline(*folder / "other.h5");
+  const reading::AllTrialsFile baseline(*folder / "other.h5");
   ReportOptions options;
   options.comparison = comparison::compare_studies(baseline, file);
   const ReportPage page = study_report(file, options).page;
@@ -219,7 +219,7 @@ TEST_F(Report, ComparesWithABaseline) {
 TEST_F(Report, ShowsAllMeasuresAgainstTheirMargins) {
   testing::run_study_file(*folder / "other.h5", testing::rich_manifest(30));
   ReportOptions options;
-  options.comparison = comparison::compare_studies(reading::StudyFile(*folder / "other.h5"), file);
+  options.comparison = comparison::compare_studies(reading::AllTrialsFile(*folder / "other.h5"), file);
   const ReportPage page = study_report(file, options).page;
   const Figure& figure = find_figure(page, "margins");
   std::size_t measured = 0;
@@ -255,8 +255,8 @@ TEST(ReportPage, AManifestCannotBreakIt) {
   const TemporaryFolder folder;
   testing::run_study_file(folder / "a.h5", testing::rich_manifest(4));
   testing::run_study_file(folder / "b.h5", testing::rich_manifest(4, hostile));
-  const std::string page = html_page(study_report(reading::StudyFile(folder / "b.h5")).page);
-  const std::string plain = html_page(study_report(reading::StudyFile(folder / "a.h5")).page);
+  const std::string page = html_page(study_report(reading::AllTrialsFile(folder / "b.h5")).page);
+  const std::string plain = html_page(study_report(reading::AllTrialsFile(folder / "a.h5")).page);
   EXPECT_EQ(times_in(page, "<script"), times_in(plain, "<script"));
   EXPECT_EQ(times_in(page, "</script"), times_in(plain, "</script"));
   EXPECT_EQ(times_in(page, "<!--"), times_in(plain, "<!--"));
@@ -274,7 +274,7 @@ TEST(ReportPage, NamesOfCasesCannotBreakIt) {
         "verdict: {dwell: 0.02, window: 0.02}\n"
         "sweep: {cases: {\"" +
             name + "\": {controller.ki: 2.0e-5}, other: {controller.ki: 3.0e-5}}}\n");
-    std::string page = html_page(study_report(reading::StudyFile(folder / "a.h5")).page);
+    std::string page = html_page(study_report(reading::AllTrialsFile(folder / "a.h5")).page);
     std::filesystem::remove(folder / "a.h5");
     std::filesystem::remove(folder / "a.h5.shard.h5");
     return page;
@@ -292,7 +292,7 @@ TEST(ReportPage, AFlawlessStudyIsNotCalledPerfect) {
       folder / "a.h5",
       "zerocount: 1\nname: easy\nseed: 1\ntrials: 30\ncommand: {targets: [3], hold: 0.15}\n"
       "controller: {ki: 2.0e-5}\nverdict: {dwell: 0.02, window: 0.02}\n");
-  const StudyReport report = study_report(reading::StudyFile(folder / "a.h5"));
+  const StudyReport report = study_report(reading::AllTrialsFile(folder / "a.h5"));
   const std::string& verdict = report.page.sections.front().html;
   // 1 − 0.05^(1/30) = 9.503 %; ln 0.05 / ln 0.999 = 2994.2
   EXPECT_NE(verdict.find("does not prove 100&nbsp;% repeatability"), std::string::npos) << verdict;
@@ -308,7 +308,7 @@ TEST(ReportPage, TheBestPointAllowsForItsChoice) {
       "zerocount: 1\nname: easy\nseed: 1\ntrials: 30\ncommand: {targets: [3], hold: 0.15}\n"
       "verdict: {dwell: 0.02, window: 0.02}\n"
       "sweep: {grid: {controller.ki: [1.8e-5, 1.9e-5, 2.0e-5, 2.1e-5]}}\n");
-  const StudyReport report = study_report(reading::StudyFile(folder / "a.h5"));
+  const StudyReport report = study_report(reading::AllTrialsFile(folder / "a.h5"));
   const std::string& verdict = report.page.sections.front().html;
   EXPECT_NE(verdict.find("Best of 4 points, "), std::string::npos) << verdict;
   EXPECT_NE(verdict.find("at most 13.6&nbsp;% fail"), std::string::npos) << verdict;
@@ -328,7 +328,7 @@ std::string saltelli_manifest(const std::string& more) {
 ReportPage page_of(const std::string& manifest) {
   const TemporaryFolder folder;
   testing::run_study_file(folder / "a.h5", manifest);
-  return study_report(reading::StudyFile(folder / "a.h5")).page;
+  return study_report(reading::AllTrialsFile(folder / "a.h5")).page;
 }
 
 TEST(DependentTrials, MakeNoClaimOfAllAxes) {
@@ -389,7 +389,7 @@ TEST_P(PaperFigures, StandWhereTheStudyShowsThem) {
   const TemporaryFolder folder;
   testing::run_study_file(folder / "a.h5",
                           std::string("zerocount: 1\nname: paper\nseed: 1\ntrials: 3\n") + GetParam().more);
-  const std::vector<std::string> names = figure_names(study_report(reading::StudyFile(folder / "a.h5")).page);
+  const std::vector<std::string> names = figure_names(study_report(reading::AllTrialsFile(folder / "a.h5")).page);
   std::string found;
   for (const std::string& name : names) found += name.starts_with("paper") ? name : "";
   EXPECT_EQ(found, GetParam().figure);
@@ -430,13 +430,13 @@ TEST(ReportPage, DoesNotGrowWithTheTrials) {
     jerks.erase(std::unique(jerks.begin(), jerks.end(), close), jerks.end());
     trials.back().outcome.moves.front().jerk_count = std::ssize(jerks);
   }
-  testing::write_study_file(folder / "many.h5", study, trials, [&](const reading::StudyFile& file) {
+  testing::write_study_file(folder / "many.h5", study, trials, [&](const reading::AllTrialsFile& file) {
     layout::StoredStatistics stored;
     summary::take_stored_statistics(file, study, {},
                                     [&](const layout::StoredStatistics& only) { stored = only; });
     return stored;
   });
-  const std::string page = html_page(study_report(reading::StudyFile(folder / "many.h5")).page);
+  const std::string page = html_page(study_report(reading::AllTrialsFile(folder / "many.h5")).page);
   EXPECT_LT(page.size(), 2000000U);
   EXPECT_NE(page.find("Shown are 50 of the"), std::string::npos);
 }

@@ -66,11 +66,11 @@ class MadeUpStudy {
     shards::write_shard(folder_ / "shard.h5", study, {0, std::ssize(results)}, results);
     const std::vector<shards::ShardInfo> shards{{folder_ / "shard.h5", rows}};
     testing::merge_shards(shards, study, folder_ / "study.h5", rows,
-                          [](const reading::StudyFile&) { return layout::StoredStatistics{}; });
+                          [](const reading::AllTrialsFile&) { return layout::StoredStatistics{}; });
   }
 
   StudySensitivity ask(const SensitivityQuestion& question = {}) const {
-    return study_sensitivity(reading::StudyFile(folder_ / "study.h5"), question);
+    return study_sensitivity(reading::AllTrialsFile(folder_ / "study.h5"), question);
   }
   OutputSensitivity about(const std::string& output) const {
     return ask({.points = {1}, .outputs = {output}}).points.at(0).outputs.at(0);

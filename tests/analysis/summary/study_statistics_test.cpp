@@ -36,8 +36,8 @@ std::vector<testing::TrialRecord> random_trials(const study::Study& study) {
 std::string text_of(const study::Study& study, const std::vector<measures::PointSummary>& points) {
   StudySummary summary;
   summary.name = study.name;
-  summary.labels = study.point_labels;
-  summary.axes = study.axes;
+  summary.labels = study.points.labels;
+  summary.axes = study.points.axes;
   summary.points = points;
   nlohmann::ordered_json json = testing::summary_json(summary);
   for (auto& point : json["points"]) point.erase("undecided");  // is found out with the study
@@ -48,7 +48,7 @@ void expect_refused(const study::Study& study, const std::vector<testing::TrialR
                     const std::string& place) {
   const testing::TemporaryFolder folder;
   testing::write_study_file(folder / "study.h5", study, trials);
-  const reading::StudyFile file(folder / "study.h5");
+  const reading::AllTrialsFile file(folder / "study.h5");
   try {
     study_statistics(file, study);
     FAIL() << "expected a failure that names " << place;
@@ -78,7 +78,7 @@ TEST(StudyStatistics, OfAFileAreThoseOfItsTrials) {
 
   const testing::TemporaryFolder folder;
   testing::write_study_file(folder / "study.h5", study, trials);
-  EXPECT_EQ(text_of(study, study_statistics(reading::StudyFile(folder / "study.h5"), study)),
+  EXPECT_EQ(text_of(study, study_statistics(reading::AllTrialsFile(folder / "study.h5"), study)),
             text_of(study, expected));
 }
 
@@ -86,7 +86,7 @@ TEST(StudyStatistics, OfAFileAreThoseOfItsOutcomesByNumPyAndSciPy) {
   const study::Study study = testing::plain_study(3, 400, 2);
   const testing::TemporaryFolder folder;
   testing::write_study_file(
-      folder / "study.h5", study, random_trials(study), [&](const reading::StudyFile& file) {
+      folder / "study.h5", study, random_trials(study), [&](const reading::AllTrialsFile& file) {
         return layout::StoredStatistics{measures::point_columns(study_statistics(file, study)), {}, {}};
       });
   const std::string command =
@@ -107,7 +107,7 @@ TEST(StudyStatistics, EachPointHasAllOfItsTrialsAndNoOther) {
   const testing::TemporaryFolder folder;
   testing::write_study_file(folder / "study.h5", study, trials);
   const std::vector<measures::PointSummary> points =
-      study_statistics(reading::StudyFile(folder / "study.h5"), study);
+      study_statistics(reading::AllTrialsFile(folder / "study.h5"), study);
   ASSERT_EQ(points.size(), 7U);
   for (std::size_t point = 0; point < 7; ++point) {
     EXPECT_EQ(points[point].trials, 3);
@@ -161,11 +161,11 @@ TEST(Summarise, AddsWhatTheManifestOfTheFileSays) {
   const testing::TemporaryFolder folder;
   testing::write_study_file(folder / "study.h5", study, trials,
                             measures::prediction_columns(theory::study_predictions(study)));
-  const reading::StudyFile file(folder / "study.h5");
+  const reading::AllTrialsFile file(folder / "study.h5");
   const StudySummary summary = summarise(file);
 
   EXPECT_EQ(summary.name, "two gains");
-  EXPECT_EQ(summary.labels, study.point_labels);
+  EXPECT_EQ(summary.labels, study.points.labels);
   EXPECT_EQ(text_of(study, summary.points), text_of(study, study_statistics(file, study)));
   EXPECT_EQ(observed_at(summary, 0), "stable in all tests");
   EXPECT_EQ(observed_at(summary, 1), "");
@@ -193,7 +193,7 @@ TEST(Summarise, TakesWhatTheCriteriaSayFromTheFile) {
   const std::vector<layout::PointColumn> stored =
       measures::prediction_columns(std::vector<theory::PointPrediction>{{30, 7, 2}, {30, 0, 30}});
   testing::write_study_file(folder / "stored.h5", study, random_trials(study), stored);
-  const StudySummary summary = summarise(reading::StudyFile(folder / "stored.h5"));
+  const StudySummary summary = summarise(reading::AllTrialsFile(folder / "stored.h5"));
   EXPECT_EQ(summary.predictions[0].stable, 7);
   EXPECT_EQ(summary.predictions[0].unstable, 2);
   EXPECT_EQ(summary.predictions[1].unstable, 30);
@@ -201,7 +201,7 @@ TEST(Summarise, TakesWhatTheCriteriaSayFromTheFile) {
 
 TEST(Summarise, ReadsAFileOfFormatVersion1) {
   const testing::TemporaryFolder folder;
-  const StudySummary summary = summarise(reading::StudyFile(testing::version_1_file(folder.path())));
+  const StudySummary summary = summarise(reading::AllTrialsFile(testing::version_1_file(folder.path())));
   EXPECT_EQ(summary.labels, (std::vector<std::string>{"low", "high"}));
   EXPECT_EQ(summary.points[0].success_rate().value, 1.0);
   EXPECT_EQ(summary.points[1].success_rate().value, 0.0);
@@ -227,7 +227,7 @@ TEST(Summarise, RefusesAFileWhoseManifestHasAnotherNumberOfMoves) {
                             measures::prediction_columns(theory::study_predictions(study)));
   testing::expect_failure(ExitCode::bad_data,
                           "study.h5: damaged: its trials have 2 moves, and its manifest 1",
-                          [&] { summarise(reading::StudyFile(folder / "study.h5")); });
+                          [&] { summarise(reading::AllTrialsFile(folder / "study.h5")); });
 }
 
 TEST(Summarise, RefusesAFileWithoutWhatTheCriteriaSay) {
@@ -237,7 +237,7 @@ TEST(Summarise, RefusesAFileWithoutWhatTheCriteriaSay) {
     std::filesystem::remove(folder / "bad.h5");
     testing::write_study_file(folder / "bad.h5", study, random_trials(study), columns);
     try {
-      summarise(reading::StudyFile(folder / "bad.h5"));
+      summarise(reading::AllTrialsFile(folder / "bad.h5"));
       ADD_FAILURE() << "expected a failure: " << words;
     } catch (const Failure& failure) {
       EXPECT_EQ(failure.code(), ExitCode::bad_data);

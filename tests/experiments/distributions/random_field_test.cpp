@@ -31,7 +31,7 @@ double correlation_of(const std::vector<double>& spectrum, double distance) {
 }
 
 TEST(RandomField, SpectrumGivesTheWrappedCorrelation) {
-  for (const double length : {0.01, 0.2, 1.0, 3.0, longest_correlation_length}) {
+  for (const double length : {0.01, 0.2, 1.0, 3.0, max_correlation_length}) {
     const std::vector<double> spectrum = field_spectrum(length);
     EXPECT_NEAR(std::accumulate(spectrum.begin(), spectrum.end(), 0.0), 1.0, 1e-12);
     for (const double distance : {0.0, 0.3 * length, length, 2 * length, std::numbers::pi}) {
@@ -41,14 +41,14 @@ TEST(RandomField, SpectrumGivesTheWrappedCorrelation) {
 }
 
 TEST(RandomField, CorrelationFallsToOneOverEAtTheCorrelationLength) {
-  for (const double length : {shortest_correlation_length, 0.05, 0.2, 1.0}) {
+  for (const double length : {min_correlation_length, 0.05, 0.2, 1.0}) {
     EXPECT_NEAR(correlation_of(field_spectrum(length), length), 1 / std::numbers::e, 1e-10);
   }
 }
 
 TEST(RandomField, TheSeriesIsNoLongerThanItMustBe) {
   EXPECT_LE(field_spectrum(0.2).size(), 53u);
-  EXPECT_LE(field_spectrum(shortest_correlation_length).size(), 10500u);
+  EXPECT_LE(field_spectrum(min_correlation_length).size(), 10500u);
   for (const double length : {0.01, 0.2, 1.0}) {
     const std::vector<double> spectrum = field_spectrum(length);
     EXPECT_GT(spectrum.back(), 1e-16);

@@ -47,9 +47,9 @@ TEST(Command, TorqueLevelsAreMovesWithoutTargets) {
   EXPECT_TRUE(study.open_loop);
   EXPECT_EQ(study.moves, 3);
   EXPECT_TRUE(study.sequence.empty());
-  ASSERT_EQ(study.input_columns.size(), 1u);
-  EXPECT_EQ(study.input_columns[0].name, "command.torque.levels.1");
-  EXPECT_EQ(study.input_columns[0].unit, "N m");
+  ASSERT_EQ(study.columns.inputs.size(), 1u);
+  EXPECT_EQ(study.columns.inputs[0].name, "command.torque.levels.1");
+  EXPECT_EQ(study.columns.inputs[0].unit, "N m");
   for (std::int64_t i = 0; i < 10; ++i) {
     const study::StudyTrial trial = study::study_trial(study, 0, i);
     const trial::CommandParameters& command = trial.parameters.command;
@@ -70,7 +70,7 @@ TEST(Command, TorqueLevelsAreSwept) {
   const study::Study study = study_of(manifest_commanding(
       "{torque: {levels: [0.1, 0]}}",
       "sweep: {grid: {command.torque.levels.0: {linspace: [0.1, 0.2, 3]}, command.torque.rate: [1, 2]}}\n"));
-  EXPECT_EQ(study.point_labels[5], "command.torque.levels.0=0.2, command.torque.rate=2");
+  EXPECT_EQ(study.points.labels[5], "command.torque.levels.0=0.2, command.torque.rate=2");
   EXPECT_EQ(study::study_trial(study, 5, 0).parameters.command.torque.levels, (std::vector<double>{0.2, 0}));
   const study::Study whole = study_of(manifest_commanding(
       "{torque: {levels: [0.1, 0]}}", "sweep: {grid: {command.torque.levels: [[0.1, 0], [0.2, 0.1]]}}\n"));
@@ -97,8 +97,8 @@ TEST(Command, ASequenceIsExpandedIntoMoves) {
   EXPECT_FALSE(study.open_loop);
   EXPECT_EQ(study.moves, 16);
   ASSERT_EQ(study.sequence.size(), 16u);
-  ASSERT_EQ(study.input_columns.size(), 1u);
-  EXPECT_EQ(study.input_columns[0].name, "command.sequence.targets.1");
+  ASSERT_EQ(study.columns.inputs.size(), 1u);
+  EXPECT_EQ(study.columns.inputs[0].name, "command.sequence.targets.1");
   for (std::int64_t i = 0; i < 10; ++i) {
     const study::StudyTrial trial = study::study_trial(study, 0, i);
     const auto middle = static_cast<std::int64_t>(trial.inputs[0]);
@@ -130,8 +130,8 @@ TEST(Command, TheOverrunIsAParameterLikeAnyOther) {
   const study::Study study =
       study_of(manifest_commanding("{sequence: {targets: [0, 10], overrun: {integers: [5, 9]}, cycles: 1}}",
                                    "sweep: {grid: {command.sequence.targets.1: [10, 20]}}\n"));
-  EXPECT_EQ(study.input_columns[0].name, "command.sequence.targets.1");
-  EXPECT_EQ(study.input_columns[1].name, "command.sequence.overrun");
+  EXPECT_EQ(study.columns.inputs[0].name, "command.sequence.targets.1");
+  EXPECT_EQ(study.columns.inputs[1].name, "command.sequence.overrun");
   std::set<std::int64_t> first;
   for (std::int64_t i = 0; i < 10; ++i) {
     const study::StudyTrial trial = study::study_trial(study, 1, i);
@@ -179,7 +179,7 @@ TEST(Command, ListsShareTheSobolDimensionsAndNothingElse) {
       study_of(manifest_commanding("{torque: {levels: [{uniform: [0, 1]}]}}", "design: sobol\n"));
   EXPECT_NE(std::floor(1e6 * study::study_trial(levels, 0, 3).inputs[0]),
             study::study_trial(targets, 0, 3).inputs[0]);
-  EXPECT_EQ(study_of(manifest_commanding("{targets: [1]}")).input_columns.size(), 0u);
+  EXPECT_EQ(study_of(manifest_commanding("{targets: [1]}")).columns.inputs.size(), 0u);
 }
 
 }  // namespace

@@ -63,16 +63,16 @@ TEST(ControllerBlocks, DeadbandIsSweptAndDrawnInItsShortForm) {
   const study::Study study =
       study_of(minimal_manifest("sweep: {grid: {controller.deadband: [none, 0, 1.5]}}"));
   ASSERT_EQ(study::point_count(study), 3);
-  EXPECT_EQ(study.point_labels[0], "controller.deadband=none");
-  EXPECT_EQ(study.point_labels[2], "controller.deadband=1.5");
-  EXPECT_EQ(study.axes.front().name, "controller.deadband.enter");
+  EXPECT_EQ(study.points.labels[0], "controller.deadband=none");
+  EXPECT_EQ(study.points.labels[2], "controller.deadband=1.5");
+  EXPECT_EQ(study.points.axes.front().name, "controller.deadband.enter");
   const auto enter = [&](std::int64_t point) {
     return study::study_trial(study, point, 0).parameters.controller.blocks.deadband.enter;
   };
   EXPECT_LT(enter(0), 0.0);
   EXPECT_EQ(enter(1), 0.0);
   EXPECT_EQ(enter(2), 1.5);
-  EXPECT_EQ(study_of(minimal_manifest("controller: {deadband: {uniform: [0, 2]}}")).input_columns[0].name,
+  EXPECT_EQ(study_of(minimal_manifest("controller: {deadband: {uniform: [0, 2]}}")).columns.inputs[0].name,
             "controller.deadband.enter");
   EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("controller: {deadband: 1}\n"
                                                      "sweep: {grid: {controller.deadband: [1, 2], "

@@ -35,9 +35,9 @@ TEST(LinearAxis, HasItsUnitsAndTheLengthOfACount) {
                           "controller: {kp: {uniform: [0, 1]}, ki: 1.0e-4}\n"
                           "sweep: {grid: {friction.k2: [1.0e+7, 2.0e+7]}}\n"));
   EXPECT_EQ(study.units.axis, parameters::AxisKind::linear);
-  EXPECT_EQ(study.axes[0].unit, "N/m");
-  EXPECT_EQ(study.input_columns[column_of(study, "controller.kp")].unit, "N/count");
-  EXPECT_EQ(study.input_columns[column_of(study, "encoder.resolution")].unit, "m/count");
+  EXPECT_EQ(study.points.axes[0].unit, "N/m");
+  EXPECT_EQ(study.columns.inputs[column_of(study, "controller.kp")].unit, "N/count");
+  EXPECT_EQ(study.columns.inputs[column_of(study, "encoder.resolution")].unit, "m/count");
   const study::StudyTrial trial = study::study_trial(study, 0, 0);
   const double resolution = trial.inputs[column_of(study, "encoder.resolution")];
   EXPECT_EQ(loop::fine_resolution(trial.parameters.encoder), resolution);
@@ -159,7 +159,7 @@ TEST(LinearAxis, IsItsRotaryTwinBitForBit) {
   const study::Study linear = load_study(
       std::filesystem::path(ZEROCOUNT_MANIFESTS) / "linear-stage.yaml",
       {fmt::format("encoder.resolution={}", resolution), fmt::format("travel={}", 2.0 * std::numbers::pi)});
-  const study::Study rotary = rotary_twin(linear.manifest_text, counts);
+  const study::Study rotary = rotary_twin(linear.manifest.text, counts);
   ASSERT_EQ(study::point_count(linear), study::point_count(rotary));
   std::int64_t compared = 0;
   for (std::int64_t point = 0; point < study::point_count(linear); ++point) {

@@ -76,9 +76,9 @@ TEST(Lists, ElementsWithoutTheirModelAreWarnedOf) {
 
 TEST(Lists, ValuesAreDrawnByTheirNames) {
   const study::Study study = study_of(minimal_manifest(filters));
-  ASSERT_EQ(study.input_columns.size(), 2u);
-  EXPECT_EQ(study.input_columns[0].name, "controller.filters.0.damping");
-  EXPECT_EQ(study.input_columns[1].name, "controller.filters.3.b.2");
+  ASSERT_EQ(study.columns.inputs.size(), 2u);
+  EXPECT_EQ(study.columns.inputs[0].name, "controller.filters.0.damping");
+  EXPECT_EQ(study.columns.inputs[1].name, "controller.filters.3.b.2");
   const study::StudyTrial trial = study::study_trial(study, 0, 5);
   const double damping = 0.3 + (0.7 - 0.3) * drawn_uniform(study, "controller.filters.0.damping", 5);
   EXPECT_DOUBLE_EQ(trial.inputs[0], damping);
@@ -88,7 +88,7 @@ TEST(Lists, ValuesAreDrawnByTheirNames) {
 
 TEST(Lists, WithRigsTheirValuesBelongToTheRig) {
   const study::Study study = study_of(minimal_manifest(filters), {"rigs=5", "trials=10"});
-  ASSERT_EQ(study.rig_columns.size(), 2u);
+  ASSERT_EQ(study.columns.rigs.size(), 2u);
   EXPECT_EQ(study::study_trial(study, 0, 2).inputs, study::study_trial(study, 0, 7).inputs);
   EXPECT_NE(study::study_trial(study, 0, 2).inputs, study::study_trial(study, 0, 3).inputs);
 }
@@ -114,7 +114,7 @@ TEST(Lists, ValuesAreSweptOneByOneOrAsAList) {
                        "  grid: {controller.filters.1.frequency: {linspace: [100, 200, 2]},\n"
                        "         controller.filters.3.a: [[0, 0], [0.1, 0.2]]}\n"));
   ASSERT_EQ(study::point_count(study), 8);
-  EXPECT_EQ(study.point_labels[7],
+  EXPECT_EQ(study.points.labels[7],
             "b, controller.filters.1.frequency=200, controller.filters.3.a=[0.1, 0.2]");
   const trial::TrialParameters last = study::study_trial(study, 7, 0).parameters;
   EXPECT_EQ(last.controller.blocks.filters[0].depth, 0.1);

@@ -18,7 +18,7 @@ using Names = std::vector<std::string>;
 
 Names column_names(const study::Study& study) {
   Names names;
-  for (const study::InputColumn& column : study.input_columns) names.push_back(column.name);
+  for (const study::InputColumn& column : study.columns.inputs) names.push_back(column.name);
   return names;
 }
 
@@ -35,7 +35,7 @@ TEST(Study, UnderstandsEverySection) {
   EXPECT_EQ(study::trial_count(study), 12000);
   EXPECT_EQ(study.retained_trials, (std::vector<std::int64_t>{0, 7}));
   EXPECT_EQ(study.observed.size(), 7u);
-  EXPECT_EQ(study.manifest_text, full_manifest());
+  EXPECT_EQ(study.manifest.text, full_manifest());
   EXPECT_TRUE(study.warnings.empty());
 }
 
@@ -48,7 +48,7 @@ TEST(Study, WhatIsLeftOutTakesTheDefaults) {
   EXPECT_EQ(parameters.verdict.window, defaults.verdict.window);
   EXPECT_EQ(parameters.command.targets, std::vector<std::int64_t>{5});
   EXPECT_TRUE(parameters.friction.profiled.empty());
-  EXPECT_TRUE(study.input_columns.empty());
+  EXPECT_TRUE(study.columns.inputs.empty());
   EXPECT_TRUE(study::study_trial(study, 0, 0).inputs.empty());
 }
 
@@ -121,7 +121,7 @@ TEST(Study, UnderstandsWhatCanBeSwitchedOn) {
 TEST(Study, EnumerationsAmongTheInputsAreTheNumbersOfTheirWords) {
   const study::Study study = study_of(extended_manifest());
   const std::size_t shape = column_of(study, "command.profile.shape");
-  EXPECT_TRUE(study.input_columns[shape].meaning.ends_with(" (0 step, 1 trapezoidal, 2 s_curve, 3 sine)"));
+  EXPECT_TRUE(study.columns.inputs[shape].meaning.ends_with(" (0 step, 1 trapezoidal, 2 s_curve, 3 sine)"));
   EXPECT_EQ(study::study_trial(study, 0, 0).inputs[shape], 0);
   EXPECT_EQ(study::study_trial(study, 1, 0).inputs[shape], 2);
 }
@@ -138,10 +138,10 @@ TEST(Study, TrialsThatAreNotThereAreRefused) {
   EXPECT_THROW(study::study_trial(study, 0, -1), Failure);
 }
 
-class StudyFile : public testing::Test {
+class AllTrialsFile : public testing::Test {
  protected:
-  StudyFile() { std::filesystem::create_directories(folder); }
-  ~StudyFile() override { std::filesystem::remove_all(folder); }
+  AllTrialsFile() { std::filesystem::create_directories(folder); }
+  ~AllTrialsFile() override { std::filesystem::remove_all(folder); }
 
   std::string failure_of(const std::filesystem::path& path, ExitCode code) {
     try {
@@ -157,21 +157,21 @@ class StudyFile : public testing::Test {
       std::filesystem::temp_directory_path() / ("zerocount_study_test_" + std::to_string(::getpid()));
 };
 
-TEST_F(StudyFile, IsReadAndNamedInMessages) {
+TEST_F(AllTrialsFile, IsReadAndNamedInMessages) {
   const auto path = folder / "good.yaml";
   std::ofstream(path) << minimal_manifest();
-  EXPECT_EQ(load_study(path).manifest_text, minimal_manifest());
+  EXPECT_EQ(load_study(path).manifest.text, minimal_manifest());
   const auto bad = folder / "bad.yaml";
   std::ofstream(bad) << minimal_manifest("plant: 1\n");
   EXPECT_TRUE(failure_of(bad, ExitCode::bad_input).starts_with(bad.string() + ":6:8: plant: "));
 }
 
-TEST_F(StudyFile, ThatIsMissingOrADirectoryIsBadInput) {
+TEST_F(AllTrialsFile, ThatIsMissingOrADirectoryIsBadInput) {
   EXPECT_NE(failure_of(folder / "none.yaml", ExitCode::bad_input).find("no such file"), std::string::npos);
   EXPECT_NE(failure_of(folder, ExitCode::bad_input).find("this is a directory"), std::string::npos);
 }
 
-TEST_F(StudyFile, OfAHundredMegabytesIsRefusedUnread) {
+TEST_F(AllTrialsFile, OfAHundredMegabytesIsRefusedUnread) {
   const auto path = folder / "huge.yaml";
   std::ofstream(path) << "x";
   std::filesystem::resize_file(path, 100'000'000);
@@ -179,7 +179,7 @@ TEST_F(StudyFile, OfAHundredMegabytesIsRefusedUnread) {
             path.string() + ":1:1: manifest: the file is too large; expected at most 1048576 bytes");
 }
 
-TEST_F(StudyFile, ThatIsADeviceIsRefused) {
+TEST_F(AllTrialsFile, ThatIsADeviceIsRefused) {
   EXPECT_NE(failure_of("/dev/zero", ExitCode::bad_input).find("not a regular file"), std::string::npos);
 }
 

@@ -76,10 +76,10 @@ TEST(MeasuredCreep, IsDrawnAtEveryLevelAndRecordedWithWhatFollows) {
     }
     EXPECT_EQ(lambdas.size(), level == "trial" ? 24u : level == "rig" ? 4u : 2u) << level;
     const auto rig_column =
-        std::ranges::find(study.rig_columns, "friction.lambda", &study::InputColumn::name);
-    EXPECT_EQ(rig_column != study.rig_columns.end(), level == "rig");
+        std::ranges::find(study.columns.rigs, "friction.lambda", &study::InputColumn::name);
+    EXPECT_EQ(rig_column != study.columns.rigs.end(), level == "rig");
     if (level == "rig") {
-      const auto column = static_cast<std::size_t>(rig_column - study.rig_columns.begin());
+      const auto column = static_cast<std::size_t>(rig_column - study.columns.rigs.begin());
       for (std::int64_t rig = 0; rig < 4; ++rig)
         EXPECT_EQ(study::rig_inputs(study, rig)[column], contact_of(study, 0, rig).lambda);
     }

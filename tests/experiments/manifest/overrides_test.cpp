@@ -63,8 +63,8 @@ TEST(Overrides, MendAManifest) {
 TEST(Overrides, LeaveTheTextAndChangeTheHash) {
   const study::Study plain = study_of(minimal_manifest());
   const study::Study other = study_of(minimal_manifest(), {"trials=11"});
-  EXPECT_EQ(other.manifest_text, minimal_manifest());
-  EXPECT_EQ(other.manifest_sha256, plain.manifest_sha256);
+  EXPECT_EQ(other.manifest.text, minimal_manifest());
+  EXPECT_EQ(other.manifest.sha256, plain.manifest.sha256);
   EXPECT_NE(other.study_sha256, plain.study_sha256);
   EXPECT_NE(other.study_sha256, study_of(minimal_manifest(), {"trials=12"}).study_sha256);
   EXPECT_EQ(other.overrides, std::vector<std::string>{"trials=11"});

@@ -42,10 +42,10 @@ const std::string own = "controller: {plugin: own.so, parameters: {gain: {unifor
 TEST(PluginParameters, HaveTheirDefaultsAndDistributions) {
   const study::Study study = study_with_plugin(own);
   const study::StudyTrial trial = study::study_trial(study, 0, 3);
-  ASSERT_EQ(study.input_columns.size(), 1u);
-  EXPECT_EQ(study.input_columns[0].name, "controller.parameters.gain");
-  EXPECT_EQ(study.input_columns[0].unit, "N m/count");
-  EXPECT_EQ(study.input_columns[0].meaning, "a gain");
+  ASSERT_EQ(study.columns.inputs.size(), 1u);
+  EXPECT_EQ(study.columns.inputs[0].name, "controller.parameters.gain");
+  EXPECT_EQ(study.columns.inputs[0].unit, "N m/count");
+  EXPECT_EQ(study.columns.inputs[0].meaning, "a gain");
   ASSERT_EQ(trial.parameters.controller.user.parameters.size(), 2u);
   EXPECT_EQ(trial.parameters.controller.user.parameters[0], trial.inputs[0]);
   EXPECT_EQ(trial.parameters.controller.user.parameters[1], 0.0);
@@ -69,7 +69,7 @@ TEST(PluginParameters, AreSweptAndOverridden) {
 }
 
 TEST(PluginParameters, AreDrawnForRigsAndInEveryDesign) {
-  EXPECT_EQ(study_with_plugin(own, {"rigs=5", "trials=10"}).rig_columns.size(), 1u);
+  EXPECT_EQ(study_with_plugin(own, {"rigs=5", "trials=10"}).columns.rigs.size(), 1u);
   EXPECT_EQ(study_with_plugin(own, {"design=saltelli", "trials=9"}).factors,
             std::vector<std::string>{"controller.parameters.gain"});
   const study::Study sobol = study_with_plugin(own, {"design=sobol", "trials=8"});

@@ -97,7 +97,7 @@ TEST(Samples, BelongToTheRigsWithRigs) {
   const RandomTable table(30, 8);
   const study::Study study = parse_study(minimal_manifest("samples: p.csv\n"), "m.yaml",
                                          {"trials=40", "rigs=10"}, known_companions(nullptr, table.text));
-  EXPECT_EQ(study.samples->per, study::Per::rig);
+  EXPECT_EQ(study.samples->level, study::DrawLevel::rig);
   for (std::int64_t trial = 10; trial < 40; ++trial)
     EXPECT_EQ(inputs_of(study, trial), inputs_of(study, trial % 10));
   for (std::int64_t rig = 0; rig < 10; ++rig) EXPECT_EQ(study::rig_inputs(study, rig), inputs_of(study, rig));

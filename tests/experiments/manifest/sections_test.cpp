@@ -35,7 +35,7 @@ TEST(Sections, GoAsDeepAsTheNamesOfParameters) {
 TEST(Sections, OfAnyDepthAreSweptByTheirDottedNames) {
   const study::Study study = study_of(extended_manifest());
   ASSERT_EQ(study::point_count(study), 16);
-  EXPECT_EQ(study.point_labels[11],
+  EXPECT_EQ(study.points.labels[11],
             "sliding, controller.coarse.kd=0, friction.model=spring, command.profile.shape=s_curve");
   const trial::TrialParameters p = study::study_trial(study, 11, 0).parameters;
   EXPECT_EQ(p.initial.mode, trial::InitialMode::slide);
@@ -44,9 +44,9 @@ TEST(Sections, OfAnyDepthAreSweptByTheirDottedNames) {
   EXPECT_EQ(p.command.profile.shape, loop::ReferenceShape::s_curve);
   EXPECT_EQ(study::study_trial(study, 12, 0).parameters.friction.model, friction::FrictionModel::presliding);
   EXPECT_EQ(study::study_trial(study, 12, 0).parameters.command.profile.shape, loop::ReferenceShape::step);
-  EXPECT_EQ(study.axes.back().name, "command.profile.shape");
-  EXPECT_EQ(study.axes.back().kind, study::SweepAxis::Kind::text);
-  EXPECT_EQ(study.axes.back().texts[11], "s_curve");
+  EXPECT_EQ(study.points.axes.back().name, "command.profile.shape");
+  EXPECT_EQ(study.points.axes.back().kind, study::SweepAxis::Kind::text);
+  EXPECT_EQ(study.points.axes.back().texts[11], "s_curve");
 }
 
 TEST(Sections, AreMadeByOverrides) {
@@ -57,7 +57,7 @@ TEST(Sections, AreMadeByOverrides) {
   EXPECT_EQ(study::study_trial(study, 0, 0).parameters.controller.coarse.kd, 2e-3);
   EXPECT_EQ(study::study_trial(study, 0, 0).parameters.dac.bits, 14);
   EXPECT_EQ(study::study_trial(study, 1, 0).parameters.controller.coarse.fine_within, 2);
-  EXPECT_EQ(study.input_columns[0].name, "encoder.fine_errors.noise");
+  EXPECT_EQ(study.columns.inputs[0].name, "encoder.fine_errors.noise");
 }
 
 TEST(Sections, AreMapsInsideMaps) {

@@ -50,7 +50,7 @@ TEST(Spectrum, OfAFileIsThatOfTheListWithItsPoints) {
   EXPECT_EQ(spectrum.density[2].density, 1e-12);
   EXPECT_EQ(spectrum.lines, 7);
   // The study is whole without the file: its overrides hold the points.
-  const study::Study again = parse_study(study.manifest_text, "floor.yaml", study.overrides, {});
+  const study::Study again = parse_study(study.manifest.text, "floor.yaml", study.manifest.overrides, {});
   EXPECT_EQ(again.study_sha256, study.study_sha256);
   // Another table makes another study.
   const study::Study other = study_with("floor.csv", {{"floor.csv", "1, 1e-10\n100, 1e-12\n"}});

@@ -29,35 +29,35 @@ std::string failure_of(const std::string& sweep) {
 
 TEST(Sweep, WithoutOneThereIsOnePoint) {
   const study::Study study = study_of(minimal_manifest());
-  EXPECT_EQ(study.point_labels, Labels{"all"});
-  EXPECT_TRUE(study.axes.empty());
-  EXPECT_EQ(swept("{}").point_labels, Labels{"all"});
-  EXPECT_EQ(swept("{grid: {}, cases: {}}").point_labels, Labels{"all"});
+  EXPECT_EQ(study.points.labels, Labels{"all"});
+  EXPECT_TRUE(study.points.axes.empty());
+  EXPECT_EQ(swept("{}").points.labels, Labels{"all"});
+  EXPECT_EQ(swept("{grid: {}, cases: {}}").points.labels, Labels{"all"});
 }
 
 TEST(Sweep, GridIsTheProductWithTheLastKeyFastest) {
   const study::Study study =
       swept("{grid: {controller.kp: [0, 1.0e-4], controller.ki: [1.0e-5, 2.0e-5, 3.0e-5]}}");
-  EXPECT_EQ(study.point_labels.size(), 6u);
-  EXPECT_EQ(study.point_labels[1], "controller.kp=0, controller.ki=2e-05");
-  EXPECT_EQ(study.point_labels[3], "controller.kp=0.0001, controller.ki=1e-05");
-  ASSERT_EQ(study.axes.size(), 2u);
-  EXPECT_EQ(study.axes[0].name, "controller.kp");
-  EXPECT_EQ(study.axes[0].unit, "N m/count");
-  EXPECT_EQ(study.axes[0].numbers, (Numbers{0, 0, 0, 1e-4, 1e-4, 1e-4}));
-  EXPECT_EQ(study.axes[1].numbers, (Numbers{1e-5, 2e-5, 3e-5, 1e-5, 2e-5, 3e-5}));
+  EXPECT_EQ(study.points.labels.size(), 6u);
+  EXPECT_EQ(study.points.labels[1], "controller.kp=0, controller.ki=2e-05");
+  EXPECT_EQ(study.points.labels[3], "controller.kp=0.0001, controller.ki=1e-05");
+  ASSERT_EQ(study.points.axes.size(), 2u);
+  EXPECT_EQ(study.points.axes[0].name, "controller.kp");
+  EXPECT_EQ(study.points.axes[0].unit, "N m/count");
+  EXPECT_EQ(study.points.axes[0].numbers, (Numbers{0, 0, 0, 1e-4, 1e-4, 1e-4}));
+  EXPECT_EQ(study.points.axes[1].numbers, (Numbers{1e-5, 2e-5, 3e-5, 1e-5, 2e-5, 3e-5}));
   EXPECT_EQ(study::study_trial(study, 4, 0).parameters.controller.kp, 1e-4);
   EXPECT_EQ(study::study_trial(study, 4, 0).parameters.controller.ki, 2e-5);
 }
 
 TEST(Sweep, CasesAreNamed) {
   const study::Study study = swept("{cases: {plain: {}, fast: {controller.ki: 9.0e-5, dac.bits: 16}}}");
-  EXPECT_EQ(study.point_labels, (Labels{"plain", "fast"}));
-  ASSERT_EQ(study.axes.size(), 3u);
-  EXPECT_EQ(study.axes[0].name, "case");
-  EXPECT_EQ(study.axes[0].texts, (Labels{"plain", "fast"}));
-  EXPECT_EQ(study.axes[1].numbers, (Numbers{3.85e-5, 9e-5}));  // the default where the case is silent
-  EXPECT_EQ(study.axes[2].numbers, (Numbers{12, 16}));
+  EXPECT_EQ(study.points.labels, (Labels{"plain", "fast"}));
+  ASSERT_EQ(study.points.axes.size(), 3u);
+  EXPECT_EQ(study.points.axes[0].name, "case");
+  EXPECT_EQ(study.points.axes[0].texts, (Labels{"plain", "fast"}));
+  EXPECT_EQ(study.points.axes[1].numbers, (Numbers{3.85e-5, 9e-5}));  // the default where the case is silent
+  EXPECT_EQ(study.points.axes[2].numbers, (Numbers{12, 16}));
   EXPECT_EQ(study::study_trial(study, 1, 0).parameters.dac.bits, 16);
   EXPECT_EQ(study::study_trial(study, 0, 0).parameters.dac.bits, 12);
 }
@@ -65,8 +65,8 @@ TEST(Sweep, CasesAreNamed) {
 TEST(Sweep, CasesAndGridTogetherAreTheirProductWithTheCasesSlowest) {
   const study::Study study =
       swept("{grid: {controller.kp: [0, 1.0e-4]}, cases: {a: {dac.bits: 10}, b: {dac.bits: 14}}}");
-  EXPECT_EQ(study.point_labels, (Labels{"a, controller.kp=0", "a, controller.kp=0.0001", "b, controller.kp=0",
-                                        "b, controller.kp=0.0001"}));
+  EXPECT_EQ(study.points.labels, (Labels{"a, controller.kp=0", "a, controller.kp=0.0001",
+                                         "b, controller.kp=0", "b, controller.kp=0.0001"}));
   EXPECT_EQ(study::study_trial(study, 3, 0).parameters.dac.bits, 14);
   EXPECT_EQ(study::study_trial(study, 3, 0).parameters.controller.kp, 1e-4);
 }
@@ -75,21 +75,21 @@ TEST(Sweep, TheGridWinsOverTheCasesWithAWarning) {
   const study::Study study =
       swept("{grid: {controller.ki: [1.0e-5, 2.0e-5]}, cases: {a: {controller.ki: 5.0e-5}}}");
   EXPECT_EQ(study::study_trial(study, 1, 0).parameters.controller.ki, 2e-5);
-  ASSERT_EQ(study.axes.size(), 2u);
-  EXPECT_EQ(study.axes[1].numbers, (Numbers{1e-5, 2e-5}));
+  ASSERT_EQ(study.points.axes.size(), 2u);
+  EXPECT_EQ(study.points.axes[1].numbers, (Numbers{1e-5, 2e-5}));
   EXPECT_TRUE(has_faults(study.warnings, "6:16: sweep.grid.controller.ki | replace"));
 }
 
 TEST(Sweep, LinspaceAndLogspaceIncludeTheirEnds) {
   const study::Study linear = swept("{grid: {controller.ki: {linspace: [1.0e-5, 3.0e-4, 30]}}}");
-  ASSERT_EQ(linear.axes[0].numbers.size(), 30u);
+  ASSERT_EQ(linear.points.axes[0].numbers.size(), 30u);
   for (int i = 0; i < 30; ++i) {
-    EXPECT_NEAR(linear.axes[0].numbers[static_cast<std::size_t>(i)], 1e-5 * (i + 1), 1e-18);
+    EXPECT_NEAR(linear.points.axes[0].numbers[static_cast<std::size_t>(i)], 1e-5 * (i + 1), 1e-18);
   }
-  EXPECT_EQ(linear.axes[0].numbers.back(), 3.0e-4);
-  EXPECT_EQ(linear.point_labels[1], "controller.ki=2e-05");
+  EXPECT_EQ(linear.points.axes[0].numbers.back(), 3.0e-4);
+  EXPECT_EQ(linear.points.labels[1], "controller.ki=2e-05");
   const study::Study logarithmic = swept("{grid: {friction.alpha: {logspace: [0.01, 100, 5]}}}");
-  EXPECT_EQ(logarithmic.axes[0].numbers, (Numbers{0.01, 0.1, 1, 10, 100}));
+  EXPECT_EQ(logarithmic.points.axes[0].numbers, (Numbers{0.01, 0.1, 1, 10, 100}));
 }
 
 TEST(Sweep, WholeNumbersMayBeSpacedWhereTheyStayWhole) {
@@ -118,29 +118,29 @@ TEST(Sweep, ValuesOutOfRangeAreReportedAtTheSweep) {
 
 TEST(Sweep, WordsListsAndDistributionsMayBeSwept) {
   const study::Study words = swept("{grid: {controller.anti_windup: [clamp, none]}}");
-  EXPECT_EQ(words.axes[0].kind, study::SweepAxis::Kind::text);
-  EXPECT_EQ(words.axes[0].texts, (Labels{"clamp", "none"}));
+  EXPECT_EQ(words.points.axes[0].kind, study::SweepAxis::Kind::text);
+  EXPECT_EQ(words.points.axes[0].texts, (Labels{"clamp", "none"}));
   EXPECT_EQ(study::study_trial(words, 1, 0).parameters.controller.anti_windup, loop::AntiWindup::none);
 
   const study::Study lists = swept("{grid: {command.targets: [[1], [{integers: [2, 9]}]]}}");
-  EXPECT_EQ(lists.point_labels[1], "command.targets=[{integers: [2, 9]}]");
-  EXPECT_EQ(lists.axes[0].name, "command.targets.0");
-  EXPECT_EQ(lists.axes[0].numbers[0], 1);
-  EXPECT_TRUE(std::isnan(lists.axes[0].numbers[1]));
+  EXPECT_EQ(lists.points.labels[1], "command.targets=[{integers: [2, 9]}]");
+  EXPECT_EQ(lists.points.axes[0].name, "command.targets.0");
+  EXPECT_EQ(lists.points.axes[0].numbers[0], 1);
+  EXPECT_TRUE(std::isnan(lists.points.axes[0].numbers[1]));
 
   const study::Study cases =
       swept("{cases: {a: {friction.k1: {uniform: [100, 120]}}, b: {friction.k1: 90}}}");
-  EXPECT_TRUE(std::isnan(cases.axes[1].numbers[0]));
-  EXPECT_EQ(cases.axes[1].numbers[1], 90);
+  EXPECT_TRUE(std::isnan(cases.points.axes[1].numbers[0]));
+  EXPECT_EQ(cases.points.axes[1].numbers[1], 90);
   EXPECT_GE(study::study_trial(cases, 0, 0).parameters.friction.uniform.k1, 100);
   EXPECT_EQ(study::study_trial(cases, 1, 0).parameters.friction.uniform.k1, 90);
 }
 
 TEST(Sweep, TruthValuesMayBeSweptLikeWords) {
   const study::Study study = swept("{grid: {verdict.stop: [false, true]}}");
-  EXPECT_EQ(study.point_labels, (Labels{"verdict.stop=false", "verdict.stop=true"}));
-  EXPECT_EQ(study.axes[0].kind, study::SweepAxis::Kind::text);
-  EXPECT_EQ(study.axes[0].texts, (Labels{"false", "true"}));
+  EXPECT_EQ(study.points.labels, (Labels{"verdict.stop=false", "verdict.stop=true"}));
+  EXPECT_EQ(study.points.axes[0].kind, study::SweepAxis::Kind::text);
+  EXPECT_EQ(study.points.axes[0].texts, (Labels{"false", "true"}));
   EXPECT_FALSE(study::study_trial(study, 0, 0).parameters.verdict.stop);
   EXPECT_TRUE(study::study_trial(study, 1, 0).parameters.verdict.stop);
   EXPECT_TRUE(has_faults(failure_of("{grid: {verdict.stop: {linspace: [0, 1, 2]}}}"),

@@ -85,12 +85,12 @@ TEST(Worlds, ShareTheirValuesAmongAllTrialsAndPoints) {
 TEST(Worlds, ListWhatDiffersBetweenThem) {
   const study::Study study = study_with_worlds(machines_in_worlds(), "monte_carlo", 10, 30, 60);
   std::vector<std::string> names;
-  for (const study::InputColumn& column : study.world_columns) {
-    EXPECT_EQ(column.per, study::Per::world);
+  for (const study::InputColumn& column : study.columns.worlds) {
+    EXPECT_EQ(column.level, study::DrawLevel::world);
     names.push_back(column.name);
   }
   EXPECT_EQ(names, values_of_worlds);
-  EXPECT_TRUE(study_of(full_manifest()).world_columns.empty());
+  EXPECT_TRUE(study_of(full_manifest()).columns.worlds.empty());
 }
 
 int stratum(double probability, int strata) {
@@ -180,7 +180,7 @@ TEST(Worlds, TakeRowsOfSamplesEquallyOften) {
     const study::Study study =
         parse_study(minimal_manifest("worlds: 16\nsamples: {file: p.csv, per: world}\n"), "m.yaml",
                     {"trials=48", "design=" + design}, known_companions(nullptr, table));
-    EXPECT_EQ(study.samples->per, study::Per::world);
+    EXPECT_EQ(study.samples->level, study::DrawLevel::world);
     EXPECT_EQ(study::samples_text(*study.samples),
               "friction.k1, friction.k2: a row of p.csv (8 draws) for each world");
     std::map<double, int> worlds_of_row;
@@ -200,8 +200,8 @@ TEST(Interval, IsDrawnForEachWorldByDefault) {
     return study_of(minimal_manifest("worlds: 5\nfriction: {k1: " + k1 + "}\n"));
   };
   const study::Study study = with("{interval: [90, 130]}");
-  ASSERT_EQ(study.input_columns.size(), 1U);
-  EXPECT_EQ(study.input_columns[0].per, study::Per::world);
+  ASSERT_EQ(study.columns.inputs.size(), 1U);
+  EXPECT_EQ(study.columns.inputs[0].level, study::DrawLevel::world);
   for (std::int64_t world = 0; world < 5; ++world) {
     EXPECT_EQ(study::world_inputs(study, world),
               study::world_inputs(with("{interval: [90, 130], per: world}"), world));

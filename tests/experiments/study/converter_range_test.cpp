@@ -20,7 +20,7 @@ TEST(ConverterRange, GivesTheResolutionOfEveryTrial) {
     const loop::DacParameters& dac = trial.parameters.dac;
     EXPECT_DOUBLE_EQ(dac.resolution, trial.inputs[range] / std::pow(2.0, dac.bits - 1)) << index;
   }
-  EXPECT_EQ(study.input_columns[range].unit, "N m");
+  EXPECT_EQ(study.columns.inputs[range].unit, "N m");
 }
 
 // Random numbers in both forms.

@@ -26,8 +26,8 @@ TEST(GainUnits, AreConvertedWithTheSampleTimeAndTheCountOfTheTrial) {
                {"trials=300"});
   const std::size_t kp = column_of(study, "controller.kp");
   const std::size_t ki = column_of(study, "controller.ki");
-  EXPECT_EQ(study.input_columns[kp].unit, "N m/rad");
-  EXPECT_EQ(study.input_columns[ki].unit, "N m/(rad s)");
+  EXPECT_EQ(study.columns.inputs[kp].unit, "N m/rad");
+  EXPECT_EQ(study.columns.inputs[ki].unit, "N m/(rad s)");
   for (std::int64_t index = 0; index < study.trials; ++index) {
     const StudyTrial trial = study_trial(study, 1, index);
     const loop::ControllerParameters& c = trial.parameters.controller;

@@ -40,11 +40,11 @@ TEST(PointLimits, EveryCombinationIsVisited) {
       if ((mask >> i & 1) != 0) slots.push_back(named[i]);
     }
     std::set<Combination> all;
-    for (std::size_t point = 0; point < study.point_labels.size(); ++point)
+    for (std::size_t point = 0; point < study.points.labels.size(); ++point)
       all.insert(combination_at(*study.plan, slots, point));
     std::set<Combination> visited;
     visit_points(*study.plan, slots, [&](std::size_t point) {
-      EXPECT_LT(point, study.point_labels.size());
+      EXPECT_LT(point, study.points.labels.size());
       visited.insert(combination_at(*study.plan, slots, point));
       return true;
     });

@@ -37,8 +37,8 @@ std::vector<double> normals(std::mt19937_64& numbers, std::size_t count) {
 }
 
 double input_of(const Study& study, const StudyTrial& trial, std::string_view name) {
-  for (std::size_t i = 0; i < study.input_columns.size(); ++i) {
-    if (study.input_columns[i].name == name) return trial.inputs[i];
+  for (std::size_t i = 0; i < study.columns.inputs.size(); ++i) {
+    if (study.columns.inputs[i].name == name) return trial.inputs[i];
   }
   ADD_FAILURE() << "no input " << name;
   return 0.0;

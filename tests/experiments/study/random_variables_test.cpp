@@ -44,8 +44,8 @@ std::size_t place_of(const RandomVariables& variables, std::string_view name) {
 }
 
 double value_in(const Study& study, const StudyTrial& trial, std::string_view name) {
-  for (std::size_t i = 0; i < study.input_columns.size(); ++i) {
-    if (study.input_columns[i].name == name) return trial.inputs[i];
+  for (std::size_t i = 0; i < study.columns.inputs.size(); ++i) {
+    if (study.columns.inputs[i].name == name) return trial.inputs[i];
   }
   ADD_FAILURE() << "no input " << name;
   return 0.0;

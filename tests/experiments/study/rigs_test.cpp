@@ -75,14 +75,14 @@ TEST(Rigs, TrialsOfARigShareTheMachineAndNothingElse) {
 TEST(Rigs, WhatARigHasIsListedOnceForIt) {
   const Study study = rig_study("monte_carlo", 30, 150);
   std::vector<std::string> names;
-  for (const InputColumn& column : study.rig_columns) names.push_back(column.name);
+  for (const InputColumn& column : study.columns.rigs) names.push_back(column.name);
   EXPECT_EQ(names, of_a_rig);
   for (std::int64_t i = 0; i < 150; ++i) {
     std::vector<double> inputs;
     for (const std::string& name : of_a_rig) inputs.push_back(input(study, name, i, 1));
     EXPECT_EQ(rig_inputs(study, rig_of(study, i)), inputs);
   }
-  EXPECT_TRUE(study_of(full_manifest()).rig_columns.empty());
+  EXPECT_TRUE(study_of(full_manifest()).columns.rigs.empty());
 }
 
 TEST(Rigs, MoreTrialsKeepTheRigsAndTheFirstTrials) {
@@ -230,7 +230,7 @@ TEST(Rigs, AStudyWithoutThemCanDrawOnceForAllItsTrials) {
 
 // Rotors for which there is no room are made again, and are the same.
 TEST(Rotors, AreThoseOfTheirNumberKeptOrNot) {
-  const distributions::ProfileDescription description{110, 0.1, distributions::shortest_correlation_length,
+  const distributions::ProfileDescription description{110, 0.1, distributions::min_correlation_length,
                                                       friction::Marginal::lognormal};
   const Rotors rotors(description, std::nullopt, 7, "friction.k1", 1'000'000);
   const Rotors others(description, std::nullopt, 7, "friction.k1", 10);

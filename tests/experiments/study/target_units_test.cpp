@@ -30,7 +30,7 @@ TEST(TargetUnits, AreTheNearestCountsOfTheEncoderOfTheTrial) {
                                    "encoder: {fine: {integers: [100, 5000000]}}\n"),
                {"trials=400"});
   const std::size_t first = column_of(study, "command.targets.0");
-  EXPECT_EQ(study.input_columns[first].unit, "rad");
+  EXPECT_EQ(study.columns.inputs[first].unit, "rad");
   for (std::int64_t index = 0; index < study.trials; ++index) {
     const StudyTrial trial = study_trial(study, 0, index);
     EXPECT_EQ(trial.target_positions[0], trial.inputs[first]);
@@ -88,7 +88,7 @@ TEST(TargetUnits, AreMetresOnALinearAxis) {
       "axis: linear\nencoder: {resolution: {log_uniform: [1.0e-10, 1.0e-7]}}\n"
       "plant: {inertia: 5, sliding_damping: 0, presliding_damping: 0}\nfriction: {model: none}\n"
       "dac: {range: 100}\ncontroller: {ki: 0}\n"));
-  EXPECT_EQ(study.input_columns[column_of(study, "command.targets.1")].unit, "m");
+  EXPECT_EQ(study.columns.inputs[column_of(study, "command.targets.1")].unit, "m");
   for (std::int64_t index = 0; index < study.trials; ++index)
     expect_nearest_counts(study_trial(study, 0, index));
 }

@@ -19,8 +19,8 @@ std::vector<std::string> names(const std::vector<layout::Column>& columns) {
 
 std::vector<layout::Table> all_tables() {
   const study::Study study = sample_study();
-  return {layout::point_table(study.axes, {{"trials", "1", "trials", {}}}),
-          layout::trial_table(study.input_columns),
+  return {layout::point_table(study.points.axes, {{"trials", "1", "trials", {}}}),
+          layout::trial_table(study.columns.inputs),
           layout::outcome_table(layout::format_version, {.stopping = true}),
           layout::jerk_table(),
           layout::trace_table({.travel = true, .phases = true, .drive_torque = true}),

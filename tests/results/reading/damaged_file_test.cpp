@@ -66,7 +66,7 @@ TEST_F(DamagedFile, ThatWasNeverFinishedIsSaidToBe) {
 
 TEST_F(DamagedFile, ThatIsAShardIsIncomplete) {
   const shards::ShardInfo shard = write_sample_shard(directory.path(), study, layout::all_rows(study));
-  expect_failure(ExitCode::bad_data, "incomplete", [&] { reading::StudyFile{shard.path}; });
+  expect_failure(ExitCode::bad_data, "incomplete", [&] { reading::AllTrialsFile{shard.path}; });
 }
 
 TEST_F(DamagedFile, WhoseAttributesContradictTheContentsIsFound) {
@@ -98,7 +98,7 @@ TEST_F(DamagedFile, IsToldWithoutItsControlCharacters) {
 TEST_F(DamagedFile, WithoutALabelOfEachPointIsFound) {
   replace_by_texts(copy("few.h5"), "/point/label", 1);
   expect_failure(ExitCode::bad_data, "/point/label: it should have one value for each of the 2 design points",
-                 [&] { reading::StudyFile(directory / "few.h5").point_labels(); });
+                 [&] { reading::AllTrialsFile(directory / "few.h5").point_labels(); });
 }
 
 TEST_F(DamagedFile, WithADatasetThatNoFileCouldHoldIsFound) {

@@ -42,7 +42,7 @@ class Export : public ::testing::Test {
  protected:
   TemporaryFolder directory;
   study::Study study = sample_study();
-  reading::StudyFile file{write_sample_file(directory.path(), study)};
+  reading::AllTrialsFile file{write_sample_file(directory.path(), study)};
   fs::path out = directory / "csv";
   std::vector<fs::path> written = reading::export_csv(file, out);
 };
@@ -62,9 +62,9 @@ TEST_F(Export, PointsHaveTheirAxesAndStatistics) {
                                                "trials", "settling_time_mean [s]"}));
   EXPECT_EQ(rows[1][2], "nan");
   EXPECT_EQ(rows[3][0], "2");
-  EXPECT_EQ(rows[3][1], study.point_labels[2]);
-  EXPECT_EQ(std::stod(rows[3][2]), study.axes[0].numbers[2]);
-  EXPECT_EQ(rows[3][3], study.axes[1].texts[2]);
+  EXPECT_EQ(rows[3][1], study.points.labels[2]);
+  EXPECT_EQ(std::stod(rows[3][2]), study.points.axes[0].numbers[2]);
+  EXPECT_EQ(rows[3][3], study.points.axes[1].texts[2]);
 }
 
 TEST_F(Export, TrialsHaveTheirInputs) {
@@ -137,7 +137,7 @@ TEST(ExportOfAPart, HasItsOwnTrialsOnly) {
   const layout::RowRange rows{30, 25};
   const auto shards = write_sample_shards(directory / "shards", study, rows, 10);
   testing::merge_shards(shards, study, directory / "part.h5", rows, {});
-  reading::export_csv(reading::StudyFile(directory / "part.h5", reading::Require::any_part),
+  reading::export_csv(reading::AllTrialsFile(directory / "part.h5", reading::Require::any_part),
                       directory / "csv");
   const auto trials = read_table(directory.path() / "csv" / "trials.csv");
   ASSERT_EQ(trials.size(), 26U);

@@ -11,7 +11,7 @@ namespace {
 
 /// Opens the file with the libraries that its users have; their absence is a failure too.
 void expect_python_opens(const std::filesystem::path& path, const std::filesystem::path& output) {
-  const reading::StudyFile file(path);
+  const reading::AllTrialsFile file(path);
   const std::string command = fmt::format(
       "{} {} {} {} {} {} {} > {} 2>&1", ZEROCOUNT_PYTHON, ZEROCOUNT_OPEN_WITH_PYTHON, path.string(),
       file.rows().count, file.moves(), file.jerk_count(), file.trace_count(), output.string());
@@ -32,9 +32,9 @@ TEST(Python, OpensAFileWithRigs) {
 TEST(Python, OpensAFileWhoseTablesAreEmpty) {
   const TemporaryFolder directory;
   study::Study study = sample_study(1, 4, 1);
-  study.overrides.clear();
+  study.manifest.overrides.clear();
   study.profiles.clear();
-  study.axes.clear();
+  study.points.axes.clear();
   std::vector<shards::TrialResult> results(4);
   for (std::int64_t row = 0; row < 4; ++row) {
     results[static_cast<std::size_t>(row)].row = row;

@@ -22,7 +22,7 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// Everything that a file can be asked for.
 void read_all(const fs::path& path) {
-  const reading::StudyFile file(path);
+  const reading::AllTrialsFile file(path);
   file.require_valid_values();
 }
 
@@ -59,7 +59,7 @@ class SoundValues : public ::testing::Test {
 
   /// The first trial at which `measure` is at least `least`.
   std::int64_t trial_with(const std::string& measure, double least) const {
-    const reading::StudyFile file(original);
+    const reading::AllTrialsFile file(original);
     const std::vector<double> values = file.measure(measure, file.rows());
     std::size_t at = 0;
     while (!(values.at(at) >= least)) ++at;
@@ -103,7 +103,7 @@ TEST_F(SoundValues, AMoveThatArrivedHasASettlingTime) {
 }
 
 TEST_F(SoundValues, AreAskedOfOneMeasureAlone) {
-  const reading::StudyFile file(forged("outcome/outcome", 41, std::int8_t{77}));
+  const reading::AllTrialsFile file(forged("outcome/outcome", 41, std::int8_t{77}));
   expect_failure(ExitCode::bad_data, "/outcome/outcome: trial 41, move 0", [&] {
     file.measure("outcome", {40, 2});
   });
@@ -134,7 +134,7 @@ TEST_F(SoundValues, AreAskedOfTheCountsOfRigs) {
   const auto expect_counts_refused = [&](const std::string& dataset, std::int64_t row, std::int64_t value,
                                          const std::string& words) {
     const fs::path path = forged(dataset, row, value);
-    expect_failure(ExitCode::bad_data, words, [&] { reading::StudyFile(path).rigs(); });
+    expect_failure(ExitCode::bad_data, words, [&] { reading::AllTrialsFile(path).rigs(); });
   };
   expect_counts_refused("rig/trials", 0, 4, "row 0: 4 trials of a rig; expected 5, or 0 of all");
   expect_counts_refused("rig/trials", 1, 0, "row 1: 0 trials of a rig; expected 5, or 0 of all");
@@ -146,7 +146,7 @@ TEST_F(SoundValues, JerksOfATrialAreInTheirOrder) {
   const std::int64_t trial = trial_with("jerk_count", 2.0);
   std::int64_t first = 0;
   {
-    const reading::StudyFile file(original);
+    const reading::AllTrialsFile file(original);
     while (file.jerks_at(first, 1).front().trial < trial) ++first;
   }
   const fs::path path = forged("jerk/onset", first, 1e9);

@@ -19,7 +19,7 @@ namespace {
 class Version1 : public ::testing::Test {
  protected:
   TemporaryFolder folder;
-  reading::StudyFile file{version_1_file(folder.path())};
+  reading::AllTrialsFile file{version_1_file(folder.path())};
 };
 
 TEST_F(Version1, IsWholeAndKnownAsSuch) {

@@ -46,7 +46,7 @@ fs::path merged(const fs::path& path, const study::Study& study, std::span<const
 TEST(Merge, KeepsEverythingOfEveryTrial) {
   const TemporaryFolder directory;
   const study::Study study = sample_study(4, 50, 3);
-  const reading::StudyFile file(write_sample_file(directory.path(), study));
+  const reading::AllTrialsFile file(write_sample_file(directory.path(), study));
   expect_sound(file.path());
   EXPECT_TRUE(file.header().complete);
   EXPECT_EQ(file.header().seed, study.seed);
@@ -110,7 +110,7 @@ TEST(Merge, HasNoColumnForWhatTheStudyDoesNotUse) {
   const TemporaryFolder directory;
   study::Study study = sample_study();
   study.features.stopping = false;
-  const reading::StudyFile file(write_sample_file(directory.path(), study));
+  const reading::AllTrialsFile file(write_sample_file(directory.path(), study));
   EXPECT_FALSE(file.root().open_group("outcome").contains("stopped"));
   EXPECT_EQ(file.measures().size(), layout::outcome_fields(layout::format_version, study.features).size());
   for (const trial::MoveOutcome& move : file.outcomes(file.rows())) EXPECT_FALSE(move.stopped);
@@ -121,16 +121,16 @@ TEST(Merge, HasNoColumnForWhatTheStudyDoesNotUse) {
 TEST(Merge, KeepsWhatIsKnownOfThePoints) {
   const TemporaryFolder directory;
   const study::Study study = sample_study();
-  const reading::StudyFile file(write_sample_file(directory.path(), study));
-  EXPECT_EQ(file.point_labels(), study.point_labels);
+  const reading::AllTrialsFile file(write_sample_file(directory.path(), study));
+  EXPECT_EQ(file.point_labels(), study.points.labels);
   const std::vector<study::SweepAxis> axes = file.axes();
   ASSERT_EQ(axes.size(), 2U);
   EXPECT_EQ(axes[0].name, "controller.ki");
   EXPECT_EQ(axes[0].unit, "N m/count");
   EXPECT_TRUE(std::isnan(axes[0].numbers[0]));
-  EXPECT_EQ(axes[0].numbers[2], study.axes[0].numbers[2]);
+  EXPECT_EQ(axes[0].numbers[2], study.points.axes[0].numbers[2]);
   EXPECT_EQ(axes[1].kind, study::SweepAxis::Kind::text);
-  EXPECT_EQ(axes[1].texts, study.axes[1].texts);
+  EXPECT_EQ(axes[1].texts, study.points.axes[1].texts);
   ASSERT_EQ(file.statistics().size(), 2U);
   EXPECT_EQ(file.statistics()[0].values, std::vector<double>(3, 40.0));
   EXPECT_EQ(file.statistics()[1].values, sample_statistics(file).points[1].values);
@@ -146,7 +146,7 @@ TEST(Merge, KeepsTablesOfStatisticsAndFurtherGroups) {
   merged.write_statistics(sample_statistics(merged.trials()));
   merged.file().create_group("further").set_integer("answer", 42);
   merged.finish();
-  const reading::StudyFile file(directory / "all.h5");
+  const reading::AllTrialsFile file(directory / "all.h5");
   const std::vector<layout::StatisticTable> tables = file.statistic_tables();
   ASSERT_EQ(tables.size(), 1U);
   EXPECT_EQ(tables[0].group, &layout::level_group());
@@ -163,7 +163,7 @@ TEST(Merge, RefusesATableOfStatisticsThatIsNotOfItsPoints) {
   const TemporaryFolder directory;
   const study::Study study = sample_study(3, 40, 2);
   const auto shards = write_sample_shards(directory / "shards", study, layout::all_rows(study), 50);
-  const testing::StatisticsOfPoints statistics = [](const reading::StudyFile& file) {
+  const testing::StatisticsOfPoints statistics = [](const reading::AllTrialsFile& file) {
     layout::StoredStatistics stored = sample_statistics(file);
     stored.tables[0].columns[0].values.pop_back();
     return stored;
@@ -178,7 +178,7 @@ TEST(Merge, KeepsOnlyTheColumnsOfSampleRecordsThatTheStudyHas) {
   study::Study study = sample_study(1, 5, 1);
   study.features.travel = study.features.drive_torque = false;
   const auto shards = write_sample_shards(directory / "shards", study, layout::all_rows(study), 2);
-  const reading::StudyFile file(merged(directory / "all.h5", study, shards));
+  const reading::AllTrialsFile file(merged(directory / "all.h5", study, shards));
   EXPECT_FALSE(file.features().travel);
   EXPECT_TRUE(file.features().phases);
   EXPECT_FALSE(file.features().drive_torque);
@@ -196,7 +196,7 @@ TEST(Merge, KeepsOnlyTheColumnsOfSampleRecordsThatTheStudyHas) {
 TEST(Merge, TabulatesTheProfiles) {
   const TemporaryFolder directory;
   const study::Study study = sample_study();
-  const reading::StudyFile file(write_sample_file(directory.path(), study));
+  const reading::AllTrialsFile file(write_sample_file(directory.path(), study));
   ASSERT_EQ(file.profiles().size(), 1U);
   const reading::StoredProfile profile = file.profiles()[0];
   EXPECT_EQ(profile.name, "friction.k1");
@@ -209,7 +209,7 @@ TEST(Merge, TabulatesTheProfiles) {
 TEST(Merge, ReadsOneMeasureAsNumbers) {
   const TemporaryFolder directory;
   const study::Study study = sample_study();
-  const reading::StudyFile file(write_sample_file(directory.path(), study));
+  const reading::AllTrialsFile file(write_sample_file(directory.path(), study));
   const std::vector<trial::MoveOutcome> outcomes = file.outcomes({10, 30});
   const std::vector<double> verdicts = file.measure("outcome", {10, 30});
   const std::vector<double> arrived = file.measure("arrived", {10, 30});
@@ -249,7 +249,7 @@ TEST(Merge, GivesTheSameBytesAcrossManyChunks) {
   const fs::path fine = merged(directory / "fine.h5", study,
                                write_sample_shards(directory / "fine", study, layout::all_rows(study), 5555));
   EXPECT_EQ(stored_datasets(coarse), stored_datasets(fine));
-  EXPECT_EQ(reading::StudyFile(fine).trace_count(), 0);
+  EXPECT_EQ(reading::AllTrialsFile(fine).trace_count(), 0);
   expect_sound(fine);
 }
 
@@ -265,12 +265,12 @@ TEST(Merge, JoinsPartsAsItJoinsShards) {
     const auto pieces =
         write_sample_shards(directory / ("shards" + std::to_string(rows.first)), study, rows, 20);
     testing::merge_shards(pieces, study, parts.back(), rows, sample_statistics, {sample_provenance()});
-    const reading::StudyFile part(parts.back(), reading::Require::any_part);
+    const reading::AllTrialsFile part(parts.back(), reading::Require::any_part);
     EXPECT_FALSE(part.header().complete);
     EXPECT_TRUE(part.statistics().empty());
     expect_sound(parts.back());
     expect_failure(ExitCode::bad_data, "incomplete: it holds trials",
-                   [&] { reading::StudyFile{parts.back()}; });
+                   [&] { reading::AllTrialsFile{parts.back()}; });
   }
   EXPECT_EQ(stored_datasets(merged(directory / "joined.h5", study, shards::merge_inputs(parts, study))),
             stored_datasets(whole));
@@ -282,18 +282,18 @@ TEST(Merge, TakesDirectoriesOfShardsAndFindsTheStudyInThem) {
   write_sample_shards(directory / "shards", study, layout::all_rows(study), 25);
   const std::vector<fs::path> inputs{directory / "shards"};
   const layout::FileHeader header = shards::first_header(inputs);
-  EXPECT_EQ(header.manifest, study.manifest_text);
-  EXPECT_EQ(header.overrides, study.overrides);
+  EXPECT_EQ(header.manifest, study.manifest.text);
+  EXPECT_EQ(header.overrides, study.manifest.overrides);
   expect_sound(merged(directory / "all.h5", study, shards::merge_inputs(inputs, study)));
 }
 
 TEST(Merge, OfAStudyWithoutAxesInputsProfilesJerksOrOverrides) {
   const TemporaryFolder directory;
   study::Study study = sample_study(1, 5, 1);
-  study.axes.clear();
-  study.input_columns.clear();
+  study.points.axes.clear();
+  study.columns.inputs.clear();
   study.profiles.clear();
-  study.overrides.clear();
+  study.manifest.overrides.clear();
   std::vector<shards::TrialResult> results(5);
   for (std::int64_t row = 0; row < 5; ++row) {
     results[static_cast<std::size_t>(row)].row = row;
@@ -302,7 +302,7 @@ TEST(Merge, OfAStudyWithoutAxesInputsProfilesJerksOrOverrides) {
   shards::write_shard(directory / "shard.h5", study, {0, std::ssize(results)}, results);
   const std::vector<shards::ShardInfo> shards{{directory / "shard.h5", {0, 5}}};
   testing::merge_shards(shards, study, directory / "all.h5", {0, 5}, {});
-  const reading::StudyFile file(directory / "all.h5");
+  const reading::AllTrialsFile file(directory / "all.h5");
   expect_sound(file.path());
   EXPECT_EQ(file.jerk_count(), 0);
   EXPECT_TRUE(file.jerks({0, 5}).empty());
@@ -384,7 +384,7 @@ TEST(Merge, RecordsThatAShardWasMadeFromChangedSources) {
   shards::write_shard(shards[1].path, study, shards[1].rows, sample_results(study, shards[1].rows), {},
                       {changed});
   testing::merge_shards(shards, study, directory / "all.h5", layout::all_rows(study), {}, {clean});
-  EXPECT_EQ(reading::StudyFile(directory / "all.h5").header().provenance.git_commit, "a1b2-dirty");
+  EXPECT_EQ(reading::AllTrialsFile(directory / "all.h5").header().provenance.git_commit, "a1b2-dirty");
 }
 
 TEST(Merge, ReplacesAnEarlierFileOnlyWhenItIsWhole) {
@@ -394,7 +394,7 @@ TEST(Merge, ReplacesAnEarlierFileOnlyWhenItIsWhole) {
   const std::string whole = read_bytes(path);
   const std::vector<shards::ShardInfo> shards =
       shards::merge_inputs(std::vector<fs::path>{layout::shards_directory(path)}, study);
-  const testing::StatisticsOfPoints failing = [](const reading::StudyFile&) -> layout::StoredStatistics {
+  const testing::StatisticsOfPoints failing = [](const reading::AllTrialsFile&) -> layout::StoredStatistics {
     throw std::runtime_error("no");
   };
   EXPECT_THROW(testing::merge_shards(shards, study, path, layout::all_rows(study), failing),
@@ -402,7 +402,7 @@ TEST(Merge, ReplacesAnEarlierFileOnlyWhenItIsWhole) {
   EXPECT_TRUE(read_bytes(path) == whole);
   directory.write(path.filename().string(), "an earlier file");
   testing::merge_shards(shards, study, path, layout::all_rows(study), {});
-  EXPECT_EQ(reading::StudyFile(path).rows(), layout::all_rows(study));
+  EXPECT_EQ(reading::AllTrialsFile(path).rows(), layout::all_rows(study));
 }
 
 TEST(Merge, LeavesNothingWhereTheStatisticsFail) {
@@ -410,7 +410,7 @@ TEST(Merge, LeavesNothingWhereTheStatisticsFail) {
   const study::Study study = sample_study();
   const auto shards = write_sample_shards(directory / "shards", study, layout::all_rows(study), 40);
   const fs::path output = directory / "all.h5";
-  const testing::StatisticsOfPoints failing = [](const reading::StudyFile&) -> layout::StoredStatistics {
+  const testing::StatisticsOfPoints failing = [](const reading::AllTrialsFile&) -> layout::StoredStatistics {
     throw std::runtime_error("no");
   };
   EXPECT_THROW(testing::merge_shards(shards, study, output, layout::all_rows(study), failing),

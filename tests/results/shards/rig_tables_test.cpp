@@ -17,7 +17,7 @@ namespace {
 TEST(RigTables, HaveWhatDiffersBetweenTheRigs) {
   const TemporaryFolder directory;
   const study::Study study = sample_study_with_rigs();
-  const reading::StudyFile file(write_sample_file(directory.path(), study));
+  const reading::AllTrialsFile file(write_sample_file(directory.path(), study));
   const reading::StoredGroups stored = file.rigs().value();
   ASSERT_EQ(stored.columns.size(), 1U);
   EXPECT_EQ(stored.columns[0].name, "friction.k1");
@@ -31,7 +31,7 @@ TEST(RigTables, HaveTheRotorOfEveryRig) {
   const TemporaryFolder directory;
   const study::Study study = sample_study_with_rigs();
   const std::vector<reading::StoredProfile> stored =
-      reading::StudyFile(write_sample_file(directory.path(), study)).profiles();
+      reading::AllTrialsFile(write_sample_file(directory.path(), study)).profiles();
   ASSERT_EQ(stored.size(), 2U);
   EXPECT_EQ(stored[0].rigs, 0);
   EXPECT_EQ(stored[1].rigs, 8);
@@ -57,8 +57,8 @@ TEST(RigTables, DoNotDependOnHowTheRowsAreDividedAmongTheShards) {
   const TemporaryFolder first;
   const TemporaryFolder second;
   const study::Study study = sample_study_with_rigs();
-  const reading::StudyFile one(write_sample_file(first.path(), study, 7));
-  const reading::StudyFile other(write_sample_file(second.path(), study, 50));
+  const reading::AllTrialsFile one(write_sample_file(first.path(), study, 7));
+  const reading::AllTrialsFile other(write_sample_file(second.path(), study, 50));
   EXPECT_EQ(reading::first_difference(one.root(), other.root()), std::nullopt);
 }
 
@@ -70,21 +70,21 @@ TEST(RigTables, APartHasTheRigsAndNoCounts) {
       write_sample_shards(directory.path() / "shards", study, rows, 20);
   const std::filesystem::path path = directory.path() / "part.h5";
   testing::merge_shards(shards, study, path, rows, {}, {sample_provenance()});
-  const reading::StudyFile part(path, reading::Require::any_part);
+  const reading::AllTrialsFile part(path, reading::Require::any_part);
   EXPECT_EQ(part.rigs().value().count, 8);
   EXPECT_TRUE(part.rigs().value().success.empty());
-  EXPECT_EQ(reading::StudyFile(shards[0].path, reading::Require::any_part).rigs(), std::nullopt);
+  EXPECT_EQ(reading::AllTrialsFile(shards[0].path, reading::Require::any_part).rigs(), std::nullopt);
 }
 
 TEST(RigTables, AreNoneWithoutRigs) {
   const TemporaryFolder directory;
-  EXPECT_FALSE(reading::StudyFile(write_sample_file(directory.path(), sample_study())).rigs().has_value());
+  EXPECT_FALSE(reading::AllTrialsFile(write_sample_file(directory.path(), sample_study())).rigs().has_value());
 }
 
 TEST(RigTables, AreExported) {
   const TemporaryFolder directory;
   const study::Study study = sample_study_with_rigs();
-  const reading::StudyFile file(write_sample_file(directory.path(), study));
+  const reading::AllTrialsFile file(write_sample_file(directory.path(), study));
   const std::filesystem::path out = directory.path() / "tables";
   reading::export_csv(file, out);
   const std::string rigs = read_bytes(out / "rigs.csv");

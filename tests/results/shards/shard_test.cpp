@@ -22,10 +22,10 @@ TEST(Shard, ReadsBackWhatWasWritten) {
   const study::Study study = sample_study();
   const layout::RowRange rows{35, 50};
   const shards::ShardInfo shard = write_sample_shard(directory.path(), study, rows);
-  const reading::StudyFile file(shard.path, reading::Require::any_part);
+  const reading::AllTrialsFile file(shard.path, reading::Require::any_part);
   EXPECT_EQ(file.rows(), rows);
-  EXPECT_EQ(file.header().manifest, study.manifest_text);
-  EXPECT_EQ(file.header().overrides, study.overrides);
+  EXPECT_EQ(file.header().manifest, study.manifest.text);
+  EXPECT_EQ(file.header().overrides, study.manifest.overrides);
   EXPECT_EQ(file.header().study_sha256, study.study_sha256);
   for (std::int64_t row = rows.first; row < rows.end(); ++row) {
     const shards::TrialResult expected = sample_result(study, row);

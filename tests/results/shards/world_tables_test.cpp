@@ -35,7 +35,7 @@ std::vector<std::int64_t> flattened(const std::vector<std::vector<std::int64_t>>
 TEST(WorldTables, HaveWhatDiffersBetweenTheWorlds) {
   const TemporaryFolder directory;
   const study::Study study = sample_study_in_worlds();
-  const reading::StudyFile file(write_file_in_worlds(directory.path(), study));
+  const reading::AllTrialsFile file(write_file_in_worlds(directory.path(), study));
   const reading::StoredGroups stored = file.worlds().value();
   EXPECT_EQ(stored.count, 7);
   ASSERT_EQ(stored.columns.size(), 1U);
@@ -49,7 +49,7 @@ TEST(WorldTables, HaveWhatDiffersBetweenTheWorlds) {
 TEST(WorldTables, HaveTheTrialsOfEveryWorldAtEveryPoint) {
   const TemporaryFolder directory;
   const study::Study study = sample_study_in_worlds();
-  const reading::StudyFile file(write_file_in_worlds(directory.path(), study));
+  const reading::AllTrialsFile file(write_file_in_worlds(directory.path(), study));
   const layout::WorldCounts counts = counted_worlds(file, 7);
   EXPECT_EQ(counts.trials[1], (std::vector<std::int64_t>{6, 6, 6, 6, 6, 5, 5}));
   const reading::StoredGroups stored = file.worlds().value();
@@ -61,7 +61,7 @@ TEST(WorldTables, HaveTheTrialsOfEveryWorldAtEveryPoint) {
 TEST(WorldTables, HaveNoGoalIfTheStudyHasNone) {
   const TemporaryFolder directory;
   const study::Study study = sample_study_in_worlds();
-  const reading::StudyFile file(write_file_in_worlds(directory.path(), study, false));
+  const reading::AllTrialsFile file(write_file_in_worlds(directory.path(), study, false));
   const reading::StoredGroups stored = file.worlds().value();
   EXPECT_EQ(stored.success, flattened(counted_worlds(file, 7).success));
   EXPECT_TRUE(stored.goal_met.empty());
@@ -71,8 +71,8 @@ TEST(WorldTables, DoNotDependOnHowTheRowsAreDividedAmongTheShards) {
   const TemporaryFolder first;
   const TemporaryFolder second;
   const study::Study study = sample_study_in_worlds();
-  const reading::StudyFile one(write_file_in_worlds(first.path(), study, true, 7));
-  const reading::StudyFile other(write_file_in_worlds(second.path(), study, true, 50));
+  const reading::AllTrialsFile one(write_file_in_worlds(first.path(), study, true, 7));
+  const reading::AllTrialsFile other(write_file_in_worlds(second.path(), study, true, 50));
   EXPECT_EQ(reading::first_difference(one.root(), other.root()), std::nullopt);
 }
 
@@ -84,23 +84,23 @@ TEST(WorldTables, OfAPartHaveNoCounts) {
       write_sample_shards(directory.path() / "shards", study, rows, 20);
   const std::filesystem::path path = directory.path() / "part.h5";
   testing::merge_shards(shards, study, path, rows, {}, {sample_provenance()});
-  const reading::StoredGroups stored = reading::StudyFile(path, reading::Require::any_part).worlds().value();
+  const reading::StoredGroups stored = reading::AllTrialsFile(path, reading::Require::any_part).worlds().value();
   EXPECT_EQ(stored.count, 7);
   EXPECT_EQ(stored.inputs[0].size(), 7U);
   EXPECT_TRUE(stored.success.empty());
-  EXPECT_FALSE(reading::StudyFile(shards[0].path, reading::Require::any_part).worlds().has_value());
+  EXPECT_FALSE(reading::AllTrialsFile(shards[0].path, reading::Require::any_part).worlds().has_value());
 }
 
 TEST(WorldTables, AreNoneWithoutWorlds) {
   const TemporaryFolder directory;
-  EXPECT_FALSE(reading::StudyFile(write_sample_file(directory.path(), sample_study())).worlds().has_value());
+  EXPECT_FALSE(reading::AllTrialsFile(write_sample_file(directory.path(), sample_study())).worlds().has_value());
 }
 
 TEST(WorldTables, AreExported) {
   const TemporaryFolder directory;
   const study::Study study = sample_study_in_worlds();
   const std::filesystem::path out = directory.path() / "tables";
-  reading::export_csv(reading::StudyFile(write_file_in_worlds(directory.path(), study)), out);
+  reading::export_csv(reading::AllTrialsFile(write_file_in_worlds(directory.path(), study)), out);
   const std::string worlds = read_bytes(out / "worlds.csv");
   EXPECT_TRUE(worlds.starts_with("world,friction.k1 [N m/rad]\n0,")) << worlds;
   EXPECT_EQ(std::count(worlds.begin(), worlds.end(), '\n'), 1 + 7);
@@ -133,7 +133,7 @@ TEST(WorldTables, WithImpossibleCountsAreRefused) {
   const TemporaryFolder directory;
   const std::filesystem::path original = write_file_in_worlds(directory.path(), sample_study_in_worlds());
   const auto expect_refused = [&](const std::string& dataset, std::size_t world, std::int64_t count) {
-    const reading::StudyFile file(with_world_count(original, dataset, 1, world, count));
+    const reading::AllTrialsFile file(with_world_count(original, dataset, 1, world, count));
     const std::string words = "row 1: impossible counts of world " + std::to_string(world) +
                               "; expected 0 to " + (world < 5 ? "6" : "5") + " trials";
     expect_failure(ExitCode::bad_data, words, [&] { file.worlds(); });
@@ -145,7 +145,7 @@ TEST(WorldTables, WithImpossibleCountsAreRefused) {
       expect_refused(dataset, world, world == 4 ? 7 : 6);
     }
   }
-  EXPECT_NO_THROW(reading::StudyFile(with_world_count(original, "world/success", 1, 4, 0)).worlds());
+  EXPECT_NO_THROW(reading::AllTrialsFile(with_world_count(original, "world/success", 1, 4, 0)).worlds());
 }
 
 }  // namespace

@@ -119,11 +119,11 @@ TEST_F(FullOutput, FailsAnExport) {
   const TemporaryFolder directory;
   const fs::path path = write_sample_file(directory.path(), sample_study());
   expect_full(
-      with_file_limit(1000, [&] { reading::export_csv(reading::StudyFile(path), directory / "csv"); }),
+      with_file_limit(1000, [&] { reading::export_csv(reading::AllTrialsFile(path), directory / "csv"); }),
       directory / "csv");
   // The table of points fits and the next does not: neither stays to stop the next attempt.
   EXPECT_TRUE(fs::is_empty(directory / "csv"));
-  EXPECT_EQ(reading::export_csv(reading::StudyFile(path), directory / "csv").size(), 7U);
+  EXPECT_EQ(reading::export_csv(reading::AllTrialsFile(path), directory / "csv").size(), 7U);
 }
 
 TEST(UnwritableOutput, IsSaidWithTheReason) {

@@ -71,8 +71,8 @@ TEST(BuiltInLaw, WholeRunsAreEqualToTheBit) {
   EXPECT_EQ(
       zerocount_program({"run", "plugin.yaml", "-o", "b.h5", "--engine", "reference"}, folder.path()).code,
       0);
-  const reading::StudyFile a(folder / "a.h5", reading::Require::complete);
-  const reading::StudyFile b(folder / "b.h5", reading::Require::complete);
+  const reading::AllTrialsFile a(folder / "a.h5", reading::Require::complete);
+  const reading::AllTrialsFile b(folder / "b.h5", reading::Require::complete);
   EXPECT_EQ(b.header().engine, study::Engine::reference);
   for (const char* measure :
        {"outcome", "settling_time", "final_position", "holding_torque", "jerk_count", "creep"}) {

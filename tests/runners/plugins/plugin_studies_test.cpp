@@ -39,7 +39,7 @@ class PluginStudy : public ::testing::Test {
 
 TEST_F(PluginStudy, ItsParametersAreColumnsAndAxes) {
   ASSERT_EQ(run_study().code, 0);
-  const reading::StudyFile file(folder_ / "out.h5", reading::Require::complete);
+  const reading::AllTrialsFile file(folder_ / "out.h5", reading::Require::complete);
   EXPECT_EQ(file.axes().front().name, "controller.parameters.kp");
   EXPECT_EQ(file.axes().front().unit, "N m/count");
   std::vector<std::string> names;

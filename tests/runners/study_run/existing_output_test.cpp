@@ -160,7 +160,7 @@ TEST_F(ExistingOutput, ThatIsNoResultsFileIsRefused) {
 TEST_F(ExistingOutput, OfAnEarlierFormatIsRefused) {
   const fs::path earlier = version_1_file(folder_.path());
   fs::copy(earlier, at("out.h5"), fs::copy_options::overwrite_existing);
-  folder_.write("study.yaml", reading::StudyFile(at("out.h5")).header().manifest);
+  folder_.write("study.yaml", reading::AllTrialsFile(at("out.h5")).header().manifest);
   expect_refused({}, {"out.h5"});
 }
 

@@ -52,7 +52,7 @@ class SequentialRun : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-std::int64_t successes_among(const reading::StudyFile& file, std::int64_t point, std::int64_t trials) {
+std::int64_t successes_among(const reading::AllTrialsFile& file, std::int64_t point, std::int64_t trials) {
   const std::vector<double> outcomes = file.measure("outcome", {point * file.header().trials, trials});
   std::int64_t successes = 0;
   for (const double outcome : outcomes)
@@ -60,7 +60,7 @@ std::int64_t successes_among(const reading::StudyFile& file, std::int64_t point,
   return successes;
 }
 
-bool narrow(const reading::StudyFile& file, std::int64_t trials) {
+bool narrow(const reading::AllTrialsFile& file, std::int64_t trials) {
   for (std::int64_t point = 0; point < 2; ++point) {
     const statistics::ConfidenceInterval bounds =
         statistics::confidence_sequence_bounds(successes_among(file, point, trials), trials, 0.95);
@@ -72,7 +72,7 @@ bool narrow(const reading::StudyFile& file, std::int64_t trials) {
 TEST_F(SequentialRun, EndsAfterTheFirstBlockThatLeavesItSure) {
   folder_.write("study.yaml", stopping_manifest());
   complete("study.yaml", "out.h5");
-  const reading::StudyFile file(at("out.h5"));
+  const reading::AllTrialsFile file(at("out.h5"));
   const std::int64_t trials = file.header().trials;
   EXPECT_EQ(trials % block, 0);
   EXPECT_GT(trials, 2 * block);
@@ -100,20 +100,20 @@ TEST_F(SequentialRun, ComesToTheSameForAnyThreadsAndInterruptions) {
 TEST_F(SequentialRun, SaysWhatItCameToAndWhy) {
   folder_.write("study.yaml", stopping_manifest());
   const ProgramResult sure = run("study.yaml", "out.h5");
-  const std::string trials = std::to_string(reading::StudyFile(at("out.h5")).header().trials);
+  const std::string trials = std::to_string(reading::AllTrialsFile(at("out.h5")).header().trials);
   EXPECT_NE(sure.err.find("wrote out.h5: " + trials + " trials at each point (all success rates"),
             std::string::npos)
       << sure.err;
   const ProgramResult unsure = run("study.yaml", "few.h5", {"--set", "stop.max_trials=120"});
   EXPECT_NE(unsure.err.find("wrote few.h5: 120 trials at each point (max_trials; some"), std::string::npos)
       << unsure.err;
-  EXPECT_EQ(reading::StudyFile(at("few.h5")).header().trials, 120);
+  EXPECT_EQ(reading::AllTrialsFile(at("few.h5")).header().trials, 120);
 }
 
 TEST_F(SequentialRun, TakesMinTrialsAtLeast) {
   folder_.write("study.yaml", stopping_manifest());
   complete("study.yaml", "out.h5", {"--set", "stop.min_trials=1020"});
-  EXPECT_EQ(reading::StudyFile(at("out.h5")).header().trials, 1050);
+  EXPECT_EQ(reading::AllTrialsFile(at("out.h5")).header().trials, 1050);
 }
 
 TEST_F(SequentialRun, IsNotRunTwiceAndOverwritesNothing) {
@@ -136,7 +136,7 @@ TEST_F(SequentialRun, CannotBeDividedIntoParts) {
 TEST_F(SequentialRun, SummaryHasTheBoundsThatHold) {
   folder_.write("study.yaml", stopping_manifest());
   complete("study.yaml", "out.h5");
-  const reading::StudyFile file(at("out.h5"));
+  const reading::AllTrialsFile file(at("out.h5"));
   const std::int64_t trials = file.header().trials;
   const ProgramResult result = zerocount_program({"summary", "out.h5", "--format", "json"}, folder_.path());
   ASSERT_EQ(result.code, 0) << result.err;
@@ -168,7 +168,7 @@ TEST_F(SequentialRun, EndsAfterAWholeRoundOfItsRigs) {
   folder_.write("study.yaml", stopping_manifest() + rigs);
   folder_.write("plain.yaml", manifest("") + rigs);
   complete("study.yaml", "out.h5");
-  const reading::StudyFile file(at("out.h5"));
+  const reading::AllTrialsFile file(at("out.h5"));
   const std::int64_t trials = file.header().trials;
   EXPECT_GT(trials, block);
   EXPECT_LT(trials, 2000);
@@ -211,7 +211,7 @@ TEST_F(SequentialRun, SummaryKeepsTheBoundsOfTheseRigsApartFromThoseOfAll) {
 TEST_F(SequentialRun, CanBeReplayedFromItsFile) {
   folder_.write("study.yaml", stopping_manifest());
   complete("study.yaml", "out.h5");
-  const reading::StudyFile file(at("out.h5"));
+  const reading::AllTrialsFile file(at("out.h5"));
   const std::int64_t last = file.header().trials - 1;
   const ProgramResult trace =
       zerocount_program({"trace", "out.h5", "--point", "1", "--trial", std::to_string(last)}, folder_.path());

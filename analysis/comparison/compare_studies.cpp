@@ -16,7 +16,7 @@
 #include "analysis/comparison/measure_comparison.hpp"
 #include "analysis/comparison/point_trials.hpp"
 #include "core/failure/failure.hpp"
-#include "experiments/manifest/manifest_keys.hpp"
+#include "experiments/keys/manifest_keys.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/recorded_values.hpp"
 #include "results/reading/first_difference.hpp"
@@ -56,9 +56,9 @@ void find_layer(StudyComparison& result, const reading::AllTrialsFile& baseline,
 }
 
 void require_same_kind(const reading::AllTrialsFile& baseline, const reading::AllTrialsFile& current,
-                       const manifest::ManifestValues& old_values,
-                       const manifest::ManifestValues& new_values) {
-  const auto open_loop = [](const manifest::ManifestValues& values) {
+                       const manifest_text::ManifestValues& old_values,
+                       const manifest_text::ManifestValues& new_values) {
+  const auto open_loop = [](const manifest_text::ManifestValues& values) {
     return std::any_of(values.begin(), values.end(),
                        [](const auto& value) { return value.first.starts_with("command.torque."); });
   };
@@ -70,7 +70,8 @@ void require_same_kind(const reading::AllTrialsFile& baseline, const reading::Al
 
 /// Every test here takes trials for independent, and those of a saltelli design share most of their
 /// numbers.
-void require_independent_trials(const reading::AllTrialsFile& file, const manifest::ManifestValues& values) {
+void require_independent_trials(const reading::AllTrialsFile& file,
+                                const manifest_text::ManifestValues& values) {
   const auto design = values.find("design");
   if (design == values.end() || design->second != "saltelli") return;
   throw Failure(ExitCode::bad_data,
@@ -79,22 +80,23 @@ void require_independent_trials(const reading::AllTrialsFile& file, const manife
                             file.path().string()));
 }
 
-std::int64_t whole_value(const manifest::ManifestValues& values, const std::string& key) {
-  return std::stoll(manifest::value_or(values, key, "0"));
+std::int64_t whole_value(const manifest_text::ManifestValues& values, const std::string& key) {
+  return std::stoll(manifest_text::value_or(values, key, "0"));
 }
 
 /// The number of rigs that the trials of a study run on, 0 without. Where two studies have different worlds,
 /// these are the groups of trials that are not independent.
-std::int64_t rigs_of(const manifest::ManifestValues& values, bool other_worlds) {
+std::int64_t rigs_of(const manifest_text::ManifestValues& values, bool other_worlds) {
   const std::int64_t worlds = whole_value(values, "worlds");
   return other_worlds && worlds > 0 ? worlds : whole_value(values, "rigs");
 }
 
 /// Whether studies have worlds, and not the same ones.
-bool have_other_worlds(const reading::AllTrialsFile& baseline, const manifest::ManifestValues& old_values,
-                       const reading::AllTrialsFile& current, const manifest::ManifestValues& new_values) {
-  const std::string before = manifest::value_or(old_values, "worlds", "0");
-  const std::string after = manifest::value_or(new_values, "worlds", "0");
+bool have_other_worlds(const reading::AllTrialsFile& baseline,
+                       const manifest_text::ManifestValues& old_values, const reading::AllTrialsFile& current,
+                       const manifest_text::ManifestValues& new_values) {
+  const std::string before = manifest_text::value_or(old_values, "worlds", "0");
+  const std::string after = manifest_text::value_or(new_values, "worlds", "0");
   return before != after || (after != "0" && baseline.header().seed != current.header().seed);
 }
 
@@ -215,10 +217,9 @@ constexpr const char* expected_goal = "expected one such as goal: {band: 1, with
 
 /// The goal of the manifest.
 std::optional<study::Goal> goal_of(const reading::AllTrialsFile& file,
-                                   const manifest::ManifestValues& values) {
-  const bool has_goal = std::any_of(values.begin(), values.end(), [](const auto& value) {
-    return manifest::is_within(value.first, "goal");
-  });
+                                   const manifest_text::ManifestValues& values) {
+  const bool has_goal = std::any_of(values.begin(), values.end(),
+                                    [](const auto& value) { return keys::is_within(value.first, "goal"); });
   return has_goal ? file.study().goal : std::nullopt;
 }
 
@@ -261,7 +262,7 @@ std::optional<study::Goal> judged_goal(const GateRules& rules, const reading::Al
 
 /// The trials of a file that its judgement by the goal needs.
 AlsoRead read_by(const std::optional<study::Goal>& goal, const reading::AllTrialsFile& file,
-                 const manifest::ManifestValues& values, std::int64_t clusters) {
+                 const manifest_text::ManifestValues& values, std::int64_t clusters) {
   AlsoRead also;
   also.rigs = clusters;
   also.goal_rigs = whole_value(values, "rigs");
@@ -270,15 +271,17 @@ AlsoRead read_by(const std::optional<study::Goal>& goal, const reading::AllTrial
   return also;
 }
 
-ComparedData compared_data(const reading::AllTrialsFile& baseline, const manifest::ManifestValues& old_values,
-                           const reading::AllTrialsFile& current, const manifest::ManifestValues& new_values,
-                           std::vector<MatchedPoint> points, const GateRules& rules) {
+ComparedData compared_data(const reading::AllTrialsFile& baseline,
+                           const manifest_text::ManifestValues& old_values,
+                           const reading::AllTrialsFile& current,
+                           const manifest_text::ManifestValues& new_values, std::vector<MatchedPoint> points,
+                           const GateRules& rules) {
   const bool other = have_other_worlds(baseline, old_values, current, new_values);
   ComparedData data{baseline, current, std::move(points), rigs_of(old_values, other),
                     rigs_of(new_values, other)};
   data.other_worlds = other;
-  data.in_worlds = manifest::value_or(new_values, "worlds", "0") != "0" ||
-                   manifest::value_or(old_values, "worlds", "0") != "0";
+  data.in_worlds = manifest_text::value_or(new_values, "worlds", "0") != "0" ||
+                   manifest_text::value_or(old_values, "worlds", "0") != "0";
   data.baseline_trials = compared_trials(rules, baseline, data.baseline_rigs);
   data.current_trials = compared_trials(rules, current, data.current_rigs);
   const std::optional<study::Goal> old_goal = goal_of(baseline, old_values);
@@ -293,8 +296,8 @@ ComparedData compared_data(const reading::AllTrialsFile& baseline, const manifes
   return data;
 }
 
-DrawComparison compare_draws_of(const ComparedData& data, const manifest::ManifestValues& old_values,
-                                const manifest::ManifestValues& new_values) {
+DrawComparison compare_draws_of(const ComparedData& data, const manifest_text::ManifestValues& old_values,
+                                const manifest_text::ManifestValues& new_values) {
   return compare_draws(data.baseline, data.current, old_values, new_values, data.points,
                        std::min(data.baseline_trials, data.current_trials));
 }
@@ -466,8 +469,8 @@ void note_trials(StudyComparison& result, const ComparedData& data) {
 /// Says by which goal the points are judged where the manifests do not have the same.
 void note_goal(StudyComparison& result, const ComparedData& data) {
   if (!data.goal) return;
-  const auto differs = [](const manifest::ManifestDifference& difference) {
-    return manifest::is_within(difference.key, "goal");
+  const auto differs = [](const manifest_text::ManifestDifference& difference) {
+    return keys::is_within(difference.key, "goal");
   };
   if (std::ranges::none_of(result.manifest_differences, differs)) return;
   result.notes.push_back(fmt::format("the goals differ; both files are judged by that of {}",
@@ -519,20 +522,20 @@ void pair_trials(StudyComparison& result, const DrawComparison& draws) {
 }
 
 /// The draws of two points of one file.
-DrawComparison compare_draws_within(const ComparedData& data, const manifest::ManifestValues& values) {
-  if (manifest::value_or(values, "independent_points", "false") == "true")
+DrawComparison compare_draws_within(const ComparedData& data, const manifest_text::ManifestValues& values) {
+  if (manifest_text::value_or(values, "independent_points", "false") == "true")
     return {false, "the points have random numbers of their own", {}};
   return compare_draws_of(data, values, values);
 }
 
 /// The swept keys in which the two points differ.
-std::vector<manifest::ManifestDifference> axis_differences(const reading::AllTrialsFile& file,
-                                                           const MatchedPoint& point) {
-  std::vector<manifest::ManifestDifference> differences;
+std::vector<manifest_text::ManifestDifference> axis_differences(const reading::AllTrialsFile& file,
+                                                                const MatchedPoint& point) {
+  std::vector<manifest_text::ManifestDifference> differences;
   const std::vector<study::SweepAxis> axes = file.axes();
   for (const study::SweepAxis& axis : axes) {
-    manifest::ManifestDifference difference{axis.name, axis_value(axes, axis.name, point.baseline),
-                                            axis_value(axes, axis.name, point.current)};
+    manifest_text::ManifestDifference difference{axis.name, axis_value(axes, axis.name, point.baseline),
+                                                 axis_value(axes, axis.name, point.current)};
     if (difference.baseline != difference.current) differences.push_back(std::move(difference));
   }
   return differences;
@@ -543,15 +546,17 @@ std::vector<manifest::ManifestDifference> axis_differences(const reading::AllTri
 StudyComparison compare_studies(const reading::AllTrialsFile& baseline, const reading::AllTrialsFile& current,
                                 const GateRules& rules) {
   std::vector<MatchedPoint> points = match_points(baseline, current);
-  manifest::ManifestValues old_values = layout::manifest_values(baseline.header(), baseline.path().string());
-  manifest::ManifestValues new_values = layout::manifest_values(current.header(), current.path().string());
+  manifest_text::ManifestValues old_values =
+      layout::manifest_values(baseline.header(), baseline.path().string());
+  manifest_text::ManifestValues new_values =
+      layout::manifest_values(current.header(), current.path().string());
   layout::write_changed_defaults(old_values, baseline.header().version, new_values, current.header().version);
   require_same_kind(baseline, current, old_values, new_values);
   const ComparedData data =
       compared_data(baseline, old_values, current, new_values, std::move(points), rules);
 
   StudyComparison result = begin(baseline, current, rules);
-  result.manifest_differences = manifest::manifest_differences(old_values, new_values);
+  result.manifest_differences = manifest_text::manifest_differences(old_values, new_values);
   find_layer(result, baseline, current);
   if (result.layer != ComparisonLayer::bits) {
     require_independent_trials(baseline, old_values);
@@ -566,7 +571,7 @@ StudyComparison compare_points(const reading::AllTrialsFile& file, std::int64_t 
                                std::int64_t current, const GateRules& rules) {
   const std::vector<std::string> labels = file.point_labels();
   const MatchedPoint point{labels[static_cast<std::size_t>(current)], baseline, current};
-  const manifest::ManifestValues values = layout::manifest_values(file.header(), file.path().string());
+  const manifest_text::ManifestValues values = layout::manifest_values(file.header(), file.path().string());
   require_independent_trials(file, values);
   StudyComparison result = begin(file, file, rules);
   result.baseline_label = labels[static_cast<std::size_t>(baseline)];

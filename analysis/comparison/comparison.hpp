@@ -12,9 +12,9 @@
 #include "analysis/measures/undecided_moves.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/unknown.hpp"
-#include "experiments/manifest/manifest_values.hpp"
+#include "experiments/manifest_text/manifest_values.hpp"
 #include "results/layout/header.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 
 /// The result of comparing a results file with a baseline. README.md of this folder describes the method.
 namespace zerocount::comparison {
@@ -141,7 +141,7 @@ struct StudyComparison {
   std::string layer_reason;  ///< why this layer, one line
   bool equal_to_the_bit{false};
   std::string first_difference;  ///< first dataset that differs, with the place; empty if not searched for
-  std::vector<manifest::ManifestDifference> manifest_differences;
+  std::vector<manifest_text::ManifestDifference> manifest_differences;
   std::vector<std::string> changed_inputs;  ///< drawn parameters whose values differ on the same draws
   double confidence{0.95};                  ///< of each bound
   double false_discovery_rate{0.05};

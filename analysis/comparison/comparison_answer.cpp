@@ -201,8 +201,8 @@ std::string file_text(const ComparedFile& file) {
 
 constexpr std::size_t max_rows = 60;
 
-Description<manifest::ManifestDifference> difference_description() {
-  using Difference = manifest::ManifestDifference;
+Description<manifest_text::ManifestDifference> difference_description() {
+  using Difference = manifest_text::ManifestDifference;
   Description<Difference> description;
   description.value(everywhere("key", "key", "dotted path"), &Difference::key);
   const auto add = [&](document::Item data, const char* heading, std::string Difference::*value) {

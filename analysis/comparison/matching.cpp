@@ -146,15 +146,16 @@ std::vector<MatchedPoint> match_points(const reading::AllTrialsFile& baseline,
 }
 
 DrawComparison compare_draws(const reading::AllTrialsFile& baseline, const reading::AllTrialsFile& current,
-                             const manifest::ManifestValues& old_values,
-                             const manifest::ManifestValues& new_values,
+                             const manifest_text::ManifestValues& old_values,
+                             const manifest_text::ManifestValues& new_values,
                              const std::vector<MatchedPoint>& points, std::int64_t trials) {
   if (baseline.header().seed != current.header().seed) return {false, "the seeds differ", {}};
   for (const auto& [key, absent] : {std::pair<std::string, std::string>{"design", "monte_carlo"},
                                     {"independent_points", "false"},
                                     {"worlds", "0"},
                                     {"rigs", "0"}}) {
-    if (manifest::value_or(old_values, key, absent) != manifest::value_or(new_values, key, absent)) {
+    if (manifest_text::value_or(old_values, key, absent) !=
+        manifest_text::value_or(new_values, key, absent)) {
       return {false, fmt::format("the manifests differ in {}", key), {}};
     }
   }

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/manifest/manifest_values.hpp"
-#include "results/reading/study_file.hpp"
+#include "experiments/manifest_text/manifest_values.hpp"
+#include "results/reading/all_trials_file.hpp"
 
 namespace zerocount::comparison {
 
@@ -37,8 +37,8 @@ struct DrawComparison {
 /// has bitwise equal values in the first `trials` trials of the points or, after a change of its
 /// distribution, sorts them in the same order.
 DrawComparison compare_draws(const reading::AllTrialsFile& baseline, const reading::AllTrialsFile& current,
-                             const manifest::ManifestValues& old_values,
-                             const manifest::ManifestValues& new_values,
+                             const manifest_text::ManifestValues& old_values,
+                             const manifest_text::ManifestValues& new_values,
                              const std::vector<MatchedPoint>& points, std::int64_t trials);
 
 }  // namespace zerocount::comparison

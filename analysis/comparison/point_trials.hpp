@@ -12,7 +12,7 @@
 #include "analysis/measures/goal_counts.hpp"
 #include "analysis/measures/undecided_moves.hpp"
 #include "core/trial/outcome.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 
 namespace zerocount::comparison {
 

@@ -19,7 +19,7 @@
 namespace zerocount::history {
 namespace {
 
-bool drawn_per_study(const manifest::ManifestValues& values, const study::Study& study) {
+bool drawn_per_study(const manifest_text::ManifestValues& values, const study::Study& study) {
   return study.worlds > 0 ||  // another seed draws other worlds
          std::any_of(
              values.begin(), values.end(),
@@ -105,9 +105,10 @@ std::vector<RunValue> values_of(const summary::StudySummary& summary) {
 
 std::string series_sha256(const reading::AllTrialsFile& file) {
   const layout::FileHeader& header = file.header();
-  manifest::ManifestValues values = layout::manifest_values(header, file.path().string());
+  manifest_text::ManifestValues values = layout::manifest_values(header, file.path().string());
   for (const char* const key : {"description", "trials"}) values.erase(key);
-  std::erase_if(values, [](const auto& entry) { return entry.first.ends_with(manifest::order_of_keys); });
+  std::erase_if(values,
+                [](const auto& entry) { return entry.first.ends_with(manifest_text::order_of_keys); });
   if (!drawn_per_study(values, file.study())) values.erase("seed");
   for (const parameters::EarlierDefault& earlier : parameters::earlier_defaults()) {
     const parameters::Parameter& parameter =

@@ -9,7 +9,7 @@
 #include "analysis/statistics/change_point.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/unknown.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 
 /// Results over time: the values of many runs of a study, and when they changed.
 namespace zerocount::history {

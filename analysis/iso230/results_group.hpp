@@ -3,8 +3,8 @@
 #include "analysis/iso230/point_statistics.hpp"
 #include "experiments/study/study.hpp"
 #include "results/hdf5/hdf5.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "results/reading/export.hpp"
-#include "results/reading/study_file.hpp"
 
 /// The group /repeatability of a results file, described in results/repeatability.md.
 namespace zerocount::iso230 {

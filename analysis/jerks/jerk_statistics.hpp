@@ -12,7 +12,7 @@
 #include "analysis/statistics/quantile.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "experiments/study/study.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 
 /// Statistics of the jerks of a design point: rates, intervals, trend, direction and magnitude. README.md of
 /// this folder describes the method.

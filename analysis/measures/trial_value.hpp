@@ -9,7 +9,7 @@
 #include "core/trial/outcome.hpp"
 #include "results/layout/measure_table.hpp"
 #include "results/layout/table_io.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 
 namespace zerocount::measures {
 

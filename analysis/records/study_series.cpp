@@ -8,7 +8,7 @@
 #include "core/trial/random_history.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 
 namespace zerocount::records {
 namespace {

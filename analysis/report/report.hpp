@@ -10,7 +10,7 @@
 #include "analysis/history/series.hpp"
 #include "analysis/report/figures/thinned_trace.hpp"
 #include "analysis/report/page.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 
 /// The report on a results file, and its single figures.
 namespace zerocount::report {

@@ -13,7 +13,7 @@
 #include "analysis/summary/chosen_point.hpp"
 #include "analysis/summary/summary.hpp"
 #include "experiments/study/study.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 
 namespace zerocount::report {
 

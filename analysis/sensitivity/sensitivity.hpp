@@ -13,7 +13,7 @@
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "results/layout/measure_table.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 
 /// Which of the random parameters of a study drive what its trials do. Methods, formulas and sources:
 /// README.md of this folder.

@@ -6,7 +6,7 @@
 
 #include "analysis/sensitivity/sensitivity.hpp"
 #include "experiments/study/study.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 
 namespace zerocount::sensitivity {
 

@@ -8,7 +8,7 @@
 #include "analysis/theory/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 
 /// What a results file stores of its statistics.
 namespace zerocount::summary {

@@ -11,7 +11,7 @@
 #include "experiments/study/study.hpp"
 #include "results/layout/point_sums.hpp"
 #include "results/reading/results_file.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 
 namespace zerocount::summary {
 

@@ -18,7 +18,7 @@
 #include "analysis/summary/summary.hpp"
 #include "analysis/worlds/derived_quantities.hpp"
 #include "core/failure/failure.hpp"
-#include "experiments/manifest/manifest_keys.hpp"
+#include "experiments/keys/manifest_keys.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/results_file.hpp"
@@ -183,7 +183,7 @@ StudySummary summary_without_points(const study::Study& study, double confidence
   summary.features = study.features;
   summary.question = goal::question_of(study);
   summary.seed = study.seed;
-  summary.design = manifest::design_labels[static_cast<std::size_t>(study.design)];
+  summary.design = keys::design_labels[static_cast<std::size_t>(study.design)];
   return summary;
 }
 

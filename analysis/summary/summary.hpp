@@ -15,8 +15,8 @@
 #include "analysis/worlds/world_rule.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "results/reading/results_file.hpp"
-#include "results/reading/study_file.hpp"
 
 namespace zerocount::summary {
 

@@ -12,7 +12,7 @@
 #include "analysis/summary/chosen_point.hpp"
 #include "analysis/summary/study_statistics.hpp"
 #include "results/layout/header.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "results/shards/shard.hpp"
 
 namespace zerocount::summary_answer {

@@ -12,7 +12,7 @@
 #include "core/friction/presliding/spring.hpp"
 #include "core/numerics/elementary_functions.hpp"
 #include "experiments/parameters/study_units.hpp"
-#include "experiments/study/random_coordinates.hpp"
+#include "experiments/randomness/random_coordinates.hpp"
 
 namespace zerocount::worlds {
 namespace {
@@ -52,9 +52,9 @@ constexpr std::array<DerivedQuantity, 5> table{{
 
 /// The median machine of each world.
 std::vector<trial::TrialParameters> median_machines(const study::Study& study, std::int64_t point) {
-  const std::vector<study::RandomCoordinate> coordinates = study::random_coordinates(study, point);
+  const std::vector<randomness::RandomCoordinate> coordinates = randomness::random_coordinates(study, point);
   const std::vector<double> medians(coordinates.size(), 0.0);
-  study::GivenDraws draws = study::draws_at(study, coordinates, medians, 0);
+  study::GivenDraws draws = randomness::draws_at(study, coordinates, medians, 0);
   std::vector<trial::TrialParameters> machines;
   for (std::int64_t world = 0; world < study.worlds; ++world) {
     draws.world = world;

@@ -1,4 +1,4 @@
-#include "experiments/distributions/profile_form.hpp"
+#include "experiments/distributions/distribution_forms.hpp"
 
 #include <numbers>
 #include <string>

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "experiments/manifest/manifest_keys.hpp"
+#include "experiments/keys/manifest_keys.hpp"
 #include "experiments/rules/effect_rules.hpp"
 #include "experiments/rules/value_rules.hpp"
 #include "experiments/study/study_table.hpp"
@@ -21,8 +21,9 @@ constexpr std::size_t max_reported = 20;
 bool has_effect(const study::StudyPlan& plan, const std::vector<rules::EffectRule>& rules,
                 const parameters::Parameter& parameter) {
   return std::all_of(rules.begin(), rules.end(), [&](const rules::EffectRule& rule) {
-    const bool covers = std::any_of(rule.keys.begin(), rule.keys.end(),
-                                    [&](std::string_view key) { return is_within(parameter.name, key); });
+    const bool covers = std::any_of(rule.keys.begin(), rule.keys.end(), [&](std::string_view key) {
+      return keys::is_within(parameter.name, key);
+    });
     return !covers || rules::can_have_effect(plan, rule);
   });
 }
@@ -59,7 +60,7 @@ bool is_required(const study::StudyPlan& plan, const std::vector<rules::EffectRu
 
 // Reports missing required parameters: those without a default, and those whose default has other units than
 // this study (such as the paper's N m/rad on a linear axis), if they have an effect.
-void check_required_values(const PlanPlaces& places, Reading& reading) {
+void check_required_values(const keys::PlanPlaces& places, keys::Reading& reading) {
   const study::StudyPlan& plan = reading.plan;
   const std::vector<rules::EffectRule> rules = rules::effect_rules(plan);
   const auto table = parameters::parameter_table();
@@ -74,8 +75,8 @@ void check_required_values(const PlanPlaces& places, Reading& reading) {
 }
 
 struct Checking {
-  const PlanPlaces& places;
-  Reading& reading;
+  const keys::PlanPlaces& places;
+  keys::Reading& reading;
 
   const study::StudyPlan& plan() const { return reading.plan; }
 };
@@ -93,7 +94,7 @@ void tell(Checking& c, const yaml::Place& place, std::size_t slot, const std::st
 }
 
 // Place in the sweep that assigns the slot's value at this point, if any.
-std::optional<yaml::Place> swept_place(const PlanPlaces& places, const study::StudyPlan& plan,
+std::optional<yaml::Place> swept_place(const keys::PlanPlaces& places, const study::StudyPlan& plan,
                                        std::size_t slot, std::size_t point) {
   for (std::size_t a = plan.axes.size(); a-- > 0;) {
     const study::PlanAxis& axis = plan.axes[a];
@@ -170,7 +171,7 @@ void check_effects(Checking& c) {
     std::optional<bool> has_effect;
     for (std::size_t slot = 0; slot < table.rows.size(); ++slot) {
       const bool covered = std::any_of(rule.keys.begin(), rule.keys.end(), [&](std::string_view key) {
-        return is_within(table.rows[slot].name, key);
+        return keys::is_within(table.rows[slot].name, key);
       });
       const auto place = covered ? given_place(c.places, c.plan(), slot) : std::nullopt;
       if (!place || reported_rows.count(reported_row(table, slot)) > 0 ||
@@ -186,7 +187,7 @@ void check_effects(Checking& c) {
 
 }  // namespace
 
-bool is_given_everywhere(const PlanPlaces& places, const study::StudyPlan& plan, std::size_t slot) {
+bool is_given_everywhere(const keys::PlanPlaces& places, const study::StudyPlan& plan, std::size_t slot) {
   if (places.written[slot]) return true;
   return std::any_of(plan.axes.begin(), plan.axes.end(), [slot](const study::PlanAxis& axis) {
     for (std::size_t option = 0; option < study::option_count(axis); ++option) {
@@ -199,7 +200,7 @@ bool is_given_everywhere(const PlanPlaces& places, const study::StudyPlan& plan,
   });
 }
 
-std::optional<yaml::Place> given_place(const PlanPlaces& places, const study::StudyPlan& plan,
+std::optional<yaml::Place> given_place(const keys::PlanPlaces& places, const study::StudyPlan& plan,
                                        std::size_t slot) {
   if (places.written[slot]) return places.base[slot];
   for (std::size_t a = 0; a < plan.axes.size(); ++a) {
@@ -213,7 +214,7 @@ std::optional<yaml::Place> given_place(const PlanPlaces& places, const study::St
   return std::nullopt;
 }
 
-FaultPlace place_of_fault(const PlanPlaces& places, const study::StudyPlan& plan,
+FaultPlace place_of_fault(const keys::PlanPlaces& places, const study::StudyPlan& plan,
                           std::span<const std::size_t> slots, std::size_t point) {
   for (const std::size_t slot : slots) {
     if (const auto place = swept_place(places, plan, slot, point)) return {*place, slot};
@@ -224,7 +225,7 @@ FaultPlace place_of_fault(const PlanPlaces& places, const study::StudyPlan& plan
   return {places.base[slots.front()], slots.front()};
 }
 
-void check_points(const PlanPlaces& places, Reading& reading) {
+void check_points(const keys::PlanPlaces& places, keys::Reading& reading) {
   Checking checking{places, reading};
   check_required_values(places, reading);
   check_values(checking);

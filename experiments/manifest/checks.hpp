@@ -4,31 +4,25 @@
 #include <span>
 #include <vector>
 
-#include "experiments/manifest/values.hpp"
+#include "experiments/keys/values.hpp"
 #include "experiments/study/plan.hpp"
+#include "experiments/study/study.hpp"
 #include "experiments/yaml/problems.hpp"
 
 namespace zerocount::manifest {
-
-/// Places of a plan's values in the manifest.
-struct PlanPlaces {
-  std::vector<yaml::Place> base;               ///< [slot]; for a default the manifest's first line
-  std::vector<bool> written;                   ///< [slot] whether the base value is written in the manifest
-  std::vector<std::vector<yaml::Place>> axes;  ///< [axis][assignment]
-};
 
 /// Checks that involve several parameters, at every design point and for all values that can be drawn: values
 /// must be consistent (value_rules.hpp), every given key must have an effect at some point
 /// (effect_rules.hpp), and required values must be given. A problem is reported at the
 /// place of a swept value, if one is involved.
-void check_points(const PlanPlaces& places, Reading& reading);
+void check_points(const keys::PlanPlaces& places, keys::Reading& reading);
 
 /// Whether the manifest gives the slot a value at every point.
-bool is_given_everywhere(const PlanPlaces& places, const study::StudyPlan& plan, std::size_t slot);
+bool is_given_everywhere(const keys::PlanPlaces& places, const study::StudyPlan& plan, std::size_t slot);
 
 /// Place in the manifest of the slot's value: outside the sweep, or the first one in it. Nothing if the
 /// manifest does not give it.
-std::optional<yaml::Place> given_place(const PlanPlaces& places, const study::StudyPlan& plan,
+std::optional<yaml::Place> given_place(const keys::PlanPlaces& places, const study::StudyPlan& plan,
                                        std::size_t slot);
 
 struct FaultPlace {
@@ -38,7 +32,23 @@ struct FaultPlace {
 
 /// Place in the manifest of one of the values that a fault at a design point involves: a swept one, otherwise
 /// one that the manifest gives, otherwise the first.
-FaultPlace place_of_fault(const PlanPlaces& places, const study::StudyPlan& plan,
+FaultPlace place_of_fault(const keys::PlanPlaces& places, const study::StudyPlan& plan,
                           std::span<const std::size_t> slots, std::size_t point);
+
+/// Lets the parameters that follow from measured ones (parameters/measured_parameters.hpp) do so, where the
+/// study gives the measured ones. Reports a group that is not complete, and one beside parameters that follow
+/// from it. Must come after all values are read.
+void let_follow_from_measured(const keys::PlanPlaces& places, keys::Reading& reading);
+
+/// Reports measured values from which nothing allowed follows.
+void check_what_follows(const keys::PlanPlaces& places, keys::Reading& reading);
+
+/// Checks that the encoder sees each commanded motion of the assembled study. One of which not a count is
+/// left is no motion for the loop, and would count as perfect: a target in SI units that differs from the
+/// position before it and is the same count, and a sine reference of less than half a count.
+///
+/// An error where this is so in all trials of a design point (a warning if the study was recorded earlier); a
+/// warning with their proportion where it is so in some.
+void check_unseen_motions(const study::Study& study, const keys::PlanPlaces& places, keys::Reading& reading);
 
 }  // namespace zerocount::manifest

@@ -9,12 +9,12 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/distributions/distribution_forms.hpp"
-#include "experiments/manifest/drawn_per.hpp"
-#include "experiments/manifest/key_reading.hpp"
-#include "experiments/manifest/observations.hpp"
-#include "experiments/manifest/sweep.hpp"
+#include "experiments/keys/draw_level.hpp"
+#include "experiments/keys/key_reading.hpp"
 #include "experiments/parameters/element_lists.hpp"
 #include "experiments/parameters/parameter_table.hpp"
+#include "experiments/sections/observations.hpp"
+#include "experiments/sections/sweep.hpp"
 #include "experiments/study/sequence.hpp"
 
 namespace zerocount::manifest {
@@ -88,18 +88,18 @@ Json per_schema(std::span<const std::string_view> labels) {
 
 // One definition for each distribution: {"uniform": [low, high]}, with or without `per` beside it.
 Json definitions() {
-  const std::string per(per_key);
+  const std::string per(keys::per_key);
   Json all = Json::object();
   for (const distributions::DistributionForm& form : distributions::distribution_forms()) {
     const std::string name(form.name);
     all[name] = form_schema(form);
     all[name]["properties"][per] = form.name == distributions::interval_name
-                                       ? per_schema(std::span(&draw_level_labels[1], 1))
-                                       : per_schema(draw_level_labels);
+                                       ? per_schema(std::span(&keys::draw_level_labels[1], 1))
+                                       : per_schema(keys::draw_level_labels);
     all[name]["description"] = form.meaning;
   }
   all["profile"] = object_of(
-      {{"profile", profile_schema()}, {per, per_schema(draw_level_labels_of_profiles)}}, {"profile"});
+      {{"profile", profile_schema()}, {per, per_schema(keys::draw_level_labels_of_profiles)}}, {"profile"});
   all["profile"]["description"] = "friction along the rotor: a periodic random field";
   return all;
 }
@@ -206,7 +206,7 @@ Json vibration_schema() {
 }
 
 Json spacing_schema() {
-  const Json count{{"type", "integer"}, {"minimum", 2}, {"maximum", max_points}};
+  const Json count{{"type", "integer"}, {"minimum", 2}, {"maximum", sections::max_points}};
   const auto spacing = [&](const Json& end) {
     return Json{{"type", "array"}, {"prefixItems", {end, end, count}}, {"minItems", 3}, {"maxItems", 3}};
   };
@@ -267,7 +267,7 @@ Json free_parameters_schema() {
 Json own_schemas() {
   const Json text{{"type", "string"}};
   return {
-      {"zerocount", {{"const", manifest_version}}},
+      {"zerocount", {{"const", keys::manifest_version}}},
       {"name", {{"type", "string"}, {"pattern", "\\S"}}},
       {"seed", {{"type", "integer"}, {"minimum", 0}, {"maximum", std::numeric_limits<std::uint64_t>::max()}}},
       {"retain",
@@ -284,18 +284,21 @@ Json own_schemas() {
           {"maxItems", 3}}}}},
       {"samples",
        {{"anyOf",
-         {text, object_of({{"file", text},
-                           {std::string(per_key), {{"enum", std::span(draw_level_labels).first(4)}}}},
-                          {"file"})}}}},
+         {text,
+          object_of({{"file", text},
+                     {std::string(keys::per_key), {{"enum", std::span(keys::draw_level_labels).first(4)}}}},
+                    {"file"})}}}},
       {"observed",
        {{"type", "object"},
         {"additionalProperties",
          {{"anyOf",
            {text,
-            object_of({{"successes", {{"type", "integer"}, {"minimum", 0}, {"maximum", max_observed_trials}}},
-                       {"of", {{"type", "integer"}, {"minimum", 1}, {"maximum", max_observed_trials}}},
-                       {"text", text}},
-                      {"successes", "of"})}}}}}},
+            object_of(
+                {{"successes",
+                  {{"type", "integer"}, {"minimum", 0}, {"maximum", sections::max_observed_trials}}},
+                 {"of", {{"type", "integer"}, {"minimum", 1}, {"maximum", sections::max_observed_trials}}},
+                 {"text", text}},
+                {"successes", "of"})}}}}}},
       {"sweep", sweep_schema()},
       {"controller.plugin", {{"type", "string"}, {"minLength", 1}}},
       {"controller.parameters",
@@ -305,19 +308,19 @@ Json own_schemas() {
       {"disturbance.vibration", vibration_schema()},
       {"verdict.bands",
        {{"type", "array"},
-        {"items", {{"type", "integer"}, {"minimum", 0}, {"maximum", max_band}}},
+        {"items", {{"type", "integer"}, {"minimum", 0}, {"maximum", keys::max_band}}},
         {"minItems", 1},
         {"maxItems", trial::max_error_bands},
         {"uniqueItems", true},
         {"default", trial::ErrorBands{}.values()}}}};
 }
 
-Json general_schema(const GeneralKey& key);
+Json general_schema(const keys::GeneralKey& key);
 
-Json map_schema(const std::vector<GeneralKey>& keys) {
+Json map_schema(const std::vector<keys::GeneralKey>& keys) {
   Json properties = Json::object();
   Json required = Json::array();
-  for (const GeneralKey& key : keys) {
+  for (const keys::GeneralKey& key : keys) {
     properties[std::string(key.name)] = general_schema(key);
     if (key.required()) required.push_back(key.name);
   }
@@ -331,8 +334,8 @@ Json own_schema(std::string_view name) {
 }
 
 // Schema of the value, but for the word in its place.
-Json form_schema(const GeneralKey& key) {
-  using Form = GeneralKey::Form;
+Json form_schema(const keys::GeneralKey& key) {
+  using Form = keys::GeneralKey::Form;
   const bool whole = key.form == Form::whole_number;
   Json number{{"type", whole ? "integer" : "number"}};
   switch (key.form) {
@@ -354,16 +357,17 @@ Json form_schema(const GeneralKey& key) {
   return number;
 }
 
-Json default_schema(const GeneralKey& key, double value) {
-  if (key.form == GeneralKey::Form::truth) return value != 0.0;
-  if (key.form == GeneralKey::Form::label) return key.labels[static_cast<std::size_t>(value)];
-  return key.form == GeneralKey::Form::whole_number ? Json(static_cast<std::int64_t>(value)) : Json(value);
+Json default_schema(const keys::GeneralKey& key, double value) {
+  if (key.form == keys::GeneralKey::Form::truth) return value != 0.0;
+  if (key.form == keys::GeneralKey::Form::label) return key.labels[static_cast<std::size_t>(value)];
+  return key.form == keys::GeneralKey::Form::whole_number ? Json(static_cast<std::int64_t>(value))
+                                                          : Json(value);
 }
 
-Json general_schema(const GeneralKey& key) {
+Json general_schema(const keys::GeneralKey& key) {
   Json schema = form_schema(key);
   if (!key.none.empty()) schema = {{"anyOf", {{{"const", key.none}}, std::move(schema)}}};
-  if (const auto value = default_of(key)) schema["default"] = default_schema(key, *value);
+  if (const auto value = keys::default_of(key)) schema["default"] = default_schema(key, *value);
   if (!key.meaning.empty()) schema["description"] = key.meaning;
   return schema;
 }
@@ -382,7 +386,7 @@ void require_counts(Json& command) {
     if (!row.is_position) continue;
     const Json value = value_schema(row);
     const std::string pointer = boost::algorithm::replace_all_copy(
-        std::string(row.name).substr(required_section.size()), ".", "/properties/");
+        std::string(row.name).substr(keys::required_section.size()), ".", "/properties/");
     counts[Json::json_pointer(pointer)] = row.list ? Json{{"items", value}} : value;
   }
   command["if"] = {{"properties", {{"units", {{"const", "si"}}}}}, {"required", {"units"}}};
@@ -403,22 +407,22 @@ Json section_or_value_schema(const std::string& path) {
 Json section_schema(const std::string& path) {
   Json properties = Json::object();
   Json required = Json::array();
-  for (const std::string& key : keys_below(path)) {
+  for (const std::string& key : keys::keys_below(path)) {
     const std::string name = fmt::format("{}.{}", path, key);
-    if (const auto row = parameters::find_parameter(name); row && !is_section(name)) {
+    if (const auto row = parameters::find_parameter(name); row && !keys::is_section(name)) {
       const parameters::Parameter& parameter = parameters::parameter_table()[*row];
       properties[key] = key_schema(parameter);
       const bool always = !parameters::has_default(parameter) && !parameter.only_on;
-      if (always && path != required_section) required.push_back(key);
-    } else if (const GeneralKey* general = find_general_key(name)) {
+      if (always && path != keys::required_section) required.push_back(key);
+    } else if (const keys::GeneralKey* general = keys::find_general_key(name)) {
       properties[key] = general_schema(*general);
     } else {
       properties[key] = section_or_value_schema(name);
     }
   }
   Json schema = object_of(std::move(properties), std::move(required));
-  if (path == required_section) {
-    schema["oneOf"] = one_of_keys(command_forms);
+  if (path == keys::required_section) {
+    schema["oneOf"] = one_of_keys(keys::command_forms);
     require_counts(schema);
   }
   return schema;
@@ -429,12 +433,12 @@ Json section_schema(const std::string& path) {
 nlohmann::ordered_json json_schema() {
   Json properties = Json::object();
   Json required = Json::array();
-  for (const std::string& key : keys_below("")) {
-    const GeneralKey* general = find_general_key(key);
+  for (const std::string& key : keys::keys_below("")) {
+    const keys::GeneralKey* general = keys::find_general_key(key);
     properties[key] = general != nullptr ? general_schema(*general) : section_schema(key);
     if (general != nullptr && general->required()) required.push_back(key);
   }
-  required.push_back(required_section);
+  required.push_back(keys::required_section);
   Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "zerocount manifest"}};
   schema.update(object_of(std::move(properties), std::move(required)));
   schema["$defs"] = definitions();

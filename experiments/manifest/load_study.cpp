@@ -9,11 +9,11 @@
 #include "core/failure/failure.hpp"
 #include "core/hash/sha256.hpp"
 #include "experiments/manifest/manifest.hpp"
-#include "experiments/manifest/manifest_values.hpp"
-#include "experiments/manifest/overrides.hpp"
-#include "experiments/manifest/samples.hpp"
-#include "experiments/manifest/spectrum_file.hpp"
+#include "experiments/manifest_text/manifest_values.hpp"
+#include "experiments/manifest_text/overrides.hpp"
 #include "experiments/parameters/earlier_defaults.hpp"
+#include "experiments/sections/joint_draws.hpp"
+#include "experiments/sections/spectrum.hpp"
 #include "experiments/yaml/text_file.hpp"
 
 namespace zerocount::manifest {
@@ -27,7 +27,7 @@ namespace {
 
 // All that determines the trials as one text. Comments and the notation of values are not part of it.
 std::string joined(const yaml::YamlNode& root, const study::Study& study) {
-  std::string all = identity_text(values_of(root));
+  std::string all = manifest_text::identity_text(manifest_text::values_of(root));
   if (study.plugin) all += '\0' + study.plugin->description.sha256;
   if (study.samples) all += '\0' + hash::sha256_hex(study.samples->text);
   return all;
@@ -38,15 +38,16 @@ void require_effect(const study::Study& study, std::string_view source) {
   yaml::Problems problems;
   std::deque<std::string> sources;
   const yaml::YamlPointer written = yaml::parse_yaml(study.manifest.text, source, false, problems);
-  const yaml::YamlPointer root = apply_overrides(written, study.manifest.overrides, sources, problems);
-  report_swept_overrides(*root, study.manifest.overrides, sources, problems);
+  const yaml::YamlPointer root =
+      manifest_text::apply_overrides(written, study.manifest.overrides, sources, problems);
+  manifest_text::report_swept_overrides(*root, study.manifest.overrides, sources, problems);
   problems.raise_if_any();
 }
 
 }  // namespace
 
 study::Study load_study(const std::filesystem::path& manifest, const std::vector<std::string>& overrides,
-                        const Companions& companions) {
+                        const sections::Companions& companions) {
   const std::string source = yaml::name_of_text(manifest);
   std::string text = yaml::read_text(manifest, yaml::max_manifest_size, "a manifest");
   if (text.starts_with("\x89HDF")) {
@@ -58,20 +59,20 @@ study::Study load_study(const std::filesystem::path& manifest, const std::vector
 }
 
 study::Study new_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
-                       const Companions& companions) {
+                       const sections::Companions& companions) {
   study::Study study = parse_study(std::move(text), source, overrides, companions);
   require_effect(study, source);
   return study;
 }
 
 study::Study parse_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
-                         const Companions& companions) {
+                         const sections::Companions& companions) {
   return parse_study(std::move(text), source, overrides, parameters::newest_version, companions);
 }
 
 study::Study parse_study(std::string text, std::string_view source,
                          const std::vector<std::string>& given_overrides, std::int64_t version,
-                         const Companions& companions) {
+                         const sections::Companions& companions) {
   if (text.size() > yaml::max_manifest_size) refuse_size(source);
   yaml::Problems problems;
   yaml::YamlPointer root = yaml::parse_yaml(text, source, false, problems);
@@ -82,16 +83,17 @@ study::Study parse_study(std::string text, std::string_view source,
   if (!root) problems.raise_if_any();
 
   std::deque<std::string> override_sources;
-  root = apply_overrides(root, given_overrides, override_sources, problems);
+  root = manifest_text::apply_overrides(root, given_overrides, override_sources, problems);
   std::vector<std::string> overrides = given_overrides;
   if (root) {
-    const std::vector<std::string> spectra = spectrum_overrides(*root, companions.samples, problems);
-    root = apply_overrides(root, spectra, override_sources, problems);
+    const std::vector<std::string> spectra =
+        sections::spectrum_overrides(*root, companions.samples, problems);
+    root = manifest_text::apply_overrides(root, spectra, override_sources, problems);
     overrides.insert(overrides.end(), spectra.begin(), spectra.end());
   }
   const yaml::YamlPointer written = root;
-  std::optional<SamplesTable> samples;
-  insert_samples(root, companions.samples, samples, problems);
+  std::optional<sections::SamplesTable> samples;
+  sections::insert_samples(root, companions.samples, samples, problems);
   study::Study study = read_manifest(*root, version, companions, samples ? &*samples : nullptr, problems);
   problems.raise_if_any();
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/manifest/companions.hpp"
+#include "experiments/sections/companions.hpp"
 #include "experiments/study/study.hpp"
 
 namespace zerocount::manifest {
@@ -17,19 +17,20 @@ namespace zerocount::manifest {
 ///         is too large; Failure (machine_failed) if an existing file cannot be read.
 /// @param companions access to the files of the keys `controller.plugin` and `samples`
 study::Study load_study(const std::filesystem::path& manifest, const std::vector<std::string>& overrides = {},
-                        const Companions& companions = {});
+                        const sections::Companions& companions = {});
 
 /// As load_study, from text; `source` stands for the file's name in messages.
 study::Study new_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
-                       const Companions& companions = {});
+                       const sections::Companions& companions = {});
 
 /// As new_study, of a study that exists already: overrides without effect are no errors.
 study::Study parse_study(std::string text, std::string_view source,
-                         const std::vector<std::string>& overrides = {}, const Companions& companions = {});
+                         const std::vector<std::string>& overrides = {},
+                         const sections::Companions& companions = {});
 
 /// As parse_study, with the defaults of the programs that wrote results files of `version`
 /// (parameters/earlier_defaults.hpp).
 study::Study parse_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
-                         std::int64_t version, const Companions& companions = {});
+                         std::int64_t version, const sections::Companions& companions = {});
 
 }  // namespace zerocount::manifest

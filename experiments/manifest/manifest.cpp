@@ -8,21 +8,15 @@
 #include <fmt/ranges.h>
 
 #include "experiments/designs/saltelli.hpp"
+#include "experiments/keys/key_reading.hpp"
+#include "experiments/keys/values.hpp"
 #include "experiments/manifest/checks.hpp"
-#include "experiments/manifest/correlations.hpp"
-#include "experiments/manifest/goal.hpp"
-#include "experiments/manifest/key_reading.hpp"
-#include "experiments/manifest/measured.hpp"
-#include "experiments/manifest/observations.hpp"
-#include "experiments/manifest/sections.hpp"
-#include "experiments/manifest/stopping.hpp"
-#include "experiments/manifest/study_assembly.hpp"
-#include "experiments/manifest/sweep.hpp"
-#include "experiments/manifest/tuning.hpp"
-#include "experiments/manifest/unseen_motions.hpp"
-#include "experiments/manifest/values.hpp"
 #include "experiments/parameters/unknown_key.hpp"
-#include "experiments/study/factors.hpp"
+#include "experiments/randomness/factors.hpp"
+#include "experiments/sections/goal.hpp"
+#include "experiments/sections/observations.hpp"
+#include "experiments/sections/sections.hpp"
+#include "experiments/sections/sweep.hpp"
 
 namespace zerocount::manifest {
 namespace {
@@ -30,9 +24,9 @@ namespace {
 // State of the reading of a manifest.
 struct Manifest {
   yaml::Field root;
-  Reading reading;
-  PlanPlaces places{};
-  std::vector<SweptAxis> axes{};
+  keys::Reading reading;
+  keys::PlanPlaces places{};
+  std::vector<sections::SweptAxis> axes{};
 
   yaml::Problems& problems() { return reading.problems; }
   study::StudyPlan& plan() { return reading.plan; }
@@ -44,12 +38,12 @@ void check_version(Manifest& m) {
   if (!field) return;
   const auto version = yaml::read_whole(*field, std::numeric_limits<std::int64_t>::min(),
                                         std::numeric_limits<std::int64_t>::max(), m.problems());
-  if (!version || *version == manifest_version) return;
-  const bool newer = *version > manifest_version;
+  if (!version || *version == keys::manifest_version) return;
+  const bool newer = *version > keys::manifest_version;
   m.problems().add(*field,
                    newer ? fmt::format("manifest version {} is newer than this program", *version)
                          : fmt::format("unknown manifest version {}", *version),
-                   fmt::format("version {}{}", manifest_version, newer ? ", or a newer program" : ""));
+                   fmt::format("version {}{}", keys::manifest_version, newer ? ", or a newer program" : ""));
 }
 
 void read_name(Manifest& m) {
@@ -68,9 +62,10 @@ void read_values(Manifest& m) {
   read_name(m);
   if (const auto seed = yaml::find_field(m.root, "seed"))
     m.study().seed = yaml::read_seed(*seed, m.problems()).value_or(0);
-  for (const GeneralKey& key : general_keys()) {
+  for (const keys::GeneralKey& key : keys::general_keys()) {
     const bool is_of_section = key.name.find('.') != std::string_view::npos;
-    if (!is_of_section && key.form != GeneralKey::Form::map) read_keys(m.root, {&key, 1}, m.reading);
+    if (!is_of_section && key.form != keys::GeneralKey::Form::map)
+      keys::read_keys(m.root, {&key, 1}, m.reading);
   }
   m.reading.groups = {.rigs = yaml::find_field(m.root, "rigs").has_value(),
                       .worlds = yaml::find_field(m.root, "worlds").has_value()};
@@ -78,12 +73,12 @@ void read_values(Manifest& m) {
 
 // Reads `travel`, `controller.units` and `command.units`. Must come first, because all other values depend on
 // the units.
-void read_study_units(const yaml::Field& root, Reading& reading) {
+void read_study_units(const yaml::Field& root, keys::Reading& reading) {
   study::StudyPlan& plan = reading.plan;
   const bool linear = plan.units.axis == parameters::AxisKind::linear;
   if (linear) plan.period.reset();
   if (const auto travel = yaml::find_field(root, "travel")) {
-    const auto length = yaml::read_real(*travel, find_general_key("travel")->range, reading.problems);
+    const auto length = yaml::read_real(*travel, keys::find_general_key("travel")->range, reading.problems);
     if (linear) {
       plan.period = length;
     } else {
@@ -94,13 +89,13 @@ void read_study_units(const yaml::Field& root, Reading& reading) {
   for (const std::string_view section : {"controller", "command"}) {
     const auto map = yaml::find_field(root, section);
     const auto units = map ? yaml::find_field(*map, "units") : std::nullopt;
-    if (units) read_key(*units, *find_general_key(units->path), reading);
+    if (units) keys::read_key(*units, *keys::find_general_key(units->path), reading);
   }
   if (plan.units.targets == parameters::TargetUnits::si) study::use_si_positions(plan.table);
 }
 
 // Warns if `travel` is given and nothing varies along it.
-void check_travel(const yaml::Field& root, Reading& reading) {
+void check_travel(const yaml::Field& root, keys::Reading& reading) {
   const auto travel = yaml::find_field(root, "travel");
   if (!travel || !reading.profiles.empty() || reading.plan.units.axis == parameters::AxisKind::rotary) return;
   reading.warnings.push_back(yaml::at_place(travel->node->place, travel->path,
@@ -108,11 +103,11 @@ void check_travel(const yaml::Field& root, Reading& reading) {
 }
 
 void read_axes(Manifest& m) {
-  if (const auto field = yaml::find_field(m.root, "sweep")) m.axes = read_sweep(*field, m.reading);
-  for (const SweptAxis& axis : m.axes) {
+  if (const auto field = yaml::find_field(m.root, "sweep")) m.axes = sections::read_sweep(*field, m.reading);
+  for (const sections::SweptAxis& axis : m.axes) {
     if (axis.labels.empty()) {  // could not be read, but gives these values
       for (const std::size_t slot : axis.slots) {
-        m.plan().base[slot] = unreadable_value();
+        m.plan().base[slot] = keys::unreadable_value();
         m.places.base[slot] = axis.place;
         m.places.written[slot] = true;
       }
@@ -128,9 +123,9 @@ void check_trial_count(Manifest& m) {
   for (const study::PlanAxis& axis : m.plan().axes)
     points *= static_cast<std::int64_t>(study::option_count(axis));
   const auto field = yaml::find_field(m.root, "trials");
-  if (field && m.study().trials > max_study_trials / points) {
+  if (field && m.study().trials > keys::max_study_trials / points) {
     m.problems().add(*field, fmt::format("{} trials at {} points are too many", m.study().trials, points),
-                     fmt::format("at most {} trials in all", max_study_trials));
+                     fmt::format("at most {} trials in all", keys::max_study_trials));
   }
 }
 
@@ -143,7 +138,7 @@ std::string nearest_multiples(std::int64_t number, std::int64_t of) {
 void check_rows(Manifest& m) {
   const auto field = yaml::find_field(m.root, "trials");
   if (m.study().design != study::Design::saltelli || !field || m.study().trials == 0) return;
-  const std::vector<std::string> names = study::factor_names(m.plan());
+  const std::vector<std::string> names = randomness::factor_names(m.plan());
   if (names.empty()) {
     const yaml::Field design = yaml::find_field(m.root, "design").value();
     m.problems().add(design, "nothing is drawn in this study", "a distribution for at least one parameter");
@@ -254,38 +249,39 @@ void read_observed(Manifest& m) {
   const bool complete =
       std::none_of(m.axes.begin(), m.axes.end(), [](const auto& axis) { return axis.labels.empty(); });
   if (!field || !complete) return;  // an incomplete axis is reported already
-  read_observations(*field, m.axes, m.reading);
+  sections::read_observations(*field, m.axes, m.reading);
 }
 
 }  // namespace
 
-study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, const Companions& companions,
-                           const SamplesTable* samples, yaml::Problems& problems) {
+study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version,
+                           const sections::Companions& companions, const sections::SamplesTable* samples,
+                           yaml::Problems& problems) {
   auto plan = std::make_shared<study::StudyPlan>();
   study::Study study;
   Manifest m{.root = {&root, ""}, .reading = {problems, *plan, study, version}};
   if (!yaml::check_map({&root, "manifest"}, "a map with the keys zerocount, name, seed, trials, command",
                        problems))
     return {};
-  parameters::check_keys(m.root, keys_below(""), problems);
+  parameters::check_keys(m.root, keys::keys_below(""), problems);
   read_values(m);
   read_study_units(m.root, m.reading);
-  read_plugin(m.root, companions.plugin, m.reading);
-  read_sections(m.root, m.reading, m.places);
+  sections::read_plugin(m.root, companions.plugin, m.reading);
+  sections::read_sections(m.root, m.reading, m.places);
   read_axes(m);
-  if (samples != nullptr) join_samples(*samples, m.axes, m.reading);
+  if (samples != nullptr) sections::join_samples(*samples, m.axes, m.reading);
   let_follow_from_measured(m.places, m.reading);
-  read_correlations(m.root, m.reading);
+  sections::read_correlations(m.root, m.reading);
   read_retained(m);
-  if (const auto field = yaml::find_field(m.root, "stop")) read_stop(*field, m.reading);
-  if (const auto field = yaml::find_field(m.root, "goal")) read_goal(*field, m.reading);
-  if (const auto field = yaml::find_field(m.root, "tune")) read_tuning(*field, m.reading);
+  if (const auto field = yaml::find_field(m.root, "stop")) sections::read_stop(*field, m.reading);
+  if (const auto field = yaml::find_field(m.root, "goal")) sections::read_goal(*field, m.reading);
+  if (const auto field = yaml::find_field(m.root, "tune")) sections::read_tuning(*field, m.reading);
   check_trial_count(m);
   check_rigs(m);
   check_worlds(m);
   read_observed(m);
   realise_profiles(m.reading.profiles, study, companions.rotors, *plan);
-  check_profiles(m.reading);
+  keys::check_profiles(m.reading);
   check_what_follows(m.places, m.reading);
   check_points(m.places, m.reading);
   check_travel(m.root, m.reading);

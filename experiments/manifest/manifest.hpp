@@ -1,7 +1,9 @@
 #pragma once
 
-#include "experiments/manifest/companions.hpp"
-#include "experiments/manifest/samples.hpp"
+#include "experiments/keys/values.hpp"
+#include "experiments/sections/companions.hpp"
+#include "experiments/sections/joint_draws.hpp"
+#include "experiments/sections/sweep.hpp"
 #include "experiments/study/study.hpp"
 #include "experiments/yaml/yaml_tree.hpp"
 
@@ -11,7 +13,20 @@ namespace zerocount::manifest {
 /// `problems`; with errors the study must not be used.
 /// @param version of the results files whose defaults apply
 /// @param samples inserted in `root` before, or null
-study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, const Companions& companions,
-                           const SamplesTable* samples, yaml::Problems& problems);
+study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version,
+                           const sections::Companions& companions, const sections::SamplesTable* samples,
+                           yaml::Problems& problems);
+
+/// Realises the requested profiles as plan.profiles, in the order of the requests. All profiles of one
+/// parameter use the same random numbers, even with different mean, spread and correlation length.
+/// @param study must have its seed, design and rigs @param known profiles to be shared where they are equal
+void realise_profiles(const std::vector<keys::ProfileRequest>& requests, const study::Study& study,
+                      const std::vector<std::shared_ptr<const study::Rotors>>& known, study::StudyPlan& plan);
+
+/// Completes a study whose manifest has no errors: the random numbers of each slot, the labels of the points,
+/// the axes, the input columns, the list of profiles.
+void assemble_study(const std::vector<keys::ProfileRequest>& requests,
+                    const std::vector<sections::SweptAxis>& axes, study::StudyPlan& plan,
+                    study::Study& study);
 
 }  // namespace zerocount::manifest

@@ -1,11 +1,10 @@
-#include "experiments/manifest/measured.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
 #include <fmt/format.h>
 
+#include "experiments/manifest/checks.hpp"
 #include "experiments/parameters/measured_parameters.hpp"
 #include "experiments/study/point_limits.hpp"
 #include "experiments/study/study_table.hpp"
@@ -20,7 +19,7 @@ std::vector<std::uint32_t> slots_of(const study::StudyTable& table, std::span<co
 
 /// Reports the measured values that are missing at some point.
 void require_all(const parameters::MeasuredParameters& group, std::span<const std::uint32_t> slots,
-                 const yaml::Place& first, const PlanPlaces& places, Reading& reading) {
+                 const yaml::Place& first, const keys::PlanPlaces& places, keys::Reading& reading) {
   const study::StudyPlan& plan = reading.plan;
   for (std::size_t i = 0; i < slots.size(); ++i) {
     if (is_given_everywhere(places, plan, slots[i])) continue;
@@ -39,7 +38,7 @@ bool is_drawn_per_contact(const study::StudyPlan& plan, std::uint32_t slot) {
 
 /// A contact has one random number for each parameter of the law.
 void check_contacts(const parameters::FollowingParameter& parameter, std::span<const std::uint32_t> from,
-                    const PlanPlaces& places, Reading& reading) {
+                    const keys::PlanPlaces& places, keys::Reading& reading) {
   const study::StudyPlan& plan = reading.plan;
   std::vector<std::uint32_t> drawn;
   std::ranges::copy_if(from, std::back_inserter(drawn),
@@ -53,7 +52,7 @@ void check_contacts(const parameters::FollowingParameter& parameter, std::span<c
 
 /// Reports a parameter that is given although it follows from measured ones.
 bool check_not_given(const parameters::MeasuredParameters& group, std::uint32_t slot,
-                     const PlanPlaces& places, Reading& reading) {
+                     const keys::PlanPlaces& places, keys::Reading& reading) {
   const auto place = given_place(places, reading.plan, slot);
   if (place)
     reading.problems.add(*place, reading.plan.table.rows[slot].name,
@@ -62,7 +61,8 @@ bool check_not_given(const parameters::MeasuredParameters& group, std::uint32_t 
   return !place;
 }
 
-void let_follow(const parameters::MeasuredParameters& group, const PlanPlaces& places, Reading& reading) {
+void let_follow(const parameters::MeasuredParameters& group, const keys::PlanPlaces& places,
+                keys::Reading& reading) {
   study::StudyPlan& plan = reading.plan;
   const std::vector<std::uint32_t> measured = slots_of(plan.table, group.names);
   const auto first = std::ranges::find_if(
@@ -82,12 +82,12 @@ void let_follow(const parameters::MeasuredParameters& group, const PlanPlaces& p
 
 }  // namespace
 
-void let_follow_from_measured(const PlanPlaces& places, Reading& reading) {
+void let_follow_from_measured(const keys::PlanPlaces& places, keys::Reading& reading) {
   for (const parameters::MeasuredParameters& group : parameters::measured_parameters())
     let_follow(group, places, reading);
 }
 
-void check_what_follows(const PlanPlaces& places, Reading& reading) {
+void check_what_follows(const keys::PlanPlaces& places, keys::Reading& reading) {
   const study::StudyPlan& plan = reading.plan;
   for (std::size_t slot = 0; slot < plan.base.size(); ++slot) {
     if (plan.base[slot].kind != study::Value::Kind::following) continue;

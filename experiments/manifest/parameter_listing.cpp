@@ -5,7 +5,7 @@
 
 #include "experiments/distributions/distribution_forms.hpp"
 #include "experiments/guides/guide_friction.hpp"
-#include "experiments/manifest/drawn_per.hpp"
+#include "experiments/keys/draw_level.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/plan.hpp"
 
@@ -69,7 +69,8 @@ std::vector<ListedDistribution> listed_distributions(const parameters::StudyUnit
            fmt::format(": a periodic random field; correlation_length in {}, marginal normal or lognormal "
                        "(default); the mean may be a distribution, drawn for each {}",
                        parameters::unit_on(units.axis, "rad"), parameters::text_on(units.axis, "$rotor"))});
-  rows.push_back({std::string(per_key), fmt::format("{{…, per: {}}}", fmt::join(draw_level_labels, " | ")),
+  rows.push_back({std::string(keys::per_key),
+                  fmt::format("{{…, per: {}}}", fmt::join(keys::draw_level_labels, " | ")),
                   "beside any of these: how often the value is drawn; contact only for friction, study or "
                   "rig only for a profile"});
   return rows;

@@ -1,5 +1,3 @@
-#include "experiments/manifest/study_assembly.hpp"
-
 #include <algorithm>
 #include <iterator>
 #include <map>
@@ -9,7 +7,8 @@
 #include <fmt/format.h>
 
 #include "experiments/designs/random_key.hpp"
-#include "experiments/study/factors.hpp"
+#include "experiments/manifest/manifest.hpp"
+#include "experiments/randomness/factors.hpp"
 #include "experiments/study/point_limits.hpp"
 #include "experiments/study/study_table.hpp"
 
@@ -80,8 +79,8 @@ void share_randomness_of_samples(const study::Study& study, study::StudyPlan& pl
 
 void number_factors(study::StudyPlan& plan, study::Study& study) {
   if (study.design != study::Design::saltelli) return;
-  plan.factors = study::find_factors(plan);
-  study.factors = study::factor_names(plan);
+  plan.factors = randomness::find_factors(plan);
+  study.factors = randomness::factor_names(plan);
   plan.factor_of.resize(plan.base.size());
   for (std::size_t f = 0; f < plan.factors.slots.size(); ++f) {
     plan.factor_of[plan.factors.slots[f]] = static_cast<std::uint32_t>(f);
@@ -204,7 +203,7 @@ std::map<std::uint32_t, std::size_t> profiles_in_use(const study::StudyPlan& pla
   return first_point;
 }
 
-void list_profiles(const std::vector<ProfileRequest>& requests, const std::vector<bool>& swept,
+void list_profiles(const std::vector<keys::ProfileRequest>& requests, const std::vector<bool>& swept,
                    const study::StudyPlan& plan, study::Study& study) {
   for (const std::size_t slot : study::slots_in_table_order(plan.table)) {
     const parameters::Parameter& parameter = plan.table.rows[slot];
@@ -225,7 +224,7 @@ void list_profiles(const std::vector<ProfileRequest>& requests, const std::vecto
   }
 }
 
-study::DrawnMean mean_of(const ProfileRequest& request, const parameters::Parameter& parameter,
+study::DrawnMean mean_of(const keys::ProfileRequest& request, const parameters::Parameter& parameter,
                          const study::Study& study) {
   study::DrawnMean mean{*request.form.mean, study.design, {}};
   mean.randomness.key = designs::random_key(study.seed, profile_mean_name(parameter.name));
@@ -240,10 +239,10 @@ study::DrawnMean mean_of(const ProfileRequest& request, const parameters::Parame
 
 }  // namespace
 
-void realise_profiles(const std::vector<ProfileRequest>& requests, const study::Study& study,
+void realise_profiles(const std::vector<keys::ProfileRequest>& requests, const study::Study& study,
                       const std::vector<std::shared_ptr<const study::Rotors>>& known,
                       study::StudyPlan& plan) {
-  for (const ProfileRequest& request : requests) {
+  for (const keys::ProfileRequest& request : requests) {
     const parameters::Parameter& parameter = plan.table.rows[request.slot];
     std::optional<study::DrawnMean> mean;
     if (request.form.mean) mean = mean_of(request, parameter, study);
@@ -256,16 +255,17 @@ void realise_profiles(const std::vector<ProfileRequest>& requests, const study::
   }
 }
 
-void assemble_study(const std::vector<ProfileRequest>& requests, const std::vector<SweptAxis>& axes,
-                    study::StudyPlan& plan, study::Study& study) {
+void assemble_study(const std::vector<keys::ProfileRequest>& requests,
+                    const std::vector<sections::SweptAxis>& axes, study::StudyPlan& plan,
+                    study::Study& study) {
   const auto listed = static_cast<std::int64_t>(plan.list.count);
   if (plan.sequence) study.sequence = study::sequence_moves(*plan.sequence, listed);
   study.units = plan.units;
   study.period = plan.period.value_or(study.period);
   study.moves = plan.sequence ? std::ssize(study.sequence) : listed;
   study.open_loop = plan.open_loop;
-  study.points.labels = label_points(axes);
-  study.points.axes = describe_axes(axes, plan);
+  study.points.labels = sections::label_points(axes);
+  study.points.axes = sections::describe_axes(axes, plan);
   study.features = study::find_features(plan, study);
   const std::vector<bool> swept = swept_slots(plan);
   list_input_columns(swept, plan, study);

@@ -1,5 +1,3 @@
-#include "experiments/manifest/unseen_motions.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/loop/encoder.hpp"
+#include "experiments/manifest/checks.hpp"
 #include "experiments/parameters/earlier_defaults.hpp"
 #include "experiments/rules/plausibility.hpp"
 #include "experiments/study/point_limits.hpp"
@@ -143,7 +142,7 @@ bool is_drawn(const study::StudyPlan& plan, std::span<const std::size_t> slots, 
 
 }  // namespace
 
-void check_unseen_motions(const study::Study& study, const PlanPlaces& places, Reading& reading) {
+void check_unseen_motions(const study::Study& study, const keys::PlanPlaces& places, keys::Reading& reading) {
   constexpr std::size_t max_reported = 20;
   const study::StudyPlan& plan = reading.plan;
   if (plan.open_loop) return;

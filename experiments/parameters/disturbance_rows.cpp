@@ -1,4 +1,4 @@
-#include "experiments/parameters/disturbance_rows.hpp"
+#include "experiments/parameters/element_lists.hpp"
 
 #include <array>
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
 
-#include "experiments/parameters/disturbance_rows.hpp"
+#include "experiments/parameters/element_lists.hpp"
 #include "experiments/parameters/parameter_rows.hpp"
 
 namespace zerocount::parameters {

@@ -1,4 +1,4 @@
-#include "experiments/yaml/lexical_faults.hpp"
+#include "experiments/yaml/faults.hpp"
 
 namespace zerocount::yaml {
 namespace {

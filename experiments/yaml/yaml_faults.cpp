@@ -1,4 +1,4 @@
-#include "experiments/yaml/yaml_faults.hpp"
+#include "experiments/yaml/faults.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -11,8 +11,8 @@
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
 
-#include "experiments/yaml/lexical_faults.hpp"
-#include "experiments/yaml/yaml_faults.hpp"
+#include "experiments/yaml/faults.hpp"
+#include "experiments/yaml/faults.hpp"
 
 namespace zerocount::yaml {
 namespace {

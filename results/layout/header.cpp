@@ -12,11 +12,11 @@
 
 #include "core/hash/sha256.hpp"
 #include "core/text/utf8.hpp"
+#include "experiments/keys/manifest_keys.hpp"
 #include "experiments/manifest/load_study.hpp"
-#include "experiments/manifest/manifest_keys.hpp"
-#include "experiments/manifest/manifest_values.hpp"
+#include "experiments/manifest_text/manifest_values.hpp"
 #include "results/hdf5/foreign_file.hpp"
-#include "results/layout/plugin_record.hpp"
+#include "results/layout/header.hpp"
 #include "results/layout/point_sums.hpp"
 #include "results/storage/checksum_trailer.hpp"
 #include "results/storage/durable_file.hpp"
@@ -47,7 +47,7 @@ std::string_view format_name(const FileHeader& header) {
 }
 
 std::string_view retention_label(study::Retention retention) {
-  return manifest::retention_labels[static_cast<std::size_t>(retention)];
+  return keys::retention_labels[static_cast<std::size_t>(retention)];
 }
 
 /// A text with a zero byte would be cut there without a word.
@@ -305,7 +305,7 @@ study::Study recorded_study(const FileHeader& header, const std::filesystem::pat
     plugin = std::make_shared<const plugin::ControllerPlugin>(plugin::ControllerPlugin{*header.plugin});
   study::Study study =
       manifest::parse_study(header.manifest, path.string() + ":/manifest", header.overrides, header.version,
-                            manifest::known_companions(std::move(plugin), header.samples));
+                            sections::known_companions(std::move(plugin), header.samples));
   study.engine = header.engine;
   if (study.trials != header.trials || study::point_count(study) != header.points) {
     throw Failure(
@@ -333,9 +333,9 @@ void require_same_plugin(const std::filesystem::path& path, const FileHeader& he
 
 std::string differences_from(const std::filesystem::path& path, const FileHeader& header,
                              const study::Study& study) {
-  return manifest::differences_text(manifest::manifest_differences(
-      manifest::values_of(header.manifest, path.string() + ":/manifest", header.overrides),
-      manifest::values_of(study.manifest.text, study.name, study.manifest.overrides)));
+  return manifest_text::differences_text(manifest_text::manifest_differences(
+      manifest_text::values_of(header.manifest, path.string() + ":/manifest", header.overrides),
+      manifest_text::values_of(study.manifest.text, study.name, study.manifest.overrides)));
 }
 
 void require_same_study(const std::filesystem::path& path, const FileHeader& header,

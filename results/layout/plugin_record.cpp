@@ -1,4 +1,4 @@
-#include "results/layout/plugin_record.hpp"
+#include "results/layout/header.hpp"
 
 #include <algorithm>
 #include <cmath>

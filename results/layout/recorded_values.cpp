@@ -6,21 +6,21 @@
 
 #include "core/failure/failure.hpp"
 #include "core/hash/sha256.hpp"
-#include "experiments/manifest/manifest_keys.hpp"
+#include "experiments/keys/manifest_keys.hpp"
 #include "experiments/parameters/earlier_defaults.hpp"
 
 namespace zerocount::layout {
 namespace {
 
 /// Whether the manifest gives the parameter a value, or one to every point of a grid.
-bool gives(const manifest::ManifestValues& values, std::string_view parameter) {
+bool gives(const manifest_text::ManifestValues& values, std::string_view parameter) {
   return std::any_of(values.begin(), values.end(), [&](const auto& entry) {
-    return manifest::is_within(entry.first, parameter) ||
-           manifest::is_within(entry.first, fmt::format("sweep.grid.{}", parameter));
+    return keys::is_within(entry.first, parameter) ||
+           keys::is_within(entry.first, fmt::format("sweep.grid.{}", parameter));
   });
 }
 
-void write_default(manifest::ManifestValues& values, const parameters::Parameter& parameter,
+void write_default(manifest_text::ManifestValues& values, const parameters::Parameter& parameter,
                    std::int64_t version) {
   if (gives(values, parameter.name)) return;
   values[std::string(parameter.name)] =
@@ -29,10 +29,10 @@ void write_default(manifest::ManifestValues& values, const parameters::Parameter
 
 }  // namespace
 
-manifest::ManifestValues manifest_values(const FileHeader& header, const std::string& source) {
-  manifest::ManifestValues values;
+manifest_text::ManifestValues manifest_values(const FileHeader& header, const std::string& source) {
+  manifest_text::ManifestValues values;
   try {
-    values = manifest::values_of(header.manifest, source + ":/manifest", header.overrides);
+    values = manifest_text::values_of(header.manifest, source + ":/manifest", header.overrides);
   } catch (const Failure& failure) {
     throw Failure(ExitCode::bad_data,
                   fmt::format("{}: its manifest cannot be read: {}", source, failure.what()));
@@ -41,8 +41,8 @@ manifest::ManifestValues manifest_values(const FileHeader& header, const std::st
   return values;
 }
 
-void write_changed_defaults(manifest::ManifestValues& baseline, std::int64_t baseline_version,
-                            manifest::ManifestValues& current, std::int64_t current_version) {
+void write_changed_defaults(manifest_text::ManifestValues& baseline, std::int64_t baseline_version,
+                            manifest_text::ManifestValues& current, std::int64_t current_version) {
   for (const parameters::EarlierDefault& earlier : parameters::earlier_defaults()) {
     const parameters::Parameter& parameter =
         parameters::parameter_table()[parameters::find_parameter(earlier.name).value()];

@@ -12,7 +12,7 @@
 #include "results/layout/layout.hpp"
 #include "results/layout/point_sums.hpp"
 #include "results/layout/row_range.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "results/shards/concatenate.hpp"
 #include "results/shards/rig_tables.hpp"
 #include "results/shards/shard.hpp"

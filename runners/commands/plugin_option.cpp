@@ -13,7 +13,7 @@ namespace zerocount::commands {
 std::shared_ptr<const plugin::ControllerPlugin> plugin_option(const command_line::Arguments& arguments) {
   const std::optional<std::string> path = arguments.value("plugin");
   if (!path) return nullptr;
-  const manifest::LoadedPlugin loaded = plugins::load_plugin(*path);
+  const sections::LoadedPlugin loaded = plugins::load_plugin(*path);
   if (const auto* fault = std::get_if<plugin::PluginFault>(&loaded))
     arguments.refuse(fmt::format("option '--plugin': {}; expected {}", fault->what, fault->expected));
   return std::get<std::shared_ptr<const plugin::ControllerPlugin>>(loaded);

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "experiments/manifest/load_study.hpp"
-#include "experiments/manifest/samples.hpp"
+#include "experiments/sections/joint_draws.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/hdf5/array_file.hpp"
 #include "results/layout/header.hpp"
@@ -35,7 +35,7 @@ study::Study load_study(const fs::path& manifest, const command_line::Arguments&
     return plugins::load_plugin(input(folder / path));
   };
   const auto read_samples = [&](const std::string& path) {
-    return yaml::read_text(input(folder / path), manifest::max_samples_size, "a table of samples");
+    return yaml::read_text(input(folder / path), sections::max_samples_size, "a table of samples");
   };
   return manifest::load_study(input(manifest), arguments.values("set"),
                               {.plugin = load_plugin, .samples = read_samples});

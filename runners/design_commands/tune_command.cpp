@@ -10,7 +10,7 @@
 #include "analysis/report/page.hpp"
 #include "analysis/report/report.hpp"
 #include "core/failure/failure.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "results/storage/durable_file.hpp"
 #include "results/storage/output_lock.hpp"
 #include "runners/answers/answer_format.hpp"

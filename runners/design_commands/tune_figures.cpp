@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "analysis/report/figures/report_figures.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 
 namespace zerocount::design_commands {
 namespace {

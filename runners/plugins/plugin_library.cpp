@@ -64,7 +64,7 @@ std::variant<const zerocount_controller*, PluginFault> entry_of(const fs::path& 
 
 }  // namespace
 
-manifest::LoadedPlugin load_plugin(const fs::path& library) {
+sections::LoadedPlugin load_plugin(const fs::path& library) {
   std::error_code error;
   if (!fs::exists(library, error))
     return PluginFault{fmt::format("{}: no such file", library.string()), "the path of a shared library"};

@@ -2,12 +2,12 @@
 
 #include <filesystem>
 
-#include "experiments/manifest/plugin_loader.hpp"
+#include "experiments/sections/plugin_loader.hpp"
 
 namespace zerocount::plugins {
 
 /// Loads the shared library with a user's controller. It runs code of the library: call it only with a path
 /// that the user gave. The library stays loaded until the program ends.
-manifest::LoadedPlugin load_plugin(const std::filesystem::path& library);
+sections::LoadedPlugin load_plugin(const std::filesystem::path& library);
 
 }  // namespace zerocount::plugins

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "experiments/manifest/manifest_keys.hpp"
+#include "experiments/keys/manifest_keys.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 
 namespace zerocount::program {
@@ -41,7 +41,7 @@ std::string keys_to_set() {
   for (const parameters::Parameter& parameter : parameters::parameter_table()) {
     if (!parameter.element) add(parameter.name);
   }
-  for (const manifest::GeneralKey& key : manifest::general_keys()) {
+  for (const keys::GeneralKey& key : keys::general_keys()) {
     if (key.name != "zerocount") add(key.name);
   }
   return keys;

@@ -9,7 +9,7 @@
 #include <pybind11/stl.h>
 
 #include "core/text/number_text.hpp"
-#include "experiments/manifest/overrides.hpp"
+#include "experiments/manifest_text/overrides.hpp"
 #include "experiments/yaml/problems.hpp"
 #include "experiments/yaml/yaml_tree.hpp"
 
@@ -60,7 +60,7 @@ py::object manifest_tree(const std::string& text, const std::string& source,
   yaml::Problems problems;
   std::deque<std::string> sources;
   yaml::YamlPointer root = yaml::parse_yaml(text, source, false, problems);
-  if (root != nullptr) root = manifest::apply_overrides(root, overrides, sources, problems);
+  if (root != nullptr) root = manifest_text::apply_overrides(root, overrides, sources, problems);
   problems.raise_if_any();
   return object_of(*root);
 }

@@ -11,7 +11,7 @@
 #include "analysis/parallel/parallel.hpp"
 #include "core/trial/outcome.hpp"
 #include "core/trial/trial.hpp"
-#include "experiments/study/random_variables.hpp"
+#include "experiments/randomness/random_variables.hpp"
 #include "results/layout/fields.hpp"
 #include "runners/python/arrays.hpp"
 #include "runners/python/interruptible.hpp"
@@ -54,17 +54,17 @@ py::dict form_of(const d::Choice& c) {
 }
 
 /// What a variable is: a value in its unit, the normal score of a profile, or the row of joint samples.
-std::string_view kind_of(const study::RandomCoordinate& coordinate) {
+std::string_view kind_of(const randomness::RandomCoordinate& coordinate) {
   if (coordinate.rows > 0) return "row";
-  return coordinate.kind == study::RandomCoordinate::Kind::profile_at_start ? "score" : "value";
+  return coordinate.kind == randomness::RandomCoordinate::Kind::profile_at_start ? "score" : "value";
 }
 
 /// The random variables of a point: {"names", "kinds", "units", "distributions", "correlations"}.
 py::dict variables_of(const study::Study& study, std::int64_t point) {
-  const study::RandomVariables variables = study::random_variables(study, point);
+  const randomness::RandomVariables variables = randomness::random_variables(study, point);
   py::list names, kinds, units, forms;
   std::vector<double> correlations;
-  for (const study::RandomVariable& variable : variables.variables) {
+  for (const randomness::RandomVariable& variable : variables.variables) {
     names.append(variable.name);
     kinds.append(std::string(kind_of(variable.coordinate)));
     units.append(variable.unit);
@@ -85,11 +85,11 @@ py::dict variables_of(const study::Study& study, std::int64_t point) {
 
 /// [trial, variable] The values at standard normal scores, to which the correlations were applied.
 py::array values_at_scores(const study::Study& study, std::int64_t point, const Matrix& scores) {
-  const study::RandomVariables variables = study::random_variables(study, point);
+  const randomness::RandomVariables variables = randomness::random_variables(study, point);
   const std::size_t width = variables.variables.size();
   std::vector<double> values(scores.data(), scores.data() + scores.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const double u = study::uniform_of_score(values[i]);
+    const double u = randomness::uniform_of_score(values[i]);
     values[i] = distributions::quantile(variables.variables[i % width].distribution, u);
   }
   return array_of(std::move(values), {scores.shape(0), scores.shape(1)});
@@ -99,12 +99,12 @@ py::array values_at_scores(const study::Study& study, std::int64_t point, const 
 std::vector<trial::TrialOutcome> simulated(const study::Study& study, std::int64_t point,
                                            std::span<const double> x, std::span<const std::int64_t> numbers,
                                            const std::stop_token& stop) {
-  const study::RandomVariables variables = study::random_variables(study, point);
+  const randomness::RandomVariables variables = randomness::random_variables(study, point);
   const std::size_t width = variables.variables.size();
   const auto draw = [&](std::int64_t number) {
     const auto i = static_cast<std::size_t>(number);
     const study::GivenDraws draws =
-        study::draws_with(study, variables, x.subspan(i * width, width), numbers[i]);
+        randomness::draws_with(study, variables, x.subspan(i * width, width), numbers[i]);
     return study::study_trial(study, point, 0, draws).parameters;
   };
   return trials::results_of(std::ssize(numbers), trials_at_a_time, draw, stop,

@@ -18,7 +18,7 @@
 #include "core/loop/controller/controller.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/manifest/load_study.hpp"
-#include "experiments/manifest/samples.hpp"
+#include "experiments/sections/joint_draws.hpp"
 #include "experiments/study/study.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/layout/header.hpp"
@@ -39,11 +39,11 @@ using StudyPointer = std::shared_ptr<const study::Study>;
 /// The study of a manifest's text. @param folder from which the files that it names are found
 StudyPointer parsed(std::string text, const std::string& source, const fs::path& folder,
                     const std::vector<std::string>& overrides) {
-  const manifest::Companions companions{
+  const sections::Companions companions{
       .plugin = [&](const std::string& path) { return plugins::load_plugin(folder / path); },
       .samples =
           [&](const std::string& path) {
-            return yaml::read_text(folder / path, manifest::max_samples_size, "a table of samples");
+            return yaml::read_text(folder / path, sections::max_samples_size, "a table of samples");
           }};
   return std::make_shared<const study::Study>(
       manifest::new_study(std::move(text), source, overrides, companions));
@@ -51,7 +51,7 @@ StudyPointer parsed(std::string text, const std::string& source, const fs::path&
 
 /// The plugin of a path. @throws Failure (bad_input)
 std::shared_ptr<const plugin::ControllerPlugin> loaded(const fs::path& library) {
-  const manifest::LoadedPlugin plugin = plugins::load_plugin(library);
+  const sections::LoadedPlugin plugin = plugins::load_plugin(library);
   if (const auto* fault = std::get_if<plugin::PluginFault>(&plugin))
     throw Failure(ExitCode::bad_input, fmt::format("plugin: {}; expected {}", fault->what, fault->expected));
   return std::get<std::shared_ptr<const plugin::ControllerPlugin>>(plugin);

@@ -69,8 +69,8 @@ double mean_score(const std::vector<double>& sorted, const std::vector<double>& 
 std::optional<double> mean_coordinate(const Question& question, std::string_view input,
                                       const std::vector<const WeightedTrial*>& failed) {
   if (!question.study.correlations.empty()) return std::nullopt;
-  const auto coordinate = std::ranges::find(question.coordinates, input, &study::RandomCoordinate::name);
-  if (coordinate == question.coordinates.end() || coordinate->kind != study::RandomCoordinate::Kind::values)
+  const auto coordinate = std::ranges::find(question.coordinates, input, &randomness::RandomCoordinate::name);
+  if (coordinate == question.coordinates.end() || coordinate->kind != randomness::RandomCoordinate::Kind::values)
     return std::nullopt;
   double sum = 0.0;
   for (const WeightedTrial* trial : failed)
@@ -91,7 +91,7 @@ std::vector<std::vector<double>> sorted_columns(const std::vector<std::vector<do
 /// Whether a value of the machine and one of the move are correlated, so that neither is drawn alone.
 bool correlates_machine_and_move(const Question& question) {
   const auto is_of_machine = [&](const std::string& name) {
-    return std::ranges::any_of(question.coordinates, [&](const study::RandomCoordinate& one) {
+    return std::ranges::any_of(question.coordinates, [&](const randomness::RandomCoordinate& one) {
       return one.name == name && one.of_machine;
     });
   };
@@ -150,7 +150,7 @@ std::vector<FailureInput> failure_inputs(const Question& question, const Estimat
 
 std::optional<CarryingMachines> carrying_machines(const Question& question, const EstimatorState& state,
                                                   double probability, const trials::Effort& effort) {
-  const auto of_machine = std::ranges::count_if(question.coordinates, &study::RandomCoordinate::of_machine);
+  const auto of_machine = std::ranges::count_if(question.coordinates, &randomness::RandomCoordinate::of_machine);
   const std::vector<const WeightedTrial*> failed = drawn_failures(state, examined_machines);
   if (failed.empty() || of_machine == 0 || of_machine == std::ssize(question.coordinates) ||
       correlates_machine_and_move(question))

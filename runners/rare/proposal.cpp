@@ -10,7 +10,8 @@ namespace {
 double density_of_pinned(const TrialSpace& space, const Proposal& proposal, std::span<const double> z) {
   double density = 0.0;
   for (const PinnedValue& one : proposal.values) {
-    if (study::value_at(space.discrete[one.draw], z) == one.value) density += one.weight / one.probability;
+    if (randomness::value_at(space.discrete[one.draw], z) == one.value)
+      density += one.weight / one.probability;
   }
   return density;
 }
@@ -28,9 +29,9 @@ const Weighted& chosen_by(const std::vector<Weighted>& all, double place) {
 
 }  // namespace
 
-TrialSpace trial_space(std::size_t coordinates, std::vector<study::DiscreteDraw> discrete) {
+TrialSpace trial_space(std::size_t coordinates, std::vector<randomness::DiscreteDraw> discrete) {
   TrialSpace space{coordinates, std::move(discrete)};
-  for (const study::DiscreteDraw& draw : space.discrete) {
+  for (const randomness::DiscreteDraw& draw : space.discrete) {
     if (!draw.ordered && draw.direction.size() == 1) space.unordered.push_back(draw.direction.front().first);
   }
   std::ranges::sort(space.unordered);
@@ -38,11 +39,11 @@ TrialSpace trial_space(std::size_t coordinates, std::vector<study::DiscreteDraw>
 }
 
 std::vector<PinnedValue> pinned_values(const TrialSpace& space, std::size_t draw) {
-  const study::DiscreteDraw& drawn = space.discrete[draw];
+  const randomness::DiscreteDraw& drawn = space.discrete[draw];
   std::vector<PinnedValue> values;
   for (std::int64_t value = 0; value < drawn.values(); ++value) values.push_back({draw, value});
   for (std::int64_t row = 0; row < drawn.rows; ++row)
-    values[static_cast<std::size_t>(study::value_of_row(drawn, row))].rows.push_back(row);
+    values[static_cast<std::size_t>(randomness::value_of_row(drawn, row))].rows.push_back(row);
   for (PinnedValue& one : values)
     one.probability = static_cast<double>(one.rows.size()) / static_cast<double>(drawn.rows);
   return values;
@@ -94,8 +95,8 @@ DrawnPoint draw(const TrialSpace& space, const Proposal& proposal, NumberSource&
 std::vector<double> draw_pinned(const TrialSpace& space, const PinnedValue& pinned, NumberSource& numbers) {
   std::vector<double> z = numbers.normals(space.coordinates);
   const auto row = static_cast<std::size_t>(numbers.uniform() * static_cast<double>(pinned.rows.size()));
-  study::move_to_row(space.discrete[pinned.draw], pinned.rows[std::min(row, pinned.rows.size() - 1)],
-                     numbers.uniform(), z);
+  randomness::move_to_row(space.discrete[pinned.draw], pinned.rows[std::min(row, pinned.rows.size() - 1)],
+                          numbers.uniform(), z);
   return z;
 }
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "experiments/study/discrete_draws.hpp"
+#include "experiments/randomness/discrete_draws.hpp"
 #include "runners/rare/normal_mixture.hpp"
 #include "runners/rare/trial_point.hpp"
 
@@ -14,13 +14,13 @@ namespace zerocount::rare {
 /// The independent standard normal coordinates of a trial, and what is drawn from them in discrete steps.
 struct TrialSpace {
   std::size_t coordinates{0};
-  std::vector<study::DiscreteDraw> discrete{};
+  std::vector<randomness::DiscreteDraw> discrete{};
   /// Coordinates in which near points have nothing in common, in ascending order: those of discrete draws
   /// that are neither ordered nor correlated.
   std::vector<std::size_t> unordered{};
 };
 
-TrialSpace trial_space(std::size_t coordinates, std::vector<study::DiscreteDraw> discrete);
+TrialSpace trial_space(std::size_t coordinates, std::vector<randomness::DiscreteDraw> discrete);
 
 /// Trials of which one discrete draw has one value; all else has its own distribution.
 struct PinnedValue {

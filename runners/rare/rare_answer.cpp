@@ -81,7 +81,7 @@ double plain_trials_for(const Estimate& estimate, double confidence) {
 /// Discrete draws with more values than are tried one by one, as "a and b"; empty if there are none.
 std::string untried_draws(const Question& question) {
   std::vector<std::string> names;
-  for (const study::DiscreteDraw& draw : question.space.discrete) {
+  for (const randomness::DiscreteDraw& draw : question.space.discrete) {
     if (draw.values() > max_tried_values) names.push_back(draw.name);
   }
   return fmt::format("{}", fmt::join(names, " and "));
@@ -210,7 +210,7 @@ Description<SearchRow> search_columns() {
 
 struct ValueRow {
   PinnedValue pinned;
-  const study::DiscreteDraw& draw;
+  const randomness::DiscreteDraw& draw;
 };
 
 /// The values of discrete draws at which failures are frequent, the most probable failure first.
@@ -229,7 +229,7 @@ Description<ValueRow> value_columns() {
       .value({.key = "parameter", .heading = "parameter", .meaning = "parameter with single values"},
              [](Row row) { return row.draw.name; })
       .value({.key = "value", .heading = "value", .meaning = "value at which failures are frequent"},
-             [](Row row) { return study::value_text(row.draw, row.pinned.value); })
+             [](Row row) { return randomness::value_text(row.draw, row.pinned.value); })
       .value({.key = "probability",
               .heading = "its probability",
               .meaning = "probability of the value",

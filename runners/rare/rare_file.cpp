@@ -25,7 +25,7 @@ constexpr std::size_t failed_column = 2;
 constexpr std::size_t first_coordinate = 3;
 
 /// The table of the trials drawn from the proposal; the inputs come behind the coordinates.
-layout::Table drawn_table(const std::vector<study::RandomCoordinate>& coordinates,
+layout::Table drawn_table(const std::vector<randomness::RandomCoordinate>& coordinates,
                           const std::vector<study::InputColumn>& inputs) {
   layout::Table table{"drawn", {"draw", "1", "index of the drawn trial", hdf5::Element::int64}, {}, {}};
   table.columns.push_back({"number", "1",
@@ -34,7 +34,7 @@ layout::Table drawn_table(const std::vector<study::RandomCoordinate>& coordinate
   table.columns.push_back(
       {"weight", "1", "density of the study's trials over that of the trials drawn here"});
   table.columns.push_back({"failed", "1", "proportion of the moves to which the event happens"});
-  for (const study::RandomCoordinate& coordinate : coordinates)
+  for (const randomness::RandomCoordinate& coordinate : coordinates)
     table.columns.push_back(
         {"coordinate/" + coordinate.name, "1", "standard normal number from which the value follows"});
   for (const study::InputColumn& input : inputs)

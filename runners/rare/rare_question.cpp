@@ -17,14 +17,14 @@ constexpr std::int64_t trials_at_once = 128;  // by one thread
 Question question_of(study::Study study, std::int64_t point, std::optional<std::int64_t> world,
                      measures::MoveEvent event) {
   Question question{std::move(study), point, world, std::move(event), {}, {}};
-  question.coordinates = study::random_coordinates(question.study, point);
+  question.coordinates = randomness::random_coordinates(question.study, point);
   question.space = trial_space(question.coordinates.size(),
-                               study::discrete_draws(question.study, point, question.coordinates));
+                               randomness::discrete_draws(question.study, point, question.coordinates));
   return question;
 }
 
 study::GivenDraws draws_at(const Question& question, const TrialPoint& trial) {
-  study::GivenDraws draws = study::draws_at(question.study, question.coordinates, trial.z, trial.number);
+  study::GivenDraws draws = randomness::draws_at(question.study, question.coordinates, trial.z, trial.number);
   draws.world = question.world;
   return draws;
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "analysis/measures/move_event.hpp"
-#include "experiments/study/random_coordinates.hpp"
+#include "experiments/randomness/random_coordinates.hpp"
 #include "experiments/study/study.hpp"
 #include "runners/rare/proposal.hpp"
 #include "runners/rare/trial_point.hpp"
@@ -22,7 +22,7 @@ struct Question {
   std::int64_t point{0};
   std::optional<std::int64_t> world{};  ///< of a study with worlds
   measures::MoveEvent event;
-  std::vector<study::RandomCoordinate> coordinates;
+  std::vector<randomness::RandomCoordinate> coordinates;
   TrialSpace space;  ///< of the coordinates
 };
 

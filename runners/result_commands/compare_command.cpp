@@ -12,7 +12,7 @@
 #include "analysis/report/figures/answer_figures.hpp"
 #include "analysis/text/text.hpp"
 #include "experiments/yaml/text_file.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"

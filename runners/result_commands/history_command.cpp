@@ -12,7 +12,7 @@
 #include "analysis/history/run_record.hpp"
 #include "analysis/report/answer_page.hpp"
 #include "analysis/report/figures/answer_figures.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/command.hpp"

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "analysis/report/figures/answer_figures.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/command.hpp"

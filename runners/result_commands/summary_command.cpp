@@ -14,7 +14,7 @@
 #include "analysis/summary_answer/summary_answer.hpp"
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "results/shards/pieces.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/command_line/option_values.hpp"

@@ -10,7 +10,7 @@
 #include "analysis/document/answer.hpp"
 #include "experiments/guides/guide_friction.hpp"
 #include "experiments/guides/guide_table.hpp"
-#include "experiments/manifest/manifest_keys.hpp"
+#include "experiments/keys/manifest_keys.hpp"
 #include "experiments/manifest/parameter_listing.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/commands/command.hpp"
@@ -24,13 +24,13 @@ struct ParameterTables {
   std::string headline;
   std::vector<manifest::ListedParameter> parameters;
   std::vector<manifest::ListedDistribution> distributions{};
-  std::span<const manifest::GeneralKey> keys{};
+  std::span<const keys::GeneralKey> keys{};
 };
 
 document::AnswerDescription<ParameterTables> parameters_answer() {
   using Parameter = manifest::ListedParameter;
   using Distribution = manifest::ListedDistribution;
-  using Key = manifest::GeneralKey;
+  using Key = keys::GeneralKey;
   document::AnswerDescription<ParameterTables> answer{
       {.name = "parameters", .meaning = "what a manifest can say", .csv_table = "parameters"}, {}};
   answer.items.headline(&ParameterTables::headline)
@@ -150,7 +150,7 @@ ParameterTables all_tables(const command_line::Arguments& arguments) {
   std::vector<manifest::ListedParameter> parameters = manifest::listed_parameters(units);
   return {fmt::format("{} parameters; a manifest states those that differ from their defaults",
                       parameters.size()),
-          std::move(parameters), manifest::listed_distributions(units), manifest::general_keys()};
+          std::move(parameters), manifest::listed_distributions(units), keys::general_keys()};
 }
 
 ExitCode print_parameters(const command_line::Arguments& arguments) {

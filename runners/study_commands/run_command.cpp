@@ -10,7 +10,7 @@
 #include "core/text/number_text.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "results/shards/shard.hpp"
 #include "results/storage/durable_file.hpp"
 #include "results/storage/output_lock.hpp"

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
-#include "experiments/manifest/manifest_keys.hpp"
-#include "experiments/manifest/manifest_values.hpp"
+#include "experiments/keys/manifest_keys.hpp"
+#include "experiments/manifest_text/manifest_values.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/recorded_values.hpp"
 #include "results/reading/results_file.hpp"
@@ -22,15 +22,15 @@ namespace fs = std::filesystem;
 /// Differences between the study of a results file and this one. The final number of trials of a stopping
 /// rule is ignored; defaults that changed since the file was written are included.
 /// @param path of the file, for messages
-std::vector<manifest::ManifestDifference> study_differences(const fs::path& path, layout::FileHeader header,
+std::vector<manifest_text::ManifestDifference> study_differences(const fs::path& path, layout::FileHeader header,
                                                             const study::Study& study) {
   if (study.stop && !header.overrides.empty() && header.overrides.back().starts_with(decided_key))
     header.overrides.pop_back();
-  manifest::ManifestValues there = layout::manifest_values(header, path.string());
-  manifest::ManifestValues here = layout::manifest_values(
+  manifest_text::ManifestValues there = layout::manifest_values(header, path.string());
+  manifest_text::ManifestValues here = layout::manifest_values(
       layout::make_header(study, layout::FileKind::study, layout::all_rows(study), {}), study.name);
   layout::write_changed_defaults(there, header.version, here, layout::format_version);
-  return manifest::manifest_differences(there, here);
+  return manifest_text::manifest_differences(there, here);
 }
 
 [[noreturn]] void refuse(const fs::path& output, std::string_view what) {
@@ -59,7 +59,7 @@ void require_extensible(const fs::path& output, const layout::FileHeader& header
   if (study.trials < header.trials) refuse_more("a results file can only be extended");
   if (!study::trials_stay_when_extended(study.design)) {
     refuse_more(fmt::format("the trials of design: {} are laid out for their number, and all change with it",
-                            manifest::design_labels[static_cast<std::size_t>(study.design)]));
+                            keys::design_labels[static_cast<std::size_t>(study.design)]));
   }
   if (!layout::same_build(header.provenance, layout::current_provenance()) ||
       header.version != layout::format_version) {
@@ -76,7 +76,7 @@ ExistingUse use_of_existing(const fs::path& output, const study::Study& study, l
   std::error_code error;
   if (!fs::exists(fs::symlink_status(output, error))) return ExistingUse::none;
   const layout::FileHeader header = header_of(output);
-  const std::vector<manifest::ManifestDifference> differences = study_differences(output, header, study);
+  const std::vector<manifest_text::ManifestDifference> differences = study_differences(output, header, study);
   if (differences.empty()) layout::require_same_plugin(output, header, study.plugin.get());
   if (header.engine != study.engine) {
     refuse(output, fmt::format("holds the results of the {} engine, and this run is for the {} engine",
@@ -89,7 +89,7 @@ ExistingUse use_of_existing(const fs::path& output, const study::Study& study, l
     return ExistingUse::extend;
   }
   if (!differences.empty())
-    refuse(output, "holds the results of another study: " + manifest::differences_text(differences));
+    refuse(output, "holds the results of another study: " + manifest_text::differences_text(differences));
   if (!study.stop && !(header.rows == wanted)) {
     refuse(output, fmt::format("holds trials {} to {} of this study, and this run is for {} to {}",
                                header.rows.first, header.rows.end() - 1, wanted.first, wanted.end() - 1));

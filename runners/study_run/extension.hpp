@@ -6,7 +6,7 @@
 
 #include "experiments/study/study.hpp"
 #include "results/layout/row_range.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "results/shards/shard.hpp"
 
 namespace zerocount::study_run {

@@ -7,7 +7,7 @@
 
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "results/shards/shard.hpp"
 #include "results/storage/durable_file.hpp"
 #include "runners/forecast/study_size.hpp"

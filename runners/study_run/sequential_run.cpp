@@ -7,7 +7,7 @@
 
 #include "analysis/statistics/confidence_sequence.hpp"
 #include "experiments/manifest/load_study.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "results/storage/durable_file.hpp"
 #include "runners/status/progress.hpp"
 #include "runners/status/status.hpp"
@@ -102,7 +102,7 @@ study::Study decided_study(const study::Study& study, std::int64_t trials) {
   std::vector<std::string> overrides = study.manifest.overrides;
   overrides.push_back(fmt::format("{}{}", decided_key, trials));
   study::Study decided =
-      manifest::parse_study(study.manifest.text, study.name, overrides, manifest::companions_of(study));
+      manifest::parse_study(study.manifest.text, study.name, overrides, sections::companions_of(study));
   decided.engine = study.engine;
   return decided;
 }

@@ -19,7 +19,7 @@ std::uint64_t fresh_seed(std::uint64_t seed, std::string_view purpose) {
 study::Study variant_of(const study::Study& study, const std::vector<std::string>& overrides) {
   std::vector<std::string> all = study.manifest.overrides;
   all.insert(all.end(), overrides.begin(), overrides.end());
-  return manifest::parse_study(study.manifest.text, study.name, all, manifest::companions_of(study));
+  return manifest::parse_study(study.manifest.text, study.name, all, sections::companions_of(study));
 }
 
 std::optional<study::Study> with_values(const study::Study& study, std::span<const std::string> parameters,

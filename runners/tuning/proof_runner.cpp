@@ -11,10 +11,10 @@
 
 #include "analysis/goal/goal_verdict.hpp"
 #include "core/failure/failure.hpp"
-#include "experiments/manifest/edited_text.hpp"
+#include "experiments/manifest_text/overrides.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "results/layout/header.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "runners/study_run/file_run.hpp"
 #include "runners/tuning/race/proof.hpp"
 #include "runners/tuning/study_search.hpp"
@@ -66,14 +66,14 @@ study::Study with_values_in_text(const study::Study& study, const std::vector<st
   for (const std::string& one : last_of_each(all)) {
     const std::string_view key = key_of(one);
     const std::optional<std::string> edited =
-        manifest::with_override(text, key, std::string_view(one).substr(key.size() + 1));
+        manifest_text::with_override(text, key, std::string_view(one).substr(key.size() + 1));
     if (edited) {
       text = *edited;
     } else {
       overrides.push_back(one);
     }
   }
-  study::Study edited = manifest::parse_study(text, study.name, overrides, manifest::companions_of(study));
+  study::Study edited = manifest::parse_study(text, study.name, overrides, sections::companions_of(study));
   edited.engine = study.engine;
   return edited;
 }

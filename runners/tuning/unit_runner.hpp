@@ -11,7 +11,7 @@
 #include "core/trial/parameters.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/measure_table.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "runners/trials/effort.hpp"
 #include "runners/trials/variant.hpp"
 #include "runners/tuning/race/candidate.hpp"

@@ -14,7 +14,7 @@
 #include "core/random/number_source.hpp"
 #include "experiments/designs/random_key.hpp"
 #include "experiments/manifest/load_study.hpp"
-#include "experiments/manifest/point_manifest.hpp"
+#include "experiments/manifest_text/point_manifest.hpp"
 #include "experiments/study/machine_inputs.hpp"
 #include "experiments/study/plan.hpp"
 #include "runners/trials/trial_set.hpp"
@@ -312,7 +312,7 @@ class MachineSearch {
 
   std::string manifest_of(const BoxPoint& point,
                           const std::vector<std::pair<std::string, double>>& values) const {
-    manifest::PointChanges changes{.values = values, .folder = folder_.value_or("")};
+    manifest_text::PointChanges changes{.values = values, .folder = folder_.value_or("")};
     changes.removed = {"design", "worlds", "retain"};
     if (are_correlated(inputs_, *given_.plan)) changes.removed.emplace_back("correlation");
     for (const auto& [slot, value] : profiles()) {
@@ -333,7 +333,7 @@ class MachineSearch {
     }
     // A profile is drawn with the seed.
     if (!has_profile_) changes.keys.emplace_back("seed", fmt::format("{}", given_.seed + 1));
-    return manifest::manifest_of_point(given_, units_.point, changes);
+    return manifest_text::manifest_of_point(given_, units_.point, changes);
   }
 
   JudgedMachine judged(const BoxPoint& point) const {
@@ -349,7 +349,7 @@ class MachineSearch {
     try {
       machine.manifest = manifest_of(point, machine.inputs);
       const study::Study alone =
-          manifest::parse_study(machine.manifest, given_.name, {}, manifest::companions_of(given_));
+          manifest::parse_study(machine.manifest, given_.name, {}, sections::companions_of(given_));
       first = has_profile_per_rig_ ? point.rig : 0;
       for (std::int64_t i = 0; i < trials_of_verdict; ++i)
         trials.push_back(study::study_trial(alone, 0, first + i * rigs_of(point)).parameters);

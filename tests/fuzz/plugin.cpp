@@ -17,7 +17,7 @@
 #include "core/plugin/controller_plugin.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/manifest/load_study.hpp"
-#include "results/layout/plugin_record.hpp"
+#include "results/layout/header.hpp"
 #include "tests/fuzz/expectation.hpp"
 #include "tests/fuzz/study_use.hpp"
 
@@ -88,14 +88,14 @@ void describe(FuzzedDataProvider& input, Description& made) {
   c.step = input.ConsumeIntegralInRange(0, 15) == 0 ? nullptr : step;
 }
 
-manifest::LoadedPlugin load(const Description& made) {
+sections::LoadedPlugin load(const Description& made) {
   auto checked = plugin::checked_plugin(&made.controller, std::string(64, '0'));
   if (auto* fault = std::get_if<plugin::PluginFault>(&checked)) return *fault;
   return std::make_shared<const plugin::ControllerPlugin>(
       std::move(std::get<plugin::ControllerPlugin>(checked)));
 }
 
-study::Study study_with(const manifest::PluginLoader& loader, const std::string& parameters) {
+study::Study study_with(const sections::PluginLoader& loader, const std::string& parameters) {
   return manifest::parse_study(
       "zerocount: 1\nname: own\nseed: 1\ntrials: 1\ncommand: {targets: [1], hold: 0.1}\ncontroller: {plugin: "
       "own.so" +

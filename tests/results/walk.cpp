@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "results/layout/table_io.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "tests/support/raw_hdf5.hpp"
 
 namespace zerocount::testing {

@@ -10,7 +10,7 @@
 
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/text/percent.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
 
 namespace zerocount::testing {

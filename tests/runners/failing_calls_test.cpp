@@ -14,7 +14,7 @@
 
 #include <gtest/gtest.h>
 
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/raw_hdf5.hpp"
 

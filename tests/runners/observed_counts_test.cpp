@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/statistics/clusters/observed_test.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
 
 namespace zerocount::testing {

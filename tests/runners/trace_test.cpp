@@ -8,7 +8,7 @@
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "results/shards/shard.hpp"
 #include "runners/study_run/assembly.hpp"
 #include "runners/trials/trial_runner.hpp"

@@ -11,7 +11,7 @@
 
 #include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
 
 namespace zerocount::testing {

@@ -10,7 +10,7 @@
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/study/plan.hpp"
 #include "results/layout/header.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "runners/tuning/unit_runner.hpp"
 #include "tests/runners/program.hpp"
 

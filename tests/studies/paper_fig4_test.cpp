@@ -13,7 +13,7 @@
 
 #include <gtest/gtest.h>
 
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/studies/shipped_study.hpp"
 #include "tests/support/stop_elements.hpp"

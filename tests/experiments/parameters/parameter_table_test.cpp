@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/hash/sha256.hpp"
-#include "experiments/manifest/manifest_keys.hpp"
+#include "experiments/keys/manifest_keys.hpp"
 #include "experiments/manifest/parameter_listing.hpp"
 #include "experiments/parameters/measured_parameters.hpp"
 
@@ -113,29 +113,28 @@ TEST(ParameterTable, NamesAreUniqueAndGroupedBySection) {
 }
 
 TEST(ParameterTable, NoNameIsAlsoASection) {
-  for (const Parameter& parameter : parameter_table()) EXPECT_FALSE(manifest::is_section(parameter.name));
-  EXPECT_TRUE(manifest::is_section("controller"));
-  EXPECT_TRUE(manifest::is_section("controller.coarse"));
-  EXPECT_FALSE(manifest::is_section("controller.coars"));
+  for (const Parameter& parameter : parameter_table()) EXPECT_FALSE(keys::is_section(parameter.name));
+  EXPECT_TRUE(keys::is_section("controller"));
+  EXPECT_TRUE(keys::is_section("controller.coarse"));
+  EXPECT_FALSE(keys::is_section("controller.coars"));
 }
 
 TEST(ParameterTable, ASectionHasInItWhatItsNameLeadsTo) {
-  EXPECT_TRUE(manifest::is_within("controller.coarse.kp", "controller.coarse"));
-  EXPECT_TRUE(manifest::is_within("controller.coarse.kp", "controller"));
-  EXPECT_TRUE(manifest::is_within("controller.coarse", "controller.coarse"));
-  EXPECT_FALSE(manifest::is_within("encoder.coarse_errors.noise", "encoder.coarse"));
-  EXPECT_FALSE(manifest::is_within("controller.coarse", "controller.coarse.kp"));
+  EXPECT_TRUE(keys::is_within("controller.coarse.kp", "controller.coarse"));
+  EXPECT_TRUE(keys::is_within("controller.coarse.kp", "controller"));
+  EXPECT_TRUE(keys::is_within("controller.coarse", "controller.coarse"));
+  EXPECT_FALSE(keys::is_within("encoder.coarse_errors.noise", "encoder.coarse"));
+  EXPECT_FALSE(keys::is_within("controller.coarse", "controller.coarse.kp"));
 }
 
 TEST(ParameterTable, SectionsHaveTheKeysOfTheirRowsAndSections) {
   using Keys = std::vector<std::string>;
-  EXPECT_EQ(manifest::keys_below("command"),
-            (Keys{"targets", "torque", "sequence", "hold", "profile", "units"}));
-  EXPECT_EQ(manifest::keys_below("command.sequence"), (Keys{"targets", "overrun", "cycles", "approach"}));
-  EXPECT_EQ(manifest::keys_below("encoder"),
+  EXPECT_EQ(keys::keys_below("command"), (Keys{"targets", "torque", "sequence", "hold", "profile", "units"}));
+  EXPECT_EQ(keys::keys_below("command.sequence"), (Keys{"targets", "overrun", "cycles", "approach"}));
+  EXPECT_EQ(keys::keys_below("encoder"),
             (Keys{"fine", "coarse", "resolution", "coarse_resolution", "fine_errors", "coarse_errors"}));
-  EXPECT_EQ(manifest::keys_below("initial.history"), (Keys{"reversals", "torque"}));
-  EXPECT_TRUE(manifest::keys_below("friction.k1").empty());
+  EXPECT_EQ(keys::keys_below("initial.history"), (Keys{"reversals", "torque"}));
+  EXPECT_TRUE(keys::keys_below("friction.k1").empty());
 }
 
 TEST(ParameterTable, EveryRowIsDocumented) {

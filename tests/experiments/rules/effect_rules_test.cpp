@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "experiments/manifest/manifest_keys.hpp"
+#include "experiments/keys/manifest_keys.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
@@ -273,7 +273,7 @@ TEST(IdleKeys, SpeakOfParametersAndSectionsAlone) {
       for (const std::string_view key : rule.keys) {
         const auto table = parameters::parameter_table();
         EXPECT_TRUE(std::any_of(table.begin(), table.end(), [&](const parameters::Parameter& parameter) {
-          return manifest::is_within(parameter.name, key);
+          return keys::is_within(parameter.name, key);
         })) << key;
       }
     }

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "results/hdf5/hdf5.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "results/storage/checksum_trailer.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"

@@ -1,7 +1,7 @@
 // Files of a study with a plugin: what is recorded, and what other commands do with them.
 #include <gtest/gtest.h>
 
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "tests/runners/plugins/plugin_manifest.hpp"
 #include "tests/runners/program.hpp"
 

@@ -120,13 +120,13 @@ TEST(RareEstimator, TakesTheScoreThatLeads) {
 }
 
 /// Rows of a table: coordinate `coordinate` chooses one of so many.
-study::DiscreteDraw rows(std::size_t coordinate, std::int64_t count) {
+randomness::DiscreteDraw rows(std::size_t coordinate, std::int64_t count) {
   return {.name = "rows", .direction = {{coordinate, 1.0}}, .rows = count};
 }
 
 /// A choice of so many entries in no order, each of its own value.
-study::DiscreteDraw scattered(std::size_t coordinate, std::int64_t count) {
-  study::DiscreteDraw draw = rows(coordinate, count);
+randomness::DiscreteDraw scattered(std::size_t coordinate, std::int64_t count) {
+  randomness::DiscreteDraw draw = rows(coordinate, count);
   for (std::int64_t row = 0; row < count; ++row) {
     draw.values_of_rows.push_back(static_cast<std::uint32_t>(row * 7919 % count));
     draw.numbers.push_back(static_cast<double>(row));
@@ -135,30 +135,30 @@ study::DiscreteDraw scattered(std::size_t coordinate, std::int64_t count) {
 }
 
 /// A choice of so many entries that are 0, but one.
-study::DiscreteDraw one_of(std::size_t coordinate, std::int64_t count) {
-  study::DiscreteDraw draw = rows(coordinate, count);
+randomness::DiscreteDraw one_of(std::size_t coordinate, std::int64_t count) {
+  randomness::DiscreteDraw draw = rows(coordinate, count);
   draw.values_of_rows.assign(static_cast<std::size_t>(count), 0);
   draw.values_of_rows[static_cast<std::size_t>(count / 3)] = 1;
   draw.numbers = {0.0, 1.0};
   return draw;
 }
 
-study::DiscreteDraw integers(std::size_t coordinate, std::int64_t count) {
-  study::DiscreteDraw draw = rows(coordinate, count);
+randomness::DiscreteDraw integers(std::size_t coordinate, std::int64_t count) {
+  randomness::DiscreteDraw draw = rows(coordinate, count);
   draw.ordered = true;
   return draw;
 }
 
 /// A choice that is correlated with another coordinate.
-study::DiscreteDraw correlated(std::size_t coordinate, std::int64_t count) {
-  study::DiscreteDraw draw = scattered(coordinate, count);
+randomness::DiscreteDraw correlated(std::size_t coordinate, std::int64_t count) {
+  randomness::DiscreteDraw draw = scattered(coordinate, count);
   draw.direction = {{0, 0.6}, {coordinate, 0.8}};
   return draw;
 }
 
 struct FailingValue {
   std::string name;
-  study::DiscreteDraw draw;
+  randomness::DiscreteDraw draw;
   std::int64_t value;
   double given_value;  ///< probability of a failure there
 };
@@ -170,12 +170,12 @@ void PrintTo(const FailingValue& one, std::ostream* out) {
 // One value of 20 000 brings a trial nearer to the failure, which then happens in one of 30 trials: that is
 // more than all other values together.
 TEST(RareEstimator, FindsAValueThatOnlyLeadsToFailures) {
-  const study::DiscreteDraw draw = scattered(2, 20'000);
+  const randomness::DiscreteDraw draw = scattered(2, 20'000);
   const ClosedForm other = plane(1e-6);
   const double limit = -numerics::normal_quantile(1e-6);
   const double shift = limit + numerics::normal_quantile(1.0 / 30.0);
   const Score score = [&](const std::vector<double>& z) {
-    return other.score(z) + (study::value_at(draw, z) == 4321 ? shift : 0.0);
+    return other.score(z) + (randomness::value_at(draw, z) == 4321 ? shift : 0.0);
   };
   const double probability = 1.0 / 30.0 / 20'000.0 + other.probability;
   int held = 0;
@@ -199,7 +199,7 @@ TEST_P(RareEstimatorAtValue, BoundsHold) {
   const ClosedForm other = plane(1.25e-6);
   const double limit = one.given_value < 1.0 ? -numerics::normal_quantile(one.given_value) : -100.0;
   const Score score = [&](const std::vector<double>& z) {
-    if (study::value_at(one.draw, z) == one.value && z[4] > limit) return 1.0;
+    if (randomness::value_at(one.draw, z) == one.value && z[4] > limit) return 1.0;
     return other.score(z);
   };
   const double probability = one.given_value / static_cast<double>(one.draw.rows) + other.probability;

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/statistics/confidence_sequence.hpp"
-#include "results/reading/study_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/raw_hdf5.hpp"
 

@@ -1,0 +1,72 @@
+#include "experiments/keys/draw_level.hpp"
+
+#include "experiments/parameters/measured_parameters.hpp"
+
+namespace zerocount::keys {
+namespace {
+
+struct Misfit {
+  std::string_view what;
+  std::string_view expected;
+};
+
+constexpr Misfit profile_of_rotor{"a profile belongs to a rotor, which trials share",
+                                  "study or rig (for a rotor per trial: as many rigs as trials)"};
+constexpr Misfit no_worlds{"the study has no worlds", "the key worlds, or study, rig, trial or contact here"};
+
+// The reason if the parameter cannot be drawn this often.
+std::optional<Misfit> misfit_of(study::DrawLevel level, const parameters::Parameter& parameter, Drawn drawn,
+                                const TrialGroups& groups) {
+  if (drawn == Drawn::interval && level != study::DrawLevel::world) {
+    return Misfit{"an interval has no distribution to draw from", "world, or uniform in place of interval"};
+  }
+  switch (level) {
+    case study::DrawLevel::study:
+      return std::nullopt;
+    case study::DrawLevel::world:
+      if (drawn == Drawn::profile) return profile_of_rotor;
+      return groups.worlds ? std::nullopt : std::optional(no_worlds);
+    case study::DrawLevel::rig:
+      if (groups.rigs) return std::nullopt;
+      return Misfit{"the study has no rigs", "the key rigs, or study, trial or contact here"};
+    case study::DrawLevel::trial:
+      if (drawn == Drawn::value) return std::nullopt;
+      return profile_of_rotor;
+    case study::DrawLevel::contact:
+      if (drawn == Drawn::profile) {
+        return Misfit{"a profile belongs to a rotor; a contact takes the value at its position",
+                      "study or rig"};
+      }
+      if (parameter.profiled != nullptr || parameters::is_measured(parameter.name)) return std::nullopt;
+      return Misfit{"only friction can be drawn at each contact", "study, rig or trial"};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+study::DrawLevel usual_level(const parameters::Parameter& parameter, Drawn drawn, const TrialGroups& groups) {
+  switch (drawn) {
+    case Drawn::interval:
+      return study::DrawLevel::world;
+    case Drawn::profile:
+      return groups.rigs && parameter.of_machine ? study::DrawLevel::rig : study::DrawLevel::study;
+    case Drawn::value:
+      break;
+  }
+  return groups.rigs && parameter.of_machine ? study::DrawLevel::rig : study::DrawLevel::trial;
+}
+
+std::optional<study::DrawLevel> read_draw_level(const yaml::Field& field,
+                                                const parameters::Parameter& parameter, Drawn drawn,
+                                                const TrialGroups& groups, yaml::Problems& problems) {
+  const auto label = yaml::read_label(field, draw_level_labels, problems);
+  if (!label) return std::nullopt;
+  const auto level = static_cast<study::DrawLevel>(*label);
+  const auto misfit = misfit_of(level, parameter, drawn, groups);
+  if (!misfit) return level;
+  problems.add(field, std::string(misfit->what), misfit->expected);
+  return std::nullopt;
+}
+
+}  // namespace zerocount::keys

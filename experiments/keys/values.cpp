@@ -1,0 +1,228 @@
+#include "experiments/keys/values.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/friction/profile.hpp"
+#include "experiments/distributions/distribution_forms.hpp"
+#include "experiments/distributions/random_field.hpp"
+#include "experiments/keys/draw_level.hpp"
+#include "experiments/keys/expected_value.hpp"
+
+namespace zerocount::keys {
+namespace {
+
+constexpr std::string_view profile_name = "profile";
+
+study::Value number_value(double number) {
+  return {.kind = study::Value::Kind::number, .number = number};
+}
+
+// Reports a value that cannot be used.
+study::Value refuse(Reading& reading, const yaml::Field& field, std::string_view what,
+                    std::string_view expected) {
+  reading.problems.add(field, what, expected);
+  return unreadable_value();
+}
+
+study::Value read_truth_value(const yaml::Field& field, yaml::Problems& problems) {
+  const auto truth = yaml::read_bool(field, problems);
+  return truth ? number_value(*truth ? 1.0 : 0.0) : unreadable_value();
+}
+
+study::Value read_enumeration(const yaml::Field& field, const parameters::Parameter& parameter,
+                              yaml::Problems& problems) {
+  const auto label = yaml::read_label(field, parameter.labels, problems);
+  return label ? number_value(static_cast<double>(*label)) : unreadable_value();
+}
+
+bool is_none(const yaml::YamlNode& node) {
+  return node.kind == yaml::YamlNode::Kind::scalar && node.text == "none";
+}
+
+study::Value read_number(const yaml::Field& field, const parameters::Parameter& parameter, Reading& reading) {
+  if (parameter.none && is_none(*field.node)) return number_value(*parameter.none);
+  yaml::Problems& problems = reading.problems;
+  const std::string or_else = number_alternatives(parameter, reading.plan.units);
+  if (parameter.kind == parameters::ParameterKind::whole_number) {
+    const auto whole = yaml::read_whole(field, static_cast<std::int64_t>(parameter.range.low),
+                                        static_cast<std::int64_t>(parameter.range.high), problems, or_else);
+    return whole ? number_value(static_cast<double>(*whole)) : unreadable_value();
+  }
+  const auto real =
+      yaml::read_real(field, parameters::range_of(parameter, reading.plan.units), problems, or_else);
+  return real ? number_value(*real) : unreadable_value();
+}
+
+bool check_support(const yaml::Field& field, const parameters::Parameter& parameter,
+                   const distributions::Distribution& distribution, Reading& reading) {
+  const numerics::Interval values = distributions::support(distribution);
+  const numerics::Interval range = parameters::range_of(parameter, reading.plan.units);
+  if (numerics::contains(range, values)) return true;
+  reading.problems.add(field,
+                       fmt::format("its values {} exceed the allowed range {}", numerics::notation(values),
+                                   numerics::notation(range)),
+                       allowed_values(parameter, reading.plan.units) +
+                           cure_of_normal(distribution, parameter, reading.plan.units));
+  return false;
+}
+
+study::Value read_drawn(const distributions::DistributionForm& form, const yaml::Field& field,
+                        const parameters::Parameter& parameter, Reading& reading) {
+  const auto distribution = distributions::read_distribution(form, field, reading.problems);
+  if (!distribution || !check_support(field, parameter, *distribution, reading)) {
+    return unreadable_value();
+  }
+  if (parameter.kind == parameters::ParameterKind::whole_number &&
+      !distributions::whole_numbers_only(*distribution)) {
+    return refuse(reading, field, "its values are not whole numbers",
+                  form.name == distributions::interval_name
+                      ? "integers, or a choice of whole numbers, with per: world"
+                      : "integers, or a choice of whole numbers");
+  }
+  if (!distributions::extremes_are_inside(*distribution,
+                                          parameters::range_of(parameter, reading.plan.units))) {
+    return refuse(reading, field, "its extreme values are too large or too small for a double",
+                  allowed_values(parameter, reading.plan.units));
+  }
+  reading.plan.distributions.push_back(*distribution);
+  return {.kind = study::Value::Kind::distribution,
+          .index = static_cast<std::uint32_t>(reading.plan.distributions.size() - 1)};
+}
+
+study::Value read_profile_value(const yaml::Field& field, std::size_t slot, study::DrawLevel level,
+                                Reading& reading) {
+  constexpr std::size_t max_profiles = 1000;
+  if (!reading.plan.period) {
+    return refuse(reading, field, "the profile of a linear axis needs the key travel, its period",
+                  "travel: the length in m after which friction is the same again");
+  }
+  const auto form = distributions::read_profile(field, *reading.plan.period, reading.problems);
+  if (!form) return unreadable_value();
+  if (reading.profiles.size() == max_profiles) {
+    return refuse(reading, field, "there are too many profiles",
+                  fmt::format("at most {} in a study", max_profiles));
+  }
+  reading.profiles.push_back({slot, *form, level, field.node->place, field.path});
+  return {.kind = study::Value::Kind::profile,
+          .index = static_cast<std::uint32_t>(reading.profiles.size() - 1),
+          .level = level};
+}
+
+// The only entry of the map besides `per`, or null.
+const yaml::YamlEntry* form_entry(const yaml::YamlNode& map) {
+  const auto is_form = [](const yaml::YamlEntry& entry) { return entry.key != per_key; };
+  if (std::count_if(map.entries.begin(), map.entries.end(), is_form) != 1) return nullptr;
+  return &*std::find_if(map.entries.begin(), map.entries.end(), is_form);
+}
+
+study::Value read_map(const yaml::Field& field, std::size_t slot, Reading& reading) {
+  const parameters::Parameter& parameter = reading.plan.table.rows[slot];
+  const std::string expected = fmt::format("a map with one of {}, {}; {} may stand beside it",
+                                           distributions::distribution_names(), profile_name, per_key);
+  const yaml::YamlEntry* entry = form_entry(*field.node);
+  if (entry == nullptr) {
+    return refuse(reading, field, fmt::format("found a map with {} keys", field.node->entries.size()),
+                  expected);
+  }
+  const Drawn drawn = entry->key == profile_name                   ? Drawn::profile
+                      : entry->key == distributions::interval_name ? Drawn::interval
+                                                                   : Drawn::value;
+  if (drawn == Drawn::profile && parameter.profiled == nullptr) {
+    reading.problems.add(
+        entry->value->place, yaml::entry_of(field, *entry).path,
+        parameters::text_on(reading.plan.units.axis, "this parameter cannot vary along the $track"),
+        "a number or a distribution other than profile");
+    return unreadable_value();
+  }
+  study::DrawLevel level = usual_level(parameter, drawn, reading.groups);
+  if (const auto given = yaml::find_field(field, per_key)) {
+    level = read_draw_level(*given, parameter, drawn, reading.groups, reading.problems).value_or(level);
+  } else if (drawn == Drawn::interval && !reading.groups.worlds) {
+    return refuse(reading, field,
+                  "a value without a distribution is drawn for each world, and the study has none",
+                  "the key worlds, or uniform in place of interval");
+  }
+  if (drawn == Drawn::profile) return read_profile_value(yaml::entry_of(field, *entry), slot, level, reading);
+  const distributions::DistributionForm* form =
+      distributions::find_form(field, *entry, {std::string(profile_name)}, expected, reading.problems);
+  if (form == nullptr) return unreadable_value();
+  study::Value value = read_drawn(*form, yaml::entry_of(field, *entry), parameter, reading);
+  value.level = level;
+  return value;
+}
+
+// Whether the parameter stays in its range everywhere on the rotor.
+bool check_rotor(const ProfileRequest& request, const study::Rotors& rotors, std::int64_t rotor,
+                 const Reading& reading) {
+  const parameters::Parameter& parameter = reading.plan.table.rows[request.slot];
+  const parameters::StudyUnits& units = reading.plan.units;
+  const std::shared_ptr<const friction::Profile> profile = rotors.rotor(rotor);
+  if (numerics::contains(parameter.range, distributions::limits(*profile)))
+    return true;  // a fast sufficient test
+  const friction::ValueRange values = friction::range_over_revolution(*profile);
+  if (numerics::contains(parameter.range, numerics::closed(values.low, values.high))) return true;
+  const std::string of_rig = request.level == study::DrawLevel::rig ? fmt::format(" of rig {}", rotor) : "";
+  reading.problems.add(
+      request.place, request.path,
+      fmt::format("its values {}{}, {:.6g} to {:.6g} with this seed, exceed the allowed range {}",
+                  parameters::text_on(units.axis, "along the $track"), of_rig, values.low, values.high,
+                  numerics::notation(parameter.range)),
+      allowed_values(parameter, units));
+  return false;
+}
+
+// Reports a parameter that exists only on the other kind of axis.
+bool check_exists(const yaml::Field& field, const parameters::Parameter& parameter, Reading& reading) {
+  const parameters::AxisKind axis = reading.plan.units.axis;
+  if (parameters::exists_on(parameter, axis)) return true;
+  reading.problems.add(
+      field,
+      fmt::format("not available on a {} axis", parameters::axis_labels[static_cast<std::size_t>(axis)]),
+      parameter.instead);
+  return false;
+}
+
+}  // namespace
+
+void check_profiles(const Reading& reading) {
+  for (std::size_t i = 0; i < reading.profiles.size(); ++i) {
+    const ProfileRequest& request = reading.profiles[i];
+    const study::Rotors& rotors = *reading.plan.profiles[i];
+    if (numerics::contains(reading.plan.table.rows[request.slot].range, rotors.bounds())) continue;
+    for (std::int64_t rotor = 0; rotor < rotors.count(); ++rotor) {
+      if (!check_rotor(request, rotors, rotor, reading)) break;
+    }
+  }
+}
+
+study::Value unreadable_value() {
+  return number_value(std::numeric_limits<double>::quiet_NaN());
+}
+
+study::Value read_value(const yaml::Field& field, std::size_t slot, Reading& reading) {
+  const parameters::Parameter& parameter = reading.plan.table.rows[slot];
+  if (!check_exists(field, parameter, reading)) return unreadable_value();
+  if (parameter.kind == parameters::ParameterKind::boolean) return read_truth_value(field, reading.problems);
+  if (parameter.kind == parameters::ParameterKind::enumeration)
+    return read_enumeration(field, parameter, reading.problems);
+  if (field.node->kind == yaml::YamlNode::Kind::map) return read_map(field, slot, reading);
+  return read_number(field, parameter, reading);
+}
+
+study::Value checked_number(const yaml::Field& field, std::size_t slot, double number, Reading& reading) {
+  const parameters::Parameter& parameter = reading.plan.table.rows[slot];
+  if (!check_exists(field, parameter, reading)) return unreadable_value();
+  const bool fits =
+      parameter.kind == parameters::ParameterKind::real ||
+      (parameter.kind == parameters::ParameterKind::whole_number && number == std::trunc(number));
+  if (fits && numerics::contains(parameters::range_of(parameter, reading.plan.units), number))
+    return number_value(number);
+  return refuse(reading, field, fmt::format("the value {} is not allowed", number),
+                allowed_values(parameter, reading.plan.units));
+}
+
+}  // namespace zerocount::keys

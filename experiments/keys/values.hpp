@@ -1,0 +1,56 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/distributions/distribution_forms.hpp"
+#include "experiments/keys/draw_level.hpp"
+#include "experiments/parameters/parameter_table.hpp"
+#include "experiments/study/plan.hpp"
+#include "experiments/study/study.hpp"
+#include "experiments/yaml/scalars.hpp"
+
+namespace zerocount::keys {
+
+/// A profile in the manifest, to be realised when the seed is known.
+struct ProfileRequest {
+  std::size_t slot{0};  ///< in the plan
+  distributions::ProfileForm form;
+  study::DrawLevel level{study::DrawLevel::study};  ///< study or rig
+  yaml::Place place;                                ///< in the manifest, for messages
+  std::string path;
+};
+
+/// The data that reading a manifest produces.
+struct Reading {
+  yaml::Problems& problems;
+  study::StudyPlan& plan;  ///< gets the distributions
+  study::Study& study;
+  std::int64_t version;                    ///< of the results files whose defaults apply
+  TrialGroups groups{};                    ///< the study has the keys `rigs`, `worlds`
+  bool plugin_failed{false};               ///< the user's controller could not be loaded
+  std::vector<ProfileRequest> profiles{};  ///< [index of a value of kind profile]
+  std::vector<std::string> warnings{};     ///< allowed but possibly unintended
+};
+
+/// Places of a plan's values in the manifest.
+struct PlanPlaces {
+  std::vector<yaml::Place> base;               ///< [slot]; for a default the manifest's first line
+  std::vector<bool> written;                   ///< [slot] whether the base value is written in the manifest
+  std::vector<std::vector<yaml::Place>> axes;  ///< [axis][assignment]
+};
+
+/// Reports realised profiles that leave the range of their parameter somewhere on a rotor.
+void check_profiles(const Reading& reading);
+
+/// Represents a value that could not be read: NaN, so that later checks ignore it.
+study::Value unreadable_value();
+
+/// The value of the parameter of the slot: a number, a label, a distribution or a profile, checked against
+/// the parameter's range. Reports errors and returns unreadable_value() then.
+study::Value read_value(const yaml::Field& field, std::size_t slot, Reading& reading);
+
+/// `number` as a value of the parameter, checked likewise; `field` is its source.
+study::Value checked_number(const yaml::Field& field, std::size_t slot, double number, Reading& reading);
+
+}  // namespace zerocount::keys

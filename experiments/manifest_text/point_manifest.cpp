@@ -1,0 +1,178 @@
+#include "experiments/manifest_text/point_manifest.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/failure/failure.hpp"
+#include "experiments/manifest_text/overrides.hpp"
+#include "experiments/parameters/parameter_table.hpp"
+#include "experiments/study/plan.hpp"
+#include "experiments/study/study_table.hpp"
+#include "experiments/yaml/problems.hpp"
+#include "experiments/yaml/yaml_tree.hpp"
+
+namespace zerocount::manifest_text {
+namespace {
+
+using yaml::YamlNode;
+using yaml::YamlPointer;
+
+bool is_bare(std::string_view text) {
+  constexpr std::string_view safe = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.+-/";
+  return !text.empty() && text.find_first_not_of(safe) == std::string_view::npos;
+}
+
+std::string scalar_text(const std::string& text, bool plain) {
+  return plain && is_bare(text) ? text : nlohmann::json(text).dump();
+}
+
+std::string yaml_text(const YamlNode& node) {
+  std::string text;
+  const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+  switch (node.kind) {
+    case YamlNode::Kind::null:
+      return "~";
+    case YamlNode::Kind::scalar:
+      return scalar_text(node.text, node.plain);
+    case YamlNode::Kind::list:
+      for (const YamlPointer& item : node.items) add(yaml_text(*item));
+      return "[" + text + "]";
+    case YamlNode::Kind::map:
+      for (const yaml::YamlEntry& entry : node.entries)
+        add(scalar_text(entry.key, true) + ": " + yaml_text(*entry.value));
+      return "{" + text + "}";
+  }
+  return text;
+}
+
+YamlPointer number_node(double number) {
+  auto node = std::make_shared<YamlNode>();
+  node->kind = YamlNode::Kind::scalar;
+  const bool whole = number == std::trunc(number) && std::abs(number) < 1e15;
+  node->text = whole ? fmt::format("{:.0f}", number) : fmt::format("{}", number);
+  return node;
+}
+
+const YamlNode* child(const YamlNode& map, std::string_view key) {
+  const yaml::YamlEntry* entry = yaml::find_entry(map, key);
+  return entry == nullptr ? nullptr : entry->value.get();
+}
+
+/// The tree without the key, "key" or "section.key".
+YamlPointer without(const YamlPointer& root, std::string_view path) {
+  const auto dot = path.find('.');
+  auto copy = std::make_shared<YamlNode>(*root);
+  const auto entry = std::ranges::find(copy->entries, path.substr(0, dot), &yaml::YamlEntry::key);
+  if (entry == copy->entries.end()) return root;
+  if (dot == std::string_view::npos) {
+    copy->entries.erase(entry);
+  } else {
+    entry->value = without(entry->value, path.substr(dot + 1));
+  }
+  return copy;
+}
+
+/// A manifest that is changed, key by key.
+class ManifestTree {
+ public:
+  explicit ManifestTree(const study::Study& study) : study_(study) {
+    root_ = yaml::parse_yaml(study.manifest.text, study.name, false, problems_);
+    if (root_) root_ = apply_overrides(root_, study.manifest.overrides, sources_, problems_);
+    problems_.raise_if_any();
+  }
+
+  /// Writes what the sweep gives at the point into the sections.
+  void settle(std::size_t point) {
+    const YamlNode* sweep = child(*root_, "sweep");
+    if (sweep == nullptr) return;
+    const YamlPointer kept = root_;  // of which the sweep is a part
+    const study::StudyPlan& plan = *study_.plan;
+    std::size_t axis = 0;
+    if (const YamlNode* cases = child(*sweep, "cases"); cases != nullptr) {
+      const YamlPointer& one = cases->entries[study::option_at(plan, axis++, point)].value;
+      for (const yaml::YamlEntry& entry : one->entries) put(entry.key, entry.value);
+    }
+    const YamlNode* grid = child(*sweep, "grid");
+    for (std::size_t i = 0; grid != nullptr && i < grid->entries.size(); ++i, ++axis) {
+      const yaml::YamlEntry& swept = grid->entries[i];
+      const std::size_t option = study::option_at(plan, axis, point);
+      const study::PlanAxis& values = plan.axes[axis];
+      put(swept.key, swept.value->kind == YamlNode::Kind::list
+                         ? swept.value->items[option]
+                         : number_node(values.assignments[values.first[option]].value.number));
+    }
+  }
+
+  void remove(std::string_view path) { root_ = without(root_, path); }
+
+  void put(std::string_view path, const YamlPointer& value) {
+    root_ = with_value(root_, path, value, {study_.name}, problems_);
+    problems_.raise_if_any();
+  }
+
+  /// Where a section's key alone stands for the parameter, it is replaced.
+  void put_number(const std::string& name, double number) {
+    const auto slot = study::find_slots(name, study_.plan->table);
+    const std::string_view short_name =
+        slot ? study_.plan->table.rows[slot->first].short_name : std::string_view();
+    const bool is_short = !short_name.empty() && !has_value_at(*root_, name);
+    put(is_short ? short_name : std::string_view(name), number_node(number));
+  }
+
+  void put_text(const std::string& key, const std::string& text) {
+    root_ = apply_overrides(root_, {fmt::format("{}={}", key, text)}, sources_, problems_);
+    problems_.raise_if_any();
+  }
+
+  /// Lets the manifest lie in any folder.
+  void name_files_from(const std::filesystem::path& folder) {
+    for (const char* path : {"controller.plugin", "samples", "samples.file"}) {
+      const YamlNode* node = root_.get();
+      for (std::string_view left = path; node != nullptr;) {
+        const auto dot = left.find('.');
+        node = node->kind == YamlNode::Kind::map ? child(*node, left.substr(0, dot)) : nullptr;
+        if (dot == std::string_view::npos) break;
+        left.remove_prefix(dot + 1);
+      }
+      if (node == nullptr || node->kind != YamlNode::Kind::scalar) continue;
+      if (folder.empty())
+        throw Failure(ExitCode::bad_input, fmt::format("{}: the place of {} is not known", path, node->text));
+      auto named = std::make_shared<YamlNode>(*node);
+      named->text = (folder / node->text).lexically_normal().string();
+      put(path, named);
+    }
+  }
+
+  std::string text() const {
+    std::string text;
+    for (const yaml::YamlEntry& entry : root_->entries)
+      text += fmt::format("{}: {}\n", scalar_text(entry.key, true), yaml_text(*entry.value));
+    return text;
+  }
+
+ private:
+  const study::Study& study_;
+  yaml::Problems problems_;
+  std::deque<std::string> sources_;
+  YamlPointer root_;
+};
+
+}  // namespace
+
+std::string manifest_of_point(const study::Study& study, std::int64_t point, const PointChanges& changes) {
+  ManifestTree tree(study);
+  tree.settle(static_cast<std::size_t>(point));
+  for (const char* of_the_sweep : {"sweep", "observed", "independent_points"}) tree.remove(of_the_sweep);
+  for (const std::string& key : changes.removed) tree.remove(key);
+  for (const auto& [name, value] : changes.values) tree.put_number(name, value);
+  for (const auto& [key, text] : changes.keys) tree.put_text(key, text);
+  tree.name_files_from(changes.folder);
+  return tree.text();
+}
+
+}  // namespace zerocount::manifest_text

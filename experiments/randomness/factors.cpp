@@ -1,0 +1,59 @@
+#include "experiments/randomness/factors.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "experiments/study/point_limits.hpp"
+#include "experiments/study/study.hpp"
+#include "experiments/study/study_table.hpp"
+
+namespace zerocount::randomness {
+namespace {
+
+bool is_drawn_somewhere(const study::StudyPlan& plan, std::size_t slot) {
+  const std::vector<const study::Value*> values = study::values_of(plan, slot);
+  return std::any_of(values.begin(), values.end(), [](const study::Value* value) {
+    return value->kind == study::Value::Kind::distribution && value->level != study::DrawLevel::study;
+  });
+}
+
+// Whether trials use random numbers while they run; see core/random/trial_randomness.hpp.
+bool draws_within_trials(const study::StudyPlan& plan) {
+  const auto above_zero = [](const study::ValueLimits& limits) { return limits.high > 0.0; };
+  constexpr std::array<std::string_view, 7> noises{"encoder.fine_errors.noise",
+                                                   "encoder.fine_errors.missed",
+                                                   "encoder.coarse_errors.noise",
+                                                   "encoder.coarse_errors.missed",
+                                                   "dac.noise",
+                                                   "controller.missed",
+                                                   "controller.jitter"};
+  constexpr std::array<std::string_view, 2> history{"initial.history.reversals", "initial.history.torque"};
+  return !plan.common.disturbance.spectra.empty() ||
+         study::holds_somewhere(plan, history,
+                                [&](std::span<const study::ValueLimits> l) {
+                                  return std::all_of(l.begin(), l.end(), above_zero);
+                                }) ||
+         std::any_of(noises.begin(), noises.end(),
+                     [&](std::string_view noise) { return study::holds_somewhere(plan, noise, above_zero); });
+}
+
+}  // namespace
+
+study::TrialFactors find_factors(const study::StudyPlan& plan) {
+  study::TrialFactors factors;
+  for (const std::size_t slot : study::slots_in_table_order(plan.table)) {
+    if (is_drawn_somewhere(plan, slot)) factors.slots.push_back(static_cast<std::uint32_t>(slot));
+  }
+  factors.within_trial = draws_within_trials(plan);
+  return factors;
+}
+
+std::vector<std::string> factor_names(const study::StudyPlan& plan) {
+  const study::TrialFactors factors = find_factors(plan);
+  std::vector<std::string> names;
+  for (const std::uint32_t slot : factors.slots) names.emplace_back(plan.table.rows[slot].name);
+  if (factors.within_trial) names.emplace_back(study::within_trial_factor);
+  return names;
+}
+
+}  // namespace zerocount::randomness

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "experiments/study/study.hpp"
+
+namespace zerocount::randomness {
+
+/// One random coordinate of a trial: a standard normal number, from which values of the trial follow.
+struct RandomCoordinate {
+  enum class Kind : std::uint8_t {
+    values,           ///< of `slots`: their quantile is Φ(z), after the correlations of the study
+    profile_mean,     ///< of the profile of slots[0]: the quantile of its mean is Φ(z)
+    profile_at_start  ///< of the profile of slots[0]: the field where the trial begins is z
+  };
+  std::string name;  ///< dotted path; of joint samples the paths, joined by ", "
+  Kind kind{Kind::values};
+  std::vector<std::uint32_t> slots;
+  std::int64_t rows{
+      0};  ///< of joint samples, in an order that means nothing; row ⌊rows·Φ(z)⌋ is drawn; otherwise 0
+  bool of_machine{false};  ///< the same in all trials of a rig; without rigs see differs_between_machines()
+};
+
+/// The random coordinates of the trials of a design point: all that is drawn for each rig, trial or contact
+/// (of a contact, the first of a trial). Independent of each other. What is drawn for the study or for a
+/// world is not among them, nor are the random numbers used while a trial runs.
+std::vector<RandomCoordinate> random_coordinates(const study::Study& study, std::int64_t point);
+
+/// Φ(z), a uniform number in the open interval (0, 1) whatever z.
+double uniform_of_score(double z);
+
+/// Gives a trial the random number of a coordinate. @param uniform its uniform number @param score its normal
+/// one, which is that of a profile where the trial begins
+void give(study::GivenDraws& draws, const RandomCoordinate& coordinate, double uniform, double score);
+
+/// The random numbers of a trial at these coordinates. The trial has the point's distribution if the
+/// coordinates are independent standard normal numbers.
+/// @param coordinates of the study at the point @param z [coordinate]
+/// @param number of the trial, for all random numbers beside the coordinates; of its rotor too
+study::GivenDraws draws_at(const study::Study& study, std::span<const RandomCoordinate> coordinates,
+                           std::span<const double> z, std::int64_t number);
+
+}  // namespace zerocount::randomness

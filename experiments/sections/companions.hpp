@@ -1,0 +1,35 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/sections/plugin_loader.hpp"
+#include "experiments/study/rotors.hpp"
+#include "experiments/study/study.hpp"
+
+namespace zerocount::sections {
+
+/// Reads the text of the file that the key `samples` names.
+/// @throws Failure if it cannot be read
+using SamplesReader = std::function<std::string(const std::string& path)>;
+
+/// Access to what a manifest names and does not contain. An empty member: such a key is refused.
+struct Companions {
+  PluginLoader plugin{};
+  SamplesReader samples{};
+  /// Profiles of a similar study. Equal ones are shared, because to realise those of thousands of rigs takes
+  /// longer than to read a manifest.
+  std::vector<std::shared_ptr<const study::Rotors>> rotors{};
+};
+
+/// For a study whose companions are known already.
+Companions known_companions(std::shared_ptr<const plugin::ControllerPlugin> plugin,
+                            std::optional<std::string> samples);
+
+/// For a variant of the study.
+Companions companions_of(const study::Study& study);
+
+}  // namespace zerocount::sections

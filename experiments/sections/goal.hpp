@@ -1,0 +1,21 @@
+#pragma once
+
+#include "experiments/keys/values.hpp"
+
+namespace zerocount::sections {
+
+/// Reads `verdict.bands`, the error bands of the study.
+void read_bands(const yaml::Field& field, trial::ErrorBands& bands, yaml::Problems& problems);
+
+/// Reads the goal of the study. Adds its band to those of the plan. The study's rigs and all parameters must
+/// be read already.
+void read_goal(const yaml::Field& field, keys::Reading& reading);
+
+/// Reads the stopping rule `stop`. The manifest's `trials` become the size of a block, and the study's number
+/// of trials becomes the maximum.
+void read_stop(const yaml::Field& field, keys::Reading& reading);
+
+/// Reads `tune`. The study's goal and all parameters must be read already.
+void read_tuning(const yaml::Field& field, keys::Reading& reading);
+
+}  // namespace zerocount::sections

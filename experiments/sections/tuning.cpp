@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "experiments/keys/key_reading.hpp"
+#include "experiments/parameters/unknown_key.hpp"
+#include "experiments/sections/goal.hpp"
+#include "experiments/study/study_table.hpp"
+
+namespace zerocount::sections {
+namespace {
+
+constexpr const char* expected_range = "a range such as [0, 1000] or {log: [5.0e+3, 3.0e+5]}";
+constexpr const char* expected_free =
+    "a map of parameters and ranges: {controller.ki: {log: [5.0e+3, 3.0e+5]}}";
+const std::array<std::string, 1> log_keys{"log"};
+
+/// The two ends of a range in ascending order.
+void read_ends(const yaml::Field& field, const numerics::Interval& allowed, study::FreeParameter& parameter,
+               yaml::Problems& problems) {
+  if (!yaml::check_list(field, expected_range, problems)) return;
+  if (field.node->items.size() != 2) {
+    problems.add(field, fmt::format("found a list of {}", field.node->items.size()), expected_range);
+    return;
+  }
+  const auto low = yaml::read_real(yaml::item_of(field, 0), allowed, problems);
+  const auto high = yaml::read_real(yaml::item_of(field, 1), allowed, problems);
+  if (!low || !high) return;
+  parameter.low = *low;
+  parameter.high = *high;
+  if (!(*low < *high)) problems.add(field, fmt::format("{} is not below {}", *low, *high), expected_range);
+  if (parameter.logarithmic && !(*low > 0.0))
+    problems.add(field, fmt::format("{} is not above 0", *low), "a logarithmic range above 0");
+  if (parameter.whole && (*low != std::floor(*low) || *high != std::floor(*high)))
+    problems.add(field, "an end is not a whole number", "whole numbers");
+}
+
+void read_range(const yaml::Field& field, const numerics::Interval& allowed, study::FreeParameter& parameter,
+                yaml::Problems& problems) {
+  if (field.node->kind == yaml::YamlNode::Kind::map) {
+    parameters::check_keys(field, log_keys, problems);
+    if (const auto ends = yaml::find_field(field, "log")) {
+      parameter.logarithmic = true;
+      read_ends(*ends, allowed, parameter, problems);
+    } else {
+      problems.add(field, "the map has no key log", expected_range);
+    }
+    return;
+  }
+  read_ends(field, allowed, parameter, problems);
+}
+
+/// Whether the value at the slot is one number at all points.
+bool is_one_number(const study::StudyPlan& plan, std::size_t slot) {
+  const auto is_swept = [slot](const study::PlanAxis& axis) {
+    return std::ranges::any_of(axis.assignments,
+                               [slot](const study::Assignment& one) { return one.slot == slot; });
+  };
+  return plan.base[slot].kind == study::Value::Kind::number && std::ranges::none_of(plan.axes, is_swept);
+}
+
+void read_free(const yaml::Field& map, const study::StudyPlan& plan, study::Tuning& tuning,
+               yaml::Problems& problems) {
+  if (!yaml::check_map(map, expected_free, problems)) return;
+  if (map.node->entries.empty()) problems.add(map, "no parameter is free", expected_free);
+  for (const yaml::YamlEntry& entry : map.node->entries) {
+    const yaml::Field field = yaml::entry_of(map, entry);
+    const auto slots = study::find_slots(entry.key, plan.table);
+    if (!slots || slots->list) {
+      problems.add(entry.place, field.path, fmt::format("the study has no number {}", entry.key),
+                   "the dotted path of a numeric parameter, such as controller.ki (zerocount parameters)");
+      continue;
+    }
+    const parameters::Parameter& row = plan.table.rows[slots->first];
+    if (row.kind != parameters::ParameterKind::real && row.kind != parameters::ParameterKind::whole_number) {
+      problems.add(entry.place, field.path, fmt::format("{} is not a number", entry.key),
+                   "the dotted path of a numeric parameter (zerocount parameters)");
+      continue;
+    }
+    if (!is_one_number(plan, slots->first)) {
+      const bool follows = plan.base[slots->first].kind == study::Value::Kind::following;
+      problems.add(entry.place, field.path,
+                   fmt::format("{} {}", entry.key,
+                               follows ? "follows from measured values" : "is swept or drawn at random"),
+                   "a parameter with one value, from which tuning starts");
+      continue;
+    }
+    study::FreeParameter parameter{.name = std::string(row.name),
+                                   .unit = parameters::unit_of(row, plan.units),
+                                   .whole = row.kind == parameters::ParameterKind::whole_number};
+    read_range(field, parameters::range_of(row, plan.units), parameter, problems);
+    tuning.free.push_back(parameter);
+  }
+}
+
+}  // namespace
+
+void read_tuning(const yaml::Field& field, keys::Reading& reading) {
+  std::optional<study::Tuning>& tuning = reading.study.tuning;
+  tuning.emplace();
+  keys::read_key(field, *keys::find_general_key("tune"), reading);
+  if (field.node->kind != yaml::YamlNode::Kind::map) return tuning.reset();
+  if (const auto free = yaml::find_field(field, "free"))
+    read_free(*free, reading.plan, *tuning, reading.problems);
+  if (!reading.study.goal)
+    reading.problems.add(field, "without a goal there is nothing to meet",
+                         "goal: {band: 1, within: 0.05, moves: 0.99}");
+}
+
+}  // namespace zerocount::sections

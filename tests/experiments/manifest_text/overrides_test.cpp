@@ -1,0 +1,128 @@
+#include "experiments/manifest_text/overrides.hpp"
+
+#include <cmath>
+#include <deque>
+
+#include <gtest/gtest.h>
+
+#include "core/failure/failure.hpp"
+#include "tests/experiments/manifest_texts.hpp"
+
+namespace zerocount::manifest_text {
+namespace {
+
+std::string override_failure(const std::vector<std::string>& overrides,
+                             const std::string& text = minimal_manifest()) {
+  try {
+    study_of(text, overrides);
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.code(), ExitCode::bad_input);
+    return failure.what();
+  }
+  return "";
+}
+
+TEST(Overrides, ReplaceAnyKey) {
+  const study::Study study =
+      study_of(full_manifest(), {"name=other", "seed=7", "trials=20", "design=sobol", "plant.inertia=1.0e-3",
+                                 "command.targets.1=4", "friction.k2={uniform: [1, 2]}",
+                                 "friction.k1.profile.cv=0.2", "sweep.cases.a.controller.ki=1.0e-5",
+                                 "sweep.grid.plant.inertia=[2.0e-3]", "observed={a: new}"});
+  EXPECT_EQ(study.name, "other");
+  EXPECT_EQ(study.seed, 7u);
+  EXPECT_EQ(study.trials, 20);
+  EXPECT_EQ(study.design, study::Design::sobol);
+  EXPECT_EQ(study::point_count(study), 4);
+  EXPECT_EQ(study.profiles[0].profile->scale, std::sqrt(std::log1p(0.2 * 0.2)));
+  const trial::TrialParameters parameters = study::study_trial(study, 0, 0).parameters;
+  EXPECT_EQ(parameters.plant.inertia, 2e-3);
+  EXPECT_EQ(parameters.controller.ki, 1e-5);
+  EXPECT_EQ(parameters.command.targets[1], 4);
+  EXPECT_LT(parameters.friction.uniform.k2, 2);
+}
+
+TEST(Overrides, AddKeysAndWholeSections) {
+  const study::Study study =
+      study_of(minimal_manifest(), {"plant.inertia=2.0e-3", "sweep={grid: {controller.ki: [0, 1]}}",
+                                    "sweep.grid.controller.kp=[0, 1, 2]", "retain.trials=[3]"});
+  EXPECT_EQ(study::point_count(study), 6);
+  EXPECT_EQ(study.retained_trials, std::vector<std::int64_t>{3});
+  EXPECT_EQ(study::study_trial(study, 0, 0).parameters.plant.inertia, 2e-3);
+}
+
+TEST(Overrides, TheLastOneWins) {
+  EXPECT_EQ(study_of(minimal_manifest(), {"trials=2", "trials=3"}).trials, 3);
+}
+
+TEST(Overrides, MendAManifest) {
+  EXPECT_EQ(study_of("zerocount: 1\nname: x\nseed: 1\ntrials: none\ncommand: {targets: [1]}\n", {"trials=5"})
+                .trials,
+            5);
+}
+
+TEST(Overrides, LeaveTheTextAndChangeTheHash) {
+  const study::Study plain = study_of(minimal_manifest());
+  const study::Study other = study_of(minimal_manifest(), {"trials=11"});
+  EXPECT_EQ(other.manifest.text, minimal_manifest());
+  EXPECT_EQ(other.manifest.sha256, plain.manifest.sha256);
+  EXPECT_NE(other.study_sha256, plain.study_sha256);
+  EXPECT_NE(other.study_sha256, study_of(minimal_manifest(), {"trials=12"}).study_sha256);
+  EXPECT_EQ(other.overrides, std::vector<std::string>{"trials=11"});
+}
+
+TEST(Overrides, MistakesNameTheOverride) {
+  EXPECT_TRUE(has_faults(override_failure({"plant.inertia=no"}),
+                         "--set plant.inertia=no: plant.inertia | truth value"));
+  EXPECT_TRUE(
+      has_faults(override_failure({"plant.inertai=1"}), "--set plant.inertai=1: plant.inertai | inertia"));
+  EXPECT_TRUE(has_faults(override_failure({"trials="}), "--set trials=: trials | the value is empty"));
+  EXPECT_TRUE(has_faults(override_failure({"trials"}), "--set trials: manifest | override"));
+  EXPECT_TRUE(has_faults(override_failure({"\xff\x1b[m"}), "--set \uFFFD\uFFFD[m: manifest | override"));
+  EXPECT_TRUE(
+      has_faults(override_failure({"plant..inertia=1"}), "--set plant..inertia=1: manifest | override"));
+  EXPECT_TRUE(has_faults(override_failure({"zerocount=2"}), "--set zerocount=2: zerocount | version"));
+  EXPECT_TRUE(has_faults(override_failure({"command.targets.3=2"}),
+                         "--set command.targets.3=2: command.targets.3 | '3'"));
+  EXPECT_TRUE(has_faults(override_failure({"trials.a=2"}), "--set trials.a=2: trials.a | neither"));
+  EXPECT_EQ(override_failure({"trials=[1"}).rfind("--set trials=[1: manifest: ", 0), 0u);
+  EXPECT_TRUE(has_faults(override_failure({"verdict.dwell=3"}),
+                         "--set verdict.dwell=3: verdict.dwell | longer than the hold"));
+}
+
+TEST(Overrides, ThatTheSweepGivesAtEveryPointAreReported) {
+  const auto report = [](const std::string& sweep, const std::string& change) -> std::string {
+    yaml::Problems problems;
+    std::deque<std::string> sources;
+    const std::string text = "sweep: " + sweep;
+    report_swept_overrides(*yaml::parse_yaml(text, "study.yaml", false, problems), {change}, sources,
+                           problems);
+    try {
+      problems.raise_if_any();
+    } catch (const Failure& failure) {
+      return failure.what();
+    }
+    return "";
+  };
+  const std::string grid = "{grid: {controller.ki: [1.0e-5, 2.0e-5]}}\n";
+  EXPECT_TRUE(
+      has_faults(report(grid, "controller.ki=3e-5"), "--set controller.ki=3e-5: controller.ki | sweep.grid"));
+  EXPECT_EQ(report(grid, "controller={kp: 3e-5}"), "");
+  EXPECT_NE(report("{grid: {friction.k1: [1, 2]}}\n", "friction.k1.uniform=[1, 2]"), "");
+  EXPECT_EQ(report(grid, "controller.kp=3e-5"), "");
+  EXPECT_EQ(report(grid, "controller.k=3e-5"), "");
+  EXPECT_EQ(report(grid, "sweep.grid.controller.ki=[3e-5]"), "");
+  const std::string all = "{cases: {a: {controller.ki: 1.0e-5}, b: {controller.ki: 2.0e-5}}}\n";
+  EXPECT_NE(report(all, "controller.ki=3e-5").find("sweep.cases gives"), std::string::npos);
+  const std::string some = "{cases: {a: {controller.ki: 1.0e-5}, b: {controller.kp: 2.0e-5}}}\n";
+  EXPECT_EQ(report(some, "controller.ki=3e-5"), "");
+}
+
+TEST(Overrides, AllMistakesAreToldAfterThoseOfTheFile) {
+  EXPECT_TRUE(has_faults(override_failure({"trials=0", "seed=x"}, minimal_manifest("plant: 1\n")),
+                         "6:8: plant | '1'\n"
+                         "--set seed=x: seed | is not a number\n"
+                         "--set trials=0: trials | from 1 to 9007199254740992"));
+}
+
+}  // namespace
+}  // namespace zerocount::manifest_text

@@ -1,0 +1,80 @@
+// `goal` and `verdict.bands` in a manifest: what is read, and what is refused.
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/experiments/manifest_texts.hpp"
+
+namespace zerocount::sections {
+namespace {
+
+std::vector<std::int64_t> bands_of(const study::Study& study) {
+  const std::span<const std::int64_t> bands = study.features.bands.values();
+  return {bands.begin(), bands.end()};
+}
+
+TEST(Bands, AreZeroAndOneCountByDefault) {
+  EXPECT_EQ(bands_of(study_of(minimal_manifest())), (std::vector<std::int64_t>{0, 1}));
+}
+
+TEST(Bands, ReachTheTrials) {
+  const study::Study study = study_of(minimal_manifest("verdict: {bands: [0, 3, 10]}"));
+  EXPECT_EQ(bands_of(study), (std::vector<std::int64_t>{0, 3, 10}));
+  const trial::ErrorBands bands = study::study_trial(study, 0, 0).parameters.verdict.bands;
+  EXPECT_EQ(bands.count, 3U);
+  EXPECT_EQ(bands.limits[2], 10);
+}
+
+TEST(Goal, HasADefaultForBandAndConfidence) {
+  const study::Study study = study_of(minimal_manifest("goal: {within: 0.1, moves: 0.9}"));
+  ASSERT_TRUE(study.goal);
+  EXPECT_EQ(study.goal->band, 0);
+  EXPECT_EQ(study.goal->within, 0.1);
+  EXPECT_EQ(study.goal->moves, 0.9);
+  EXPECT_FALSE(study.goal->machines);
+  EXPECT_EQ(study.goal->confidence, 0.95);
+  EXPECT_FALSE(study_of(minimal_manifest()).goal);
+}
+
+TEST(Goal, AddsItsBandInOrder) {
+  const std::string goal = "goal: {band: 2, within: 0.1, moves: 0.9}\n";
+  EXPECT_EQ(bands_of(study_of(minimal_manifest(goal))), (std::vector<std::int64_t>{0, 1, 2}));
+  EXPECT_EQ(bands_of(study_of(minimal_manifest(goal + "verdict: {bands: [1, 5]}"))),
+            (std::vector<std::int64_t>{1, 2, 5}));
+  EXPECT_EQ(bands_of(study_of(minimal_manifest(goal + "verdict: {bands: [2]}"))),
+            (std::vector<std::int64_t>{2}));
+}
+
+struct GoalRefusal {
+  const char* lines;
+  const char* faults;
+};
+
+class RefusedGoal : public testing::TestWithParam<GoalRefusal> {};
+
+TEST_P(RefusedGoal, SaysWhy) {
+  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest(GetParam().lines)), GetParam().faults));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , RefusedGoal,
+    testing::Values(
+        GoalRefusal{"goal: 3", "6:7: goal | '3'"},
+        GoalRefusal{"goal: {within: 0.1}", "6:7: goal.moves | missing"},
+        GoalRefusal{"goal: {moves: 0.9}", "6:7: goal.within | missing"},
+        GoalRefusal{"goal: {within: 0.1, moves: 1}", "6:28: goal.moves | '1'"},
+        GoalRefusal{"goal: {within: 9, moves: 0.9}", "6:16: goal.within | longer than the hold"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, machines: 0.9}", "6:43: goal.machines | without rigs"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, band: -1}", "6:39: goal.band | '-1'"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, bond: 1}", "6:33: goal.bond | unknown key"},
+        GoalRefusal{"verdict: {bands: [1, 1]}", "6:22: verdict.bands.1 | not above 1"},
+        GoalRefusal{"verdict: {bands: [0.5]}", "6:19: verdict.bands.0 | '0.5'"},
+        GoalRefusal{"verdict: {bands: []}", "6:18: verdict.bands | a list of 0"},
+        GoalRefusal{"verdict: {bands: [0, 1, 2, 3, 4, 5, 6, 7, 8]}", "6:18: verdict.bands | a list of 9"},
+        GoalRefusal{"verdict: {bands: [0, 1, 2, 3, 4, 5, 6, 7]}\ngoal: {band: 9, within: 0.1, moves: 0.9}",
+                    "7:7: goal | one too many"},
+        GoalRefusal{"sweep: {grid: {verdict.bands: [[0], [1]]}}", "6:16: sweep.grid.verdict.bands | swept"}));
+
+}  // namespace
+}  // namespace zerocount::sections

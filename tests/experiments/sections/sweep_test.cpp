@@ -1,0 +1,226 @@
+#include "experiments/sections/sweep.hpp"
+
+#include <chrono>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/failure/failure.hpp"
+#include "tests/experiments/manifest_texts.hpp"
+
+namespace zerocount::sections {
+namespace {
+
+using Labels = std::vector<std::string>;
+using Numbers = std::vector<double>;
+
+study::Study swept(const std::string& sweep, const std::string& more = "") {
+  return study_of(minimal_manifest(more + "sweep: " + sweep + "\n"));
+}
+
+std::string failure_of(const std::string& sweep) {
+  try {
+    swept(sweep);
+  } catch (const Failure& failure) {
+    return failure.what();
+  }
+  return "";
+}
+
+TEST(Sweep, WithoutOneThereIsOnePoint) {
+  const study::Study study = study_of(minimal_manifest());
+  EXPECT_EQ(study.points.labels, Labels{"all"});
+  EXPECT_TRUE(study.points.axes.empty());
+  EXPECT_EQ(swept("{}").points.labels, Labels{"all"});
+  EXPECT_EQ(swept("{grid: {}, cases: {}}").points.labels, Labels{"all"});
+}
+
+TEST(Sweep, GridIsTheProductWithTheLastKeyFastest) {
+  const study::Study study =
+      swept("{grid: {controller.kp: [0, 1.0e-4], controller.ki: [1.0e-5, 2.0e-5, 3.0e-5]}}");
+  EXPECT_EQ(study.points.labels.size(), 6u);
+  EXPECT_EQ(study.points.labels[1], "controller.kp=0, controller.ki=2e-05");
+  EXPECT_EQ(study.points.labels[3], "controller.kp=0.0001, controller.ki=1e-05");
+  ASSERT_EQ(study.points.axes.size(), 2u);
+  EXPECT_EQ(study.points.axes[0].name, "controller.kp");
+  EXPECT_EQ(study.points.axes[0].unit, "N m/count");
+  EXPECT_EQ(study.points.axes[0].numbers, (Numbers{0, 0, 0, 1e-4, 1e-4, 1e-4}));
+  EXPECT_EQ(study.points.axes[1].numbers, (Numbers{1e-5, 2e-5, 3e-5, 1e-5, 2e-5, 3e-5}));
+  EXPECT_EQ(study::study_trial(study, 4, 0).parameters.controller.kp, 1e-4);
+  EXPECT_EQ(study::study_trial(study, 4, 0).parameters.controller.ki, 2e-5);
+}
+
+TEST(Sweep, CasesAreNamed) {
+  const study::Study study = swept("{cases: {plain: {}, fast: {controller.ki: 9.0e-5, dac.bits: 16}}}");
+  EXPECT_EQ(study.points.labels, (Labels{"plain", "fast"}));
+  ASSERT_EQ(study.points.axes.size(), 3u);
+  EXPECT_EQ(study.points.axes[0].name, "case");
+  EXPECT_EQ(study.points.axes[0].texts, (Labels{"plain", "fast"}));
+  EXPECT_EQ(study.points.axes[1].numbers, (Numbers{3.85e-5, 9e-5}));  // the default where the case is silent
+  EXPECT_EQ(study.points.axes[2].numbers, (Numbers{12, 16}));
+  EXPECT_EQ(study::study_trial(study, 1, 0).parameters.dac.bits, 16);
+  EXPECT_EQ(study::study_trial(study, 0, 0).parameters.dac.bits, 12);
+}
+
+TEST(Sweep, CasesAndGridTogetherAreTheirProductWithTheCasesSlowest) {
+  const study::Study study =
+      swept("{grid: {controller.kp: [0, 1.0e-4]}, cases: {a: {dac.bits: 10}, b: {dac.bits: 14}}}");
+  EXPECT_EQ(study.points.labels, (Labels{"a, controller.kp=0", "a, controller.kp=0.0001",
+                                         "b, controller.kp=0", "b, controller.kp=0.0001"}));
+  EXPECT_EQ(study::study_trial(study, 3, 0).parameters.dac.bits, 14);
+  EXPECT_EQ(study::study_trial(study, 3, 0).parameters.controller.kp, 1e-4);
+}
+
+TEST(Sweep, TheGridWinsOverTheCasesWithAWarning) {
+  const study::Study study =
+      swept("{grid: {controller.ki: [1.0e-5, 2.0e-5]}, cases: {a: {controller.ki: 5.0e-5}}}");
+  EXPECT_EQ(study::study_trial(study, 1, 0).parameters.controller.ki, 2e-5);
+  ASSERT_EQ(study.points.axes.size(), 2u);
+  EXPECT_EQ(study.points.axes[1].numbers, (Numbers{1e-5, 2e-5}));
+  EXPECT_TRUE(has_faults(study.warnings, "6:16: sweep.grid.controller.ki | replace"));
+}
+
+TEST(Sweep, LinspaceAndLogspaceIncludeTheirEnds) {
+  const study::Study linear = swept("{grid: {controller.ki: {linspace: [1.0e-5, 3.0e-4, 30]}}}");
+  ASSERT_EQ(linear.points.axes[0].numbers.size(), 30u);
+  for (int i = 0; i < 30; ++i) {
+    EXPECT_NEAR(linear.points.axes[0].numbers[static_cast<std::size_t>(i)], 1e-5 * (i + 1), 1e-18);
+  }
+  EXPECT_EQ(linear.points.axes[0].numbers.back(), 3.0e-4);
+  EXPECT_EQ(linear.points.labels[1], "controller.ki=2e-05");
+  const study::Study logarithmic = swept("{grid: {friction.alpha: {logspace: [0.01, 100, 5]}}}");
+  EXPECT_EQ(logarithmic.points.axes[0].numbers, (Numbers{0.01, 0.1, 1, 10, 100}));
+}
+
+TEST(Sweep, WholeNumbersMayBeSpacedWhereTheyStayWhole) {
+  EXPECT_EQ(swept("{grid: {command.targets.0: {linspace: [1, 10, 10]}}}").axes[0].numbers.size(), 10u);
+  EXPECT_TRUE(has_faults(failure_of("{grid: {command.targets.0: {linspace: [1, 2, 3]}}}"),
+                         "6:46: sweep.grid.command.targets.0.linspace | is not allowed"));
+}
+
+TEST(Sweep, SpacedValuesOfAnotherFormAreRefused) {
+  const auto of_exponent = [](const std::string& values) {
+    return failure_of("{grid: {friction.n: " + values + "}}");
+  };
+  EXPECT_TRUE(
+      has_faults(of_exponent("{linspace: [1, 2]}"), "6:39: sweep.grid.friction.n.linspace | list of 2"));
+  EXPECT_TRUE(has_faults(of_exponent("{logspace: [2, 2, 3]}"),
+                         "6:39: sweep.grid.friction.n.logspace | different values"));
+  EXPECT_TRUE(has_faults(of_exponent("{spaced: [1, 2, 3]}"), "6:28: sweep.grid.friction.n | a map"));
+  EXPECT_TRUE(has_faults(failure_of("{grid: {command.targets: {linspace: [1, 2, 3]}}}"),
+                         "6:33: sweep.grid.command.targets | a map"));
+}
+
+TEST(Sweep, ValuesOutOfRangeAreReportedAtTheSweep) {
+  EXPECT_TRUE(has_faults(failure_of("{grid: {friction.n: {linspace: [0, 2, 5]}}}"),
+                         "6:39: sweep.grid.friction.n.linspace | is not allowed"));
+}
+
+TEST(Sweep, WordsListsAndDistributionsMayBeSwept) {
+  const study::Study words = swept("{grid: {controller.anti_windup: [clamp, none]}}");
+  EXPECT_EQ(words.points.axes[0].kind, study::SweepAxis::Kind::text);
+  EXPECT_EQ(words.points.axes[0].texts, (Labels{"clamp", "none"}));
+  EXPECT_EQ(study::study_trial(words, 1, 0).parameters.controller.anti_windup, loop::AntiWindup::none);
+
+  const study::Study lists = swept("{grid: {command.targets: [[1], [{integers: [2, 9]}]]}}");
+  EXPECT_EQ(lists.points.labels[1], "command.targets=[{integers: [2, 9]}]");
+  EXPECT_EQ(lists.points.axes[0].name, "command.targets.0");
+  EXPECT_EQ(lists.points.axes[0].numbers[0], 1);
+  EXPECT_TRUE(std::isnan(lists.points.axes[0].numbers[1]));
+
+  const study::Study cases =
+      swept("{cases: {a: {friction.k1: {uniform: [100, 120]}}, b: {friction.k1: 90}}}");
+  EXPECT_TRUE(std::isnan(cases.points.axes[1].numbers[0]));
+  EXPECT_EQ(cases.points.axes[1].numbers[1], 90);
+  EXPECT_GE(study::study_trial(cases, 0, 0).parameters.friction.uniform.k1, 100);
+  EXPECT_EQ(study::study_trial(cases, 1, 0).parameters.friction.uniform.k1, 90);
+}
+
+TEST(Sweep, TruthValuesMayBeSweptLikeWords) {
+  const study::Study study = swept("{grid: {verdict.stop: [false, true]}}");
+  EXPECT_EQ(study.points.labels, (Labels{"verdict.stop=false", "verdict.stop=true"}));
+  EXPECT_EQ(study.points.axes[0].kind, study::SweepAxis::Kind::text);
+  EXPECT_EQ(study.points.axes[0].texts, (Labels{"false", "true"}));
+  EXPECT_FALSE(study::study_trial(study, 0, 0).parameters.verdict.stop);
+  EXPECT_TRUE(study::study_trial(study, 1, 0).parameters.verdict.stop);
+  EXPECT_TRUE(has_faults(failure_of("{grid: {verdict.stop: {linspace: [0, 1, 2]}}}"),
+                         "6:41: sweep.grid.verdict.stop.linspace | is not allowed"));
+  EXPECT_TRUE(
+      has_faults(failure_of("{grid: {verdict.stop: [0]}}"), "6:31: sweep.grid.verdict.stop.0 | truth value"));
+}
+
+TEST(Sweep, AnIndexChoosesAMove) {
+  const study::Study study = swept("{grid: {command.targets.0: [7, 8]}}");
+  EXPECT_EQ(study::study_trial(study, 1, 0).parameters.command.targets, std::vector<std::int64_t>{8});
+  EXPECT_TRUE(has_faults(failure_of("{grid: {command.targets.1: [7]}}"),
+                         "6:16: sweep.grid.command.targets.1 | an index from 0 to 0"));
+}
+
+TEST(Sweep, AllPointsHaveTheSameNumberOfMoves) {
+  EXPECT_TRUE(has_faults(failure_of("{cases: {a: {command.targets: [1, 2]}}}"),
+                         "6:38: sweep.cases.a.command.targets | list of 2 targets"));
+}
+
+TEST(Sweep, MistakesAreReportedWhereTheyStand) {
+  EXPECT_TRUE(
+      has_faults(failure_of("{grid: {controler.ki: [1]}}"), "6:16: sweep.grid.controler.ki | controller.ki"));
+  EXPECT_TRUE(has_faults(failure_of("{grid: {controller.ki: []}}"),
+                         "6:31: sweep.grid.controller.ki | the list is empty"));
+  EXPECT_TRUE(has_faults(failure_of("{grid: {controller.ki: 1}}"), "6:31: sweep.grid.controller.ki | '1'"));
+  EXPECT_TRUE(has_faults(failure_of("{grid: {controller.ki: [0, 1, 0.0]}}"),
+                         "6:38: sweep.grid.controller.ki.2 | duplicate"));
+  EXPECT_TRUE(has_faults(failure_of("{grid: {controller.ki: {linspace: [1, 1, 3]}}}"),
+                         "6:42: sweep.grid.controller.ki.linspace | different values"));
+  EXPECT_TRUE(has_faults(failure_of("{grid: {controller.ki: {logspace: [0, 1, 3]}}}"),
+                         "6:43: sweep.grid.controller.ki.logspace.0 | greater than 0"));
+  EXPECT_TRUE(has_faults(failure_of("{grid: {controller.ki: {linspace: [0, 1, 1]}}}"),
+                         "6:49: sweep.grid.controller.ki.linspace.2 | from 2 to 1000000"));
+  EXPECT_TRUE(has_faults(failure_of("{grid: {command.targets: [[1], [2]], command.targets.0: [3]}}"),
+                         "6:45: sweep.grid.command.targets.0 | is swept twice"));
+  EXPECT_TRUE(has_faults(failure_of("{cases: {a: {command.targets: [1], command.targets.0: 2}}}"),
+                         "6:43: sweep.cases.a.command.targets.0 | is given twice"));
+  EXPECT_TRUE(has_faults(failure_of("{cases: [a]}"), "6:16: sweep.cases | a list"));
+}
+
+TEST(Sweep, CrossChecksNameTheSweptValue) {
+  EXPECT_TRUE(has_faults(failure_of("{grid: {command.hold: [1, 0.01]}}"),
+                         "6:34: verdict.dwell | longer than the hold\n"
+                         "6:34: verdict.window | longer than the hold"));
+}
+
+TEST(Sweep, TooManyPointsAreRefusedAtOnce) {
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_TRUE(has_faults(
+      failure_of("{grid: {controller.ki: {linspace: [0, 1, 1000]}, controller.kp: {linspace: [0, 1, 1000]}, "
+                 "controller.kd: {linspace: [0, 1, 1000]}}}"),
+      "6:8: sweep | too many design points"));
+  EXPECT_NE(failure_of("{grid: {controller.ki: {linspace: [0, 1, 1000000000]}}}").find("from 2 to 1000000"),
+            std::string::npos);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+}
+
+TEST(Sweep, AMillionPointsAreUnderstood) {
+  const study::Study study =
+      swept("{grid: {controller.ki: {linspace: [0, 1, 1000]}, controller.kp: {linspace: [0, 1, 1000]}}}");
+  EXPECT_EQ(study::point_count(study), 1'000'000);
+  EXPECT_EQ(study::study_trial(study, 999'999, 9).parameters.controller.ki, 1.0);
+  EXPECT_EQ(study::study_trial(study, 999'000, 9).parameters.controller.kp, 0.0);
+}
+
+TEST(Sweep, TrialsTimesPointsAreLimited) {
+  EXPECT_THROW(
+      study_of(minimal_manifest("sweep: {grid: {controller.ki: [0, 1]}}"), {"trials=9007199254740992"}),
+      Failure);
+  EXPECT_NO_THROW(study_of(minimal_manifest(), {"trials=9007199254740992"}));
+}
+
+TEST(Sweep, ObservationsOfACaseHoldAtAllItsPoints) {
+  const study::Study study =
+      swept("{grid: {controller.kp: [0, 1]}, cases: {a: {dac.bits: 10}, b: {dac.bits: 14}}}",
+            "observed: {a: calm, \"a, controller.kp=1\": wild}\n");
+  EXPECT_EQ(study.observed, (std::map<std::string, std::string>{{"a, controller.kp=0", "calm"},
+                                                                {"a, controller.kp=1", "wild"}}));
+}
+
+}  // namespace
+}  // namespace zerocount::sections

@@ -1,5 +1,3 @@
-#include "experiments/distributions/distribution_forms.hpp"
-
 #include <numbers>
 #include <string>
 #include <vector>

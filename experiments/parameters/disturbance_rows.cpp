@@ -1,7 +1,6 @@
-#include "experiments/parameters/element_lists.hpp"
-
 #include <array>
 
+#include "experiments/parameters/element_lists.hpp"
 #include "experiments/parameters/parameter_rows.hpp"
 
 namespace zerocount::parameters {

@@ -38,4 +38,7 @@ const ElementList* find_element_list(std::string_view path);
 /// The dotted path with # for every index: "controller.filters.#.frequency".
 std::string without_indices(std::string_view path);
 
+ElementList ripple_list();     ///< disturbance.ripple
+ElementList vibration_list();  ///< disturbance.vibration
+
 }  // namespace zerocount::parameters

@@ -1,5 +1,3 @@
-#include "experiments/yaml/faults.hpp"
-
 #include <algorithm>
 #include <cstdint>
 
@@ -7,6 +5,7 @@
 #include <yaml-cpp/exceptions.h>
 
 #include "core/text/utf8.hpp"
+#include "experiments/yaml/faults.hpp"
 
 namespace zerocount::yaml {
 

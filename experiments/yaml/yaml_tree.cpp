@@ -12,7 +12,6 @@
 #include <yaml-cpp/parser.h>
 
 #include "experiments/yaml/faults.hpp"
-#include "experiments/yaml/faults.hpp"
 
 namespace zerocount::yaml {
 namespace {

@@ -16,7 +16,6 @@
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/manifest_text/manifest_values.hpp"
 #include "results/hdf5/foreign_file.hpp"
-#include "results/layout/header.hpp"
 #include "results/layout/point_sums.hpp"
 #include "results/storage/checksum_trailer.hpp"
 #include "results/storage/durable_file.hpp"

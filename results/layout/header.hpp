@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/failure/failure.hpp"
+#include "core/plugin/controller_plugin.hpp"
 #include "experiments/study/study.hpp"
 #include "results/hdf5/hdf5.hpp"
 #include "results/layout/layout.hpp"
@@ -144,5 +146,12 @@ enum class Checksum { required, not_yet };
 /// @throws Failure: bad_input where there is no such file, machine_failed where it cannot be read,
 /// bad_data where it is damaged or something else.
 hdf5::File open_results(const std::filesystem::path& path, Checksum checksum = Checksum::required);
+
+/// Record of the user's controller in a results file: {"name", "version", "sha256", "parameters":
+/// [{"name", "unit", "meaning", "default", "lowest", "highest"}]}; null is a missing limit.
+std::string plugin_as_json(const plugin::PluginDescription& plugin);
+
+/// Nothing if the text does not describe a plugin.
+std::optional<plugin::PluginDescription> plugin_from_json(const std::string& text);
 
 }  // namespace zerocount::layout

@@ -1,5 +1,3 @@
-#include "results/layout/header.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/text/utf8.hpp"
+#include "results/layout/header.hpp"
 
 namespace zerocount::layout {
 namespace {

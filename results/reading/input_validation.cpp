@@ -7,21 +7,31 @@
 
 #include <fmt/format.h>
 
-#include "experiments/study/input_ranges.hpp"
+#include "experiments/parameters/parameter_table.hpp"
+#include "experiments/study/plan.hpp"
 
 namespace zerocount::reading {
+namespace {
+
+bool is_allowed(const parameters::Parameter& row, const parameters::StudyUnits& units, double value) {
+  return numerics::contains(parameters::range_of(row, units), value) || (row.none && value == *row.none);
+}
+
+}  // namespace
 
 void check_inputs(const TrialTables& trials, const study::Study& study, layout::RowRange positions,
                   const ReportInput& report) {
   const std::vector<study::InputColumn>& columns = trials.input_columns();
-  const std::vector<study::InputRange> ranges = study::input_ranges(study);
+  if (study.plan == nullptr) return;  // a study that was not made from a manifest
+  const std::vector<study::InputSource>& sources = study.plan->inputs;
   const std::vector<std::int64_t> rows = trials.rows(positions);
-  for (std::size_t column = 0; column < std::min(ranges.size(), columns.size()); ++column) {
+  for (std::size_t column = 0; column < std::min(sources.size(), columns.size()); ++column) {
     const std::vector<double> values = trials.input(column, positions);
+    const parameters::Parameter& row = study.plan->table.rows[sources[column].slot];
     for (std::size_t i = 0; i < values.size(); ++i) {
-      if (study::contains(ranges[column], values[i])) continue;
+      if (is_allowed(row, study.units, values[i])) continue;
       report(fmt::format("/trial/input/{}: trial {}: it is {}; expected {}", columns[column].name, rows[i],
-                         values[i], numerics::range_text(ranges[column].range)));
+                         values[i], numerics::range_text(parameters::range_of(row, study.units))));
     }
   }
 }

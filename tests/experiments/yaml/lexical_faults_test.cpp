@@ -1,5 +1,3 @@
-#include "experiments/yaml/faults.hpp"
-
 #include <array>
 #include <random>
 #include <string>
@@ -11,6 +9,7 @@
 
 #include "core/failure/failure.hpp"
 #include "experiments/manifests/shipped_manifests.hpp"
+#include "experiments/yaml/faults.hpp"
 #include "experiments/yaml/yaml_tree.hpp"
 
 namespace zerocount::yaml {

@@ -2,113 +2,108 @@
 #include <utility>
 
 #include "experiments/parameters/parameter_rows.hpp"
+#include "experiments/parameters/phase_path.hpp"
 
 namespace zerocount::parameters {
 namespace {
 
 /// The rows of the blocks of one phase. `Blocks` is a function from TrialParameters to its ControlBlocks.
-/// @param named one of the two names of a row. @param first its Sobol dimension is this number + i.
-template <class Blocks, class Named>
-std::vector<Parameter> block_rows(Blocks /*blocks*/, Named named, std::size_t first) {
-  // From 14 on, those of the coarse phase are apart.
-  const auto dimension = [first](std::size_t i) {
-    return beyond_moves(i < 14 || first < 64 ? first + i : 17 + (i - 14));
+template <Phase phase, class Blocks>
+std::vector<Parameter> block_rows(Blocks /*blocks*/) {
+  // The Sobol dimensions of the coarse phase are apart from 14 on.
+  const auto dimension = [](std::size_t i) {
+    if (phase == Phase::fine) return beyond_moves(32 + i);
+    return beyond_moves(i < 14 ? 64 + i : 17 + (i - 14));
   };
   const numerics::Interval gain = numerics::closed(0, 1e6);
   return {
-      word_row(named("controller.structure", "controller.coarse.structure"), dimension(0),
+      word_row(phase_path<phase, "structure">, dimension(0),
                "control law: PID on the error, or a velocity loop inside a position loop", assumed,
                {"pid", "cascade"}, [](auto& p) { return &Blocks{}(p).structure; }),
-      real_row(named("controller.cascade.kv", "controller.coarse.cascade.kv"), dimension(1), "1/s",
+      real_row(phase_path<phase, "cascade.kv">, dimension(1), "1/s",
                "cascade: gain of the position loop, velocity command per error", assumed, gain,
                [](auto& p) { return &Blocks{}(p).cascade.kv; }),
-      real_row(named("controller.cascade.kp", "controller.coarse.cascade.kp"), dimension(2), "N m s/rad",
+      real_row(phase_path<phase, "cascade.kp">, dimension(2), "N m s/rad",
                "cascade: proportional gain of the velocity loop", assumed, gain,
                [](auto& p) { return &Blocks{}(p).cascade.kp; }),
-      real_row(named("controller.cascade.ki", "controller.coarse.cascade.ki"), dimension(3), "N m/rad",
+      real_row(phase_path<phase, "cascade.ki">, dimension(3), "N m/rad",
                "cascade: integral gain of the velocity loop", assumed, gain,
                [](auto& p) { return &Blocks{}(p).cascade.ki; }),
       short_for(
-          named("controller.deadband", "controller.coarse.deadband"),
+          phase_path<phase, "deadband">,
           none_is(
               -1,
-              real_row(named("controller.deadband.enter", "controller.coarse.deadband.enter"), dimension(4),
-                       "count",
+              real_row(phase_path<phase, "deadband.enter">, dimension(4), "count",
                        "largest |error| at which the integral is frozen; none (-1 as a number): never frozen",
                        assumed, numerics::closed(0, max_count),
                        [](auto& p) { return &Blocks{}(p).deadband.enter; }))),
       none_is(
           -1,
           real_row(
-              named("controller.deadband.leave", "controller.coarse.deadband.leave"), dimension(5), "count",
+              phase_path<phase, "deadband.leave">, dimension(5), "count",
               "|error| above which the integral changes again; none (-1 as a number): the value of enter",
               assumed, numerics::closed(0, max_count), [](auto& p) { return &Blocks{}(p).deadband.leave; })),
-      or_none(real_row(named("controller.integrator_zone", "controller.coarse.integrator_zone"), dimension(6),
-                       "count", "largest |error| at which the integral changes; none: no limit", assumed,
+      or_none(real_row(phase_path<phase, "integrator_zone">, dimension(6), "count",
+                       "largest |error| at which the integral changes; none: no limit", assumed,
                        numerics::closed(0, max_count)),
               [](auto& p) { return &Blocks{}(p).integrator_zone; }),
-      or_none(real_row(named("controller.integrator_leak", "controller.coarse.integrator_leak"), dimension(7),
-                       "s", "time constant of the decay of the integral; none: no decay", assumed,
+      or_none(real_row(phase_path<phase, "integrator_leak">, dimension(7), "s",
+                       "time constant of the decay of the integral; none: no decay", assumed,
                        numerics::Interval{.low = 0, .high = max_count, .high_included = true}),
               [](auto& p) { return &Blocks{}(p).integrator_leak; }),
       or_none(
-          real_row(named("controller.derivative_cutoff", "controller.coarse.derivative_cutoff"), dimension(8),
-                   "Hz",
+          real_row(phase_path<phase, "derivative_cutoff">, dimension(8), "Hz",
                    "cutoff of the low-pass filter on the difference of successive counts; none: no filter",
                    assumed, numerics::Interval{.low = 0, .high = max_count, .high_included = true}),
           [](auto& p) { return &Blocks{}(p).derivative_cutoff; }),
-      real_row(named("controller.feedforward.velocity", "controller.coarse.feedforward.velocity"),
-               dimension(9), "N m s/rad", "$torque per velocity of the reference", assumed, gain,
+      real_row(phase_path<phase, "feedforward.velocity">, dimension(9), "N m s/rad",
+               "$torque per velocity of the reference", assumed, gain,
                [](auto& p) { return &Blocks{}(p).feedforward.velocity; }),
-      real_row(named("controller.feedforward.acceleration", "controller.coarse.feedforward.acceleration"),
-               dimension(10), "N m s^2/rad", "$torque per acceleration of the reference", assumed, gain,
+      real_row(phase_path<phase, "feedforward.acceleration">, dimension(10), "N m s^2/rad",
+               "$torque per acceleration of the reference", assumed, gain,
                [](auto& p) { return &Blocks{}(p).feedforward.acceleration; }),
-      real_row(named("controller.feedforward.friction", "controller.coarse.feedforward.friction"),
-               dimension(11), "N m", "$torque in the direction in which the reference moves", assumed, gain,
+      real_row(phase_path<phase, "feedforward.friction">, dimension(11), "N m",
+               "$torque in the direction in which the reference moves", assumed, gain,
                [](auto& p) { return &Blocks{}(p).feedforward.friction; }),
-      real_row(named("controller.observer.bandwidth", "controller.coarse.observer.bandwidth"), dimension(12),
-               "Hz", "bandwidth of the disturbance observer; 0: no observer", assumed, numerics::at_least(0),
+      real_row(phase_path<phase, "observer.bandwidth">, dimension(12), "Hz",
+               "bandwidth of the disturbance observer; 0: no observer", assumed, numerics::at_least(0),
                [](auto& p) { return &Blocks{}(p).observer.bandwidth; }),
-      real_row(named("controller.observer.inertia", "controller.coarse.observer.inertia"), dimension(13),
-               "kg m^2", "inertia Jn in the model of the disturbance observer", "paper, section 4",
-               numerics::above(0), [](auto& p) { return &Blocks{}(p).observer.inertia; }),
-      none_is(-1, real_row(named("controller.error_deadband.band", "controller.coarse.error_deadband.band"),
-                           dimension(14), "count",
+      real_row(phase_path<phase, "observer.inertia">, dimension(13), "kg m^2",
+               "inertia Jn in the model of the disturbance observer", "paper, section 4", numerics::above(0),
+               [](auto& p) { return &Blocks{}(p).observer.inertia; }),
+      none_is(-1, real_row(phase_path<phase, "error_deadband.band">, dimension(14), "count",
                            "largest |error| that counts as 0 in the control law; none (-1): no dead zone",
                            assumed, numerics::closed(0, max_count),
                            [](auto& p) { return &Blocks{}(p).error_deadband.band; })),
-      word_row(named("controller.error_deadband.form", "controller.coarse.error_deadband.form"),
-               dimension(15), "beyond the dead zone: the error itself, or less by the band", assumed,
-               {"zero", "subtract"}, [](auto& p) { return &Blocks{}(p).error_deadband.form; }),
-      none_is(-1,
-              real_row(named("controller.hold.enter", "controller.coarse.hold.enter"), dimension(16), "count",
-                       "|error| within which the wanted $torque is held; none (-1): never held", assumed,
-                       numerics::closed(0, max_count), [](auto& p) { return &Blocks{}(p).hold.enter; })),
-      none_is(-1,
-              real_row(named("controller.hold.leave", "controller.coarse.hold.leave"), dimension(17), "count",
-                       "|error| above which the hold ends; none (-1): the value of enter", assumed,
-                       numerics::closed(0, max_count), [](auto& p) { return &Blocks{}(p).hold.leave; })),
-      real_row(named("controller.hold.dwell", "controller.coarse.hold.dwell"), dimension(18), "s",
+      word_row(phase_path<phase, "error_deadband.form">, dimension(15),
+               "beyond the dead zone: the error itself, or less by the band", assumed, {"zero", "subtract"},
+               [](auto& p) { return &Blocks{}(p).error_deadband.form; }),
+      none_is(-1, real_row(phase_path<phase, "hold.enter">, dimension(16), "count",
+                           "|error| within which the wanted $torque is held; none (-1): never held", assumed,
+                           numerics::closed(0, max_count), [](auto& p) { return &Blocks{}(p).hold.enter; })),
+      none_is(-1, real_row(phase_path<phase, "hold.leave">, dimension(17), "count",
+                           "|error| above which the hold ends; none (-1): the value of enter", assumed,
+                           numerics::closed(0, max_count), [](auto& p) { return &Blocks{}(p).hold.leave; })),
+      real_row(phase_path<phase, "hold.dwell">, dimension(18), "s",
                "time within `enter` after which the hold begins, at least one sample", assumed,
                numerics::at_least(0), [](auto& p) { return &Blocks{}(p).hold.dwell; }),
-      none_is(
-          -1,
-          real_row(named("controller.standstill.band", "controller.coarse.standstill.band"), dimension(19),
-                   "count", "largest |error| at which the gains of standstill act; none (-1): never", assumed,
-                   numerics::closed(0, max_count), [](auto& p) { return &Blocks{}(p).standstill.band; })),
-      real_row(named("controller.standstill.dwell", "controller.coarse.standstill.dwell"), dimension(20), "s",
+      none_is(-1,
+              real_row(phase_path<phase, "standstill.band">, dimension(19), "count",
+                       "largest |error| at which the gains of standstill act; none (-1): never", assumed,
+                       numerics::closed(0, max_count), [](auto& p) { return &Blocks{}(p).standstill.band; })),
+      real_row(phase_path<phase, "standstill.dwell">, dimension(20), "s",
                "time within the band after which they act, at least one sample", assumed,
                numerics::at_least(0), [](auto& p) { return &Blocks{}(p).standstill.dwell; }),
-      in_si(real_row(named("controller.standstill.kp", "controller.coarse.standstill.kp"), dimension(21),
-                     "N m/count", "proportional gain at standstill", assumed, gain,
+      in_si(real_row(phase_path<phase, "standstill.kp">, dimension(21), "N m/count",
+                     "proportional gain at standstill", assumed, gain,
                      [](auto& p) { return &Blocks{}(p).standstill.kp; }),
             "N m/rad", "proportional gain at standstill"),
-      in_si(real_row(named("controller.standstill.ki", "controller.coarse.standstill.ki"), dimension(22),
-                     "N m/count", "integral gain at standstill", assumed, gain,
+      in_si(real_row(phase_path<phase, "standstill.ki">, dimension(22), "N m/count",
+                     "integral gain at standstill", assumed, gain,
                      [](auto& p) { return &Blocks{}(p).standstill.ki; }),
             "N m/(rad s)", "integral gain at standstill"),
-      in_si(real_row(named("controller.standstill.kd", "controller.coarse.standstill.kd"), dimension(23),
-                     "N m/count", "gain on the difference of successive counts at standstill", assumed, gain,
+      in_si(real_row(phase_path<phase, "standstill.kd">, dimension(23), "N m/count",
+                     "gain on the difference of successive counts at standstill", assumed, gain,
                      [](auto& p) { return &Blocks{}(p).standstill.kd; }),
             "N m s/rad", "derivative gain at standstill"),
   };
@@ -188,13 +183,9 @@ std::vector<Parameter> controller_rows() {
   const auto add = [&rows](std::vector<Parameter> more) {
     std::move(more.begin(), more.end(), std::back_inserter(rows));
   };
-  using Name = std::string_view;
-  add(block_rows(
-      [](auto& p) -> auto& { return p.controller.blocks; }, [](Name one, Name) { return one; }, 32));
+  add(block_rows<Phase::fine>([](auto& p) -> auto& { return p.controller.blocks; }));
   add(rows_of_the_coarse_phase());
-  add(block_rows(
-      [](auto& p) -> auto& { return p.controller.coarse.blocks; }, [](Name, Name coarse) { return coarse; },
-      64));
+  add(block_rows<Phase::coarse>([](auto& p) -> auto& { return p.controller.coarse.blocks; }));
   return rows;
 }
 

@@ -8,11 +8,14 @@
 
 #include "core/friction/law.hpp"
 #include "experiments/parameters/parameter_table.hpp"
+#include "experiments/parameters/phase_path.hpp"
 
 namespace zerocount::rules {
 namespace {
 
 using Limits = std::span<const study::ValueLimits>;
+using parameters::Phase;
+using parameters::phase_path;
 
 bool always(Limits) {
   return true;
@@ -163,70 +166,9 @@ std::vector<EffectRule> rules_of_the_loop() {
   };
 }
 
-/// Names of the parameters of one phase's control, on which the effect of others depends.
-struct PhaseNames {
-  std::string_view structure, kp, ki, kd, cascade, cascade_ki;
-  std::string_view deadband, enter, leave, zone, leak, cutoff;
-  std::string_view feedforward, bandwidth, inertia;
-  std::string_view form, band, leave_hold, hold_dwell, enter_hold, standstill, standstill_band,
-      standstill_dwell, standstill_kp, standstill_ki, standstill_kd;
-};
-
-constexpr PhaseNames one_phase{"controller.structure",
-                               "controller.kp",
-                               "controller.ki",
-                               "controller.kd",
-                               "controller.cascade",
-                               "controller.cascade.ki",
-                               "controller.deadband",
-                               "controller.deadband.enter",
-                               "controller.deadband.leave",
-                               "controller.integrator_zone",
-                               "controller.integrator_leak",
-                               "controller.derivative_cutoff",
-                               "controller.feedforward",
-                               "controller.observer.bandwidth",
-                               "controller.observer.inertia",
-                               "controller.error_deadband.form",
-                               "controller.error_deadband.band",
-                               "controller.hold.leave",
-                               "controller.hold.dwell",
-                               "controller.hold.enter",
-                               "controller.standstill",
-                               "controller.standstill.band",
-                               "controller.standstill.dwell",
-                               "controller.standstill.kp",
-                               "controller.standstill.ki",
-                               "controller.standstill.kd"};
-constexpr PhaseNames coarse_phase{"controller.coarse.structure",
-                                  "controller.coarse.kp",
-                                  "controller.coarse.ki",
-                                  "controller.coarse.kd",
-                                  "controller.coarse.cascade",
-                                  "controller.coarse.cascade.ki",
-                                  "controller.coarse.deadband",
-                                  "controller.coarse.deadband.enter",
-                                  "controller.coarse.deadband.leave",
-                                  "controller.coarse.integrator_zone",
-                                  "controller.coarse.integrator_leak",
-                                  "controller.coarse.derivative_cutoff",
-                                  "controller.coarse.feedforward",
-                                  "controller.coarse.observer.bandwidth",
-                                  "controller.coarse.observer.inertia",
-                                  "controller.coarse.error_deadband.form",
-                                  "controller.coarse.error_deadband.band",
-                                  "controller.coarse.hold.leave",
-                                  "controller.coarse.hold.dwell",
-                                  "controller.coarse.hold.enter",
-                                  "controller.coarse.standstill",
-                                  "controller.coarse.standstill.band",
-                                  "controller.coarse.standstill.dwell",
-                                  "controller.coarse.standstill.kp",
-                                  "controller.coarse.standstill.ki",
-                                  "controller.coarse.standstill.kd"};
-
 // Rules of the blocks of one phase. If a gain may be 0 on purpose, as in a sweep, only warnings.
-std::vector<EffectRule> rules_of_the_blocks(const PhaseNames& of) {
+template <Phase phase>
+std::vector<EffectRule> rules_of_the_blocks() {
   const auto is_cascade = [](const study::ValueLimits& structure) {
     return is_word<loop::ControlStructure::cascade>(structure);
   };
@@ -235,60 +177,62 @@ std::vector<EffectRule> rules_of_the_blocks(const PhaseNames& of) {
   };
   const auto is_given = [](Limits l) { return l[0].high >= 0.0; };
   return {
-      {.keys = {of.form},
-       .depends_on = {of.band},
+      {.keys = {phase_path<phase, "error_deadband.form">},
+       .depends_on = {phase_path<phase, "error_deadband.band">},
        .has_effect = is_given,
        .what = "it has no effect: no point has a dead zone of the error",
-       .expected = fmt::format("{} too, or the key left out", of.band)},
-      {.keys = {of.leave_hold, of.hold_dwell},
-       .depends_on = {of.enter_hold},
+       .expected = fmt::format("{} too, or the key left out", phase_path<phase, "error_deadband.band">)},
+      {.keys = {phase_path<phase, "hold.leave">, phase_path<phase, "hold.dwell">},
+       .depends_on = {phase_path<phase, "hold.enter">},
        .has_effect = is_given,
        .what = "it has no effect: the torque is never held",
-       .expected = fmt::format("{} too, or the key left out", of.enter_hold)},
-      {.keys = {of.standstill_dwell, of.standstill_kp, of.standstill_ki, of.standstill_kd},
-       .depends_on = {of.standstill_band},
+       .expected = fmt::format("{} too, or the key left out", phase_path<phase, "hold.enter">)},
+      {.keys = {phase_path<phase, "standstill.dwell">, phase_path<phase, "standstill.kp">,
+                phase_path<phase, "standstill.ki">, phase_path<phase, "standstill.kd">},
+       .depends_on = {phase_path<phase, "standstill.band">},
        .has_effect = is_given,
        .what = "it has no effect: no point has gains at standstill",
-       .expected = fmt::format("{} too, or the key left out", of.standstill_band)},
-      {.keys = {of.standstill},
-       .depends_on = {of.structure},
+       .expected = fmt::format("{} too, or the key left out", phase_path<phase, "standstill.band">)},
+      {.keys = {phase_path<phase, "standstill">},
+       .depends_on = {phase_path<phase, "structure">},
        .has_effect = [is_cascade](Limits l) { return !is_cascade(l[0]); },
        .what = "it has no effect: the control is a cascade at every point",
-       .expected = fmt::format("{}: pid, or the key left out", of.structure)},
-      {.keys = {of.kp, of.ki, of.kd},
-       .depends_on = {of.structure},
+       .expected = fmt::format("{}: pid, or the key left out", phase_path<phase, "structure">)},
+      {.keys = {phase_path<phase, "kp">, phase_path<phase, "ki">, phase_path<phase, "kd">},
+       .depends_on = {phase_path<phase, "structure">},
        .has_effect = [is_cascade](Limits l) { return !is_cascade(l[0]); },
        .what = "it has no effect: the control is a cascade at every point",
-       .expected = fmt::format("{}: pid, or the key left out", of.structure)},
-      {.keys = {of.cascade},
-       .depends_on = {of.structure},
+       .expected = fmt::format("{}: pid, or the key left out", phase_path<phase, "structure">)},
+      {.keys = {phase_path<phase, "cascade">},
+       .depends_on = {phase_path<phase, "structure">},
        .has_effect = [is_cascade](Limits l) { return is_cascade(l[0]); },
        .what = "it has no effect: the control is never a cascade",
-       .expected = fmt::format("{}: cascade, or the key left out", of.structure)},
-      {.keys = {of.leave},
-       .depends_on = {of.enter},
+       .expected = fmt::format("{}: cascade, or the key left out", phase_path<phase, "structure">)},
+      {.keys = {phase_path<phase, "deadband.leave">},
+       .depends_on = {phase_path<phase, "deadband.enter">},
        .has_effect = [](Limits l) { return l[0].high >= 0.0; },
        .what = "it has no effect: no point has a deadband",
-       .expected = fmt::format("{} too, or the key left out", of.enter)},
-      {.keys = {of.inertia},
-       .depends_on = {of.bandwidth},
+       .expected = fmt::format("{} too, or the key left out", phase_path<phase, "deadband.enter">)},
+      {.keys = {phase_path<phase, "observer.inertia">},
+       .depends_on = {phase_path<phase, "observer.bandwidth">},
        .has_effect = [](Limits l) { return can_be_positive(l[0]); },
        .what = "it has no effect: no point has a disturbance observer",
-       .expected = fmt::format("{} above 0, or the key left out", of.bandwidth)},
-      {.keys = {of.feedforward},
+       .expected = fmt::format("{} above 0, or the key left out", phase_path<phase, "observer.bandwidth">)},
+      {.keys = {phase_path<phase, "feedforward">},
        .depends_on = {"command.profile.shape"},
        .has_effect = [](Limits l) { return !is_word<loop::ReferenceShape::step>(l[0]); },
        .what = "it has no effect: the reference is a step at every point",
        .expected = "command.profile.shape: trapezoidal, s_curve or sine, or the key left out",
        .off_at_zero = true},
-      {.keys = {of.deadband, of.zone},
-       .depends_on = {of.structure, of.ki, of.cascade_ki},
+      {.keys = {phase_path<phase, "deadband">, phase_path<phase, "integrator_zone">},
+       .depends_on = {phase_path<phase, "structure">, phase_path<phase, "ki">,
+                      phase_path<phase, "cascade.ki">},
        .has_effect = has_integral,
        .what = "it has no effect: no point has integral control",
        .off_at_zero = true,
        .warn_only = true},
-      {.keys = {of.cutoff},
-       .depends_on = {of.structure, of.kd},
+      {.keys = {phase_path<phase, "derivative_cutoff">},
+       .depends_on = {phase_path<phase, "structure">, phase_path<phase, "kd">},
        .has_effect = [is_cascade](Limits l) { return is_cascade(l[0]) || can_be_positive(l[1]); },
        .what = "it has no effect: the control never uses the difference of counts",
        .off_at_zero = true,
@@ -446,7 +390,7 @@ std::vector<EffectRule> effect_rules(const study::StudyPlan& plan) {
   rules.push_back(rule_of_the_resolution());
   rules.push_back(rule_of_the_plugin(plan));
   for (const auto& more :
-       {rules_of_the_loop(), rules_of_the_blocks(one_phase), rules_of_the_blocks(coarse_phase),
+       {rules_of_the_loop(), rules_of_the_blocks<Phase::fine>(), rules_of_the_blocks<Phase::coarse>(),
         rules_of_the_contact(), rules_of_the_model(), rules_of_vanished_terms()}) {
     rules.insert(rules.end(), more.begin(), more.end());
   }

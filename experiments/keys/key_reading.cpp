@@ -30,7 +30,7 @@ std::optional<double> read_as_number(const yaml::Field& field, const GeneralKey&
     return read ? std::optional(static_cast<double>(*read)) : std::nullopt;
   };
   switch (key.form) {
-    case GeneralKey::Form::truth:
+    case GeneralKey::Form::boolean:
       return number(yaml::read_bool(field, reading.problems));
     case GeneralKey::Form::label:
       return number(yaml::read_label(field, key.labels, reading.problems));

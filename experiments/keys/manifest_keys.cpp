@@ -149,7 +149,7 @@ std::span<const GeneralKey> general_keys() {
           {"independent_points",
            "true: every design point has its own random numbers; false (default): trial i has the same ones "
            "at all points"},
-          Form::truth, &study::Study::independent_points),
+          Form::boolean, &study::Study::independent_points),
       {"retain", "trials whose sample-by-sample records are kept: {trials: [0, 1]}"},
       label(
           {"keep",

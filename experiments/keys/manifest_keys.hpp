@@ -21,7 +21,7 @@ struct GeneralKey {
   enum class Form : std::uint8_t {
     own,  ///< has its own reader, and its own schema in json_schema.cpp
     text,
-    truth,
+    boolean,
     label,
     whole_number,
     real,

@@ -28,7 +28,7 @@ study::Value refuse(Reading& reading, const yaml::Field& field, std::string_view
   return unreadable_value();
 }
 
-study::Value read_truth_value(const yaml::Field& field, yaml::Problems& problems) {
+study::Value read_bool_value(const yaml::Field& field, yaml::Problems& problems) {
   const auto truth = yaml::read_bool(field, problems);
   return truth ? number_value(*truth ? 1.0 : 0.0) : unreadable_value();
 }
@@ -206,7 +206,7 @@ study::Value unreadable_value() {
 study::Value read_value(const yaml::Field& field, std::size_t slot, Reading& reading) {
   const parameters::Parameter& parameter = reading.plan.table.rows[slot];
   if (!check_exists(field, parameter, reading)) return unreadable_value();
-  if (parameter.kind == parameters::ParameterKind::boolean) return read_truth_value(field, reading.problems);
+  if (parameter.kind == parameters::ParameterKind::boolean) return read_bool_value(field, reading.problems);
   if (parameter.kind == parameters::ParameterKind::enumeration)
     return read_enumeration(field, parameter, reading.problems);
   if (field.node->kind == yaml::YamlNode::Kind::map) return read_map(field, slot, reading);

@@ -50,7 +50,7 @@ study::Value unreadable_value();
 /// the parameter's range. Reports errors and returns unreadable_value() then.
 study::Value read_value(const yaml::Field& field, std::size_t slot, Reading& reading);
 
-/// `number` as a value of the parameter, checked likewise; `field` is its source.
+/// `number` as a value of the parameter, checked as read_value() does; `field` is its source.
 study::Value checked_number(const yaml::Field& field, std::size_t slot, double number, Reading& reading);
 
 }  // namespace zerocount::keys

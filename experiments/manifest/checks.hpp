@@ -43,12 +43,12 @@ void let_follow_from_measured(const keys::PlanPlaces& places, keys::Reading& rea
 /// Reports measured values from which nothing allowed follows.
 void check_what_follows(const keys::PlanPlaces& places, keys::Reading& reading);
 
-/// Checks that the encoder sees each commanded motion of the assembled study. One of which not a count is
-/// left is no motion for the loop, and would count as perfect: a target in SI units that differs from the
-/// position before it and is the same count, and a sine reference of less than half a count.
+/// Checks that the encoder sees each commanded motion of the assembled study. The loop does not notice a
+/// motion of less than a count, and its move would be perfect: a target in SI units that lies on the same
+/// count as the position before it, or a sine reference of less than half a count.
 ///
-/// An error where this is so in all trials of a design point (a warning if the study was recorded earlier); a
-/// warning with their proportion where it is so in some.
+/// Such a motion in all trials of a design point is an error (a warning if the study was recorded earlier);
+/// in some of them it is a warning with their proportion.
 void check_unseen_motions(const study::Study& study, const keys::PlanPlaces& places, keys::Reading& reading);
 
 }  // namespace zerocount::manifest

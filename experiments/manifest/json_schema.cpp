@@ -333,7 +333,7 @@ Json own_schema(std::string_view name) {
   return schemas.contains(key) ? schemas[key] : elements_schema(*parameters::find_element_list(name));
 }
 
-// Schema of the value, but for the word in its place.
+// Schema of the value, without the word that may stand in its place.
 Json form_schema(const keys::GeneralKey& key) {
   using Form = keys::GeneralKey::Form;
   const bool whole = key.form == Form::whole_number;
@@ -343,7 +343,7 @@ Json form_schema(const keys::GeneralKey& key) {
       return own_schema(key.name);
     case Form::text:
       return {{"type", "string"}};
-    case Form::truth:
+    case Form::boolean:
       return {{"type", "boolean"}};
     case Form::label:
       return {{"enum", key.labels}};
@@ -358,7 +358,7 @@ Json form_schema(const keys::GeneralKey& key) {
 }
 
 Json default_schema(const keys::GeneralKey& key, double value) {
-  if (key.form == keys::GeneralKey::Form::truth) return value != 0.0;
+  if (key.form == keys::GeneralKey::Form::boolean) return value != 0.0;
   if (key.form == keys::GeneralKey::Form::label) return key.labels[static_cast<std::size_t>(value)];
   return key.form == keys::GeneralKey::Form::whole_number ? Json(static_cast<std::int64_t>(value))
                                                           : Json(value);

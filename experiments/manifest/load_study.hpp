@@ -23,7 +23,7 @@ study::Study load_study(const std::filesystem::path& manifest, const std::vector
 study::Study new_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
                        const sections::Companions& companions = {});
 
-/// As new_study, of a study that exists already: overrides without effect are no errors.
+/// As new_study, of a study that exists already: overrides without effect are allowed.
 study::Study parse_study(std::string text, std::string_view source,
                          const std::vector<std::string>& overrides = {},
                          const sections::Companions& companions = {});

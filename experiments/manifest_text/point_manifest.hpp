@@ -15,7 +15,7 @@ namespace zerocount::manifest_text {
 struct PointChanges {
   /// (dotted path of a parameter, number): in place of what the manifest gives.
   std::vector<std::pair<std::string, double>> values{};
-  /// (key, YAML): likewise; the key is at the root.
+  /// (key at the root, YAML): in place of what the manifest gives.
   std::vector<std::pair<std::string, std::string>> keys{};
   std::vector<std::string> removed{};  ///< keys at the root, or "section.key"
   /// From which the study's manifest names its files; empty: the files that it names are not known.

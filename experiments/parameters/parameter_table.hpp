@@ -15,7 +15,7 @@
 
 namespace zerocount::parameters {
 
-enum class ParameterKind { real, whole_number, enumeration, truth };
+enum class ParameterKind { real, whole_number, enumeration, boolean };
 
 /// For a row whose value in a manifest is a list. Each value of the list is a parameter of its own (see
 /// value_row); the row itself has no value.

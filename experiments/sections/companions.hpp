@@ -16,7 +16,7 @@ namespace zerocount::sections {
 /// @throws Failure if it cannot be read
 using SamplesReader = std::function<std::string(const std::string& path)>;
 
-/// Access to what a manifest names and does not contain. An empty member: such a key is refused.
+/// Access to what a manifest names and does not contain. A key whose member is empty is refused.
 struct Companions {
   PluginLoader plugin{};
   SamplesReader samples{};

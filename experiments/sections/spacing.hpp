@@ -17,7 +17,7 @@ struct Spacing {
 };
 
 /// The spacing in `field`, the value of the key `name`, linspace or logspace: [first value, last value,
-/// number of values]. At max_values `max_values` values. Reports errors and returns nothing then.
+/// number of values]. At most `max_values` values. Reports errors and returns nothing then.
 std::optional<Spacing> read_spacing(const yaml::Field& field, const std::string& name, std::size_t max_values,
                                     yaml::Problems& problems);
 

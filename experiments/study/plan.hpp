@@ -102,7 +102,7 @@ struct StudyPlan {
   std::vector<std::uint32_t> sampled_slots;    ///< slots whose values share one random number: `samples`
   std::vector<SlotRandomness> randomness;      ///< [slot]
   random::RandomKey sobol_places{};            ///< used by the design `sobol` with rigs
-  random::RandomKey sobol_places_of_worlds{};  ///< likewise with worlds
+  random::RandomKey sobol_places_of_worlds{};  ///< used by it with worlds
   std::vector<std::uint32_t> input_slots;      ///< slots whose values differ between trials
   std::vector<InputSource> inputs;             ///< [input column]
   std::vector<InputSource> rig_inputs;         ///< [rig column]

@@ -176,7 +176,7 @@ struct DesignPoints {
 struct InputColumns {
   std::vector<InputColumn> inputs;  ///< of trials
   std::vector<InputColumn> rigs;    ///< drawn for each rig, the same at all points; empty without rigs
-  std::vector<InputColumn> worlds;  ///< drawn for each world, likewise
+  std::vector<InputColumn> worlds;  ///< drawn for each world, the same at all points; empty without worlds
 };
 
 struct StudyPlan;  // see plan.hpp

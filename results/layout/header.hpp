@@ -28,8 +28,8 @@ struct Provenance {
 /// This program on this machine, now.
 Provenance current_provenance();
 
-/// Whether two programs are the same for the trials they run: of one version and one commit. Changes that
-/// were not committed ("-dirty") cannot be told apart, and do not count.
+/// Whether two programs are the same for the trials they run: of one version and one commit. Uncommitted
+/// changes ("-dirty") are ignored, because they cannot be distinguished.
 bool same_build(const Provenance& one, const Provenance& other);
 
 /// Whether the sources had changes that were not committed.

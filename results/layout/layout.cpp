@@ -35,7 +35,7 @@ trial::Outcome outcome_in_version(std::int64_t version, trial::Outcome outcome) 
   return version < 3 && outcome == trial::Outcome::off_target ? trial::Outcome::oscillating : outcome;
 }
 
-std::string word_of(const Column& column, std::int64_t value) {
+std::string value_text(const Column& column, std::int64_t value) {
   const auto flag = std::find_if(column.flags.begin(), column.flags.end(),
                                  [value](const FlagMeaning& meaning) { return meaning.value == value; });
   return flag == column.flags.end() ? std::to_string(value) : flag->word;

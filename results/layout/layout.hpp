@@ -47,8 +47,8 @@ struct Column {
   std::string role{};                ///< in /point only: "axis" or "statistic"
 };
 
-/// The word of `value` in an enumeration; the number itself where it has none.
-std::string word_of(const Column& column, std::int64_t value);
+/// The label of `value` in an enumeration; the number as text if the enumeration has no such value.
+std::string value_text(const Column& column, std::int64_t value);
 
 /// The last dimension of the columns of a table, if its scale stands in the root.
 struct RootDimension {

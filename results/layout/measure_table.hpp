@@ -25,8 +25,8 @@ struct FileHistory {
 
 /// Which values of the moves count, in statistics and in outputs of a trial.
 struct CountedValues {
-  bool needs_target{false};  ///< moves with a torque level have none; but such a sum is 0
-  bool needs_motion{false};  ///< moves whose motion was lost have none
+  bool needs_target{false};  ///< undefined for moves to a torque level; a sum over them is 0
+  bool needs_motion{false};  ///< undefined for moves whose motion was lost
   bool nan_is_late{false};   ///< NaN is a time later than any other; otherwise it is not a value
   bool magnitude{false};     ///< statistics are of the absolute value
 };

@@ -40,8 +40,8 @@ struct StoredGroups {
   std::vector<study::InputColumn> columns;  ///< what differs between them
   std::vector<std::vector<double>> inputs;  ///< [column][group]
   std::vector<std::int64_t> success;   ///< [point][group] trials that succeeded, flattened; empty in a part
-  std::vector<std::int64_t> trials;    ///< [point][group] trials that were judged, flattened; likewise
-  std::vector<std::int64_t> goal_met;  ///< [point][world] trials that meet the goal; empty without one
+  std::vector<std::int64_t> trials;    ///< [point][group] trials that were judged, flattened; empty in a part
+  std::vector<std::int64_t> goal_met;  ///< [point][world] trials that meet the goal; empty without a goal
 };
 
 /// A results file, part or shard, open to be read: the description of the study, the tables by design point

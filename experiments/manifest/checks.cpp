@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "experiments/keys/manifest_keys.hpp"
 #include "experiments/rules/effect_rules.hpp"
 #include "experiments/rules/value_rules.hpp"
 #include "experiments/study/study_table.hpp"
@@ -21,10 +20,7 @@ constexpr std::size_t max_reported = 20;
 bool has_effect(const study::StudyPlan& plan, const std::vector<rules::EffectRule>& rules,
                 const parameters::Parameter& parameter) {
   return std::all_of(rules.begin(), rules.end(), [&](const rules::EffectRule& rule) {
-    const bool covers = std::any_of(rule.keys.begin(), rule.keys.end(), [&](std::string_view key) {
-      return keys::is_within(parameter.name, key);
-    });
-    return !covers || rules::can_have_effect(plan, rule);
+    return !rules::covers(rule, parameter.name) || rules::can_have_effect(plan, rule);
   });
 }
 
@@ -170,10 +166,8 @@ void check_effects(Checking& c) {
   for (const rules::EffectRule& rule : rules::effect_rules(c.plan())) {
     std::optional<bool> has_effect;
     for (std::size_t slot = 0; slot < table.rows.size(); ++slot) {
-      const bool covered = std::any_of(rule.keys.begin(), rule.keys.end(), [&](std::string_view key) {
-        return keys::is_within(table.rows[slot].name, key);
-      });
-      const auto place = covered ? given_place(c.places, c.plan(), slot) : std::nullopt;
+      const auto place =
+          rules::covers(rule, table.rows[slot].name) ? given_place(c.places, c.plan(), slot) : std::nullopt;
       if (!place || reported_rows.count(reported_row(table, slot)) > 0 ||
           (rule.off_at_zero && is_off(c, slot)))
         continue;

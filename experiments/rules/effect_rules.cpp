@@ -43,28 +43,8 @@ constexpr const char* a_closed_loop = "command.targets or command.sequence, or t
 std::vector<EffectRule> rules_of_the_command(const study::StudyPlan& plan) {
   const bool open_loop = plan.open_loop;
   return {
-      {.keys = {"controller.kp",
-                "controller.ki",
-                "controller.kd",
-                "controller.anti_windup",
-                "controller.encoder",
-                "controller.coarse",
-                "controller.filters",
-                "controller.structure",
-                "controller.cascade",
-                "controller.deadband",
-                "controller.integrator_zone",
-                "controller.integrator_leak",
-                "controller.derivative_cutoff",
-                "controller.feedforward",
-                "controller.observer",
-                "controller.error_deadband",
-                "controller.hold",
-                "controller.standstill",
-                "controller.dither",
-                "controller.missed",
-                "command.profile",
-                "verdict"},
+      {.keys = {"controller", "command.profile", "verdict"},
+       .except = {"controller.sample_rate", "controller.delay", "controller.jitter", "controller.parameters"},
        .has_effect = open_loop ? never : always,
        .what = the_loop_is_open,
        .expected = a_closed_loop},
@@ -135,14 +115,8 @@ EffectRule rule_of_an_error(std::string_view key, std::string_view amplitude) {
 
 std::vector<EffectRule> rules_of_the_loop() {
   return {
-      {.keys = {"controller.coarse.kp", "controller.coarse.ki", "controller.coarse.kd",
-                "controller.coarse.encoder", "controller.coarse.filters", "controller.coarse.fine_within",
-                "controller.coarse.fine_rate", "controller.coarse.fine_dwell", "controller.coarse.structure",
-                "controller.coarse.cascade", "controller.coarse.deadband",
-                "controller.coarse.integrator_zone", "controller.coarse.integrator_leak",
-                "controller.coarse.derivative_cutoff", "controller.coarse.feedforward",
-                "controller.coarse.observer", "controller.coarse.error_deadband", "controller.coarse.hold",
-                "controller.coarse.standstill"},
+      {.keys = {"controller.coarse"},
+       .except = {"controller.coarse.coarse_beyond"},
        .depends_on = {"controller.coarse.coarse_beyond"},
        .has_effect = [](Limits l) { return study::can_have_coarse_phase(l[0]); },
        .what = "it has no effect: no point has a coarse phase",
@@ -395,6 +369,13 @@ std::vector<EffectRule> effect_rules(const study::StudyPlan& plan) {
     rules.insert(rules.end(), more.begin(), more.end());
   }
   return rules;
+}
+
+bool covers(const EffectRule& rule, std::string_view name) {
+  const auto is_named_by = [name](std::string_view key) {
+    return name.starts_with(key) && (name.size() == key.size() || name[key.size()] == '.');
+  };
+  return std::ranges::any_of(rule.keys, is_named_by) && std::ranges::none_of(rule.except, is_named_by);
 }
 
 bool can_have_effect(const study::StudyPlan& plan, const EffectRule& rule) {

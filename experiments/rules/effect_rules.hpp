@@ -14,6 +14,7 @@ namespace zerocount::rules {
 /// design point.
 struct EffectRule {
   std::vector<std::string_view> keys{};        ///< dotted paths of parameters, or of sections for all in them
+  std::vector<std::string_view> except{};      ///< those of them to which the rule does not apply
   std::vector<std::string_view> depends_on{};  ///< parameters that decide whether the keys have an effect
   std::function<bool(std::span<const study::ValueLimits>)>
       has_effect{};         ///< the condition, from the limits of those parameters in their order
@@ -25,6 +26,9 @@ struct EffectRule {
 
 /// The rules for a plan of this kind. If several rules match a key, the first violated one is reported.
 std::vector<EffectRule> effect_rules(const study::StudyPlan& plan);
+
+/// Whether the rule applies to the parameter with this dotted path.
+bool covers(const EffectRule& rule, std::string_view name);
 
 /// Whether the keys of the rule have an effect at some design point. True if a value could not be read.
 bool can_have_effect(const study::StudyPlan& plan, const EffectRule& rule);

@@ -234,11 +234,6 @@ std::optional<std::string> read_text(const Field& field, Problems& problems) {
   return node.text;
 }
 
-void require_key(const Field& map, const std::string& key, const std::string& expected, Problems& problems) {
-  if (find_field(map, key)) return;
-  problems.add_missing(map.node->place, fmt::format("{}.{}", map.path, key), expected);
-}
-
 bool check_map(const Field& field, const std::string& expected, Problems& problems) {
   return check_kind(field, YamlNode::Kind::map, expected, problems);
 }

@@ -50,9 +50,6 @@ std::optional<std::string> read_text(const Field& field, Problems& problems);
 /// Reports that `field` has the wrong type, and describes its value.
 void add_wrong_type(const Field& field, const std::string& expected, Problems& problems);
 
-/// Reports that `map` lacks the key, if it does.
-void require_key(const Field& map, const std::string& key, const std::string& expected, Problems& problems);
-
 /// Whether the field is a map (a list); reports an error if it is not.
 bool check_map(const Field& field, const std::string& expected, Problems& problems);
 bool check_list(const Field& field, const std::string& expected, Problems& problems);

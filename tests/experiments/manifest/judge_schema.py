@@ -37,6 +37,48 @@ def program_refuses(manifest):
     return answer.stdout.strip()
 
 
+def numbers_of(schema, path):
+    """All schemas of numbers, words and truths below `schema`, by their paths."""
+    for part in schema.get("anyOf", []):
+        yield from numbers_of(part | {key: schema[key] for key in ("default",) if key in schema}, path)
+    if "properties" in schema:
+        for key, part in schema["properties"].items():
+            yield from numbers_of(part, [*path, key])
+    elif schema.get("type") in ("number", "integer", "boolean") or "enum" in schema:
+        yield path, schema
+
+
+def judge_limits(validator, schema):
+    """A key that is not a parameter may have its default, and nothing beyond its limits: schema and program agree."""
+    parts = {
+        "goal": {"within": 0.05, "moves": 0.9},
+        "stop": {"success_rate_halfwidth": 0.1, "max_trials": 100},
+        "tune": {"free": {"controller.ki": [1, 2]}, "margins": {"gain": 6}},
+        **{key: schema["properties"][key]["default"] for key in ("design", "independent_points", "keep")},
+    }
+    refused = 0
+    for key, value in parts.items():
+        manifest = {"zerocount": 1, "name": "x", "seed": 1, "trials": 10, "command": {"targets": [5]}, key: value}
+        if key == "tune":
+            manifest["goal"] = parts["goal"]
+        good = [manifest]
+        bad = []
+        for path, number in numbers_of(schema["properties"][key], [key]):
+            if "default" in number:
+                good.append(changed(manifest, path, number["default"]))
+            for limit, step in (("minimum", -1), ("exclusiveMinimum", 0), ("maximum", 1), ("exclusiveMaximum", 0)):
+                if limit in number:
+                    bad.append(changed(manifest, path, number[limit] + step))
+        for one in good:
+            if not validator.is_valid(one) or program_refuses(one):
+                sys.exit(f"{one[key]} is refused: {program_refuses(one)}")
+        for one in bad:
+            if validator.is_valid(one) or not program_refuses(one):
+                sys.exit(f"{one[key]} is accepted")
+        refused += len(bad)
+    return refused
+
+
 def judge_extended(validator, extended):
     """The sections inside sections, and the three ways to command."""
     sequence = {"targets": [-5, 5], "overrun": 2}
@@ -269,7 +311,7 @@ def main():
         if errors or program_refuses(manifest):
             sys.exit(f"{'.'.join(path)}: {value} is refused: {errors} {program_refuses(manifest)}")
     extended = yaml.load(subprocess.check_output([sys.argv[1], "extended_manifest"], text=True), Loader)
-    refused = len(bad) + 5 + judge_extended(validator, extended)
+    refused = len(bad) + 5 + judge_extended(validator, extended) + judge_limits(validator, schema)
     print(f"{len(texts) + 2} manifests accepted, {refused} refused")
 
 

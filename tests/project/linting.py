@@ -4,8 +4,8 @@ usage: linting.py ROOT BUILD NAME [CHECKS]
 NAME is that of the test, CHECKS what it leaves out of .clang-tidy or adds to it, as in the option --checks.
 
 Lints several of the compiler's units (see cmake/ZerocountTarget.cmake) as one source: most of the time goes into the headers,
-which a group of units has parsed and checked once. Units of a group belong to one layer and have the same options; each folder
-has a namespace of its own, so that names in anonymous namespaces do not collide. A group without findings is remembered in the
+which a group of units has parsed and checked once. Units of a group belong to one layer; each folder has a namespace of its own,
+so that names in anonymous namespaces do not collide. A group without findings is remembered in the
 build folder, for each test, by a hash of all that it includes of this repository, and is linted again only when that, the checks or clang-tidy
 change. A fresh build folder, such as that of continuous integration, lints everything.
 """
@@ -24,13 +24,13 @@ import sys
 
 FOLDERS = ("core", "experiments", "results", "analysis", "runners")
 INCLUDE = re.compile(rb'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
-# A group includes sources: a local name may be that of a constant of another source. GCC's warnings are not all known to clang.
-OPTIONS = ["--quiet", "--extra-arg=-Wno-unknown-warning-option", "--extra-arg=-Wno-shadow"]
-MAX_UNITS_OF_A_GROUP = 16  # more take more memory (1 GB), and are all linted again after a change of one
+OPTIONS = ["--quiet"]
+MAX_UNITS_OF_A_GROUP = 32  # more take more memory (1.5 GB), and are all linted again after a change of one
 
 
 class Unit:
-    """A source that the compiler is given, and its options."""
+    """A source that the compiler is given, and those of its options that decide what is in it: its macros, the folders of its
+    headers, the language and the instruction set."""
 
     def __init__(self, root, build, command):
         self.path = pathlib.Path(command["file"])
@@ -41,21 +41,16 @@ class Unit:
         for word in words:
             if word in ("-o", "-c", "-include"):
                 next(words)
-            elif word.startswith(("-O", "--param=")) or word in ("-Winvalid-pch", "-fpch-preprocess"):
-                continue  # the optimisation and the precompiled headers of a unit do not matter here
             elif word.startswith(("-I", "-D")):
                 self.folders.append(word)
             elif word == "-isystem":
                 self.folders += [word + next(words)]
-            elif word.startswith("-"):
+            elif word.startswith(("-m", "-std")):
                 self.options.append(word)
 
 
 def groups_of(units):
-    def kind(unit):
-        return unit.layer, unit.options
-
-    for _, alike in itertools.groupby(sorted(units, key=lambda unit: (kind(unit), unit.path)), key=kind):
+    for _, alike in itertools.groupby(sorted(units, key=lambda unit: (unit.layer, unit.path)), key=lambda unit: unit.layer):
         alike = list(alike)
         size = math.ceil(len(alike) / math.ceil(len(alike) / MAX_UNITS_OF_A_GROUP))
         for first in range(0, len(alike), size):
@@ -69,7 +64,7 @@ def write_groups(folder, groups):
     for number, group in enumerate(groups):
         source = folder / f"{group[0].layer}_{number}.cpp"
         source.write_text("".join(f'#include "{unit.path}"\n' for unit in group), encoding="utf-8")
-        options = list(dict.fromkeys(word for unit in group for word in unit.folders)) + group[0].options
+        options = list(dict.fromkeys(word for unit in group for word in unit.folders + unit.options))
         commands.append({"directory": str(folder.parent), "file": str(source),
                          "arguments": ["c++", *options, "-c", str(source)]})
         sources.append(source)

@@ -30,7 +30,7 @@ SMALL: dict[str, dict[str, Any]] = {
     "sample-rate": {"trials": 30},
     "stability-map": {"trials": 8},
     "two-encoders": {"trials": 6},
-    "unknown-friction": {"trials": 120, "sweep.grid.controller.ki": [2e-5, 3e-5, 5e-5]},
+    "unknown-friction": {"worlds": 8, "trials": 120, "sweep.grid.controller.ki": [2e-5, 3e-5, 5e-5]},
 }
 """Shipped studies with settings that make them short."""
 

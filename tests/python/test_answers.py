@@ -126,7 +126,6 @@ def asked(axis: zc.Study, small: zc.Results, other: zc.Results, results_of: Resu
         "learn": (lambda: zc.ask("learn", worlds), ("learn", worlds.path)),
         "verify": (lambda: zc.ask("verify", small, trials=2), ("verify", small.path, "--trials", 2)),
         "check": (axis.check, ("check", manifest)),
-        "check a study with settings": (lambda: axis.set(rigs=8).check(), ("check", manifest, "--set", "rigs=8")),
         "parameters": (lambda: zc.ask("parameters"), ("parameters",)),
         "guides": (lambda: zc.ask("parameters", guides=True), ("parameters", "--guides")),
         "sensitivity": (

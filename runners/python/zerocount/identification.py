@@ -153,9 +153,9 @@ def identify(
 
     Examples
     --------
-    >>> found = zc.identify("identification.h5")
+    >>> found = zc.identify("identification.h5", point="steps")
     >>> found.settings["friction.k1"]["lognormal"]["median"]
-    126.476502
+    126.5187
     """
     answer = ask(
         "identify",

@@ -1,6 +1,6 @@
 """The notebooks of the documentation run, and what they print is what they show.
 
-usage: notebooks.py FOLDER [--write]
+usage: notebooks.py FOLDER [--only NAME...] [--write]
 
 --write stores what the cells print, and their pictures, in the notebooks.
 """
@@ -58,9 +58,10 @@ def write(path):
 def main():
     arguments = argparse.ArgumentParser()
     arguments.add_argument("folder", type=pathlib.Path)
+    arguments.add_argument("--only", nargs="+", metavar="NAME", help="these notebooks of the folder")
     arguments.add_argument("--write", action="store_true")
     options = arguments.parse_args()
-    notebooks = sorted(options.folder.glob("*.ipynb"))
+    notebooks = [options.folder / f"{name}.ipynb" for name in options.only or []] or sorted(options.folder.glob("*.ipynb"))
     if options.write:
         for path in notebooks:
             write(path)

@@ -23,26 +23,21 @@ std::string gains(const std::string& gain, int trials, const std::string& seed =
          gain + "}}}\n";
 }
 
-class Compare : public ::testing::Test {
+class Compare : public ProgramTest {
  protected:
-  ProgramResult run(const std::vector<std::string>& words) {
-    return zerocount_program(words, folder_.path());
-  }
   void study(const std::string& name, const std::string& manifest,
              const std::vector<std::string>& more = {}) {
     folder_.write(name + ".yaml", manifest);
     std::vector<std::string> words{"run", name + ".yaml", "-q", "-o", name + ".h5"};
     words.insert(words.end(), more.begin(), more.end());
-    const ProgramResult result = run(words);
+    const ProgramResult result = program(words);
     ASSERT_EQ(result.code, 0) << result.err;
   }
   nlohmann::json compared(const std::string& one, const std::string& other, int code) {
-    const ProgramResult result = run({"compare", one + ".h5", other + ".h5", "--format", "json"});
+    const ProgramResult result = program({"compare", one + ".h5", other + ".h5", "--format", "json"});
     EXPECT_EQ(result.code, code) << result.out << result.err;
     return nlohmann::json::parse(result.out);
   }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(Compare, TheSameStudyAgainPasses) {
@@ -59,7 +54,7 @@ TEST_F(Compare, AGoalOnMachinesIsJudgedByMovesWhereTheOtherStudyHasNoRigs) {
   study("rigs", gains("3.5e-5", 60) + goal + ", machines: 0.8}\nrigs: 30\n", {"--force"});
   study("alone", gains("3.5e-5", 60) + goal + "}\n", {"--force"});
   for (const ProgramResult& result :
-       {run({"compare", "rigs.h5", "alone.h5"}), run({"compare", "alone.h5", "rigs.h5"})}) {
+       {program({"compare", "rigs.h5", "alone.h5"}), program({"compare", "alone.h5", "rigs.h5"})}) {
     EXPECT_TRUE(result.code == 0 || result.code == 1 || result.code == 3) << result.code << result.err;
     EXPECT_NE(result.out.find("goal_rate"), std::string::npos) << result.out;
     EXPECT_EQ(result.out.find("goal_machines"), std::string::npos) << result.out;
@@ -89,26 +84,26 @@ TEST_F(Compare, JudgesAStudyWithAGoalByThatAndNothingElse) {
   EXPECT_EQ(measures_of(compared("plain", "a", 0)), of_goal);  // of either manifest
   EXPECT_EQ(measures_of(compared("plain", "plain", 0)).size(), 5u);
 
-  const ProgramResult points = run({"compare", "a.h5", "--points", "low", "high"});
+  const ProgramResult points = program({"compare", "a.h5", "--points", "low", "high"});
   EXPECT_NE(points.out.find("goal_settling_time"), std::string::npos) << points.out;
   EXPECT_EQ(points.out.find("jerk_count"), std::string::npos) << points.out;
-  const ProgramResult junit = run({"compare", "a.h5", "slow.h5", "--format", "junit"});
+  const ProgramResult junit = program({"compare", "a.h5", "slow.h5", "--format", "junit"});
   EXPECT_NE(junit.out.find("name=\"low: goal_settling_time\"><failure"), std::string::npos) << junit.out;
-  const ProgramResult markdown = run({"compare", "a.h5", "slow.h5", "--format", "markdown"});
+  const ProgramResult markdown = program({"compare", "a.h5", "slow.h5", "--format", "markdown"});
   EXPECT_NE(markdown.out.find("low goal\\_settling\\_time | worse |"), std::string::npos) << markdown.out;
-  run({"report", "slow.h5", "-o", "slow.html", "--baseline", "a.h5"});
+  program({"report", "slow.h5", "-o", "slow.html", "--baseline", "a.h5"});
   EXPECT_NE(folder_.read("slow.html").find("goal_settling_time"), std::string::npos);
 
   folder_.write("others.yaml", "measures: [stable_rate]\n");
-  const ProgramResult others = run({"compare", "a.h5", "slow.h5", "--margins", "others.yaml"});
+  const ProgramResult others = program({"compare", "a.h5", "slow.h5", "--margins", "others.yaml"});
   EXPECT_NE(others.out.find("low stable_rate"), std::string::npos) << others.out;
   EXPECT_EQ(others.out.find("goal"), std::string::npos) << others.out;
   folder_.write("goal.yaml", "measures: [goal_rate]\n");
-  const ProgramResult none = run({"compare", "plain.h5", "plain.h5", "--margins", "goal.yaml"});
+  const ProgramResult none = program({"compare", "plain.h5", "plain.h5", "--margins", "goal.yaml"});
   EXPECT_EQ(none.code, 2);
   EXPECT_NE(none.err.find("plain.h5: its manifest has no goal"), std::string::npos) << none.err;
   study("wide", gains("3.5e-5", 300) + "goal: {band: 3, within: 0.022, moves: 0.9}\n", {"--force"});
-  const ProgramResult no_band = run({"compare", "plain.h5", "wide.h5"});
+  const ProgramResult no_band = program({"compare", "plain.h5", "wide.h5"});
   EXPECT_EQ(no_band.code, 4);
   EXPECT_NE(no_band.err.find("plain.h5: it cannot be judged by the goal"), std::string::npos) << no_band.err;
 }
@@ -123,8 +118,8 @@ TEST_F(Compare, RequiresTheGoalAndTimesOfErrorBands) {
       study("a", gains("3.5e-5", 300) + rigs + "goal: {band: 1, " + goal + "}\n", {"--force"});
       folder_.write("gate.yaml", "require: goal\n");
       const ProgramResult result =
-          run({"compare", "a.h5", "a.h5", "--margins", "gate.yaml", "--format", "json"});
-      const ProgramResult judged = run({"judge", "a.h5", "--point", "low", "--format", "json"});
+          program({"compare", "a.h5", "a.h5", "--margins", "gate.yaml", "--format", "json"});
+      const ProgramResult judged = program({"judge", "a.h5", "--point", "low", "--format", "json"});
       EXPECT_EQ(result.code, judged.code == code ? code : -1) << goal << rigs << result.out << judged.out;
       const auto requirement = nlohmann::json::parse(result.out)["points"][0]["requirements"][0];
       EXPECT_EQ(requirement["value"], nlohmann::json::parse(judged.out)["rate"]);
@@ -133,20 +128,20 @@ TEST_F(Compare, RequiresTheGoalAndTimesOfErrorBands) {
     }
   }
   const auto band = nlohmann::json::parse(
-      run({"summary", "a.h5", "--format", "json"}).out)["points"][0]["bands"][1]["settling_time"];
+      program({"summary", "a.h5", "--format", "json"}).out)["points"][0]["bands"][1]["settling_time"];
   const auto judge_band = [&](double limit) {
     folder_.write("gate.yaml", fmt::format("require: band_settling_time[1].p95 <= {}\n", limit));
-    return run({"compare", "a.h5", "a.h5", "--margins", "gate.yaml"}).code;
+    return program({"compare", "a.h5", "a.h5", "--margins", "gate.yaml"}).code;
   };
   EXPECT_EQ(judge_band(band["p95_high"].get<double>() + 0.05), 0);
   EXPECT_EQ(judge_band(band["median"].get<double>()), 1);
   folder_.write("gate.yaml", "require: band_settling_time[4].p95 <= 1\n");
-  const ProgramResult other = run({"compare", "a.h5", "a.h5", "--margins", "gate.yaml"});
+  const ProgramResult other = program({"compare", "a.h5", "a.h5", "--margins", "gate.yaml"});
   EXPECT_EQ(other.code, 2);
   EXPECT_NE(other.err.find("one of its bands: 0, 1"), std::string::npos) << other.err;
   study("plain", gains("3.5e-5", 30));
   folder_.write("gate.yaml", "require: goal\n");
-  const ProgramResult none = run({"compare", "plain.h5", "plain.h5", "--margins", "gate.yaml"});
+  const ProgramResult none = program({"compare", "plain.h5", "plain.h5", "--margins", "gate.yaml"});
   EXPECT_EQ(none.code, 2);
   EXPECT_NE(none.err.find("its manifest has no goal"), std::string::npos) << none.err;
 }
@@ -174,19 +169,20 @@ TEST_F(Compare, AHigherGainIsARegression) {
 TEST_F(Compare, WhereEveryChangeFailsAnImprovementHasTheExitCodeOfARegression) {
   study("a", gains("2.0e-4", 200));
   study("b", gains("1.0e-4", 200));
-  EXPECT_EQ(run({"compare", "a.h5", "b.h5"}).code, 0);
-  const ProgramResult result = run({"compare", "a.h5", "b.h5", "--changed-fails"});
+  EXPECT_EQ(program({"compare", "a.h5", "b.h5"}).code, 0);
+  const ProgramResult result = program({"compare", "a.h5", "b.h5", "--changed-fails"});
   EXPECT_EQ(result.code, 1) << result.out;
   EXPECT_NE(result.out.find("changed: "), std::string::npos) << result.out;
   folder_.write("gate.yaml", "fail_on: changed\n");
-  EXPECT_EQ(run({"compare", "a.h5", "b.h5", "--margins", "gate.yaml"}).code, 1);
+  EXPECT_EQ(program({"compare", "a.h5", "b.h5", "--margins", "gate.yaml"}).code, 1);
 }
 
 // Both manifests leave β out, and between the programs that ran them its default changed.
 TEST_F(Compare, TellsTheDefaultsThatChangedSinceAnEarlierFormatVersion) {
   const std::filesystem::path earlier = version_1_file(folder_.path());
   study("now", reading::AllTrialsFile(earlier).header().manifest);
-  const auto json = nlohmann::json::parse(run({"compare", "version-1.h5", "now.h5", "--format", "json"}).out);
+  const auto json =
+      nlohmann::json::parse(program({"compare", "version-1.h5", "now.h5", "--format", "json"}).out);
   ASSERT_EQ(json["manifest_differences"].size(), 1u);
   EXPECT_EQ(json["manifest_differences"][0]["key"], "friction.beta");
   EXPECT_EQ(json["manifest_differences"][0]["baseline"], "200000");
@@ -208,7 +204,7 @@ TEST_F(Compare, OtherDesignPointsAreIncompatible) {
   std::string other = gains("1.0e-4", 10);
   other.replace(other.find("high"), 4, "top");
   study("d", other);
-  const ProgramResult result = run({"compare", "a.h5", "d.h5"});
+  const ProgramResult result = program({"compare", "a.h5", "d.h5"});
   EXPECT_EQ(result.code, 4);
   EXPECT_NE(result.err.find("'high'"), std::string::npos) << result.err;
   EXPECT_EQ(result.out, "");
@@ -217,11 +213,12 @@ TEST_F(Compare, OtherDesignPointsAreIncompatible) {
 TEST_F(Compare, MarginsAndRequirementsComeFromAFile) {
   study("a", gains("1.0e-4", 30));
   folder_.write("gate.yaml", "points: {high: {require: success_rate ≥ 0.999}}\n");
-  EXPECT_EQ(run({"compare", "a.h5", "a.h5", "--margins", "gate.yaml"}).code, 1);
+  EXPECT_EQ(program({"compare", "a.h5", "a.h5", "--margins", "gate.yaml"}).code, 1);
   folder_.write("gate.yaml", "points: {low: {require: success_rate ≥ 0.999}}\n");
-  EXPECT_EQ(run({"compare", "a.h5", "a.h5", "--margins", "gate.yaml"}).code, 3);  // 30 of 30 do not show it
+  EXPECT_EQ(program({"compare", "a.h5", "a.h5", "--margins", "gate.yaml"}).code,
+            3);  // 30 of 30 do not show it
   folder_.write("gate.yaml", "margins: {success: 1}\n");
-  const ProgramResult result = run({"compare", "a.h5", "a.h5", "--margins", "gate.yaml"});
+  const ProgramResult result = program({"compare", "a.h5", "a.h5", "--margins", "gate.yaml"});
   EXPECT_EQ(result.code, 2);
   EXPECT_NE(result.err.find("gate.yaml:1:11: margins.success: unknown key"), std::string::npos) << result.err;
 }
@@ -229,7 +226,7 @@ TEST_F(Compare, MarginsAndRequirementsComeFromAFile) {
 TEST_F(Compare, WritesEveryFormatAtOnce) {
   study("a", gains("1.0e-4", 20));
   const ProgramResult result =
-      run({"compare", "a.h5", "a.h5", "--json", "r.json", "--junit", "r.xml", "--markdown", "r.md"});
+      program({"compare", "a.h5", "a.h5", "--json", "r.json", "--junit", "r.xml", "--markdown", "r.md"});
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_NE(result.out.find("this shows nothing of the program"), std::string::npos);
   EXPECT_EQ(nlohmann::json::parse(folder_.read("r.json"))["verdict"], "passed");
@@ -242,9 +239,9 @@ TEST_F(Compare, DamagedOrMissingFilesHaveTheirExitCodes) {
   std::string bytes = folder_.read("a.h5");
   bytes[bytes.size() / 2] ^= 1;
   folder_.write("bad.h5", bytes);
-  EXPECT_EQ(run({"compare", "a.h5", "bad.h5"}).code, 4);
-  EXPECT_EQ(run({"compare", "a.h5", "none.h5"}).code, 2);
-  EXPECT_EQ(run({"compare", "a.h5"}).code, 2);
+  EXPECT_EQ(program({"compare", "a.h5", "bad.h5"}).code, 4);
+  EXPECT_EQ(program({"compare", "a.h5", "none.h5"}).code, 2);
+  EXPECT_EQ(program({"compare", "a.h5"}).code, 2);
 }
 
 TEST_F(Compare, NothingThatIsReadIsWrittenOver) {
@@ -252,13 +249,13 @@ TEST_F(Compare, NothingThatIsReadIsWrittenOver) {
   const std::string before = folder_.read("a.h5");
   folder_.write("gate.yaml", "confidence: 0.9\n");
   for (const char* const option : {"--json", "--junit", "--markdown"}) {
-    const ProgramResult result = run({"compare", "a.h5", "a.h5", option, "a.h5"});
+    const ProgramResult result = program({"compare", "a.h5", "a.h5", option, "a.h5"});
     EXPECT_EQ(result.code, 2);
     EXPECT_NE(result.err.find("a.h5 is an input"), std::string::npos) << result.err;
-    EXPECT_EQ(run({"compare", "a.h5", "a.h5", "--margins", "gate.yaml", option, "gate.yaml"}).code, 2);
-    EXPECT_EQ(run({"compare", "a.h5", "a.h5", option, "/dev/null"}).code, 2);
+    EXPECT_EQ(program({"compare", "a.h5", "a.h5", "--margins", "gate.yaml", option, "gate.yaml"}).code, 2);
+    EXPECT_EQ(program({"compare", "a.h5", "a.h5", option, "/dev/null"}).code, 2);
   }
-  EXPECT_EQ(run({"compare", "a.h5", "a.h5", "--json", "r", "--junit", "./r"}).code, 2);
+  EXPECT_EQ(program({"compare", "a.h5", "a.h5", "--json", "r", "--junit", "./r"}).code, 2);
   EXPECT_EQ(folder_.read("a.h5"), before);
 }
 
@@ -266,7 +263,7 @@ TEST_F(Compare, ABaselineIsNotRecordedInABrokenLog) {
   study("a", gains("1.0e-4", 10));
   for (const char* const log : {"- date: yesterday", "not: [a list\n", "a: map\n"}) {
     folder_.write("base.h5.log.yaml", log);
-    const ProgramResult result = run({"baseline", "a.h5", "-o", "base.h5", "--reason", "x"});
+    const ProgramResult result = program({"baseline", "a.h5", "-o", "base.h5", "--reason", "x"});
     EXPECT_EQ(result.code, 4) << log;
     EXPECT_NE(result.err.find("base.h5.log.yaml: cannot append to this baseline log"), std::string::npos)
         << result.err;
@@ -277,11 +274,11 @@ TEST_F(Compare, ABaselineIsNotRecordedInABrokenLog) {
 
 TEST_F(Compare, ABaselineNeedsAReason) {
   study("a", gains("1.0e-4", 10));
-  EXPECT_EQ(run({"baseline", "a.h5", "-o", "base.h5"}).code, 2);
-  EXPECT_EQ(run({"baseline", "a.h5", "-o", "base.h5", "--reason", " "}).code, 2);
-  EXPECT_EQ(run({"baseline", "a.h5", "-o", "a.h5", "--reason", "x"}).code, 2);
-  EXPECT_EQ(run({"baseline", "a.h5", "-o", "base.h5", "--reason", "the first"}).code, 0);
-  EXPECT_EQ(run({"compare", "base.h5", "a.h5"}).code, 0);
+  EXPECT_EQ(program({"baseline", "a.h5", "-o", "base.h5"}).code, 2);
+  EXPECT_EQ(program({"baseline", "a.h5", "-o", "base.h5", "--reason", " "}).code, 2);
+  EXPECT_EQ(program({"baseline", "a.h5", "-o", "a.h5", "--reason", "x"}).code, 2);
+  EXPECT_EQ(program({"baseline", "a.h5", "-o", "base.h5", "--reason", "the first"}).code, 0);
+  EXPECT_EQ(program({"compare", "base.h5", "a.h5"}).code, 0);
   EXPECT_NE(folder_.read("base.h5.log.yaml").find("the first"), std::string::npos);
 }
 
@@ -295,8 +292,8 @@ TEST_F(Compare, TwoPointsOfAFileAreComparedAsTheSamePointsOfTwoFiles) {
   study("both", gains("1.0e-4", 200));
   study("low", gain_alone("3.0e-5", 200));
   study("high", gain_alone("1.0e-4", 200));
-  const ProgramResult within = run({"compare", "both.h5", "--points", "low", "high", "--format", "json"});
-  const ProgramResult between = run({"compare", "low.h5", "high.h5", "--format", "json"});
+  const ProgramResult within = program({"compare", "both.h5", "--points", "low", "high", "--format", "json"});
+  const ProgramResult between = program({"compare", "low.h5", "high.h5", "--format", "json"});
   const auto points = nlohmann::json::parse(within.out);
   const auto files = nlohmann::json::parse(between.out);
   EXPECT_EQ(within.code, between.code);
@@ -308,14 +305,14 @@ TEST_F(Compare, TwoPointsOfAFileAreComparedAsTheSamePointsOfTwoFiles) {
 
 TEST_F(Compare, PointsWithNumbersOfTheirOwnAreTwoSamples) {
   study("both", gains("1.0e-4", 200) + "independent_points: true\n");
-  const ProgramResult result = run({"compare", "both.h5", "--points", "0", "1", "--format", "json"});
+  const ProgramResult result = program({"compare", "both.h5", "--points", "0", "1", "--format", "json"});
   EXPECT_EQ(nlohmann::json::parse(result.out)["layer"], "two_samples");
 }
 
 TEST_F(Compare, TheAnswerNamesWhatIsBetterAndWhatIsWorse) {
   study("both", gains("1.0e-4", 200));
-  const std::string forward = run({"compare", "both.h5", "--points", "low", "high"}).out;
-  const std::string backward = run({"compare", "both.h5", "--points", "high", "low"}).out;
+  const std::string forward = program({"compare", "both.h5", "--points", "low", "high"}).out;
+  const std::string backward = program({"compare", "both.h5", "--points", "high", "low"}).out;
   EXPECT_NE(forward.find("high against low; worse: success_rate"), std::string::npos) << forward;
   EXPECT_EQ(forward.find("better: "), std::string::npos) << forward;
   EXPECT_NE(backward.find("low against high; better: success_rate"), std::string::npos) << backward;
@@ -331,7 +328,7 @@ TEST_F(Compare, RefusesPointsThatAreNotTwoOfOneFile) {
                                                 {"both.h5"}}) {
     std::vector<std::string> all{"compare"};
     all.insert(all.end(), words.begin(), words.end());
-    EXPECT_EQ(run(all).code, 2) << words.back();
+    EXPECT_EQ(program(all).code, 2) << words.back();
   }
 }
 

@@ -10,11 +10,8 @@
 namespace zerocount::testing {
 namespace {
 
-class Confirm : public ::testing::Test {
+class Confirm : public ProgramTest {
  protected:
-  ProgramResult program(const std::vector<std::string>& words) {
-    return zerocount_program(words, folder_.path());
-  }
   nlohmann::json summary_of(const std::string& file, const std::vector<std::string>& more = {}) {
     std::vector<std::string> words{"summary", file, "--format", "json"};
     words.insert(words.end(), more.begin(), more.end());
@@ -22,8 +19,6 @@ class Confirm : public ::testing::Test {
     EXPECT_EQ(result.code, 0) << result.err;
     return nlohmann::json::parse(result.out, nullptr, false);
   }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(Confirm, IsTheRunOfThatPointWithTheStatedSeed) {

@@ -31,22 +31,17 @@ const char* const stable_manifest =
     "verdict: {dwell: 0.02, window: 0.02}\n"
     "sweep: {grid: {controller.ki: [2.0e-5, 3.0e-5]}}\n";
 
-class EngineOption : public ::testing::Test {
+class EngineOption : public ProgramTest {
  protected:
-  ProgramResult run(const std::vector<std::string>& words) {
-    return zerocount_program(words, folder_.path());
-  }
   fs::path at(const std::string& name) const { return folder_.path() / name; }
 
   void complete(const std::string& manifest, const std::string& output,
                 const std::vector<std::string>& more = {}) {
     std::vector<std::string> words{"run", manifest, "-o", output};
     words.insert(words.end(), more.begin(), more.end());
-    const ProgramResult result = run(words);
+    const ProgramResult result = program(words);
     ASSERT_EQ(result.code, 0) << result.err;
   }
-
-  TemporaryFolder folder_;
 };
 
 bool same(double a, double b) {
@@ -109,7 +104,7 @@ TEST_F(EngineOption, IsBatchUnlessSaidOtherwiseAndIsRecorded) {
   EXPECT_EQ(reading::AllTrialsFile(at("reference.h5")).root().text("engine"), "reference");
   expect_same_datasets(at("default.h5"), at("batch.h5"));
 
-  const ProgramResult unknown = run({"run", "study.yaml", "-o", "x.h5", "--engine", "steam"});
+  const ProgramResult unknown = program({"run", "study.yaml", "-o", "x.h5", "--engine", "steam"});
   EXPECT_EQ(unknown.code, 2);
   EXPECT_NE(unknown.err.find("steam"), std::string::npos) << unknown.err;
   EXPECT_NE(unknown.err.find("reference"), std::string::npos) << unknown.err;
@@ -124,7 +119,7 @@ TEST_F(EngineOption, IsTheReferenceOfFilesThatDoNotSay) {
   EXPECT_EQ(reading::AllTrialsFile(at("old.h5")).header().engine, study::Engine::reference);
   complete("study.yaml", "odd.h5");
   replace_attribute(at("odd.h5"), "engine", "steam");
-  const ProgramResult odd = run({"summary", "odd.h5"});
+  const ProgramResult odd = program({"summary", "odd.h5"});
   EXPECT_EQ(odd.code, 4);
   EXPECT_NE(odd.err.find("steam"), std::string::npos) << odd.err;
 }
@@ -133,11 +128,11 @@ TEST_F(EngineOption, OfAFinishedFileIsNotOverruled) {
   folder_.write("study.yaml", small_manifest(3));
   complete("study.yaml", "out.h5");
   const std::string bytes = folder_.read("out.h5");
-  const ProgramResult other = run({"run", "study.yaml", "-o", "out.h5", "--engine", "reference"});
+  const ProgramResult other = program({"run", "study.yaml", "-o", "out.h5", "--engine", "reference"});
   EXPECT_EQ(other.code, 2);
   EXPECT_NE(other.err.find("engine"), std::string::npos) << other.err;
   EXPECT_EQ(folder_.read("out.h5"), bytes);
-  EXPECT_EQ(run({"run", "study.yaml", "-o", "out.h5", "--engine", "batch"}).code, 0);
+  EXPECT_EQ(program({"run", "study.yaml", "-o", "out.h5", "--engine", "batch"}).code, 0);
 }
 
 /// As with the shards of another study.
@@ -150,7 +145,7 @@ TEST_F(EngineOption, OfAnUnfinishedRunIsNotOverruled) {
     complete("study.yaml", part, {"--shard", "1/2", "--engine", engine});
     fs::create_directory(at(output + ".shards"));
     fs::copy(at(part), at(output + ".shards") / "part.h5");
-    const ProgramResult refused = run({"run", "study.yaml", "-o", output, "--engine", other});
+    const ProgramResult refused = program({"run", "study.yaml", "-o", output, "--engine", other});
     EXPECT_EQ(refused.code, 2) << refused.err;
     EXPECT_NE(refused.err.find(engine), std::string::npos) << refused.err;
     EXPECT_FALSE(fs::exists(at(output)));
@@ -168,7 +163,7 @@ TEST_F(EngineOption, IsTheSameInAllPartsOfAMerge) {
   complete("study.yaml", "r1.h5", {"--shard", "1/2", "--engine", "reference"});
   complete("study.yaml", "r2.h5", {"--shard", "2/2", "--engine", "reference"});
   for (const auto& [one, two] : {std::pair{"b1.h5", "r2.h5"}, std::pair{"r1.h5", "b2.h5"}}) {
-    const ProgramResult mixed = run({"merge", one, two, "-o", "mixed.h5"});
+    const ProgramResult mixed = program({"merge", one, two, "-o", "mixed.h5"});
     EXPECT_EQ(mixed.code, 4) << mixed.err;
     EXPECT_NE(mixed.err.find("engine"), std::string::npos) << mixed.err;
     EXPECT_FALSE(fs::exists(at("mixed.h5")));
@@ -176,7 +171,7 @@ TEST_F(EngineOption, IsTheSameInAllPartsOfAMerge) {
   for (const char* engine : {"batch", "reference"}) {
     const std::string initial(1, engine[0]);
     const std::string merged = "merged-" + initial + ".h5";
-    ASSERT_EQ(run({"merge", initial + "2.h5", initial + "1.h5", "-o", merged}).code, 0);
+    ASSERT_EQ(program({"merge", initial + "2.h5", initial + "1.h5", "-o", merged}).code, 0);
     EXPECT_EQ(reading::AllTrialsFile(at(merged)).root().text("engine"), engine);
     complete("study.yaml", "whole-" + initial + ".h5", {"--engine", engine});
     expect_same_datasets(at(merged), at("whole-" + initial + ".h5"));
@@ -198,7 +193,7 @@ TEST_F(EngineOption, GivesTheSameBytesHoweverTheTrialsShareTheLanes) {
     merge.push_back(name);
   }
   merge.insert(merge.end(), {"-o", "merged.h5"});
-  ASSERT_EQ(run(merge).code, 0);
+  ASSERT_EQ(program(merge).code, 0);
   expect_same_datasets(at("one.h5"), at("merged.h5"));
 }
 
@@ -217,9 +212,9 @@ TEST_F(EngineOption, LeavesRecordsAndReplaysToTheReference) {
     ASSERT_EQ(ours[i].theta, theirs[i].theta) << i;
   }
   for (const char* trial : {"0", "2", "3"}) {
-    const ProgramResult replay = run({"trace", "batch.h5", "--point", "1", "--trial", trial});
+    const ProgramResult replay = program({"trace", "batch.h5", "--point", "1", "--trial", trial});
     EXPECT_EQ(replay.code, 0) << replay.err;
-    EXPECT_EQ(replay.out, run({"trace", "reference.h5", "--point", "1", "--trial", trial}).out) << trial;
+    EXPECT_EQ(replay.out, program({"trace", "reference.h5", "--point", "1", "--trial", trial}).out) << trial;
   }
 }
 
@@ -240,12 +235,12 @@ TEST_F(EngineOption, RunAndCheckTellWhichPointsRunOnTheReferenceEngineAndWhy) {
       "sweep: {grid: {friction.model: [presliding, gms, lugre], controller.ki: [2.0e-5, 3.0e-5]}}\n");
   const std::string two =
       "2 of 6 points run on the reference engine, about ten times slower, because of friction.model gms";
-  EXPECT_EQ(engine_line(run({"check", "laws.yaml"}).out), two);
-  EXPECT_EQ(engine_line(run({"run", "laws.yaml", "-o", "a.h5"}).err), two);
-  EXPECT_EQ(engine_line(run({"run", "laws.yaml", "-o", "b.h5", "--quiet"}).err), "");
-  EXPECT_EQ(engine_line(run({"run", "laws.yaml", "-o", "c.h5", "--engine", "reference"}).err), "");
+  EXPECT_EQ(engine_line(program({"check", "laws.yaml"}).out), two);
+  EXPECT_EQ(engine_line(program({"run", "laws.yaml", "-o", "a.h5"}).err), two);
+  EXPECT_EQ(engine_line(program({"run", "laws.yaml", "-o", "b.h5", "--quiet"}).err), "");
+  EXPECT_EQ(engine_line(program({"run", "laws.yaml", "-o", "c.h5", "--engine", "reference"}).err), "");
   const ProgramResult all =
-      run({"check", "laws.yaml", "--set", "plant.load={inertia: 5e-4, stiffness: 2000, damping: 0.05}"});
+      program({"check", "laws.yaml", "--set", "plant.load={inertia: 5e-4, stiffness: 2000, damping: 0.05}"});
   EXPECT_EQ(engine_line(all.out),
             "all trials run on the reference engine, about ten times slower, because of a second mass, "
             "friction.model gms");

@@ -44,18 +44,14 @@ void expect_like(const std::string& found, const std::string& expected) {
   EXPECT_FALSE(found_words >> one) << one;
 }
 
-class Experiment : public ::testing::Test {
+class Experiment : public ProgramTest {
  protected:
-  ProgramResult run(const std::vector<std::string>& words) {
-    return zerocount_program(words, folder_.path());
-  }
   std::string file(const std::string& name) const { return text_of(folder_.path() / name); }
-  TemporaryFolder folder_;
 };
 
 TEST_F(Experiment, ThePageShowsWhatItPrints) {
-  const ProgramResult result = run({"experiment", ZEROCOUNT_MANIFESTS "/material-test.yaml", "--duration",
-                                    "4", "-o", "torque.csv", "--record", "record.csv", "--quiet"});
+  const ProgramResult result = program({"experiment", ZEROCOUNT_MANIFESTS "/material-test.yaml", "--duration",
+                                        "4", "-o", "torque.csv", "--record", "record.csv", "--quiet"});
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(result.err, "");
   expect_like(result.out, answer_in(text_of(ZEROCOUNT_EXPERIMENT_PAGE)));
@@ -71,7 +67,7 @@ TEST_F(Experiment, TheTorqueBecomesARecord) {
   std::vector<std::string> words = quick;
   words.insert(words.end(), {"-o", "torque.csv", "--record", "record.csv", "--streamer", "torque.txt",
                              "--format", "json", "--plot", "page.html"});
-  const ProgramResult result = run(words);
+  const ProgramResult result = program(words);
   ASSERT_EQ(result.code, 0) << result.err;
   const auto json = nlohmann::json::parse(result.out);
   EXPECT_EQ(json["parameters"].size(), 8u);
@@ -92,7 +88,7 @@ TEST_F(Experiment, TheTorqueBecomesARecord) {
   folder_.write("both.csv", both);
   const auto k1_of = [&](const std::string& name) {
     const ProgramResult identified =
-        run({"identify", name, "--counts-per-revolution", "1620000", "--format", "json", "--quiet"});
+        program({"identify", name, "--counts-per-revolution", "1620000", "--format", "json", "--quiet"});
     EXPECT_NE(identified.out, "") << identified.err;
     return nlohmann::json::parse(identified.out)["parameters"][0]["value"].get<double>();
   };
@@ -104,7 +100,7 @@ TEST_F(Experiment, RefusesWhatItDoesNotUnderstand) {
   const std::string manifest = ZEROCOUNT_MANIFESTS "/material-test.yaml";
   const auto refusal = [&](std::vector<std::string> words) {
     words.insert(words.begin(), {"experiment", manifest, "--quiet"});
-    const ProgramResult result = run(words);
+    const ProgramResult result = program(words);
     EXPECT_EQ(result.code, 2);
     return result.err;
   };

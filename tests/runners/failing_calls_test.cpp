@@ -194,15 +194,15 @@ class FailingCalls : public ::testing::Test {
 // In these, a call fails in one of four ways, which take turns: ENOSPC or EIO, once or from then on. The
 // steps are primes, so that they meet all kinds of calls that come in turns.
 TEST_F(FailingCalls, ThatWriteDuringARun) {
-  fail_calls(run(), "writes", faults, 1, 17);
+  fail_calls(run(), "writes", faults, 1, 29);
 }
 
 TEST_F(FailingCalls, ThatWriteDuringAMerge) {
-  fail_calls(merge(), "writes", faults, 1, 13);
+  fail_calls(merge(), "writes", faults, 1, 23);
 }
 
 TEST_F(FailingCalls, ThatWriteDuringAnExport) {
-  fail_calls(export_of_tables(), "writes", faults, 1, 2);
+  fail_calls(export_of_tables(), "writes", faults, 1, 5);
 }
 
 TEST_F(FailingCalls, ThatWriteOtherOutputs) {
@@ -247,17 +247,17 @@ TEST_F(FailingCalls, ThatWriteAHistory) {
 
 // The disk says that it has written, and has not.
 TEST_F(FailingCalls, ThatSayTheyHaveWritten) {
-  fail_calls(run(), "writes", std::array{Fault{"lost", false}}, 1, 37);
+  fail_calls(run(), "writes", std::array{Fault{"lost", false}}, 1, 71);
 }
 
 TEST_F(FailingCalls, ThatReadWhatWasJustWritten) {
-  fail_calls(run(), "reads", std::array{Fault{std::to_string(EIO), false}}, 1, 97);
+  fail_calls(run(), "reads", std::array{Fault{std::to_string(EIO), false}}, 1, 149);
 }
 
 TEST_F(FailingCalls, ThatReadAFileThatIsThereAlready) {
   complete({"run", "study.yaml", "-o", "out.h5", "-q"});
   const Writer again{run().arguments, {"out.h5"}, read_bytes(folder_ / "out.h5"), true};
-  fail_calls(again, "reads", std::array{Fault{std::to_string(EIO), true}}, 1, 7);
+  fail_calls(again, "reads", std::array{Fault{std::to_string(EIO), true}}, 1, 13);
 }
 
 // Takes a quarter of an hour.

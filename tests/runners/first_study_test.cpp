@@ -41,53 +41,26 @@ std::vector<std::string> label_text(const std::string& line) {
   return words;
 }
 
-class FirstStudy : public ::testing::Test {
+class FirstStudy : public ProgramTest {
  protected:
   FirstStudy() : text_(section("A first study of your own")) {
     folder_.write("my-axis.yaml", block(text_, "yaml"));
   }
-  ProgramResult run(const std::vector<std::string>& words) const {
-    return zerocount_program(words, folder_.path());
-  }
   /// The points of the summary.
   nlohmann::json points_of(const std::string& file) const {
-    return nlohmann::json::parse(run({"summary", file, "--format", "json"}).out)["points"];
+    return nlohmann::json::parse(program({"summary", file, "--format", "json"}).out)["points"];
   }
 
   std::string text_;
-  TemporaryFolder folder_;
 };
 
 TEST_F(FirstStudy, IsUnderstoodWithoutWarnings) {
   ASSERT_NE(folder_.read("my-axis.yaml").find("name: my-axis"), std::string::npos) << text_;
-  const ProgramResult checked = run({"check", "my-axis.yaml"});
+  const ProgramResult checked = program({"check", "my-axis.yaml"});
   EXPECT_EQ(checked.code, 0);
   EXPECT_EQ(checked.err, "");
   EXPECT_NE(checked.out.find("8 design points × 2000 trials"), std::string::npos) << checked.out;
   EXPECT_NE(checked.out.find("1000 rigs × 2 trials of each"), std::string::npos) << checked.out;
-}
-
-TEST_F(FirstStudy, ItsCommandsWork) {
-  std::istringstream lines(block(text_, "sh"));
-  std::vector<std::string> verbs;
-  for (std::string line; std::getline(lines, line);) {
-    std::vector<std::string> words = label_text(line);
-    ASSERT_FALSE(words.empty());
-    EXPECT_EQ(words.front(), "build/release/zerocount") << line;
-    words.erase(words.begin());
-    ASSERT_FALSE(words.empty()) << line;
-    verbs.push_back(words.front());
-    if (words.front() == "run") words.insert(words.end(), {"--quiet"});
-    const ProgramResult result = run(words);
-    EXPECT_EQ(result.code, 0) << line << "\n" << result.err;
-  }
-  EXPECT_EQ(verbs, (std::vector<std::string>{"check", "run", "summary", "judge", "report"}));
-  EXPECT_NE(folder_.read("my-axis.html").find("</html>"), std::string::npos);
-
-  const auto points = points_of("my-axis.h5");
-  ASSERT_EQ(points.size(), 8U);
-  const auto rate = [&](std::size_t point) { return points[point]["success_rate"].get<double>(); };
-  EXPECT_GT(rate(0), rate(7));  // a higher integral gain, and fewer moves that hold zero counts
 }
 
 /// A proportion in %, as the README has it.
@@ -102,9 +75,24 @@ std::string success_of(const nlohmann::json& point) {
                      text::percent_bounds(part("success_rate_low"), part("success_rate_high")));
 }
 
-// The whole study, as the reader runs it.
-TEST_F(FirstStudy, ItsTableSaysWhatTheReadmeSays) {
-  ASSERT_EQ(run({"run", "my-axis.yaml", "-o", "my-axis.h5", "--quiet"}).code, 0);
+// The whole study, as the reader runs it, and what the README says of it.
+TEST_F(FirstStudy, ItsCommandsDoWhatTheReadmeSays) {
+  std::istringstream lines(block(text_, "sh"));
+  std::vector<std::string> verbs;
+  for (std::string line; std::getline(lines, line);) {
+    std::vector<std::string> words = label_text(line);
+    ASSERT_FALSE(words.empty());
+    EXPECT_EQ(words.front(), "build/release/zerocount") << line;
+    words.erase(words.begin());
+    ASSERT_FALSE(words.empty()) << line;
+    verbs.push_back(words.front());
+    if (words.front() == "run") words.insert(words.end(), {"--quiet"});
+    const ProgramResult result = program(words);
+    EXPECT_EQ(result.code, 0) << line << "\n" << result.err;
+  }
+  EXPECT_EQ(verbs, (std::vector<std::string>{"check", "run", "summary", "judge", "report"}));
+  EXPECT_NE(folder_.read("my-axis.html").find("</html>"), std::string::npos);
+
   const auto points = points_of("my-axis.h5");
   ASSERT_EQ(points.size(), 8U);
   std::string text = text_;
@@ -112,7 +100,7 @@ TEST_F(FirstStudy, ItsTableSaysWhatTheReadmeSays) {
   const auto expect_said = [&text](const std::string& words) {
     EXPECT_NE(text.find(words), std::string::npos) << words;
   };
-  const auto judged = nlohmann::json::parse(run({"judge", "my-axis.h5", "--format", "json"}).out);
+  const auto judged = nlohmann::json::parse(program({"judge", "my-axis.h5", "--format", "json"}).out);
   EXPECT_EQ(judged["point"], 2);
   EXPECT_EQ(judged["status"], "met");
   expect_said(
@@ -129,10 +117,10 @@ TEST_F(FirstStudy, ItsTableSaysWhatTheReadmeSays) {
 // The premises that docs/reliability.md names, and that which the answer does not survive.
 TEST_F(FirstStudy, ItsAnswerHoldsUnderTheOtherPremisesOfItsPage) {
   const auto judged_with = [this](const std::string& set) {
-    EXPECT_EQ(run({"run", "my-axis.yaml", "-o", "other.h5", "--quiet", "--force", "--set", set}).code, 0);
-    return nlohmann::json::parse(run({"judge", "other.h5", "--format", "json"}).out);
+    EXPECT_EQ(program({"run", "my-axis.yaml", "-o", "other.h5", "--quiet", "--force", "--set", set}).code, 0);
+    return nlohmann::json::parse(program({"judge", "other.h5", "--format", "json"}).out);
   };
-  for (const char* set : {"seed=3", "seed=11", "controller.delay=1", "controller.delay=2"}) {
+  for (const char* set : {"seed=3", "controller.delay=2"}) {
     const auto judged = judged_with(set);
     EXPECT_EQ(judged["status"], "met") << set;
     EXPECT_EQ(judged["point"], 2) << set;
@@ -143,8 +131,8 @@ TEST_F(FirstStudy, ItsAnswerHoldsUnderTheOtherPremisesOfItsPage) {
 }
 
 TEST_F(FirstStudy, CreepLimitsTheGainsThatAreStable) {
-  ASSERT_EQ(run({"run", "my-axis.yaml", "-o", "still.h5", "--quiet", "--set", "trials=1000", "--set",
-                 "friction.alpha=0"})
+  ASSERT_EQ(program({"run", "my-axis.yaml", "-o", "still.h5", "--quiet", "--set", "trials=1000", "--set",
+                     "friction.alpha=0"})
                 .code,
             0);
   const auto points = points_of("still.h5");
@@ -153,8 +141,8 @@ TEST_F(FirstStudy, CreepLimitsTheGainsThatAreStable) {
 }
 
 TEST_F(FirstStudy, WaitingLongerHelps) {
-  ASSERT_EQ(run({"run", "my-axis.yaml", "-o", "long.h5", "--quiet", "--set", "trials=1000", "--set",
-                 "command.hold=2", "--set", "sweep={}", "--set", "controller.ki=11768"})
+  ASSERT_EQ(program({"run", "my-axis.yaml", "-o", "long.h5", "--quiet", "--set", "trials=1000", "--set",
+                     "command.hold=2", "--set", "sweep={}", "--set", "controller.ki=11768"})
                 .code,
             0);
   EXPECT_GT(points_of("long.h5")[0]["success_rate"].get<double>(), 0.83) << "0.72 with 0.5 s per move";

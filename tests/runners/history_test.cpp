@@ -14,15 +14,11 @@ namespace {
 
 using nlohmann::json;
 
-class HistoryCommand : public ::testing::Test {
+class HistoryCommand : public ProgramTest {
  protected:
   void SetUp() override {
     folder_.write("study.yaml", small_manifest(40));
     run("first.h5");
-  }
-
-  ProgramResult program(const std::vector<std::string>& words) {
-    return zerocount_program(words, folder_.path());
   }
 
   /// Without a rotor's profile, whose seed would be part of the question.
@@ -38,8 +34,6 @@ class HistoryCommand : public ::testing::Test {
     EXPECT_FALSE(series.empty());
     return series;
   }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(HistoryCommand, HasTheValuesAndBoundsOfTheSummary) {

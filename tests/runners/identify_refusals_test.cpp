@@ -11,19 +11,12 @@
 namespace zerocount::testing {
 namespace {
 
-class IdentifyRefusals : public ::testing::Test {
- protected:
-  ProgramResult run(const std::vector<std::string>& words) {
-    return zerocount_program(words, folder_.path());
-  }
-
-  TemporaryFolder folder_;
-};
+class IdentifyRefusals : public ProgramTest {};
 
 TEST_F(IdentifyRefusals, BadDataAreRefusedWithTheReason) {
   const auto refusal = [&](const std::string& name, const std::string& text) {
     folder_.write(name, text);
-    const ProgramResult result = run({"identify", name});
+    const ProgramResult result = program({"identify", name});
     EXPECT_EQ(result.code, 4) << result.err;
     EXPECT_EQ(result.err.find(name), 0u) << result.err;
     EXPECT_EQ(result.out, "");
@@ -38,7 +31,7 @@ TEST_F(IdentifyRefusals, BadDataAreRefusedWithTheReason) {
       std::string::npos);
   EXPECT_NE(refusal("back.csv", ramp + "0.1,0,0\n").find("does not come after"), std::string::npos);
   folder_.write("ramp.csv", ramp);
-  const ProgramResult once = run({"identify", "ramp.csv"});
+  const ProgramResult once = program({"identify", "ramp.csv"});
   EXPECT_EQ(once.code, 4);
   EXPECT_NE(once.err.find("too few reversals"), std::string::npos) << once.err;
 }
@@ -82,7 +75,7 @@ TEST_F(IdentifyRefusals, BadUsageIsRefused) {
            {"data.csv", "--format", "xml"}}) {
     std::vector<std::string> all{"identify"};
     all.insert(all.end(), words.begin(), words.end());
-    const ProgramResult result = run(all);
+    const ProgramResult result = program(all);
     EXPECT_EQ(result.code, 2) << ::testing::PrintToString(words) << result.err;
   }
 }
@@ -90,7 +83,7 @@ TEST_F(IdentifyRefusals, BadUsageIsRefused) {
 TEST_F(IdentifyRefusals, ColumnsAreRefusedWithTheReason) {
   const auto refusal = [&](std::vector<std::string> words) {
     words.insert(words.begin(), "identify");
-    const ProgramResult result = run(words);
+    const ProgramResult result = program(words);
     EXPECT_EQ(result.code, 2) << ::testing::PrintToString(words) << result.err;
     return result.err;
   };
@@ -123,7 +116,7 @@ TEST_F(IdentifyRefusals, WholeNumbersWithoutUnitAreCountsOrAnError) {
     std::vector<std::string> words{"identify", "--sliding",      file,       "--column", "time=ms[ms]",
                                    "--column", "torque=Nm[N m]", "--column", angle};
     words.insert(words.end(), more.begin(), more.end());
-    return run(words);
+    return program(words);
   };
   const ProgramResult said = identified("log.csv", "angle=pos[count]", {"--counts-per-revolution", "5000"});
   EXPECT_EQ(said.code, 4) << said.err;  // the motion of a sine is not that of this torque
@@ -157,7 +150,7 @@ TEST_F(IdentifyRefusals, OptionsThatNoRecordHasAnythingOfAreErrors) {
            {"--force"}}) {
     std::vector<std::string> all{"identify", "log.csv"};
     all.insert(all.end(), words.begin(), words.end());
-    const ProgramResult refused = run(all);
+    const ProgramResult refused = program(all);
     EXPECT_EQ(refused.code, 2) << words.front() << refused.err;
     EXPECT_NE(refused.err.find(words.front()), std::string::npos) << refused.err;
   }

@@ -15,11 +15,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-class Judge : public ::testing::Test {
+class Judge : public ProgramTest {
  protected:
-  ProgramResult program(const std::vector<std::string>& words) {
-    return zerocount_program(words, folder_.path());
-  }
   void run_study(const std::string& more, int trials = 40, const std::string& output = "out.h5") {
     folder_.write("study.yaml", small_manifest(trials, more));
     const ProgramResult result = program({"run", "study.yaml", "-o", output, "--force"});
@@ -29,8 +26,6 @@ class Judge : public ::testing::Test {
     words.insert(words.end(), {"--format", "json"});
     return Json::parse(program(words).out, nullptr, false);
   }
-
-  TemporaryFolder folder_;
 };
 
 /// Time of the first of the samples from which on |e| ≤ band for `dwell` samples; without, to the end.

@@ -23,12 +23,9 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::string_literals;
 
-class KeptStatistics : public ::testing::Test {
+class KeptStatistics : public ProgramTest {
  protected:
   fs::path at(const std::string& name) const { return folder_.path() / name; }
-  ProgramResult program(const std::vector<std::string>& words) const {
-    return zerocount_program(words, folder_.path());
-  }
   ProgramResult run(const std::string& output, const std::vector<std::string>& more = {}) const {
     std::vector<std::string> words{"run", "study.yaml", "-q", "-o", output};
     words.insert(words.end(), more.begin(), more.end());
@@ -50,8 +47,6 @@ class KeptStatistics : public ::testing::Test {
     const ProgramResult result = program({"export", file, "-o", folder});
     ASSERT_EQ(result.code, 0) << result.err;
   }
-
-  TemporaryFolder folder_;
 };
 
 struct StudyText {
@@ -115,7 +110,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& tested) { return tested.param.name; });
 
 TEST_F(KeptStatistics, OfARunThatWasInterruptedAreTheSame) {
-  folder_.write("study.yaml", small_manifest(40000, "keep: statistics\n"));
+  folder_.write("study.yaml", small_manifest(20000, "keep: statistics\n"));
   RunningProgram running({"run", "study.yaml", "-q", "-o", "out.h5"}, folder_.path());
   while (!fs::exists(at("out.h5.shards")) || fs::is_empty(at("out.h5.shards")))
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -159,7 +154,7 @@ TEST_F(KeptStatistics, TakeAsMuchRoomForAnyNumberOfTrials) {
     return static_cast<double>(fs::file_size(at("out.h5")));
   };
   const double few = bytes(5000);
-  EXPECT_LT(bytes(50000), 1.3 * few);  // ten times as many have some more distinct values
+  EXPECT_LT(bytes(25000), 1.3 * few);  // five times as many have some more distinct values
 }
 
 std::vector<std::string> lines_of(const std::string& table) {

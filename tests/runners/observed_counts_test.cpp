@@ -19,11 +19,8 @@ namespace {
 const std::string counts_of_both =
     "observed: {low: {successes: 19, of: 20, text: in the shop}, high: {successes: 0, of: 12}}\n";
 
-class ObservedCounts : public ::testing::Test {
+class ObservedCounts : public ProgramTest {
  protected:
-  ProgramResult program(const std::vector<std::string>& words) {
-    return zerocount_program(words, folder_.path());
-  }
   nlohmann::json points_of(const std::string& more) {
     folder_.write("study.yaml", manifest(more));
     const ProgramResult run = program({"run", "study.yaml", "-o", "out.h5", "--force"});
@@ -39,8 +36,6 @@ class ObservedCounts : public ::testing::Test {
            "sweep: {cases: {low: {controller.ki: 3.85e-5}, high: {controller.ki: 9.45e-5}}}\n" +
            more;
   }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(ObservedCounts, AreTestedAgainstTheTrialsOfTheirPoint) {

@@ -33,14 +33,14 @@ std::string random_manifest(std::mt19937_64& random) {
                         within(1e-5, 5e-5), within(1e-4, 4e-4), within(1e-4, 1e-3));
 }
 
-TEST(OnePoint, IsTheSameInEveryOutputOfTenStudies) {
+TEST(OnePoint, IsTheSameInEveryOutputOfRandomStudies) {
   const TemporaryFolder folder;
   std::mt19937_64 random(1130);
   const auto run = [&](const std::vector<std::string>& words) {
     return zerocount_program(words, folder.path());
   };
   int with_goal = 0;
-  for (int round = 0; round < 10; ++round) {
+  for (int round = 0; round < 5; ++round) {
     const std::string manifest = random_manifest(random);
     SCOPED_TRACE(manifest);
     folder.write("study.yaml", manifest);
@@ -71,7 +71,8 @@ TEST(OnePoint, IsTheSameInEveryOutputOfTenStudies) {
     EXPECT_EQ(star[1], std::to_string(best));
     EXPECT_EQ(trace[1], named[2]);
   }
-  EXPECT_GE(with_goal, 3);
+  EXPECT_GE(with_goal, 1);
+  EXPECT_LT(with_goal, 5);
 }
 
 }  // namespace

@@ -8,19 +8,14 @@
 namespace zerocount::testing {
 namespace {
 
-class Hints : public ::testing::Test {
+class Hints : public ProgramTest {
  protected:
   Hints() { std::ofstream(folder_.path() / "study.yaml") << small_manifest(2); }
-  ProgramResult run(const std::vector<std::string>& words) {
-    return zerocount_program(words, folder_.path());
-  }
   std::string warnings_of(const std::vector<std::string>& words) {
-    const ProgramResult result = run(words);
+    const ProgramResult result = program(words);
     EXPECT_EQ(result.code, 0) << result.err;
     return result.err;
   }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(Hints, CheckAndRunWarnAlikeAndGoOn) {
@@ -41,8 +36,8 @@ TEST_F(Hints, CheckAndRunWarnAlikeAndGoOn) {
 TEST_F(Hints, CheckSaysInHowManyTrialsARuleHolds) {
   const auto line = [&](const std::string& resolution) {
     const std::string out =
-        run({"check", "study.yaml", "--set", "trials=40", "--set", "friction.k1={uniform: [100, 200]}",
-             "--set", "dac.resolution=" + resolution})
+        program({"check", "study.yaml", "--set", "trials=40", "--set", "friction.k1={uniform: [100, 200]}",
+                 "--set", "dac.resolution=" + resolution})
             .out;
     const std::size_t start = out.find("DAC resolution:");
     return out.substr(start, out.find('\n', start) - start);
@@ -57,7 +52,7 @@ TEST_F(Hints, CheckSaysInHowManyTrialsARuleHolds) {
 
 TEST_F(Hints, CheckTellsTheCountsOfTargetsInSiUnits) {
   const std::string out =
-      run({"check", "study.yaml", "--set", "command={units: si, targets: [1.0e-4, -2.0e-4]}"}).out;
+      program({"check", "study.yaml", "--set", "command={units: si, targets: [1.0e-4, -2.0e-4]}"}).out;
   EXPECT_NE(out.find("to the nearest of 3.879e-06 rad: 0.0001 rad = 26 counts, -0.0002 rad = "
                      "-52 counts"),
             std::string::npos)
@@ -65,21 +60,21 @@ TEST_F(Hints, CheckTellsTheCountsOfTargetsInSiUnits) {
 }
 
 TEST_F(Hints, AMisspeltCommandIsToldTheNearest) {
-  const ProgramResult near = run({"chek", "study.yaml"});
+  const ProgramResult near = program({"chek", "study.yaml"});
   EXPECT_EQ(near.code, 2);
   EXPECT_NE(near.err.find("unknown command 'chek'; did you mean check? See"), std::string::npos) << near.err;
-  EXPECT_EQ(run({"frobnicate"}).err, "zerocount: unknown command 'frobnicate'; see 'zerocount --help'\n");
+  EXPECT_EQ(program({"frobnicate"}).err, "zerocount: unknown command 'frobnicate'; see 'zerocount --help'\n");
 }
 
 TEST_F(Hints, CompletionTellsTheLabelsOfPoints) {
   warnings_of({"run", "study.yaml", "-q", "-o", "out.h5"});
-  const std::string labels = run({"completion", "points", "study.yaml"}).out;
+  const std::string labels = program({"completion", "points", "study.yaml"}).out;
   EXPECT_EQ(std::count(labels.begin(), labels.end(), '\n'), 2) << labels;
-  EXPECT_EQ(run({"completion", "points", "out.h5"}).out, labels);
-  EXPECT_EQ(run({"completion", "points"}).code, 2);
-  EXPECT_EQ(run({"completion", "bash", "study.yaml"}).code, 2);
-  EXPECT_NE(run({"completion", "bash"}).out.find(" friction.k1= "), std::string::npos);
-  EXPECT_NE(run({"completion", "zsh"}).out.find(" friction.k1= "), std::string::npos);
+  EXPECT_EQ(program({"completion", "points", "out.h5"}).out, labels);
+  EXPECT_EQ(program({"completion", "points"}).code, 2);
+  EXPECT_EQ(program({"completion", "bash", "study.yaml"}).code, 2);
+  EXPECT_NE(program({"completion", "bash"}).out.find(" friction.k1= "), std::string::npos);
+  EXPECT_NE(program({"completion", "zsh"}).out.find(" friction.k1= "), std::string::npos);
 }
 
 }  // namespace

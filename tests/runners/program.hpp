@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
 #include <sys/types.h>
 
 #include "tests/support/temporary_folder.hpp"
@@ -21,6 +22,16 @@ struct ProgramResult {
 /// @param environment further variables, as NAME=VALUE
 ProgramResult zerocount_program(const std::vector<std::string>& words, const std::filesystem::path& directory,
                                 const std::vector<std::string>& environment = {});
+
+/// A test with a folder of its own, in which it runs `zerocount`.
+class ProgramTest : public ::testing::Test {
+ protected:
+  ProgramResult program(const std::vector<std::string>& words) const {
+    return zerocount_program(words, folder_.path());
+  }
+
+  TemporaryFolder folder_;
+};
 
 /// A `zerocount` that is running.
 class RunningProgram {

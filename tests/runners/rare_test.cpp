@@ -50,11 +50,8 @@ constexpr const char* on_rotors =
     "controller: {ki: 5.0e-5, kp: 2.0e-4}\n"
     "goal: {band: 1, within: 0.03, moves: 0.99}\n";
 
-class Rare : public ::testing::Test {
+class Rare : public ProgramTest {
  protected:
-  ProgramResult program(const std::vector<std::string>& words) {
-    return zerocount_program(words, folder_.path());
-  }
   Json answer_to(std::vector<std::string> words, int code = 0) {
     words.insert(words.end(), {"--format", "json", "-q"});
     const ProgramResult result = program(words);
@@ -66,8 +63,6 @@ class Rare : public ::testing::Test {
     EXPECT_EQ(result.code, code) << result.out;
     EXPECT_NE(result.err.find(reason), std::string::npos) << result.err;
   }
-
-  TemporaryFolder folder_;
 };
 
 // Bounds of 95 % hold in all of six repetitions with a probability of 0.74 at least; here they do.

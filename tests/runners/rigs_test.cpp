@@ -34,21 +34,16 @@ const char* const machines =
     "sweep: {grid: {controller.ki: [2.0e-5, 6.0e-5]}}\n"
     "retain: {trials: [3]}\n";
 
-class RigStudy : public ::testing::Test {
+class RigStudy : public ProgramTest {
  protected:
   RigStudy() { write_bytes(folder_ / "m.yaml", machines); }
 
-  ProgramResult program(const std::vector<std::string>& words) {
-    return zerocount_program(words, folder_.path());
-  }
   void run(std::vector<std::string> more) {
     std::vector<std::string> words{"run", "m.yaml"};
     words.insert(words.end(), more.begin(), more.end());
     const ProgramResult result = program(words);
     ASSERT_EQ(result.code, 0) << result.err;
   }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(RigStudy, CheckSaysHowManyTrialsARigHasAndWhatItIsThatDiffers) {

@@ -30,18 +30,15 @@ void damage_chunk(const fs::path& path, const std::string& dataset) {
   storage::append_checksum(path);
 }
 
-class Run : public ::testing::Test {
+class Run : public ProgramTest {
  protected:
-  ProgramResult run(const std::vector<std::string>& words) {
-    return zerocount_program(words, folder_.path());
-  }
   fs::path at(const std::string& name) const { return folder_.path() / name; }
 
   /// Runs to the end, and expects success.
   void complete(const std::string& manifest, const std::string& output, std::vector<std::string> more = {}) {
     std::vector<std::string> words{"run", manifest, "-o", output};
     words.insert(words.end(), more.begin(), more.end());
-    const ProgramResult result = run(words);
+    const ProgramResult result = program(words);
     EXPECT_EQ(result.code, 0) << result.err;
     EXPECT_FALSE(fs::exists(at(output + ".shards")));
   }
@@ -57,12 +54,10 @@ class Run : public ::testing::Test {
     std::vector<std::string> words{"run", "long.yaml", "-o", output, "--threads", "1"};
     words.insert(words.end(), more.begin(), more.end());
     const std::ptrdiff_t before = files_in(output + ".shards");
-    RunningProgram program(words, folder_.path());
+    RunningProgram running(words, folder_.path());
     while (files_in(output + ".shards") <= before) std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    return program;
+    return running;
   }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(Run, GivesTheSameDatasetsForAnyNumberOfThreads) {
@@ -81,16 +76,16 @@ TEST_F(Run, GivesTheSameDatasetsInParts) {
   for (const char* part : {"3/3", "1/3", "2/3"}) {
     complete("study.yaml", std::string("part") + part[0] + ".h5", {"--shard", part});
   }
-  const ProgramResult incomplete = run({"merge", "part1.h5", "part3.h5", "-o", "merged.h5"});
+  const ProgramResult incomplete = program({"merge", "part1.h5", "part3.h5", "-o", "merged.h5"});
   EXPECT_EQ(incomplete.code, 4);
   EXPECT_NE(incomplete.err.find("missing"), std::string::npos) << incomplete.err;
-  EXPECT_EQ(run({"summary", "part1.h5"}).code, 4);
-  const ProgramResult merged = run({"merge", "part3.h5", "part1.h5", "part2.h5", "-o", "merged.h5"});
+  EXPECT_EQ(program({"summary", "part1.h5"}).code, 4);
+  const ProgramResult merged = program({"merge", "part3.h5", "part1.h5", "part2.h5", "-o", "merged.h5"});
   EXPECT_EQ(merged.code, 0) << merged.err;
   expect_same_datasets(at("whole.h5"), at("merged.h5"));
-  EXPECT_EQ(run({"merge", "part3.h5", "part1.h5", "part2.h5", "-o", "merged.h5"}).code, 2);  // it exists
+  EXPECT_EQ(program({"merge", "part3.h5", "part1.h5", "part2.h5", "-o", "merged.h5"}).code, 2);  // it exists
   const ProgramResult twice =
-      run({"merge", "part1.h5", "part1.h5", "part2.h5", "part3.h5", "-o", "twice.h5"});
+      program({"merge", "part1.h5", "part1.h5", "part2.h5", "part3.h5", "-o", "twice.h5"});
   EXPECT_EQ(twice.code, 4);
   EXPECT_NE(twice.err.find("part1.h5: is given twice"), std::string::npos) << twice.err;
 }
@@ -103,10 +98,10 @@ TEST_F(Run, SurvivesBeingKilledAtRandomMoments) {
   for (const int signal : {SIGKILL, SIGINT, SIGTERM}) {
     const std::string name = "hit" + std::to_string(signal) + ".h5";
     for (int kill = 0; kill < 6; ++kill) {
-      RunningProgram program({"run", "study.yaml", "-o", name, "--threads", "2"}, folder_.path());
+      RunningProgram running({"run", "study.yaml", "-o", name, "--threads", "2"}, folder_.path());
       std::this_thread::sleep_for(std::chrono::milliseconds(moment(random)));
-      program.send(signal);
-      const int code = program.wait();
+      running.send(signal);
+      const int code = running.wait();
       // Finished in time, ended by the signal, or (before the watch is set up) by its default action.
       EXPECT_TRUE(code == 0 || code == 130 || code == 128 + signal) << code;
     }
@@ -116,13 +111,13 @@ TEST_F(Run, SurvivesBeingKilledAtRandomMoments) {
 }
 
 TEST_F(Run, KeepsWhatIsFinishedWhenInterruptedAndGoesOn) {
-  RunningProgram program = start_long_run("long.h5");
-  program.send(SIGINT);
-  EXPECT_EQ(program.wait(), 130);
+  RunningProgram running = start_long_run("long.h5");
+  running.send(SIGINT);
+  EXPECT_EQ(running.wait(), 130);
   EXPECT_FALSE(fs::exists(at("long.h5")));
   EXPECT_FALSE(fs::is_empty(at("long.h5.shards")));
   folder_.write("other.yaml", small_manifest(20001));
-  const ProgramResult other = run({"run", "other.yaml", "-o", "long.h5"});
+  const ProgramResult other = program({"run", "other.yaml", "-o", "long.h5"});
   EXPECT_EQ(other.code, 2) << other.err;
   EXPECT_NE(other.err.find("trials is 200000 there and 20001 here"), std::string::npos) << other.err;
   RunningProgram again = start_long_run("long.h5");
@@ -131,10 +126,10 @@ TEST_F(Run, KeepsWhatIsFinishedWhenInterruptedAndGoesOn) {
 }
 
 TEST_F(Run, LosesLittleWhenItIsKilled) {
-  RunningProgram program = start_long_run("killed.h5");
+  RunningProgram running = start_long_run("killed.h5");
   std::this_thread::sleep_for(std::chrono::milliseconds(1500));
-  program.send(SIGKILL);
-  program.wait();
+  running.send(SIGKILL);
+  running.wait();
   std::int64_t kept = 0;
   for (const auto& entry : fs::directory_iterator(at("killed.h5.shards"))) {
     if (entry.path().extension() == ".h5")
@@ -175,7 +170,7 @@ TEST_F(Run, TidiesUpAfterARunThatDiedAtItsEnd) {
   complete("study.yaml", "other.h5", {"--set", "seed=43"});
   fs::create_directory(at("out.h5.shards"));
   fs::copy(at("other.h5"), at("out.h5.shards/other.h5"));
-  EXPECT_EQ(run({"run", "study.yaml", "-o", "out.h5"}).code,
+  EXPECT_EQ(program({"run", "study.yaml", "-o", "out.h5"}).code,
             0);  // nothing to run, so nothing stands in the way
   EXPECT_TRUE(fs::exists(at("out.h5.shards/other.h5")));
 }
@@ -187,7 +182,7 @@ TEST_F(Run, RunsAgainWhatADamagedShardHeld) {
   const std::string bytes = folder_.read("part.h5");
   fs::create_directory(at("new.h5.shards"));
   folder_.write("new.h5.shards/damaged.h5", bytes.substr(0, bytes.size() / 2));
-  const ProgramResult result = run({"run", "study.yaml", "-o", "new.h5"});
+  const ProgramResult result = program({"run", "study.yaml", "-o", "new.h5"});
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_NE(result.err.find("warning"), std::string::npos) << result.err;
   EXPECT_EQ(folder_.read("new.h5.shards/damaged.h5.damaged").size(), bytes.size() / 2);
@@ -201,7 +196,7 @@ TEST_F(Run, RunsAgainWhatAShardWithAnImpossibleInputHeld) {
   fs::create_directory(at("new.h5.shards"));
   complete("study.yaml", "new.h5.shards/wrong.h5", {"--shard", "1/2"});
   set_element(at("new.h5.shards/wrong.h5"), "/trial/input/friction.k2", 3, -1.0);
-  const ProgramResult result = run({"run", "study.yaml", "-o", "new.h5"});
+  const ProgramResult result = program({"run", "study.yaml", "-o", "new.h5"});
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_NE(result.err.find("/trial/input/friction.k2: trial 3: it is -1; expected"), std::string::npos)
       << result.err;
@@ -218,7 +213,7 @@ TEST_F(Run, RunsAgainWhatASealedShardWithWrongDataHeld) {
     SCOPED_TRACE(dataset);
     fs::copy_file(at("part.h5"), at("new.h5.shards/wrong.h5"));
     damage_chunk(at("new.h5.shards/wrong.h5"), dataset);
-    const ProgramResult result = run({"run", "study.yaml", "-o", "new.h5"});
+    const ProgramResult result = program({"run", "study.yaml", "-o", "new.h5"});
     EXPECT_EQ(result.code, 0) << result.err;
     EXPECT_NE(result.err.find("wrong.h5"), std::string::npos) << result.err;
     expect_same_datasets(at("whole.h5"), at("new.h5"));
@@ -235,7 +230,7 @@ constexpr const char* long_trials =
 TEST_F(Run, ACheckOfLongTrialsEndsSoon) {
   folder_.write("slow.yaml", long_trials);
   const auto started = std::chrono::steady_clock::now();
-  const ProgramResult result = run({"check", "slow.yaml"});
+  const ProgramResult result = program({"check", "slow.yaml"});
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_LT(std::chrono::steady_clock::now() - started, std::chrono::seconds(60));
 }
@@ -244,18 +239,18 @@ TEST_F(Run, ACheckOfLongTrialsEndsSoon) {
 TEST_F(Run, ASignalEndsALongTrial) {
   folder_.write("slow.yaml", long_trials);
   for (const char* engine : {"batch", "reference"}) {
-    RunningProgram program({"run", "slow.yaml", "-o", "slow.h5", "-q", "--engine", engine}, folder_.path());
+    RunningProgram running({"run", "slow.yaml", "-o", "slow.h5", "-q", "--engine", engine}, folder_.path());
     std::this_thread::sleep_for(std::chrono::milliseconds(400));
     const auto sent = std::chrono::steady_clock::now();
-    program.send(SIGTERM);
-    EXPECT_EQ(program.wait(), 130) << engine;
+    running.send(SIGTERM);
+    EXPECT_EQ(running.wait(), 130) << engine;
     EXPECT_LT(std::chrono::steady_clock::now() - sent, std::chrono::seconds(20)) << engine;
   }
 }
 
 TEST_F(Run, RefusesASecondRunOnTheSameOutput) {
   RunningProgram first = start_long_run("out.h5");
-  const ProgramResult second = run({"run", "long.yaml", "-o", "out.h5"});
+  const ProgramResult second = program({"run", "long.yaml", "-o", "out.h5"});
   EXPECT_EQ(second.code, 5) << second.err;
   EXPECT_NE(second.err.find("out.h5"), std::string::npos) << second.err;
   first.send(SIGKILL);
@@ -267,12 +262,12 @@ TEST_F(Run, RefusesASecondRunOnTheSameOutput) {
 
 TEST_F(Run, SaysWhyAnOutputCannotBeWritten) {
   folder_.write("study.yaml", small_manifest(4));
-  const ProgramResult result = run({"run", "study.yaml", "-o", "nowhere/out.h5"});
+  const ProgramResult result = program({"run", "study.yaml", "-o", "nowhere/out.h5"});
   EXPECT_EQ(result.code, 5);
   EXPECT_NE(result.err.find("nowhere"), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("does not exist"), std::string::npos) << result.err;
-  EXPECT_EQ(run({"run", "study.yaml", "-o", "new/"}).code, 2);
-  EXPECT_EQ(run({"run", "study.yaml", "-o", "."}).code, 2);
+  EXPECT_EQ(program({"run", "study.yaml", "-o", "new/"}).code, 2);
+  EXPECT_EQ(program({"run", "study.yaml", "-o", "."}).code, 2);
 }
 
 TEST_F(Run, AFullDiskLosesNothingThatWasFinished) {
@@ -295,7 +290,7 @@ TEST_F(Run, RecordsOverridesAndTraceReplaysThem) {
   EXPECT_EQ(reading::AllTrialsFile(at("set.h5")).header().overrides,
             (std::vector<std::string>{"trials=3", "plant.inertia=6e-4"}));
   EXPECT_EQ(reading::AllTrialsFile(at("set.h5")).rows().count, 6);
-  EXPECT_EQ(run({"trace", "set.h5", "--point", "1", "--trial", "2"}).code, 0);
+  EXPECT_EQ(program({"trace", "set.h5", "--point", "1", "--trial", "2"}).code, 0);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 const std::string table_text = "friction.k1,friction.k2\n100,700\n110,650\n120,720\n";
 
-class Samples : public ::testing::Test {
+class Samples : public ProgramTest {
  protected:
   void SetUp() override {
     std::filesystem::create_directory(folder_ / "studies");
@@ -22,16 +22,11 @@ class Samples : public ::testing::Test {
                   "command: {targets: [20], hold: 0.05}\nsamples: posterior.csv\n");
     folder_.write("studies/posterior.csv", table_text);
   }
-  ProgramResult program(const std::vector<std::string>& words) {
-    return zerocount_program(words, folder_.path());
-  }
   ProgramResult run(const std::string& output, const std::vector<std::string>& more = {}) {
     std::vector<std::string> words{"run", "studies/study.yaml", "-o", output};
     words.insert(words.end(), more.begin(), more.end());
     return program(words);
   }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(Samples, AreFoundBesideTheManifest) {

@@ -7,24 +7,20 @@
 namespace zerocount::testing {
 namespace {
 
-class SensitivityCommand : public ::testing::Test {
+class SensitivityCommand : public ProgramTest {
  protected:
   // Four factors: k2, the target, phase and position are drawn, so 6 trials a row.
   SensitivityCommand() { folder_.write("study.yaml", small_manifest(180, "design: saltelli\n")); }
-  ProgramResult run(const std::vector<std::string>& words) {
-    return zerocount_program(words, folder_.path());
-  }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(SensitivityCommand, SaysWhatDrivesTheTrialsOfASaltelliDesign) {
-  ASSERT_EQ(run({"run", "study.yaml", "-o", "study.h5", "--quiet", "--set", "friction.beta=2.0e+5"}).code, 0);
-  const ProgramResult table = run({"sensitivity", "study.h5"});
+  ASSERT_EQ(program({"run", "study.yaml", "-o", "study.h5", "--quiet", "--set", "friction.beta=2.0e+5"}).code,
+            0);
+  const ProgramResult table = program({"sensitivity", "study.h5"});
   EXPECT_EQ(table.code, 0) << table.err;
   EXPECT_NE(table.out.find("command.targets.0"), std::string::npos) << table.out;
   const ProgramResult found =
-      run({"sensitivity", "study.h5", "--point", "0", "--output", "settling_time", "--format", "json"});
+      program({"sensitivity", "study.h5", "--point", "0", "--output", "settling_time", "--format", "json"});
   ASSERT_EQ(found.code, 0) << found.err;
   const auto json = nlohmann::json::parse(found.out);
   EXPECT_TRUE(json["design_is_saltelli"].get<bool>());
@@ -35,34 +31,34 @@ TEST_F(SensitivityCommand, SaysWhatDrivesTheTrialsOfASaltelliDesign) {
   EXPECT_EQ(output["factors"].size(), 5u);
   EXPECT_EQ(output["factors"][0]["name"], "command.targets.0") << "a longer way takes longer";
   EXPECT_TRUE(output["factors"][0]["matters"].get<bool>());
-  EXPECT_NE(run({"sensitivity", "study.h5", "--format", "csv"}).out.find("0,low,success,"),
+  EXPECT_NE(program({"sensitivity", "study.h5", "--format", "csv"}).out.find("0,low,success,"),
             std::string::npos);
 }
 
 TEST_F(SensitivityCommand, TheSaltelliDesignIsTheSameInPartsAndInterrupted) {
-  ASSERT_EQ(run({"run", "study.yaml", "-o", "whole.h5", "--quiet"}).code, 0);
+  ASSERT_EQ(program({"run", "study.yaml", "-o", "whole.h5", "--quiet"}).code, 0);
   for (const char* part : {"1/3", "2/3", "3/3"}) {
     const std::string file = std::string("part") + part[0] + ".h5";
-    ASSERT_EQ(run({"run", "study.yaml", "-o", file, "--shard", part, "--quiet"}).code, 0);
+    ASSERT_EQ(program({"run", "study.yaml", "-o", file, "--shard", part, "--quiet"}).code, 0);
   }
-  ASSERT_EQ(run({"merge", "part1.h5", "part2.h5", "part3.h5", "-o", "merged.h5"}).code, 0);
-  EXPECT_EQ(run({"sensitivity", "merged.h5", "--format", "csv"}).out,
-            run({"sensitivity", "whole.h5", "--format", "csv"}).out);
+  ASSERT_EQ(program({"merge", "part1.h5", "part2.h5", "part3.h5", "-o", "merged.h5"}).code, 0);
+  EXPECT_EQ(program({"sensitivity", "merged.h5", "--format", "csv"}).out,
+            program({"sensitivity", "whole.h5", "--format", "csv"}).out);
 }
 
 TEST_F(SensitivityCommand, WhereNothingCanBeEstimatedTheExitCodeIsThree) {
   folder_.write("sure.yaml",
                 "zerocount: 1\nname: sure\nseed: 1\ntrials: 60\ncommand: {targets: [0], hold: 0.1}\n"
                 "friction: {k1: {uniform: [100, 120]}}\nverdict: {dwell: 0.02, window: 0.02}\n");
-  ASSERT_EQ(run({"run", "sure.yaml", "-o", "sure.h5", "--quiet"}).code, 0);
-  const ProgramResult nothing = run({"sensitivity", "sure.h5"});
+  ASSERT_EQ(program({"run", "sure.yaml", "-o", "sure.h5", "--quiet"}).code, 0);
+  const ProgramResult nothing = program({"sensitivity", "sure.h5"});
   EXPECT_EQ(nothing.code, 3);
   EXPECT_NE(nothing.out.find("success is 1 in all 60 trials: it has no variance"), std::string::npos)
       << nothing.out;
 }
 
 TEST_F(SensitivityCommand, BadQuestionsExitWithTwo) {
-  ASSERT_EQ(run({"run", "study.yaml", "-o", "study.h5", "--quiet"}).code, 0);
+  ASSERT_EQ(program({"run", "study.yaml", "-o", "study.h5", "--quiet"}).code, 0);
   const std::vector<std::vector<std::string>> cases{{"sensitivity"},
                                                     {"sensitivity", "missing.h5"},
                                                     {"sensitivity", "study.h5", "--point", "2"},
@@ -72,7 +68,7 @@ TEST_F(SensitivityCommand, BadQuestionsExitWithTwo) {
                                                     {"sensitivity", "study.h5", "--confidence", "0.99999"},
                                                     {"sensitivity", "study.h5", "--format", "xml"}};
   for (const auto& words : cases) {
-    const ProgramResult result = run(words);
+    const ProgramResult result = program(words);
     EXPECT_EQ(result.code, 2) << ::testing::PrintToString(words);
     EXPECT_FALSE(result.err.empty());
     EXPECT_TRUE(result.out.empty());

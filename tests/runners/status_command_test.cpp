@@ -15,11 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class StatusOfARun : public ::testing::Test {
+class StatusOfARun : public ProgramTest {
  protected:
-  ProgramResult program(const std::vector<std::string>& words) const {
-    return zerocount_program(words, folder_.path());
-  }
   nlohmann::json status() const {
     const ProgramResult result = program({"status", "out.h5", "--format", "json"});
     EXPECT_EQ(result.code, 0) << result.err;
@@ -30,8 +27,6 @@ class StatusOfARun : public ::testing::Test {
         program({"run", "study.yaml", "-q", "-o", output, "--shard", std::to_string(part) + "/4"});
     ASSERT_EQ(result.code, 0) << result.err;
   }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(StatusOfARun, IsThatOfItsShards) {

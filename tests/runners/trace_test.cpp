@@ -21,12 +21,9 @@ namespace {
 constexpr const char* columns =
     "k,t,target,count,coarse_count,error,code,torque,theta,omega,xp,xh,depth,mode";
 
-class Trace : public ::testing::Test {
+class Trace : public ProgramTest {
  protected:
   Trace() { folder_.write("study.yaml", small_manifest(5, "retain: {trials: [2]}\n")); }
-  ProgramResult run(const std::vector<std::string>& words) {
-    return zerocount_program(words, folder_.path());
-  }
 
   std::vector<trial::SampleRecord> records(std::int64_t point, std::int64_t index) const {
     const study::Study study = manifest::load_study(folder_.path() / "study.yaml");
@@ -36,12 +33,10 @@ class Trace : public ::testing::Test {
     trial::run_trial(study::study_trial(study, point, index).parameters, observers);
     return all;
   }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(Trace, CsvHasTheColumnsAndReadsBackToTheSameNumbers) {
-  const ProgramResult result = run({"trace", "study.yaml", "--point", "1", "--trial", "3"});
+  const ProgramResult result = program({"trace", "study.yaml", "--point", "1", "--trial", "3"});
   ASSERT_EQ(result.code, 0) << result.err;
   std::istringstream lines(result.out);
   std::string line;
@@ -76,7 +71,7 @@ TEST_F(Trace, CsvHasTheColumnsAndReadsBackToTheSameNumbers) {
 
 TEST_F(Trace, JsonHoldsTheSame) {
   const auto json =
-      nlohmann::json::parse(run({"trace", "study.yaml", "--trial", "1", "--format", "json"}).out);
+      nlohmann::json::parse(program({"trace", "study.yaml", "--trial", "1", "--format", "json"}).out);
   const std::vector<trial::SampleRecord> expected = records(0, 1);
   ASSERT_EQ(json["samples"].size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -90,13 +85,14 @@ TEST_F(Trace, JsonHoldsTheSame) {
 }
 
 TEST_F(Trace, ReplaysFromTheFileAloneAndEqualsTheRetainedRecord) {
-  ASSERT_EQ(run({"run", "study.yaml", "-o", "out.h5"}).code, 0);
-  const std::string from_manifest = run({"trace", "study.yaml", "--point", "1", "--trial", "2"}).out;
+  ASSERT_EQ(program({"run", "study.yaml", "-o", "out.h5"}).code, 0);
+  const std::string from_manifest = program({"trace", "study.yaml", "--point", "1", "--trial", "2"}).out;
   std::filesystem::remove(folder_.path() / "study.yaml");
-  const ProgramResult replay = run({"trace", "out.h5", "--point", "1", "--trial", "2", "-o", "trial.csv"});
+  const ProgramResult replay =
+      program({"trace", "out.h5", "--point", "1", "--trial", "2", "-o", "trial.csv"});
   EXPECT_EQ(replay.code, 0) << replay.err;
   EXPECT_EQ(folder_.read("trial.csv"), from_manifest);
-  EXPECT_EQ(run({"trace", "out.h5", "-o", "trial.csv"}).code, 2);  // never over an existing file
+  EXPECT_EQ(program({"trace", "out.h5", "-o", "trial.csv"}).code, 2);  // never over an existing file
 
   const reading::AllTrialsFile file(folder_.path() / "out.h5");
   const std::vector<layout::TraceRecord> kept = file.trace_at(0, file.trace_count());
@@ -110,13 +106,13 @@ TEST_F(Trace, ReplaysAFileOfFormatVersion1WithTheDefaultsOfItsTime) {
   const std::filesystem::path path = version_1_file(folder_.path());
   for (const char* point : {"0", "1"}) {
     for (const char* trial : {"0", "1", "2"}) {
-      const ProgramResult replay = run({"trace", "version-1.h5", "--point", point, "--trial", trial});
+      const ProgramResult replay = program({"trace", "version-1.h5", "--point", point, "--trial", trial});
       EXPECT_EQ(replay.code, 0) << replay.err;
     }
   }
   const std::vector<layout::TraceRecord> kept = reading::AllTrialsFile(path).trace_at(0, 200);
   const auto json =
-      nlohmann::json::parse(run({"trace", "version-1.h5", "--trial", "1", "--format", "json"}).out);
+      nlohmann::json::parse(program({"trace", "version-1.h5", "--trial", "1", "--format", "json"}).out);
   ASSERT_EQ(json["samples"].size(), kept.size());
   for (std::size_t i = 0; i < kept.size(); ++i) {
     EXPECT_EQ(json["samples"][i]["count"].get<std::int64_t>(), kept[i].count);
@@ -133,8 +129,8 @@ TEST_F(Trace, ReportsAReplayThatIsNotTheRecordedTrial) {
   study_run::assemble(std::vector<shards::ShardInfo>{{shard, layout::all_rows(study)}}, study,
                       folder_.path() / "altered.h5", layout::all_rows(study));
 
-  EXPECT_EQ(run({"trace", "altered.h5", "--trial", "2"}).code, 0);
-  const ProgramResult altered = run({"trace", "altered.h5", "--trial", "3"});
+  EXPECT_EQ(program({"trace", "altered.h5", "--trial", "2"}).code, 0);
+  const ProgramResult altered = program({"trace", "altered.h5", "--trial", "3"});
   EXPECT_EQ(altered.code, 4);
   EXPECT_NE(altered.err.find("move 0: holding_torque: recorded"), std::string::npos) << altered.err;
   EXPECT_EQ(altered.err.find("creep"), std::string::npos) << altered.err;
@@ -142,7 +138,7 @@ TEST_F(Trace, ReportsAReplayThatIsNotTheRecordedTrial) {
 
 TEST_F(Trace, OfAnEmptyResultsFileSaysThatItIsDamaged) {
   folder_.write("empty.h5", "");
-  const ProgramResult result = run({"trace", "empty.h5"});
+  const ProgramResult result = program({"trace", "empty.h5"});
   EXPECT_EQ(result.code, 4);
   EXPECT_NE(result.err.find("empty.h5: not a results file of zerocount"), std::string::npos) << result.err;
 }
@@ -158,9 +154,9 @@ TEST_F(Trace, LeavesNoHalfFile) {
 }
 
 TEST_F(Trace, OfAPartHoldsOnlyItsTrials) {
-  ASSERT_EQ(run({"run", "study.yaml", "-o", "part.h5", "--shard", "1/2"}).code, 0);
-  EXPECT_EQ(run({"trace", "part.h5", "--point", "0", "--trial", "4"}).code, 0);
-  EXPECT_EQ(run({"trace", "part.h5", "--point", "1", "--trial", "0"}).code, 2);
+  ASSERT_EQ(program({"run", "study.yaml", "-o", "part.h5", "--shard", "1/2"}).code, 0);
+  EXPECT_EQ(program({"trace", "part.h5", "--point", "0", "--trial", "4"}).code, 0);
+  EXPECT_EQ(program({"trace", "part.h5", "--point", "1", "--trial", "0"}).code, 2);
 }
 
 }  // namespace

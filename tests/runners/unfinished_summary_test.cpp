@@ -17,13 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class UnfinishedSummary : public ::testing::Test {
+class UnfinishedSummary : public ProgramTest {
  protected:
   fs::path at(const std::string& name) const { return folder_.path() / name; }
-
-  ProgramResult program(const std::vector<std::string>& words) {
-    return zerocount_program(words, folder_.path());
-  }
 
   void complete(const std::string& output, const std::vector<std::string>& more = {}) {
     std::vector<std::string> words{"run", "study.yaml", "-o", output};
@@ -51,8 +47,6 @@ class UnfinishedSummary : public ::testing::Test {
     EXPECT_EQ(result.code, 0) << result.err;
     return nlohmann::json::parse(result.out, nullptr, false);
   }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(UnfinishedSummary, HasTheStatisticsOfTheTrialsThatAreFinished) {

@@ -30,22 +30,17 @@ constexpr const char* study_in_worlds =
     "initial: {encoder_phase: {uniform: [0, 1]}, hardening: {uniform: [0, 1.0e-4]}}\n"
     "goal: {band: 0, within: 0.25, moves: 0.7}\n";
 
-class WorldStudy : public ::testing::Test {
+class WorldStudy : public ProgramTest {
  protected:
   void SetUp() override {
     folder_.write("study.yaml", study_in_worlds);
     const ProgramResult result = program({"run", "study.yaml", "-o", "out.h5"});
     ASSERT_EQ(result.code, 0) << result.err;
   }
-  ProgramResult program(const std::vector<std::string>& words) {
-    return zerocount_program(words, folder_.path());
-  }
   Json json_of(std::vector<std::string> words) {
     words.insert(words.end(), {"--format", "json"});
     return Json::parse(program(words).out, nullptr, false);
   }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(WorldStudy, IsJudgedByItsWorstWorld) {

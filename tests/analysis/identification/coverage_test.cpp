@@ -52,10 +52,6 @@ TEST(IdentificationCoverage, IntervalsHoldTheTruthOfCountsAlone) {
   expect_coverage(of_counts_alone(6));
 }
 
-TEST(IdentificationCoverage, IntervalsHoldTheTruthOfNoisyCounts) {
-  expect_coverage(of_noisy_counts(6));
-}
-
 TEST(IdentificationCoverage, DISABLED_IntervalsHoldTheTruthOfCountsAloneOfManyRigs) {
   expect_coverage(of_counts_alone(24));
 }

@@ -18,25 +18,19 @@ namespace {
 
 using ::testing::Values;
 
-class CommandLine : public ::testing::Test {
- protected:
-  ProgramResult run(const std::vector<std::string>& words) {
-    return zerocount_program(words, folder_.path());
-  }
-  TemporaryFolder folder_;
-};
+class CommandLine : public ProgramTest {};
 
 TEST_F(CommandLine, HelpGoesToStandardOutput) {
-  const ProgramResult help = run({"--help"});
+  const ProgramResult help = program({"--help"});
   EXPECT_EQ(help.code, 0);
   for (const char* verb : {"check", "run", "summary", "trace", "merge", "export", "parameters", "schema"}) {
     EXPECT_NE(help.out.find(verb), std::string::npos) << verb;
-    const ProgramResult more = run({verb, "--help"});
+    const ProgramResult more = program({verb, "--help"});
     EXPECT_EQ(more.code, 0) << verb;
     EXPECT_NE(more.out.find("usage: zerocount " + std::string(verb)), std::string::npos) << verb;
-    EXPECT_EQ(run({"help", verb}).out, more.out);
+    EXPECT_EQ(program({"help", verb}).out, more.out);
   }
-  EXPECT_EQ(run({"--version"}).code, 0);
+  EXPECT_EQ(program({"--version"}).code, 0);
 }
 
 TEST_F(CommandLine, BadUsageExitsWithTwoAndOneMessage) {
@@ -71,7 +65,7 @@ TEST_F(CommandLine, BadUsageExitsWithTwoAndOneMessage) {
       {"parameters", "study.yaml"},
   };
   for (const auto& words : cases) {
-    const ProgramResult result = run(words);
+    const ProgramResult result = program(words);
     EXPECT_EQ(result.code, 2) << ::testing::PrintToString(words) << result.err;
     EXPECT_FALSE(result.err.empty());
     EXPECT_TRUE(result.out.empty()) << result.out;
@@ -81,19 +75,19 @@ TEST_F(CommandLine, BadUsageExitsWithTwoAndOneMessage) {
 }
 
 TEST_F(CommandLine, SaysWhatIsWrongWithAnOption) {
-  EXPECT_NE(run({"run", "s.yaml", "-o", "a.h5", "--quiet=1"}).err.find("'--quiet' takes no value"),
+  EXPECT_NE(program({"run", "s.yaml", "-o", "a.h5", "--quiet=1"}).err.find("'--quiet' takes no value"),
             std::string::npos);
-  EXPECT_NE(run({"run", "s.yaml", "-o"}).err.find("needs a value"), std::string::npos);
-  EXPECT_NE(run({"run", "s.yaml", "--outptu", "a.h5"})
+  EXPECT_NE(program({"run", "s.yaml", "-o"}).err.find("needs a value"), std::string::npos);
+  EXPECT_NE(program({"run", "s.yaml", "--outptu", "a.h5"})
                 .err.find("unknown option '--outptu'; did you mean --output?"),
             std::string::npos);
 }
 
 TEST_F(CommandLine, DataThatCannotBeUsedExitsWithFour) {
   folder_.write("text.h5", "this is no HDF5 file, but it is long enough to look at\n");
-  EXPECT_EQ(run({"summary", "text.h5"}).code, 4);
-  EXPECT_EQ(run({"export", "text.h5", "-o", "csv"}).code, 4);
-  EXPECT_EQ(run({"merge", "text.h5", "-o", "all.h5"}).code, 4);
+  EXPECT_EQ(program({"summary", "text.h5"}).code, 4);
+  EXPECT_EQ(program({"export", "text.h5", "-o", "csv"}).code, 4);
+  EXPECT_EQ(program({"merge", "text.h5", "-o", "all.h5"}).code, 4);
 }
 
 TEST_F(CommandLine, ManifestErrorsAreAllReportedWithTheirPlace) {
@@ -101,7 +95,7 @@ TEST_F(CommandLine, ManifestErrorsAreAllReportedWithTheirPlace) {
       "bad.yaml",
       "zerocount: 1\nname: bad\nseed: 1\ntrials: 10\nfrictoin: {k1: 3}\nfriction: {k1: -5, n: 0.5}\n"
       "command: {targets: [1], hold: no}\n");
-  const ProgramResult result = run({"check", "bad.yaml"});
+  const ProgramResult result = program({"check", "bad.yaml"});
   EXPECT_EQ(result.code, 2);
   for (const char* place : {"bad.yaml:5:1: frictoin", "bad.yaml:6:16: friction.k1",
                             "bad.yaml:6:23: friction.n", "bad.yaml:7:31: command.hold"}) {
@@ -111,7 +105,7 @@ TEST_F(CommandLine, ManifestErrorsAreAllReportedWithTheirPlace) {
 
 TEST_F(CommandLine, CheckPrintsThePlanAndTheCriteria) {
   folder_.write("study.yaml", "zerocount: 1\nname: rig\nseed: 1\ntrials: 10\ncommand: {targets: [5]}\n");
-  const ProgramResult result = run({"check", "study.yaml"});
+  const ProgramResult result = program({"check", "study.yaml"});
   EXPECT_EQ(result.code, 0) << result.err;
   for (const char* text : {"1 design point × 10 trials", "3.85e-05", "3.01e-04", "3.57e-05", "198"}) {
     const std::string short_form = std::string(text) == "3.01e-04" ? "0.000301" : text;
@@ -124,13 +118,13 @@ TEST_F(CommandLine, CheckSaysNothingOfBoundsWhereTheTheoryIsNotAboutTheLoop) {
   folder_.write("open.yaml", head + "command: {torque: {levels: [0.1], through: exact}}\n");
   folder_.write("models.yaml", head + "command: {targets: [5]}\n" +
                                    "sweep: {grid: {friction.model: [coulomb, none, spring]}}\n");
-  const std::string open = run({"check", "open.yaml"}).out;
+  const std::string open = program({"check", "open.yaml"}).out;
   EXPECT_NE(open.find("do not apply: the loop is open"), std::string::npos) << open;
   for (const char* bound : {"(6)", "(7)", "sampled loop", "DAC", "natural frequency", "N m/count"}) {
     EXPECT_EQ(open.find(bound), std::string::npos) << bound;
   }
   const auto theory_of = [this](const std::string& model) {
-    return run({"check", "models.yaml", "--set", "sweep={grid: {friction.model: [" + model + "]}}"}).out;
+    return program({"check", "models.yaml", "--set", "sweep={grid: {friction.model: [" + model + "]}}"}).out;
   };
   const std::string of_coulomb = theory_of("coulomb"), of_none = theory_of("none");
   EXPECT_NE(of_coulomb.find("friction.model coulomb has no spring"), std::string::npos) << of_coulomb;
@@ -147,7 +141,7 @@ TEST_F(CommandLine, CheckTakesTheCountThatIsFedBackForTheRuleOfTheDac) {
   folder_.write("coarse.yaml",
                 "zerocount: 1\nname: rig\nseed: 1\ntrials: 1\ncommand: {targets: [5]}\n"
                 "controller: {encoder: coarse}\ndac: {resolution: 5.0e-4}\n");
-  const std::string out = run({"check", "coarse.yaml"}).out;
+  const std::string out = program({"check", "coarse.yaml"}).out;
   EXPECT_NE(out.find("0.0005 N m, below k1·Δx = 0.008 N m with the Δx of the coarse encoder "
                      "(paper, issue 4): holds\n"),
             std::string::npos)
@@ -162,7 +156,7 @@ TEST_F(CommandLine, CheckPredictsNoHuntingOfALoopThatThePredictionsLeaveOut) {
            {"plant.load.inertia=1e-4", "the second mass"},
            {"controller.deadband=2", "the deadband"},
            {"controller.integrator_zone=10", "the integrator zone"}}) {
-    const std::string out = run({"check", "rig.yaml", "--set", set}).out;
+    const std::string out = program({"check", "rig.yaml", "--set", set}).out;
     EXPECT_TRUE(std::regex_search(
         out, std::regex("hunting of trial 0: +not predicted, since the predictions leave out " + left_out)))
         << out;
@@ -173,7 +167,7 @@ TEST_F(CommandLine, CheckHasARowPerPointAndSaysOnceWhatIsTheSameAtAll) {
   folder_.write("sweep.yaml",
                 "zerocount: 1\nname: rig\nseed: 1\ntrials: 3\ncommand: {targets: [5]}\n"
                 "sweep: {grid: {controller.ki: [1.0e-5, 2.0e-5, 3.0e-5]}}\n");
-  const std::string out = run({"check", "sweep.yaml"}).out;
+  const std::string out = program({"check", "sweep.yaml"}).out;
   EXPECT_EQ(out.find("natural frequency"), out.rfind("natural frequency: ")) << out;
   EXPECT_TRUE(std::regex_search(out, std::regex("\npoint +integral gain +.*slowest move"))) << out;
   EXPECT_TRUE(std::regex_search(out, std::regex("\npoint +loop +.*gain margin"))) << out;
@@ -185,15 +179,15 @@ TEST_F(CommandLine, APointIsNamedByItsNumberItsLabelOrTheLabelThatTablesShow) {
   folder_.write("grid.yaml",
                 "zerocount: 1\nname: rig\nseed: 1\ntrials: 2\ncommand: {targets: [5], hold: 0.1}\n"
                 "sweep: {grid: {controller.ki: [1.0e-5, 2.0e-5], controller.kp: [0, 1.0e-4]}}\n");
-  ASSERT_EQ(run({"run", "grid.yaml", "-q", "-o", "grid.h5"}).code, 0);
+  ASSERT_EQ(program({"run", "grid.yaml", "-q", "-o", "grid.h5"}).code, 0);
   const auto best_with = [&](const std::string& point) {
     return nlohmann::json::parse(
-        run({"summary", "grid.h5", "--format", "json", "--point", point}).out)["best"]["point"];
+        program({"summary", "grid.h5", "--format", "json", "--point", point}).out)["best"]["point"];
   };
   EXPECT_EQ(best_with("2"), 2);
   EXPECT_EQ(best_with("controller.ki=2e-05, controller.kp=0"), 2);
   EXPECT_EQ(best_with("ki=2e-05 kp=0"), 2);
-  EXPECT_EQ(run({"summary", "grid.h5", "--point", "kp=0"}).code, 2);
+  EXPECT_EQ(program({"summary", "grid.h5", "--point", "kp=0"}).code, 2);
 }
 
 // At a k1 that is the same in all trials the sampled loop may still be stable in some trials only.
@@ -201,7 +195,7 @@ TEST_F(CommandLine, CheckJudgesTheSampledLoopOfEachTrial) {
   folder_.write("rig.yaml",
                 "zerocount: 1\nname: rig\nseed: 1\ntrials: 20\ncommand: {targets: [5]}\n"
                 "plant: {presliding_damping: {uniform: [0.1, 0.4]}}\n");
-  const std::string out = run({"check", "rig.yaml"}).out;
+  const std::string out = program({"check", "rig.yaml"}).out;
   EXPECT_TRUE(std::regex_search(out, std::regex("sampled loop: +unstable in some trials\n"))) << out;
   EXPECT_TRUE(std::regex_search(out, std::regex("\nat k1 +unstable in some trials "))) << out;
 }
@@ -210,7 +204,7 @@ TEST_F(CommandLine, CheckCallsALoopThatNothingReturnsMarginal) {
   folder_.write("rig.yaml",
                 "zerocount: 1\nname: rig\nseed: 1\ntrials: 2\ncommand: {targets: [5]}\n"
                 "controller: {ki: 0}\n");
-  const std::string out = run({"check", "rig.yaml"}).out;
+  const std::string out = program({"check", "rig.yaml"}).out;
   EXPECT_TRUE(std::regex_search(
       out, std::regex("while sliding +marginal: a motion neither grows nor dies out within the hold +"
                       "no phase crossover +no gain crossover\n")))
@@ -220,22 +214,22 @@ TEST_F(CommandLine, CheckCallsALoopThatNothingReturnsMarginal) {
 TEST_F(CommandLine, CheckTellsTheCriteriaFromTheSampledLoop) {
   const std::string head = "zerocount: 1\nname: rig\nseed: 1\ntrials: 10\ncommand: {targets: [5]}\n";
   folder_.write("rig.yaml", head + "friction: {k1: 110}\n");
-  const std::string between = run({"check", "rig.yaml", "--set", "controller.ki=3.8e-5"}).out;
+  const std::string between = program({"check", "rig.yaml", "--set", "controller.ki=3.8e-5"}).out;
   const std::string criteria = "by \\(6\\) and \\(7\\): +stable\nsampled loop: +";
   EXPECT_TRUE(std::regex_search(between, std::regex(criteria + "unstable\n"))) << between;
-  const std::string low = run({"check", "rig.yaml", "--set", "controller.ki=1e-5"}).out;
+  const std::string low = program({"check", "rig.yaml", "--set", "controller.ki=1e-5"}).out;
   EXPECT_TRUE(std::regex_search(low, std::regex(criteria + "stable\n"))) << low;
-  const std::string none = run({"check", "rig.yaml", "--set", "controller.ki=0"}).out;
+  const std::string none = program({"check", "rig.yaml", "--set", "controller.ki=0"}).out;
   EXPECT_TRUE(std::regex_search(none, std::regex("integral: +none: the error stays"))) << none;
   EXPECT_EQ(none.find("slowest time constant"), std::string::npos) << none;
 }
 
 TEST_F(CommandLine, ParametersAndSchemaComeFromTheSameTable) {
-  const ProgramResult parameters = run({"parameters"});
+  const ProgramResult parameters = program({"parameters"});
   EXPECT_EQ(parameters.code, 0);
   EXPECT_NE(parameters.out.find("friction.k1"), std::string::npos);
-  EXPECT_NE(run({"parameters", "--format", "markdown"}).out.find("|"), std::string::npos);
-  const auto schema = nlohmann::json::parse(run({"schema"}).out);
+  EXPECT_NE(program({"parameters", "--format", "markdown"}).out.find("|"), std::string::npos);
+  const auto schema = nlohmann::json::parse(program({"schema"}).out);
   EXPECT_TRUE(schema["properties"].contains("friction"));
 }
 
@@ -256,7 +250,7 @@ TEST_F(CommandLine, AStandardErrorThatCannotBeWrittenStopsNothing) {
         " && rm -f a.h5 && { " ZEROCOUNT_PROGRAM " run study.yaml -o a.h5; echo $? > code; } " + to;
     std::system(command.c_str());
     EXPECT_EQ(folder_.read("code"), "0\n") << to;
-    const ProgramResult summary = run({"summary", "a.h5"});
+    const ProgramResult summary = program({"summary", "a.h5"});
     EXPECT_EQ(summary.code, 0) << to << ": " << summary.err;
   }
 }

@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class PluginStudy : public ::testing::Test {
+class PluginStudy : public ProgramTest {
  protected:
   PluginStudy() {
     use("pi_c");
@@ -25,16 +25,11 @@ class PluginStudy : public ::testing::Test {
   void use(const std::string& example) {
     fs::copy_file(example_controller(example), folder_ / "own.so", fs::copy_options::overwrite_existing);
   }
-  ProgramResult run(const std::vector<std::string>& words) {
-    return zerocount_program(words, folder_.path());
-  }
   ProgramResult run_study(std::vector<std::string> more = {}, const std::string& output = "out.h5") {
     std::vector<std::string> words{"run", "study.yaml", "-o", output};
     words.insert(words.end(), more.begin(), more.end());
-    return run(words);
+    return program(words);
   }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(PluginStudy, ItsParametersAreColumnsAndAxes) {
@@ -50,7 +45,7 @@ TEST_F(PluginStudy, ItsParametersAreColumnsAndAxes) {
   EXPECT_EQ(file.header().plugin->name, "pi");
   EXPECT_EQ(file.header().plugin->parameters.size(), 3u);
   EXPECT_EQ(file.header().plugin->sha256.size(), 64u);
-  const std::string listing = run({"parameters", "--manifest", "study.yaml"}).out;
+  const std::string listing = program({"parameters", "--manifest", "study.yaml"}).out;
   EXPECT_NE(listing.find("\ncontroller.parameters.zone "), std::string::npos);
 }
 
@@ -58,7 +53,7 @@ TEST_F(PluginStudy, ItsLibraryIsNeverReplacedByAnOutput) {
   const std::string library = folder_.read("own.so");
   EXPECT_EQ(run_study({"--force"}, "own.so").code, 2);
   ASSERT_EQ(run_study().code, 0);
-  EXPECT_EQ(run({"trace", "out.h5", "--plugin", "own.so", "-o", "own.so", "--force"}).code, 2);
+  EXPECT_EQ(program({"trace", "out.h5", "--plugin", "own.so", "-o", "own.so", "--force"}).code, 2);
   EXPECT_EQ(folder_.read("own.so"), library);
 }
 
@@ -70,17 +65,17 @@ TEST_F(PluginStudy, OtherCommandsDoWithoutTheLibrary) {
                                                 {"export", "out.h5", "-o", "tables"},
                                                 {"sensitivity", "out.h5"},
                                                 {"compare", "out.h5", "out.h5"}}) {
-    const ProgramResult result = run(words);
+    const ProgramResult result = program(words);
     EXPECT_TRUE(result.code == 0 || (words[0] == "compare" && result.code == 3)) << words[0] << result.err;
   }
   EXPECT_NE(folder_.read("out.html").find("the controller is the plugin pi 1.0"), std::string::npos);
-  EXPECT_EQ(run({"plot", "out.h5"}).out.find("bode"),
+  EXPECT_EQ(program({"plot", "out.h5"}).out.find("bode"),
             std::string::npos);  // its transfer function is not known
-  const ProgramResult trace = run({"trace", "out.h5"});
+  const ProgramResult trace = program({"trace", "out.h5"});
   EXPECT_EQ(trace.code, 2);
   EXPECT_TRUE(trace.out.empty());
   EXPECT_NE(trace.err.find("give its path with --plugin"), std::string::npos) << trace.err;
-  const ProgramResult confirm = run({"summary", "out.h5", "--confirm", "10"});
+  const ProgramResult confirm = program({"summary", "out.h5", "--confirm", "10"});
   EXPECT_EQ(confirm.code, 2);
   EXPECT_NE(confirm.err.find("expected its path with --plugin"), std::string::npos) << confirm.err;
 }
@@ -89,22 +84,22 @@ TEST_F(PluginStudy, AReplayNeedsTheSameLibrary) {
   ASSERT_EQ(run_study().code, 0);
   const std::vector<std::string> replay{"trace",   "out.h5", "--point",  "1",
                                         "--trial", "3",      "--plugin", "own.so"};
-  EXPECT_EQ(run(replay).code, 0);
+  EXPECT_EQ(program(replay).code, 0);
   use("pi_cpp");
-  const ProgramResult other = run(replay);
+  const ProgramResult other = program(replay);
   EXPECT_EQ(other.code, 4);
   EXPECT_NE(other.err.find("its trials were run with the plugin pi 1.0 with SHA-256"), std::string::npos);
 }
 
 TEST_F(PluginStudy, VerifyNeedsTheSameLibraryToRunTrialsAgain) {
   ASSERT_EQ(run_study().code, 0);
-  EXPECT_EQ(run({"verify", "out.h5"}).code, 2);
-  EXPECT_EQ(run({"verify", "out.h5", "--trials", "0"}).code, 0);
-  const ProgramResult result = run({"verify", "out.h5", "--plugin", "own.so"});
+  EXPECT_EQ(program({"verify", "out.h5"}).code, 2);
+  EXPECT_EQ(program({"verify", "out.h5", "--trials", "0"}).code, 0);
+  const ProgramResult result = program({"verify", "out.h5", "--plugin", "own.so"});
   EXPECT_EQ(result.code, 0) << result.out << result.err;
   EXPECT_NE(result.out.find("trials run again: 20 of 32"), std::string::npos) << result.out;
   use("pi_cpp");
-  EXPECT_EQ(run({"verify", "out.h5", "--plugin", "own.so"}).code, 4);
+  EXPECT_EQ(program({"verify", "out.h5", "--plugin", "own.so"}).code, 4);
 }
 
 TEST_F(PluginStudy, ResumingWithAnotherLibraryIsRefused) {
@@ -131,10 +126,10 @@ TEST_F(PluginStudy, PartsOfDifferentLibrariesAreNotMerged) {
   ASSERT_EQ(run_study({"--shard", "1/2"}, "a.h5").code, 0);
   use("pi_cpp");
   ASSERT_EQ(run_study({"--shard", "2/2"}, "b.h5").code, 0);
-  EXPECT_EQ(run({"merge", "a.h5", "b.h5", "-o", "all.h5"}).code, 4);
+  EXPECT_EQ(program({"merge", "a.h5", "b.h5", "-o", "all.h5"}).code, 4);
   use("pi_c");
   ASSERT_EQ(run_study({"--shard", "2/2"}, "c.h5").code, 0);
-  EXPECT_EQ(run({"merge", "a.h5", "c.h5", "-o", "all.h5"}).code, 0);
+  EXPECT_EQ(program({"merge", "a.h5", "c.h5", "-o", "all.h5"}).code, 0);
 }
 
 TEST_F(PluginStudy, RunsOnEitherEngine) {

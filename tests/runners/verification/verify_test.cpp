@@ -53,13 +53,9 @@ std::string problems_of(const std::vector<CheckReport>& reports) {
   return text;
 }
 
-class Verify : public ::testing::Test {
+class Verify : public ProgramTest {
  protected:
   Verify() { folder_.write("study.yaml", verified_manifest); }
-
-  ProgramResult program(const std::vector<std::string>& words) {
-    return zerocount_program(words, folder_.path());
-  }
 
   void make(const std::string& output, const std::vector<std::string>& more = {}) {
     std::vector<std::string> words{"run", "study.yaml", "-q", "-o", output};
@@ -91,8 +87,6 @@ class Verify : public ::testing::Test {
     fs::copy_file(folder_ / "out.h5", folder_ / name, fs::copy_options::overwrite_existing);
     return folder_ / name;
   }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(Verify, FindsNothingWrongInAFileAsItWasWritten) {

@@ -22,7 +22,7 @@ measures::MoveCounts counts_of(const MadeUpProblem& truth, const Values& at, std
 }
 
 TEST(Proof, ItsClaimsHoldAndThoseOfTheSearchDoNot) {
-  constexpr int repetitions = 200;
+  constexpr int repetitions = 80;
   int wrong_claims = 0;
   int wrong_bounds = 0;
   int wrong_bounds_of_search = 0;
@@ -30,7 +30,7 @@ TEST(Proof, ItsClaimsHoldAndThoseOfTheSearchDoNot) {
   for (int repetition = 0; repetition < repetitions; ++repetition) {
     // The rate is nearly the same everywhere, about what the goal asks for: the search picks lucky points.
     const auto seed = static_cast<std::uint64_t>(repetition + 1);
-    const MadeUpProblem truth{.seed = seed, .highest_rate = 0.94 + 0.00015 * repetition, .fall = 0.01};
+    const MadeUpProblem truth{.seed = seed, .highest_rate = 0.94 + 0.000375 * repetition, .fall = 0.01};
     const SearchResult found = search(truth.problem(256), {.seed = seed, .generations = 4});
     ASSERT_FALSE(found.finalists.empty());
 

@@ -29,14 +29,14 @@ trials::Effort effort_of(std::int64_t trials) {
 
 TEST(Search, FindsTheFastestPointThatMeetsTheGoal) {
   int found = 0;
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     const MadeUpProblem truth{.seed = seed};
     const SearchResult result = search(truth.problem(2048), {.seed = seed, .effort = effort_of(200'000)});
     ASSERT_FALSE(result.finalists.empty());
     const Values& best = result.finalists.front().values;
     found += truth.typical_time(best) <= 1.3 * best_time(truth) && truth.rate(best) >= 0.944 ? 1 : 0;
   }
-  EXPECT_GE(found, 17);
+  EXPECT_GE(found, 7);
 }
 
 TEST(Search, RunsMostTrialsWhereTheDecisionIsOpen) {

@@ -162,8 +162,7 @@ TEST(Identification, SaysThatTheModelDoesNotFit) {
   const identification::Identification apart = identification::identify({one}, {{}, 200});
   EXPECT_TRUE(apart.checks.passed);
   EXPECT_EQ(apart.checks.widening, 1.0);
-  const identification::Identification together =
-      identification::identify({one, other}, {{}, 200, 0, 0.3});
+  const identification::Identification together = identification::identify({one, other}, {{}, 200, 0, 0.3});
   EXPECT_FALSE(together.checks.passed);
   EXPECT_LT(together.checks.spread_chance, 0.01);
   EXPECT_GT(together.checks.widening, 1.5);

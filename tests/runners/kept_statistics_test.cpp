@@ -8,7 +8,6 @@
 #include <fstream>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -112,9 +111,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_F(KeptStatistics, OfARunThatWasInterruptedAreTheSame) {
   folder_.write("study.yaml", small_manifest(20000, "keep: statistics\n"));
   RunningProgram running({"run", "study.yaml", "-q", "-o", "out.h5"}, folder_.path());
-  while (!fs::exists(at("out.h5.shards")) || fs::is_empty(at("out.h5.shards")))
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  running.wait_for_shards(at("out.h5.shards"));
   const ProgramResult status = program({"status", "out.h5"});
   running.send(SIGINT);
   EXPECT_EQ(running.wait(), 130);

@@ -1,7 +1,11 @@
 #include "tests/runners/program.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <stdexcept>
+#include <thread>
 
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -53,6 +57,21 @@ RunningProgram::RunningProgram(const std::vector<std::string>& words, const fs::
 
 void RunningProgram::send(int signal) const {
   kill(process_, signal);
+}
+
+std::ptrdiff_t shards_in(const fs::path& folder) {
+  if (!fs::exists(folder)) return 0;
+  return std::count_if(fs::directory_iterator(folder), fs::directory_iterator(),
+                       [](const fs::directory_entry& file) { return file.path().extension() == ".h5"; });
+}
+
+void RunningProgram::wait_for_shards(const fs::path& folder, std::ptrdiff_t number) const {
+  while (shards_in(folder) < number) {
+    siginfo_t ended{};
+    waitid(P_PID, static_cast<id_t>(process_), &ended, WEXITED | WNOHANG | WNOWAIT);
+    if (ended.si_pid != 0) throw std::runtime_error("the program ended before it wrote a shard");
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
 }
 
 int RunningProgram::wait() {

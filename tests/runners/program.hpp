@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -38,11 +39,18 @@ class RunningProgram {
  public:
   RunningProgram(const std::vector<std::string>& words, const std::filesystem::path& directory);
   void send(int signal) const;
+
+  /// Waits until the folder has so many shards of its run; it is an error if the program ends before.
+  void wait_for_shards(const std::filesystem::path& folder, std::ptrdiff_t number = 1) const;
+
   int wait();  ///< exit code; 128 + signal where a signal ended it
 
  private:
   pid_t process_;
 };
+
+/// Number of the shards in a folder; 0 if there is none.
+std::ptrdiff_t shards_in(const std::filesystem::path& folder);
 
 /// A small study with random friction, two cases and jerks: 2 × `trials` trials of 300 samples.
 std::string small_manifest(int trials, const std::string& more = "");

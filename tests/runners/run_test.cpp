@@ -43,19 +43,14 @@ class Run : public ProgramTest {
     EXPECT_FALSE(fs::exists(at(output + ".shards")));
   }
 
-  std::ptrdiff_t files_in(const std::string& folder) const {
-    if (!fs::exists(at(folder))) return 0;
-    return std::distance(fs::directory_iterator(at(folder)), fs::directory_iterator());
-  }
-
   /// Starts a run that takes minutes, and waits until it writes its first shard.
   RunningProgram start_long_run(const std::string& output, std::vector<std::string> more = {}) {
     folder_.write("long.yaml", small_manifest(200000));
     std::vector<std::string> words{"run", "long.yaml", "-o", output, "--threads", "1"};
     words.insert(words.end(), more.begin(), more.end());
-    const std::ptrdiff_t before = files_in(output + ".shards");
+    const std::ptrdiff_t before = shards_in(at(output + ".shards"));
     RunningProgram running(words, folder_.path());
-    while (files_in(output + ".shards") <= before) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    running.wait_for_shards(at(output + ".shards"), before + 1);
     return running;
   }
 };

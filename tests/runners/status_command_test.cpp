@@ -33,9 +33,7 @@ TEST_F(StatusOfARun, IsThatOfItsShards) {
   folder_.write("study.yaml", small_manifest(200000));
   EXPECT_EQ(program({"status", "out.h5"}).code, 2);
   RunningProgram run({"run", "study.yaml", "-q", "-o", "out.h5", "--threads", "1"}, folder_.path());
-  while (!fs::exists(folder_ / "out.h5.shards") || fs::is_empty(folder_ / "out.h5.shards"))
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  std::this_thread::sleep_for(std::chrono::milliseconds(1200));
+  run.wait_for_shards(folder_ / "out.h5.shards");
   const nlohmann::json during = status();
   RunningProgram watch({"status", "out.h5", "--watch", "1"}, folder_.path());
   run.send(SIGINT);

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -34,12 +33,6 @@ class UnfinishedSummary : public ProgramTest {
     const std::string name = "quarter" + std::to_string(i) + ".h5";
     complete(name, {"--shard", std::to_string(i) + "/4"});
     fs::rename(at(name), at("out.h5.shards") / name);
-  }
-
-  std::ptrdiff_t shards_in(const std::string& folder) const {
-    if (!fs::exists(at(folder))) return 0;
-    return std::count_if(fs::directory_iterator(at(folder)), fs::directory_iterator(),
-                         [](const fs::directory_entry& file) { return file.path().extension() == ".h5"; });
   }
 
   nlohmann::json json_of(const std::string& file) {
@@ -124,9 +117,7 @@ TEST_F(UnfinishedSummary, WhereAPointHasNoTrialYetItsRatesAreUnknown) {
 TEST_F(UnfinishedSummary, IsThereWhileTheRunGoesOnAndAfterItWasInterrupted) {
   folder_.write("study.yaml", small_manifest(200000));
   RunningProgram run({"run", "study.yaml", "-o", "out.h5", "--threads", "1"}, folder_.path());
-  while (!fs::exists(at("out.h5.shards")) || fs::is_empty(at("out.h5.shards")))
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  std::this_thread::sleep_for(std::chrono::milliseconds(1200));  // a shard is written after half a second
+  run.wait_for_shards(at("out.h5.shards"));
   const ProgramResult during = program({"summary", "out.h5"});
   run.send(SIGINT);
   EXPECT_EQ(run.wait(), 130);
@@ -158,7 +149,7 @@ TEST_F(UnfinishedSummary, OfAnInterruptedSweepComparesAllPointsByNearlyAsManyTri
         "sweep={cases: {a: {controller.ki: 3.0e-5}, b: {controller.ki: 3.2e-5}, "
         "c: {controller.ki: 3.4e-5}}}"};
     RunningProgram run(sweep, folder_.path());
-    while (shards_in("out.h5.shards") < 4) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    run.wait_for_shards(at("out.h5.shards"), 4);
     run.send(SIGINT);
     EXPECT_EQ(run.wait(), 130);
     const nlohmann::json summary = json_of("out.h5");

@@ -227,10 +227,10 @@ void register_study(py::module_& module) {
       .def_readonly("rigs", &Study::rigs)
       .def_readonly("worlds", &Study::worlds)
       .def_readonly("moves", &Study::moves)
-      .def_readonly("labels", &Study::point_labels)
+      .def_property_readonly("labels", [](const Study& s) { return s.points.labels; })
       .def_readonly("sha256", &Study::study_sha256)
-      .def_readonly("text", &Study::manifest_text)
-      .def_readonly("overrides", &Study::overrides)
+      .def_property_readonly("text", [](const Study& s) { return s.manifest.text; })
+      .def_property_readonly("overrides", [](const Study& s) { return s.manifest.overrides; })
       .def_readonly("warnings", &Study::warnings)
       .def_readonly("observed", &Study::observed)
       .def_property_readonly("linear",

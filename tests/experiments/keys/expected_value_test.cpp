@@ -12,7 +12,7 @@ namespace zerocount::keys {
 namespace {
 
 /// A manifest in which a parameter of one section has this value.
-std::string manifest_text::with_value(const parameters::Parameter& parameter, const std::string& value) {
+std::string with_value(const parameters::Parameter& parameter, const std::string& value) {
   std::string text = value;
   std::string_view path = parameter.name;
   while (!path.empty()) {
@@ -36,16 +36,14 @@ TEST(ExpectedValue, HasTheUnitAndADistributionThatFits) {
     if (!parameters::has_value(parameter) || parameters::has_labels(parameter) || parameter.only_on ||
         parameter.name.starts_with("command."))
       continue;
-    const std::string message =
-        refusal_of(minimal_manifest(manifest_text::with_value(parameter, "'1'") + "\n"));
+    const std::string message = refusal_of(minimal_manifest(with_value(parameter, "'1'") + "\n"));
     ASSERT_NE(message.find("a distribution, such as {"), std::string::npos) << message;
     if (parameter.unit != "1") {
       EXPECT_NE(message.find(fmt::format(", in {}", parameter.unit)), std::string::npos) << message;
     }
     const std::string example = suggestion(message);
     if (example.find("low") != std::string::npos) continue;  // no default other than 0
-    const std::string refusal =
-        refusal_of(minimal_manifest(manifest_text::with_value(parameter, example) + "\n"));
+    const std::string refusal = refusal_of(minimal_manifest(with_value(parameter, example) + "\n"));
     // It may have no effect without other keys; as a value it is right.
     EXPECT_TRUE(refusal.empty() || refusal.find("no effect") != std::string::npos) << example << refusal;
     ++understood;

@@ -10,10 +10,8 @@
 #include "experiments/manifest_text/overrides.hpp"
 #include "experiments/manifests/shipped_manifests.hpp"
 
-namespace zerocount::testing {
+namespace zerocount::manifest_text {
 namespace {
-
-using manifest_text::with_override;
 
 /// Some numbers of the first trial of the study; empty if it cannot be made.
 std::string essence_of(const std::string& text, const std::vector<std::string>& overrides) {
@@ -78,4 +76,4 @@ TEST(EditedText, RefusesAnEditWithAnotherMeaning) {
 }
 
 }  // namespace
-}  // namespace zerocount::testing
+}  // namespace zerocount::manifest_text

@@ -67,7 +67,7 @@ TEST(Overrides, LeaveTheTextAndChangeTheHash) {
   EXPECT_EQ(other.manifest.sha256, plain.manifest.sha256);
   EXPECT_NE(other.study_sha256, plain.study_sha256);
   EXPECT_NE(other.study_sha256, study_of(minimal_manifest(), {"trials=12"}).study_sha256);
-  EXPECT_EQ(other.overrides, std::vector<std::string>{"trials=11"});
+  EXPECT_EQ(other.manifest.overrides, std::vector<std::string>{"trials=11"});
 }
 
 TEST(Overrides, MistakesNameTheOverride) {

@@ -43,7 +43,7 @@ double input_named(const study::Study& study, const study::StudyTrial& trial, st
   return 0.0;
 }
 
-class DiscreteDraws : public testing::Test {
+class DiscreteDraws : public ::testing::Test {
  protected:
   std::string value_in_trial(const DiscreteDraw& draw, const std::vector<double>& z) const {
     const study::StudyTrial trial = study::study_trial(study_, 0, 0, draws_at(study_, coordinates_, z, 1));

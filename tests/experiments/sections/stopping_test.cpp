@@ -41,12 +41,12 @@ TEST(Stop, CanBeChangedByOverrides) {
   EXPECT_EQ(study.trials, 40);
 }
 
-struct Refusal {
+struct StopRefusal {
   const char* line;
   const char* faults;
 };
 
-class RefusedStop : public testing::TestWithParam<Refusal> {};
+class RefusedStop : public testing::TestWithParam<StopRefusal> {};
 
 TEST_P(RefusedStop, SaysWhy) {
   EXPECT_TRUE(has_faults(refusal_of(minimal_manifest(GetParam().line)), GetParam().faults));
@@ -54,19 +54,19 @@ TEST_P(RefusedStop, SaysWhy) {
 
 INSTANTIATE_TEST_SUITE_P(
     , RefusedStop,
-    testing::Values(Refusal{"stop: 3", "6:7: stop | '3'"},
-                    Refusal{"stop: {max_trials: 500}", "6:7: stop.success_rate_halfwidth | missing"},
-                    Refusal{"stop: {success_rate_halfwidth: 0.02}", "6:7: stop.max_trials | missing"},
-                    Refusal{"stop: {success_rate_halfwidth: 0.02, max_trails: 500, max_trials: 500}",
-                            "6:38: stop.max_trails | max_trials"},
-                    Refusal{"stop: {success_rate_halfwidth: 0.5, max_trials: 500}",
-                            "6:32: stop.success_rate_halfwidth | greater than 0 and less than 0.5"},
-                    Refusal{"stop: {success_rate_halfwidth: 0.1, max_trials: 5}",
-                            "6:49: stop.max_trials | at least 10"},
-                    Refusal{"stop: {success_rate_halfwidth: 0.1, max_trials: 50, min_trials: 60}",
-                            "6:65: stop.min_trials | at most 50"},
-                    Refusal{"design: sobol\nstop: {success_rate_halfwidth: 0.1, max_trials: 50}",
-                            "7:7: stop | monte_carlo"}));
+    testing::Values(StopRefusal{"stop: 3", "6:7: stop | '3'"},
+                    StopRefusal{"stop: {max_trials: 500}", "6:7: stop.success_rate_halfwidth | missing"},
+                    StopRefusal{"stop: {success_rate_halfwidth: 0.02}", "6:7: stop.max_trials | missing"},
+                    StopRefusal{"stop: {success_rate_halfwidth: 0.02, max_trails: 500, max_trials: 500}",
+                                "6:38: stop.max_trails | max_trials"},
+                    StopRefusal{"stop: {success_rate_halfwidth: 0.5, max_trials: 500}",
+                                "6:32: stop.success_rate_halfwidth | greater than 0 and less than 0.5"},
+                    StopRefusal{"stop: {success_rate_halfwidth: 0.1, max_trials: 5}",
+                                "6:49: stop.max_trials | at least 10"},
+                    StopRefusal{"stop: {success_rate_halfwidth: 0.1, max_trials: 50, min_trials: 60}",
+                                "6:65: stop.min_trials | at most 50"},
+                    StopRefusal{"design: sobol\nstop: {success_rate_halfwidth: 0.1, max_trials: 50}",
+                                "7:7: stop | monte_carlo"}));
 
 }  // namespace
 }  // namespace zerocount::sections

@@ -93,7 +93,7 @@ TEST(Sweep, LinspaceAndLogspaceIncludeTheirEnds) {
 }
 
 TEST(Sweep, WholeNumbersMayBeSpacedWhereTheyStayWhole) {
-  EXPECT_EQ(swept("{grid: {command.targets.0: {linspace: [1, 10, 10]}}}").axes[0].numbers.size(), 10u);
+  EXPECT_EQ(swept("{grid: {command.targets.0: {linspace: [1, 10, 10]}}}").points.axes[0].numbers.size(), 10u);
   EXPECT_TRUE(has_faults(failure_of("{grid: {command.targets.0: {linspace: [1, 2, 3]}}}"),
                          "6:46: sweep.grid.command.targets.0.linspace | is not allowed"));
 }

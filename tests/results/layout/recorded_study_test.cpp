@@ -24,7 +24,7 @@ TEST(RecordedStudy, HasTheTrialsOfTheFile) {
 // Statistics of the trials of a file by another study wrote beyond the end of their vectors.
 TEST(RecordedStudy, OfOtherTrialsThanThoseOfTheFileIsRefused) {
   layout::FileHeader more = header_of(3, 2);
-  more.manifest.overrides = {"trials=4"};
+  more.overrides = {"trials=4"};
   expect_failure(ExitCode::bad_data,
                  "study.h5: damaged: it has 3 design points with 2 trials each; its manifest and overrides "
                  "have 3 with 4",

@@ -30,8 +30,7 @@ TEST(BestPoint, HasTheHighestRate) {
 
 TEST(BestPoint, OfEqualOnesIsTheSimplest) {
   StudySummary study = swept_study({point_with(9, 10), point_with(9, 10)});
-  study.axes.push_back(
-      {"controller.kp", "N m/count", "", study::SweepAxis::Kind::number, {0.1, 0.0}, {}});
+  study.axes.push_back({"controller.kp", "N m/count", "", study::SweepAxis::Kind::number, {0.1, 0.0}, {}});
   EXPECT_EQ(best_point(study), 1);
 }
 

@@ -131,8 +131,7 @@ TEST(ShownPoints, AreSortedSelectedAndCountedByTheirValues) {
 TEST(ShownPoints, OfNamedCasesAreSelectedAndSortedByTheirNames) {
   StudySummary study =
       swept_study({independent(10, 100), independent(90, 100), independent(85, 100), independent(20, 100)});
-  study.axes.push_back(
-      {"case", "", "", study::SweepAxis::Kind::text, {}, {"slow", "a<b", "fast", "slow"}});
+  study.axes.push_back({"case", "", "", study::SweepAxis::Kind::text, {}, {"slow", "a<b", "fast", "slow"}});
   using Points = std::vector<std::int64_t>;
   EXPECT_EQ(selected_points(study, {.where = {"case == slow"}}), (Points{0, 3}));
   EXPECT_EQ(selected_points(study, {.where = {"case = 'slow'", "ki > 1"}}), Points{3});

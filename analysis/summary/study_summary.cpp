@@ -93,7 +93,7 @@ class TrialsSoFar {
 
   void add(const std::filesystem::path& path) {
     constexpr auto part = reading::Require::any_part;
-    if (study_.kept != study::Retention::trials) {
+    if (study_.retention != study::Retention::trials) {
       const reading::ResultsFile file(path, part);
       add(file, false, [&](std::int64_t point, layout::RowRange) { accumulator_.add(file, point); });
     } else {

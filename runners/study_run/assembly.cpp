@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/iso230/repeatability_file.hpp"
+#include "analysis/iso230/results_group.hpp"
 #include "analysis/summary/stored_statistics.hpp"
 #include "analysis/summary/study_statistics.hpp"
 #include "core/failure/failure.hpp"

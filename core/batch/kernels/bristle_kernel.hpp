@@ -128,12 +128,9 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
         (force_scale * force - damping_scale * (bristle_damping * rate + damping * velocity[k])) * per_order;
   }
 
-  VelocityStep<P> step;
-  step.time_to_stop = time_to_stop;
-  step.h = h;
-  step.truncation_error = (last_terms_of(travel) + last_terms_of(velocity)) + last_terms_of(deflection);
-  step.allowed = at.load(time.tolerance) * (h * at.load(time.sample_rate));
-  step.inexact = ~(step.truncation_error <= step.allowed);
+  VelocityStep<P> step =
+      velocity_step(batch, at, time_to_stop, h,
+                    (last_terms_of(travel) + last_terms_of(velocity)) + last_terms_of(deflection));
   const P velocity_start = select(from_zero, velocity[1], velocity[0]);
   const P velocity_end = sum_of(velocity, batch_order);
   step.halts = velocity_start * velocity_end < zero;
@@ -151,7 +148,6 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
   if constexpr (!Fast) unfit = unfit | grows_too_much(curve.exponent);
   step.too_long = step.inexact | unfit;
   step.done = ~step.too_long;
-  step.x = one;
   const Mask seeks = at.taking_part() & step.halts & step.done;
   if (seeks.any()) {
     step.x = select(step.halts,
@@ -159,8 +155,7 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
   }
   store_time(batch, at, step);
 
-  const P omega_end =
-      select(step.done, select(step.halts, zero, value_of(velocity, batch_order, step.x) / h), omega);
+  const P omega_end = omega_after(step, velocity, omega);
   const P deflection_end = select(step.done, value_of(deflection, batch_order, step.x), deflection_start);
   const P level_end = Fast ? coulomb : coulomb + excess * exp(-per_velocity_squared * omega_end * omega_end);
   at.store(m.theta, at.load(m.theta) + select(step.done, value_of(travel, batch_order, step.x), zero));

@@ -44,21 +44,16 @@ ZEROCOUNT_ALWAYS_INLINE Compensated<P> compensated(BatchState& batch, const At& 
   const P fresh = select(in.counted, new_target, one);
   at.store(b.last_target, target);
 
-  const loop::StandstillConstants<P> standstill{at.load(b.standstill.band), at.load(b.standstill.dwell),
-                                                at.load(b.standstill.kp), at.load(b.standstill.ki),
-                                                at.load(b.standstill.kd)};
   P run = at.load(b.standstill_run);
-  const Mask stands = loop::stands_still(standstill, run, new_target, in.error);
+  const Mask stands = loop::stands_still(load_struct(at, b.standstill), run, new_target, in.error);
   at.store(b.standstill_run, run);
 
-  const loop::HoldConstants<P> rule{at.load(b.hold.enter), at.load(b.hold.leave), at.load(b.hold.dwell)};
   loop::HoldState<P> state{at.load(b.hold_state.run), at.load(b.hold_state.holding), zero};
-  const Mask held = loop::holds_torque(rule, state, fresh, in.error);
+  const Mask held = loop::holds_torque(load_struct(at, b.hold), state, fresh, in.error);
   at.store(b.hold_state.run, state.run);
   at.store(b.hold_state.holding, state.holding);
 
-  const loop::ErrorDeadbandConstants<P> deadband{at.load(b.deadband.band), at.load(b.deadband.subtracted)};
-  return {loop::acting_error(deadband, in.error), stands, held};
+  return {loop::acting_error(load_struct(at, b.deadband), in.error), stands, held};
 }
 
 /// The control law with the conditions on its integral, PID or cascade by lane. @returns its torque, N m.
@@ -67,11 +62,7 @@ ZEROCOUNT_ALWAYS_INLINE P law_torque(BatchState& batch, const At& at, const Cont
                                      const Compensated<P>& now) {
   LoopLanes& l = batch.loop;
   BlockLanes& b = batch.blocks;
-  const loop::IntegralConstants<P> rules{at.load(b.integral.enter),  at.load(b.integral.leave),
-                                         at.load(b.integral.zone),   at.load(b.integral.retention),
-                                         at.load(b.integral.lowest), at.load(b.integral.highest)};
-  const loop::CascadeConstants<P> cascade{at.load(b.cascade.kv), at.load(b.cascade.velocity),
-                                          at.load(b.cascade.kp), at.load(b.cascade.ki)};
+  const loop::CascadeConstants<P> cascade = load_struct(at, b.cascade);
   const P kp = select(now.stands, at.load(b.standstill.kp), at.load(l.kp));
   const P ki = select(now.stands, at.load(b.standstill.ki), at.load(l.ki));
   const P kd = select(now.stands, at.load(b.standstill.kd), at.load(l.kd));
@@ -82,7 +73,7 @@ ZEROCOUNT_ALWAYS_INLINE P law_torque(BatchState& batch, const At& at, const Cont
   const P increment = select(is_cascade, cascade.ki * (w + at.load(b.last_velocity_error)),
                              ki * (now.acting_error + at.load(b.last_acting_error)));
   loop::IntegralState<P> state{at.load(l.integral), at.load(b.inside)};
-  loop::integrate(rules, state, in.error, increment);
+  loop::integrate(load_struct(at, b.integral), state, in.error, increment);
   store_unless(now.held, at, l.integral, state.integral);
   store_unless(now.held, at, b.inside, state.inside);
   at.store(b.difference, d);
@@ -100,12 +91,9 @@ ZEROCOUNT_ALWAYS_INLINE P filtered_torque(BatchState& batch, const At& at, P tor
   const P count = at.load(b.filter_count);
   for (int i = 0; i < max_lane_filters; ++i) {
     if (!(count > P(static_cast<double>(i))).any()) break;
-    const loop::BiquadConstants<Lanes>& c = b.filters[i];
     loop::BiquadState<Lanes>& of = b.filter_states[i];
-    const loop::BiquadConstants<P> constants{at.load(c.b0), at.load(c.b1), at.load(c.b2), at.load(c.a1),
-                                             at.load(c.a2)};
-    loop::BiquadState<P> state{at.load(of.s1), at.load(of.s2)};
-    torque = loop::biquad_step(constants, state, torque);
+    loop::BiquadState<P> state = load_struct(at, of);
+    torque = loop::biquad_step(load_struct(at, b.filters[i]), state, torque);
     store_unless(held, at, of.s1, state.s1);
     store_unless(held, at, of.s2, state.s2);
   }
@@ -118,10 +106,9 @@ ZEROCOUNT_ALWAYS_INLINE P disturbance(BatchState& batch, const At& at, const Con
                                       const typename P::Mask& held) {
   BlockLanes& b = batch.blocks;
   const P first = select(in.counted, at.load(b.first_count), in.count);
-  const loop::ObserverConstants<P> constants{at.load(b.observer.acceleration), at.load(b.observer.q),
-                                             at.load(b.observer.a1), at.load(b.observer.a2)};
-  loop::BiquadState<P> state{at.load(b.observer_state.s1), at.load(b.observer_state.s2)};
-  const P estimate = loop::observer_step(constants, state, in.count - first, at.load(batch.loop.decided));
+  loop::BiquadState<P> state = load_struct(at, b.observer_state);
+  const P estimate =
+      loop::observer_step(load_struct(at, b.observer), state, in.count - first, at.load(batch.loop.decided));
   at.store(b.first_count, first);
   store_unless(held, at, b.observer_state.s1, state.s1);
   store_unless(held, at, b.observer_state.s2, state.s2);

@@ -149,6 +149,19 @@ ZEROCOUNT_ALWAYS_INLINE void add_events(BatchState& batch, const At& at, const P
   if (noted.any()) append_events(batch, at, events, noted.bits());
 }
 
+/// A struct of quantities, such as loop::IntegralConstants, of these lanes.
+template <template <class> class Struct, class At>
+ZEROCOUNT_ALWAYS_INLINE Struct<typename At::Vector> load_struct(const At& at, const Struct<Lanes>& lanes) {
+  using P = typename At::Vector;
+  constexpr int quantities = sizeof(Struct<Lanes>) / sizeof(Lanes);
+  static_assert(sizeof(Struct<P>) == quantities * sizeof(P));
+  P value[quantities];
+  for (int i = 0; i < quantities; ++i) value[i] = at.load(reinterpret_cast<const Lanes*>(&lanes)[i]);
+  Struct<P> loaded;
+  __builtin_memcpy(&loaded, value, sizeof loaded);
+  return loaded;
+}
+
 /// Visitors for for_each_measure, between lanes and vectors.
 template <class At>
 struct LoadEach {

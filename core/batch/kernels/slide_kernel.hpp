@@ -72,12 +72,8 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
     velocity[k + 1] = (force_scale * force - damping_scale * velocity[k]) * P(numerics::reciprocal.of[k + 1]);
   }
 
-  VelocityStep<P> step;
-  step.time_to_stop = time_to_stop;
-  step.h = h;
-  step.truncation_error = last_terms_of(theta) + last_terms_of(velocity);
-  step.allowed = at.load(time.tolerance) * (h * at.load(time.sample_rate));
-  step.inexact = ~(step.truncation_error <= step.allowed);
+  VelocityStep<P> step =
+      velocity_step(batch, at, time_to_stop, h, last_terms_of(theta) + last_terms_of(velocity));
   const P velocity_end = sum_of(velocity, batch_order);
   step.halts = velocity[0] * velocity_end < zero;
   Mask unfit = one < zero;
@@ -89,7 +85,6 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
   }
   const Mask beyond = omega * direction <= zero;
   step.too_long = (step.inexact | unfit) & ~beyond;
-  step.x = one;
   const Mask seeks = at.taking_part() & step.halts & ~step.too_long;
   if (seeks.any()) {
     step.x =
@@ -98,8 +93,7 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
   step.done = ~step.too_long & ~beyond;
   store_time(batch, at, step);
   at.store(m.theta, select(step.done, value_of(theta, batch_order, step.x), theta[0]));
-  at.store(m.omega,
-           select(step.done, select(step.halts, zero, value_of(velocity, batch_order, step.x) / h), omega));
+  at.store(m.omega, omega_after(step, velocity, omega));
   add_events(batch, at,
              events_where<P>(step.done & step.halts, velocity_zero) +
                  events_where<P>(beyond | (at.load(time.steps) > P(max_steps_to_stop)), beyond_kernel));

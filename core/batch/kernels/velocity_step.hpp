@@ -56,6 +56,27 @@ struct VelocityStep {
   Mask halts;          ///< ω is 0 at x
 };
 
+/// A step of h (s) with its truncation error (rad), up to its end.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE VelocityStep<P> velocity_step(const BatchState& batch, const At& at,
+                                                      const P& time_to_stop, const P& h,
+                                                      const P& truncation_error) {
+  VelocityStep<P> step;
+  step.time_to_stop = time_to_stop;
+  step.h = h;
+  step.x = P(1.0);
+  step.truncation_error = truncation_error;
+  step.allowed = at.load(batch.time.tolerance) * (h * at.load(batch.time.sample_rate));
+  step.inexact = ~(truncation_error <= step.allowed);
+  return step;
+}
+
+/// ω at the end of the step, rad/s. @param velocity the series of ω·h. @param omega at the start.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P omega_after(const VelocityStep<P>& s, const P* velocity, const P& omega) {
+  return select(s.done, select(s.halts, P(0.0), value_of(velocity, batch_order, s.x) / s.h), omega);
+}
+
 /// Stores the time to the next stop after the step, and the length of the next one.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void store_time(BatchState& batch, const At& at, const VelocityStep<P>& s) {

@@ -1,6 +1,4 @@
 // End of the moves and trials of lanes.
-#include <cstddef>
-#include <cstring>
 #include <utility>
 
 #include "core/batch/lanes/running_batch.hpp"
@@ -68,16 +66,9 @@ void end_move(RunningBatch& run, int lane) {
   start_move(run.state, lane, trial);
 }
 
-/// Copies each quantity of one lane to another. Numbers is a struct of Lanes alone.
 template <class Numbers>
 void copy_lane(Numbers& numbers, int from, int to) {
-  constexpr std::size_t quantities = sizeof(Numbers) / sizeof(Lanes);
-  static_assert(quantities * sizeof(Lanes) == sizeof(Numbers));
-  auto* const bytes = reinterpret_cast<std::byte*>(&numbers);
-  for (std::size_t i = 0; i < quantities; ++i) {
-    std::byte* const lanes = bytes + i * sizeof(Lanes);
-    std::memcpy(lanes + to * sizeof(double), lanes + from * sizeof(double), sizeof(double));
-  }
+  for_each_quantity(numbers, [&](Lanes& quantity) { quantity[to] = quantity[from]; });
 }
 
 void move_lane(RunningBatch& run, int from, int to) {

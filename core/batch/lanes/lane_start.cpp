@@ -1,9 +1,6 @@
 // Start of the trials and moves of lanes.
-#include <algorithm>
-#include <cmath>
-#include <initializer_list>
+#include <cstring>
 #include <limits>
-#include <vector>
 
 #include "core/batch/lanes/running_batch.hpp"
 #include "core/friction/bristles/bristle.hpp"
@@ -46,72 +43,42 @@ void start_loop(LoopLanes& l, int lane, const trial::TrialParameters& p) {
   l.disturbance[lane] = p.disturbance.torque;
 }
 
-/// Stores the values in the lane of the quantities `to`, in this order.
-template <class... Values>
-void put(int lane, std::initializer_list<Lanes*> to, Values... values) {
-  auto at = to.begin();
-  (((**at++)[lane] = values), ...);
-}
-
-void start_filters(BlockLanes& b, int lane, const loop::ControllerParameters& controller) {
-  const std::vector<loop::Filter>& filters = controller.blocks.filters;
-  b.filter_count[lane] = static_cast<double>(filters.size());
-  for (std::size_t i = 0; i < max_lane_filters; ++i) {
-    const loop::BiquadConstants<double> filter = i < filters.size()
-                                                     ? loop::discretised(filters[i], controller.sample_rate)
-                                                     : loop::BiquadConstants<double>{1.0, 0.0, 0.0, 0.0, 0.0};
-    loop::BiquadConstants<Lanes>& c = b.filters[i];
-    put(lane, {&c.b0, &c.b1, &c.b2, &c.a1, &c.a2}, filter.b0, filter.b1, filter.b2, filter.a1, filter.a2);
-    put(lane, {&b.filter_states[i].s1, &b.filter_states[i].s2}, 0.0, 0.0);
-  }
-}
-
-void start_compensators(BlockLanes& b, int lane, const trial::TrialParameters& p) {
-  const loop::ControlBlocks& blocks = p.controller.blocks;
-  const double sample_rate = p.controller.sample_rate;
-  const loop::ErrorDeadbandConstants<double> deadband = loop::error_deadband_constants(blocks.error_deadband);
-  put(lane, {&b.deadband.band, &b.deadband.subtracted, &b.last_acting_error}, deadband.band,
-      deadband.subtracted, 0.0);
-  const loop::StandstillConstants<double> s = loop::standstill_constants(blocks.standstill, sample_rate);
-  loop::StandstillConstants<Lanes>& to = b.standstill;
-  put(lane, {&to.band, &to.dwell, &to.kp, &to.ki, &to.kd, &b.standstill_run}, s.band, s.dwell, s.kp, s.ki,
-      s.kd, 0.0);
-  const loop::HoldConstants<double> hold = loop::hold_constants(blocks.hold, sample_rate);
-  put(lane, {&b.hold.enter, &b.hold.leave, &b.hold.dwell}, hold.enter, hold.leave, hold.dwell);
-  put(lane, {&b.hold_state.run, &b.hold_state.holding, &b.hold_state.torque, &b.last_target}, 0.0, 0.0, 0.0,
-      0.0);
-  put(lane, {&b.dither_amplitude, &b.dither_frequency, &b.sample}, p.controller.dither.amplitude,
-      p.controller.dither.frequency, 0.0);
-  put(lane, {&b.sigma_delta, &b.remainder}, p.dac.sigma_delta ? 1.0 : 0.0, 0.0);
+/// Stores the fields of a struct, such as loop::IntegralConstants, in the lane.
+template <template <class> class Struct>
+void store(Struct<Lanes>& to, int lane, const Struct<double>& from) {
+  double fields[sizeof to / sizeof(Lanes)];
+  static_assert(sizeof fields == sizeof from);
+  std::memcpy(fields, &from, sizeof from);
+  const double* field = fields;
+  for_each_quantity(to, [&](Lanes& quantity) { quantity[lane] = *field++; });
 }
 
 void start_blocks(BlockLanes& b, int lane, const trial::TrialParameters& p, double resolution) {
   const loop::ControllerParameters& controller = p.controller;
   const loop::ControlBlocks& blocks = controller.blocks;
   const double sample_rate = controller.sample_rate;
-  const loop::IntegralConstants<double> integral = loop::integral_constants(
-      blocks, sample_rate,
-      loop::integral_range(controller.anti_windup, loop::lowest_torque(p.dac), loop::highest_torque(p.dac)));
-  loop::IntegralConstants<Lanes>& i = b.integral;
-  put(lane, {&i.enter, &i.leave, &i.zone, &i.retention, &i.lowest, &i.highest}, integral.enter,
-      integral.leave, integral.zone, integral.retention, integral.lowest, integral.highest);
-  const loop::CascadeConstants<double> cascade =
-      loop::cascade_constants(blocks.cascade, sample_rate, resolution);
-  put(lane, {&b.cascade.kv, &b.cascade.velocity, &b.cascade.kp, &b.cascade.ki}, cascade.kv, cascade.velocity,
-      cascade.kp, cascade.ki);
-  const bool is_cascade = blocks.structure == loop::ControlStructure::cascade;
-  put(lane, {&b.inside, &b.difference, &b.last_velocity_error, &b.is_cascade, &b.pole}, 0.0, 0.0, 0.0,
-      is_cascade ? 1.0 : 0.0, loop::derivative_pole(blocks, sample_rate));
-  start_filters(b, lane, controller);
-  const bool observes = blocks.observer.bandwidth > 0.0;
-  const loop::ObserverConstants<double> observer =
-      loop::observer_constants(blocks.observer, sample_rate, resolution);
-  loop::ObserverConstants<Lanes>& o = b.observer;
-  put(lane, {&o.acceleration, &o.q, &o.a1, &o.a2}, observer.acceleration, observer.q, observer.a1,
-      observer.a2);
-  put(lane, {&b.observes, &b.observer_state.s1, &b.observer_state.s2, &b.first_count}, observes ? 1.0 : 0.0,
-      0.0, 0.0, 0.0);
-  start_compensators(b, lane, p);
+  for_each_quantity(b, [&](Lanes& quantity) { quantity[lane] = 0.0; });  // as all states start
+  store(b.integral, lane,
+        loop::integral_constants(blocks, sample_rate,
+                                 loop::integral_range(controller.anti_windup, loop::lowest_torque(p.dac),
+                                                      loop::highest_torque(p.dac))));
+  b.is_cascade[lane] = blocks.structure == loop::ControlStructure::cascade ? 1.0 : 0.0;
+  store(b.cascade, lane, loop::cascade_constants(blocks.cascade, sample_rate, resolution));
+  b.pole[lane] = loop::derivative_pole(blocks, sample_rate);
+  b.filter_count[lane] = static_cast<double>(blocks.filters.size());
+  for (std::size_t i = 0; i < max_lane_filters; ++i) {
+    store(b.filters[i], lane,
+          i < blocks.filters.size() ? loop::discretised(blocks.filters[i], sample_rate)
+                                    : loop::BiquadConstants<double>{1.0, 0.0, 0.0, 0.0, 0.0});
+  }
+  b.observes[lane] = blocks.observer.bandwidth > 0.0 ? 1.0 : 0.0;
+  store(b.observer, lane, loop::observer_constants(blocks.observer, sample_rate, resolution));
+  store(b.deadband, lane, loop::error_deadband_constants(blocks.error_deadband));
+  store(b.standstill, lane, loop::standstill_constants(blocks.standstill, sample_rate));
+  store(b.hold, lane, loop::hold_constants(blocks.hold, sample_rate));
+  b.dither_amplitude[lane] = controller.dither.amplitude;
+  b.dither_frequency[lane] = controller.dither.frequency;
+  b.sigma_delta[lane] = p.dac.sigma_delta ? 1.0 : 0.0;
   b.remembers[lane] = remembers(p) ? 1.0 : 0.0;
 }
 

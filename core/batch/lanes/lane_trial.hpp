@@ -93,6 +93,15 @@ motion::TorqueCourse present_course(const BatchState& batch, int lane);
 /// Advances the plant of a lane at rest to where the lane is. (lane_rest.cpp)
 void bring_up_to_date(BatchState& batch, int lane, LaneTrial& trial);
 
+/// Calls `visit` with each quantity of a struct of Lanes alone, in their order.
+template <class Numbers, class Visit>
+void for_each_quantity(Numbers& numbers, Visit visit) {
+  constexpr std::size_t quantities = sizeof(Numbers) / sizeof(Lanes);
+  static_assert(quantities * sizeof(Lanes) == sizeof(Numbers));
+  auto* const first = reinterpret_cast<Lanes*>(&numbers);
+  for (std::size_t i = 0; i < quantities; ++i) visit(first[i]);
+}
+
 /// θ of the rotor, rad.
 inline double theta_of(const BatchState& batch, int lane) {
   const MotionLanes& m = batch.motion;

@@ -135,11 +135,11 @@ void add_angles_around(const Eigen::VectorXcd& roots, std::vector<double>& angle
 
 std::vector<double> search_angles(const FrozenLoop& loop) {
   constexpr int points = 600;
-  constexpr double largest_turn = 0.3;  // of the phase by the delay, rad
+  constexpr double max_turn = 0.3;  // of the phase by the delay, rad
   std::vector<double> angles;
   for (int i = 0; i <= points; ++i)
     angles.push_back(lowest_angle * std::pow(highest_angle / lowest_angle, double(i) / points));
-  const double step = largest_turn / (loop.plant.delay + 2);
+  const double step = max_turn / (loop.plant.delay + 2);
   for (double angle = step; angle < half_turn; angle += step) angles.push_back(angle);
   std::vector<Eigen::VectorXcd> roots{numerics::eigenvalues(loop.plant.A)};
   for (const loop::LinearBlock& stage : loop.controller) {

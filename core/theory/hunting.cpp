@@ -74,7 +74,7 @@ Eigen::VectorXd standing_at(double count, FrozenLoop loop) {
 }
 
 /// The amplitude (counts) below which an encoder reads one count at most: it does not see the oscillation.
-constexpr double least_amplitude = 1.0;
+constexpr double min_amplitude = 1.0;
 
 /// Friction that follows its level g over a travel of g/σ0, or at once.
 struct SlidingFriction {
@@ -398,7 +398,7 @@ std::vector<LimitCycle> harmonic_balance(friction::FrictionModel model,
                         controller.delay,
                         drive,
                         controller.blocks.error_deadband};
-  double low = least_amplitude * resolution;
+  double low = min_amplitude * resolution;
   std::vector<double> at_low = resonances(balance, low);
   for (double high = low * amplitude_step; high < 1e6 * resolution; high *= amplitude_step) {
     const std::vector<double> at_high = resonances(balance, high);
@@ -438,7 +438,7 @@ std::vector<LimitCycle> stick_slip_cycle(friction::FrictionModel model,
   if (controller.blocks.error_deadband.band > 0.0) return {};
   StickSlip motion(sliding_friction(model, contact, plant), plant, encoder, controller, drive, first_step);
   const std::optional<LimitCycle> cycle = lasting_cycle(motion);
-  if (!cycle || cycle->amplitude < least_amplitude) return {};
+  if (!cycle || cycle->amplitude < min_amplitude) return {};
   return {{cycle->amplitude * loop::fine_resolution(encoder), cycle->period * sample_time(controller)}};
 }
 

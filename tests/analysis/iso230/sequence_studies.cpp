@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/iso230/repeatability_file.hpp"
+#include "analysis/iso230/results_group.hpp"
 #include "analysis/summary/stored_statistics.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "results/shards/merge.hpp"

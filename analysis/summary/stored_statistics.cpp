@@ -92,8 +92,11 @@ void take_stored_statistics(const reading::AllTrialsFile& file, const study::Stu
     layout::StoredStatistics next = stored_statistics(
         points, study, std::span(predictions).subspan(static_cast<std::size_t>(stored), points.size()),
         file.table(), stored);
-    if (block) append(*block, std::move(next));
-    if (!block) block = std::move(next);
+    if (block) {
+      append(*block, std::move(next));
+    } else {
+      block = std::move(next);
+    }
     stored += std::ssize(points);
     points.clear();
   };

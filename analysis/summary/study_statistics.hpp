@@ -10,8 +10,8 @@
 #include "analysis/theory/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/point_sums.hpp"
-#include "results/reading/results_file.hpp"
 #include "results/reading/all_trials_file.hpp"
+#include "results/reading/results_file.hpp"
 
 namespace zerocount::summary {
 

@@ -48,8 +48,8 @@ std::vector<ValueRule> value_rules(const study::StudyPlan& plan);
 /// empty if there is none.
 std::string first_fault(const study::StudyPlan& plan, std::size_t point);
 
-/// Why a study with these values at the edited point cannot be simulated: the first value out of its range, or
-/// first_fault(); empty if it can.
+/// Why a study with these values at the edited point cannot be simulated: the first value out of its range,
+/// or first_fault(); empty if it can.
 std::string refusal_of(const study::PointEdit& edit);
 
 }  // namespace zerocount::rules

@@ -12,11 +12,11 @@
 
 #include <fmt/format.h>
 
-#include "runners/rare/splitting.hpp"
 #include "analysis/statistics/betting_bounds.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "core/numerics/normal_distribution.hpp"
 #include "experiments/designs/random_key.hpp"
+#include "runners/rare/splitting.hpp"
 
 namespace zerocount::rare {
 namespace {

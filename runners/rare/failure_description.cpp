@@ -70,7 +70,8 @@ std::optional<double> mean_coordinate(const Question& question, std::string_view
                                       const std::vector<const WeightedTrial*>& failed) {
   if (!question.study.correlations.empty()) return std::nullopt;
   const auto coordinate = std::ranges::find(question.coordinates, input, &randomness::RandomCoordinate::name);
-  if (coordinate == question.coordinates.end() || coordinate->kind != randomness::RandomCoordinate::Kind::values)
+  if (coordinate == question.coordinates.end() ||
+      coordinate->kind != randomness::RandomCoordinate::Kind::values)
     return std::nullopt;
   double sum = 0.0;
   for (const WeightedTrial* trial : failed)
@@ -150,7 +151,8 @@ std::vector<FailureInput> failure_inputs(const Question& question, const Estimat
 
 std::optional<CarryingMachines> carrying_machines(const Question& question, const EstimatorState& state,
                                                   double probability, const trials::Effort& effort) {
-  const auto of_machine = std::ranges::count_if(question.coordinates, &randomness::RandomCoordinate::of_machine);
+  const auto of_machine =
+      std::ranges::count_if(question.coordinates, &randomness::RandomCoordinate::of_machine);
   const std::vector<const WeightedTrial*> failed = drawn_failures(state, examined_machines);
   if (failed.empty() || of_machine == 0 || of_machine == std::ssize(question.coordinates) ||
       correlates_machine_and_move(question))

@@ -54,7 +54,8 @@ void assemble(std::span<const shards::ShardInfo> shards, const study::Study& stu
   shards::MergedFile file(shards, study, output, rows,
                           {.renumber = settings.renumber, .stop = settings.stop});
   if (layout::has_sums(study.retention)) write_summed(file, study, rows);
-  if (!layout::has_sums(study.retention) && file.is_whole()) write_statistics(file, study, settings.predictions);
+  if (!layout::has_sums(study.retention) && file.is_whole())
+    write_statistics(file, study, settings.predictions);
   file.finish();
 }
 

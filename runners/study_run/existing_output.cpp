@@ -22,8 +22,9 @@ namespace fs = std::filesystem;
 /// Differences between the study of a results file and this one. The final number of trials of a stopping
 /// rule is ignored; defaults that changed since the file was written are included.
 /// @param path of the file, for messages
-std::vector<manifest_text::ManifestDifference> study_differences(const fs::path& path, layout::FileHeader header,
-                                                            const study::Study& study) {
+std::vector<manifest_text::ManifestDifference> study_differences(const fs::path& path,
+                                                                 layout::FileHeader header,
+                                                                 const study::Study& study) {
   if (study.stop && !header.overrides.empty() && header.overrides.back().starts_with(decided_key))
     header.overrides.pop_back();
   manifest_text::ManifestValues there = layout::manifest_values(header, path.string());

@@ -152,9 +152,9 @@ double memory_of_statistics(const study::Study& study) {
   constexpr double copies = 2.0;          // as they grow and as they are written
   const auto columns =
       measures::statistic_fields(study.features, layout::measure_table(study.features.bands)).size();
-  const double of_point =
-      8.0 * copies *
-      static_cast<double>(std::ssize(study.points.axes) + std::int64_t(columns) + study.rigs + 3 * study.worlds);
+  const double of_point = 8.0 * copies *
+                          static_cast<double>(std::ssize(study.points.axes) + std::int64_t(columns) +
+                                              study.rigs + 3 * study.worlds);
   return all_statistics +
          of_point * static_cast<double>(std::min(study::point_count(study), layout::chunk_elements));
 }

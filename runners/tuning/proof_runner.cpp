@@ -11,8 +11,8 @@
 
 #include "analysis/goal/goal_verdict.hpp"
 #include "core/failure/failure.hpp"
-#include "experiments/manifest_text/overrides.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "experiments/manifest_text/overrides.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "runners/study_run/file_run.hpp"

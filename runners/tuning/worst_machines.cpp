@@ -390,7 +390,8 @@ class MachineSearch {
 WorstMachine worst_machine(const study::Study& study, std::int64_t point,
                            std::span<const UnitResult> results) {
   const auto worst = std::ranges::min_element(results, [](const UnitResult& a, const UnitResult& b) {
-    return met_proportion(a) != met_proportion(b) ? met_proportion(a) < met_proportion(b) : latest(a) > latest(b);
+    return met_proportion(a) != met_proportion(b) ? met_proportion(a) < met_proportion(b)
+                                                  : latest(a) > latest(b);
   });
   WorstMachine machine{worst - results.begin(), 0, met_proportion(*worst), {}};
   const auto machines = std::ssize(results);

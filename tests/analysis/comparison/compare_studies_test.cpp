@@ -51,7 +51,7 @@ std::vector<TrialRecord> good_trials(std::int64_t count = trials) {
 class ComparedStudies : public ::testing::Test {
  protected:
   reading::AllTrialsFile write(const std::string& name, const study::Study& study,
-                           const std::vector<TrialRecord>& records) {
+                               const std::vector<TrialRecord>& records) {
     write_study_file(folder_ / name, study, records);
     return reading::AllTrialsFile(folder_ / name);
   }

@@ -389,7 +389,8 @@ TEST_P(PaperFigures, StandWhereTheStudyShowsThem) {
   const TemporaryFolder folder;
   testing::run_study_file(folder / "a.h5",
                           std::string("zerocount: 1\nname: paper\nseed: 1\ntrials: 3\n") + GetParam().more);
-  const std::vector<std::string> names = figure_names(study_report(reading::AllTrialsFile(folder / "a.h5")).page);
+  const std::vector<std::string> names =
+      figure_names(study_report(reading::AllTrialsFile(folder / "a.h5")).page);
   std::string found;
   for (const std::string& name : names) found += name.starts_with("paper") ? name : "";
   EXPECT_EQ(found, GetParam().figure);

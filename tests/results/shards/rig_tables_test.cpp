@@ -78,7 +78,8 @@ TEST(RigTables, APartHasTheRigsAndNoCounts) {
 
 TEST(RigTables, AreNoneWithoutRigs) {
   const TemporaryFolder directory;
-  EXPECT_FALSE(reading::AllTrialsFile(write_sample_file(directory.path(), sample_study())).rigs().has_value());
+  EXPECT_FALSE(
+      reading::AllTrialsFile(write_sample_file(directory.path(), sample_study())).rigs().has_value());
 }
 
 TEST(RigTables, AreExported) {

@@ -84,7 +84,8 @@ TEST(WorldTables, OfAPartHaveNoCounts) {
       write_sample_shards(directory.path() / "shards", study, rows, 20);
   const std::filesystem::path path = directory.path() / "part.h5";
   testing::merge_shards(shards, study, path, rows, {}, {sample_provenance()});
-  const reading::StoredGroups stored = reading::AllTrialsFile(path, reading::Require::any_part).worlds().value();
+  const reading::StoredGroups stored =
+      reading::AllTrialsFile(path, reading::Require::any_part).worlds().value();
   EXPECT_EQ(stored.count, 7);
   EXPECT_EQ(stored.inputs[0].size(), 7U);
   EXPECT_TRUE(stored.success.empty());
@@ -93,7 +94,8 @@ TEST(WorldTables, OfAPartHaveNoCounts) {
 
 TEST(WorldTables, AreNoneWithoutWorlds) {
   const TemporaryFolder directory;
-  EXPECT_FALSE(reading::AllTrialsFile(write_sample_file(directory.path(), sample_study())).worlds().has_value());
+  EXPECT_FALSE(
+      reading::AllTrialsFile(write_sample_file(directory.path(), sample_study())).worlds().has_value());
 }
 
 TEST(WorldTables, AreExported) {

@@ -5,9 +5,9 @@ NAME is that of the test, CHECKS what it leaves out of .clang-tidy or adds to it
 
 Lints several of the compiler's units (see cmake/ZerocountTarget.cmake) as one source: most of the time goes into the headers,
 which a group of units has parsed and checked once. Units of a group belong to one layer; each folder has a namespace of its own,
-so that names in anonymous namespaces do not collide. A group without findings is remembered in the
-build folder, for each test, by a hash of all that it includes of this repository, and is linted again only when that, the checks or clang-tidy
-change. A fresh build folder, such as that of continuous integration, lints everything.
+so that names in anonymous namespaces do not collide. A group without findings is remembered in the user's cache, as objects are by
+ccache, by a hash of all that it includes of this repository: any checkout lints it again only when that, the checks or clang-tidy
+change. An empty cache, such as that of a fresh machine, lints everything.
 """
 
 import concurrent.futures
@@ -84,11 +84,23 @@ def included(root, path, seen):
     return seen
 
 
-def fingerprint(root, path, settings):
+def fingerprint(root, group, settings):
+    """It does not depend on where the checkout is: a generated source names what it includes from the root on."""
     digest = hashlib.sha256(settings)
-    for file in sorted(included(root, path, set())):
-        digest.update(str(file).encode() + b"\0" + file.read_bytes())
+    files = set()
+    for unit in group:
+        digest.update(" ".join(word for word in unit.options).encode())
+        included(root, unit.path, files)
+    for file in sorted(files):
+        name = str(file.relative_to(root)) if file.is_relative_to(root) else file.name
+        digest.update(name.encode() + b"\0" + file.read_bytes().replace(str(root).encode(), b""))
     return digest.hexdigest()
+
+
+def cache_folder():
+    folder = pathlib.Path(os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache") / "zerocount-lint"
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder
 
 
 def lint(source, options):
@@ -105,17 +117,18 @@ if __name__ == "__main__":
     settings = version + (root / ".clang-tidy").read_bytes() + " ".join(options).encode()
     commands = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
     units = [unit for unit in (Unit(root, build, command) for command in commands) if unit.layer in FOLDERS]
-    sources = write_groups(build / name, list(groups_of(units)))
+    groups = list(groups_of(units))
+    sources = write_groups(build / name, groups)
 
-    memory = build / f"{name}.json"
-    clean = set(json.loads(memory.read_text(encoding="utf-8"))) if memory.exists() else set()
-    marks = {source: fingerprint(root, source, settings) for source in sources}
-    todo = [source for source in sources if marks[source] not in clean]
+    cache = cache_folder()
+    marks = {source: cache / fingerprint(root, group, settings) for source, group in zip(sources, groups)}
+    todo = [source for source in sources if not marks[source].exists()]
     todo.sort(key=lambda source: source.stat().st_size, reverse=True)  # the group that takes longest must not begin last
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         results = list(pool.map(lint, todo, itertools.repeat(options)))
     failed = {source for source, (code, _) in zip(todo, results) if code}
-    memory.write_text(json.dumps(sorted(marks[source] for source in sources if source not in failed)), encoding="utf-8")
+    for source in set(todo) - failed:
+        marks[source].touch()
     for code, output in results:
         if code:
             print(output)

@@ -67,7 +67,8 @@ std::string streamer_file(const TorqueProtocol& protocol);
 /// The simulated record of the median machine, as `identify` reads it.
 std::string record_table(const ExperimentDesign& design);
 
-/// What to record, what to expect of it on which machines, and how to identify it.
+/// A protocol for recording an axis: the tests, the expected results on given machines, and the
+/// identification.
 document::Description<ExperimentDesign> design_description();
 
 }  // namespace zerocount::experiment_design

@@ -10,7 +10,7 @@
 #include "results/layout/layout.hpp"
 #include "results/reading/all_trials_file.hpp"
 
-/// What a results file stores of its statistics.
+/// The statistics that a results file stores.
 namespace zerocount::summary {
 
 /// The stored statistics of consecutive points: point_columns, prediction_columns, the levels of an open-loop

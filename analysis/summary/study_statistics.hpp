@@ -15,7 +15,7 @@
 
 namespace zerocount::summary {
 
-/// What StudyAccumulator gives of each point.
+/// The results that StudyAccumulator is to give for each point.
 struct Wanted {
   bool statistics{true};    ///< false for a part of a study: a rig without a trial has none
   bool sums{false};         ///< in the form in which files keep them

@@ -23,7 +23,7 @@ class SummedPoint {
   /// added. @param version of the layout of the file that has the trials
   SummedPoint(const study::Study& study, std::int64_t point, std::int64_t first_trial, std::int64_t version,
               const layout::MeasureTable& table);
-  /// Of trials with the measures of this program.
+  /// For trials with the measures of this program.
   SummedPoint(const study::Study& study, std::int64_t point, std::int64_t first_trial);
 
   std::int64_t point() const { return point_; }

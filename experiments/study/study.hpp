@@ -172,7 +172,7 @@ struct DesignPoints {
   std::vector<SweepAxis> axes;      ///< of the sweep
 };
 
-/// What differs between the trials, rigs and worlds of a study: the columns of its tables of inputs.
+/// Columns of the tables of inputs: the parameters that differ between trials, rigs and worlds.
 struct InputColumns {
   std::vector<InputColumn> inputs;  ///< of trials
   std::vector<InputColumn> rigs;    ///< drawn for each rig, the same at all points; empty without rigs
@@ -183,13 +183,13 @@ struct StudyPlan;  // see plan.hpp
 
 /// The checked contents of one manifest: everything that determines its trials.
 struct Study {
-  // What the manifest says.
+  // The manifest as given.
   ManifestSource manifest;
   std::string name;
   std::string description;
   std::vector<std::string> warnings;  ///< possibly unintended input, one line each
 
-  // What it means: the trials to run and the question to answer.
+  // The trials to run, and the question to answer.
   parameters::StudyUnits units;
   double period{
       2.0 * std::numbers::pi};  ///< period of profiles along the axis: a revolution, rad; or the travel, m
@@ -213,7 +213,7 @@ struct Study {
   std::shared_ptr<const plugin::ControllerPlugin> plugin;
   Engine engine{Engine::batch};  ///< chosen for the run; not part of the manifest
 
-  // What was compiled from it.
+  // Compiled from the manifest.
   /// Hash of the values of manifest and overrides, of plugin and samples: equal hashes mean the same trials.
   std::string study_sha256;
   DesignPoints points;

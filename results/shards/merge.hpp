@@ -64,7 +64,7 @@ class MergedFile {
 
   /// @param sums [point, from that of the first trial]
   void write_sums(std::span<const layout::PointSums> sums);
-  /// Of the points that follow those written before.
+  /// Writes the statistics of the next points, after those written before.
   void write_statistics(const layout::StoredStatistics& statistics);
   hdf5::File& file() { return file_; }  ///< for further groups
 

@@ -11,7 +11,7 @@
 #include "analysis/record_fit/test_record.hpp"
 #include "experiments/parameters/study_units.hpp"
 
-/// What all kinds of identification report, and how it stands in their answers.
+/// The report of all kinds of identification, and its description in their answers.
 namespace zerocount::identification {
 
 enum class EstimateStatus {

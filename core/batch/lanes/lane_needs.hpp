@@ -5,7 +5,7 @@
 #include "core/friction/friction_model.hpp"
 #include "core/trial/parameters.hpp"
 
-/// What a lane needs to run a trial.
+/// Features of the lanes that a trial needs.
 namespace zerocount::batch {
 
 /// How the kernels move a lane, by its friction law.

@@ -53,9 +53,11 @@ void assemble(std::span<const shards::ShardInfo> shards, const study::Study& stu
               const std::filesystem::path& output, layout::RowRange rows, const AssembleSettings& settings) {
   shards::MergedFile file(shards, study, output, rows,
                           {.renumber = settings.renumber, .stop = settings.stop});
-  if (layout::has_sums(study.retention)) write_summed(file, study, rows);
-  if (!layout::has_sums(study.retention) && file.is_whole())
+  if (layout::has_sums(study.retention)) {
+    write_summed(file, study, rows);
+  } else if (file.is_whole()) {
     write_statistics(file, study, settings.predictions);
+  }
   file.finish();
 }
 

@@ -46,7 +46,7 @@ study::Study fresh_study(const reading::ResultsFile& file, std::int64_t trials,
   return layout::recorded_study(header, file.path(), std::move(plugin));
 }
 
-/// What is counted of the trials from `first` on.
+/// Counts the successes, and the moves that meet the goal, of the trials from `first` on.
 summary_answer::Confirmation counted_in(const study::Study& study, std::int64_t first,
                                         std::span<const trial::TrialOutcome> outcomes) {
   const std::optional<measures::CountedGoal> goal = measures::counted_goal(study);
@@ -72,9 +72,10 @@ summary_answer::Confirmation confirm_point(const reading::ResultsFile& file, std
                               "expected its path with --plugin",
                               file.path().string(), study.plugin->description.name));
   }
-  const trials::TrialSet set = trials::numbered_trials(study.trials, trials_at_once, [&](std::int64_t index) {
+  trials::TrialSet set = trials::numbered_trials(study.trials, trials_at_once, [&](std::int64_t index) {
     return study::study_trial(study, point, index).parameters;
   });
+  set.engine = study.engine;
   std::vector<summary_answer::Confirmation> blocks(set.blocks);
   trials::run(set, {}, [&](std::size_t block, std::span<const trial::TrialOutcome> outcomes) {
     blocks[block] = counted_in(study, static_cast<std::int64_t>(block) * trials_at_once, outcomes);

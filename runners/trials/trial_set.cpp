@@ -8,6 +8,7 @@
 
 #include "analysis/parallel/parallel.hpp"
 #include "core/batch/batch.hpp"
+#include "core/trial/trial.hpp"
 
 namespace zerocount::trials {
 
@@ -19,8 +20,30 @@ TrialSet numbered_trials(std::int64_t count, std::int64_t block,
     for (std::int64_t i = first; i < std::min(first + block, count); ++i) trials.push_back(draw(i));
     return trials;
   };
-  return {count, static_cast<std::size_t>((count + block - 1) / block), draw_block};
+  return {count, static_cast<std::size_t>((count + block - 1) / block), draw_block, study::Engine::batch};
 }
+
+namespace {
+
+std::vector<trial::TrialOutcome> outcomes_of(std::span<const trial::TrialParameters> trials,
+                                             batch::BatchEngine& engine, const std::stop_token& stop) {
+  std::vector<const trial::TrialParameters*> parameters;
+  parameters.reserve(trials.size());
+  for (const trial::TrialParameters& one : trials) parameters.push_back(&one);
+  std::vector<trial::TrialOutcome> outcomes(trials.size());
+  engine.run(parameters, outcomes, {.jerk = {}, .sample = {}, .stop = stop});
+  return outcomes;
+}
+
+std::vector<trial::TrialOutcome> outcomes_by_reference(std::span<const trial::TrialParameters> trials,
+                                                       const std::stop_token& stop) {
+  std::vector<trial::TrialOutcome> outcomes;
+  for (const trial::TrialParameters& one : trials)
+    outcomes.push_back(trial::run_trial(one, {.sample = {}, .jerk = {}, .stop = stop}));
+  return outcomes;
+}
+
+}  // namespace
 
 void run(const TrialSet& set, const Effort& effort, const TakeBlock& take) {
   effort.spend(set.count);
@@ -29,12 +52,8 @@ void run(const TrialSet& set, const Effort& effort, const TakeBlock& take) {
       [] { return std::make_unique<batch::BatchEngine>(); });
   parallel::for_each_index(set.blocks, [&](std::size_t block) {
     const std::vector<trial::TrialParameters> trials = set.draw(block);
-    std::vector<const trial::TrialParameters*> parameters;
-    parameters.reserve(trials.size());
-    for (const trial::TrialParameters& one : trials) parameters.push_back(&one);
-    std::vector<trial::TrialOutcome> outcomes(trials.size());
-    engines.local()->run(parameters, outcomes, {.jerk = {}, .sample = {}, .stop = stop});
-    take(block, outcomes);
+    take(block, set.engine == study::Engine::reference ? outcomes_by_reference(trials, stop)
+                                                       : outcomes_of(trials, *engines.local(), stop));
   });
 }
 

@@ -8,16 +8,18 @@
 
 #include "core/trial/outcome.hpp"
 #include "core/trial/parameters.hpp"
+#include "experiments/study/study.hpp"
 #include "runners/trials/effort.hpp"
 
 /// Trials that are run to be counted and not stored: for searches, verdicts and estimates.
 namespace zerocount::trials {
 
-/// Trials in blocks. One thread draws a block, and runs it in the lanes of one engine.
+/// Trials in blocks. One thread draws a block, and runs it with one engine.
 struct TrialSet {
   std::int64_t count{0};  ///< trials of all blocks
   std::size_t blocks{0};
   std::function<std::vector<trial::TrialParameters>(std::size_t block)> draw;  ///< called from any thread
+  study::Engine engine{study::Engine::batch};
 };
 
 /// The trials 0 to count − 1, each drawn by its number, in blocks of `block` trials.
